@@ -14,7 +14,7 @@ from r37core.config.remarks import remarks_on_materials
 from r37core.dataset_file import read_dataset
 from r37core.io import FILE_ATTRIBUTES, Named, scratch_folder
 from r37core.plans.provenance import Provenance
-from r37core.results.contact_remarks import remarks_on_contact
+from r37core.results.closing import remarks_on_contact
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 
 from .arguments import Speeds, speed_key, speed_keys

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.results.contact_remarks import remarks_on_contact
-from r37core.results.interaction_title import interaction_title
+from r37core.results.closing import interaction_title, remarks_on_contact
 from r37core.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
 

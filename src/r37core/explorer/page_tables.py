@@ -9,8 +9,8 @@ import pandas as pd
 
 from r37core.published import INTERACTIONS
 from r37core.results import glossary
+from r37core.results.closing import interaction_title
 from r37core.results.glossary import Word
-from r37core.results.interaction_title import interaction_title
 from r37core.results.ranking import as_scatter_bears
 
 MODE = "1B"

@@ -19,8 +19,6 @@ from r37core.rom.naming import NAMED_MODES, mode_label
 
 from . import style
 
-_ROOM = 0.07
-
 
 def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] | None = None) -> Figure:
     """One blade: frequencies over speed with engine orders and crossings, and the dynamic clearance of 1B and 1T.
@@ -100,6 +98,10 @@ def _draw_casing(axes: Axes, campbell: xr.Dataset, casing: ElasticCasing, whose:
 
 
 def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float) -> None:
+    """Lines, with their numbers where they leave the panel: beside it at the right, within it at the top."""
+    beside: dict[str, Any] = {"xytext": (2, 0), "ha": "left", "va": "center"}
+    white = {"facecolor": "white", "linewidth": 0, "pad": 0.6}
+    top: dict[str, Any] = {"xytext": (0, -3), "ha": "center", "va": "top", "bbox": white}
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     labelled = np.array([np.inf, np.inf])
     for order in orders:
@@ -107,14 +109,10 @@ def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highe
         end = min(speed[-1], 2.0 * np.pi * highest / order)
         end_on_axes = np.array([(end - left) / (right - left), (order * end / (2.0 * np.pi) - low) / (high - low)])
         # high orders lie close together: a number only where there is room for it
-        if end_on_axes[1] > 0.0 and np.linalg.norm(end_on_axes - labelled) > _ROOM:
-            _number(axes, order, end, at_the_right=end == speed[-1])
+        if end_on_axes[1] > 0.0 and np.linalg.norm(end_on_axes - labelled) > 0.07:
+            look = beside if end == speed[-1] else top
+            at_end = (end, order * end / (2.0 * np.pi))
+            axes.annotate(
+                str(order), at_end, fontsize=6, color="0.3", textcoords="offset points", annotation_clip=False, **look
+            )
             labelled = end_on_axes
-
-
-def _number(axes: Axes, order: int, end: float, at_the_right: bool) -> None:
-    """The number of an engine order where its line leaves the panel: beside it at the right, within it at the top."""
-    look: dict[str, Any] = {"fontsize": 6, "color": "0.3", "textcoords": "offset points", "annotation_clip": False}
-    top = {"xytext": (0, -3), "ha": "center", "va": "top", "bbox": {"facecolor": "white", "linewidth": 0, "pad": 0.6}}
-    beside = {"xytext": (2, 0), "ha": "left", "va": "center"}
-    axes.annotate(str(order), (end, order * end / (2.0 * np.pi)), **look, **(beside if at_the_right else top))

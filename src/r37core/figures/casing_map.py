@@ -11,8 +11,6 @@ from matplotlib.ticker import MaxNLocator
 from . import style
 from .cells import draw_cells
 
-_DECIBELS = 60.0
-
 
 def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
     """Level of forward and backward waves over speed and nodal diameter, below it the casing's energy.
@@ -36,7 +34,7 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
         of_diameter = np.array([np.sqrt(np.sum(level[diameters == diameter] ** 2, axis=0)) for diameter in every])
         decibels = 20.0 * np.log10(np.maximum(of_diameter / largest, 1e-30))
         decibels[~np.isin(every, diameters)] = np.nan
-        picture = draw_cells(axes, speed, every, decibels, vmin=-_DECIBELS, vmax=0.0, cmap="magma")
+        picture = draw_cells(axes, speed, every, decibels, vmin=-60.0, vmax=0.0, cmap="magma")
         axes.set_title(f"{wave}: {'with' if wave == 'forward' else 'against'} the rotor")
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
         axes.grid(False)

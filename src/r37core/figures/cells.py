@@ -18,6 +18,13 @@ def draw_cells(axes: Axes, across: np.ndarray, upward: np.ndarray, values: np.nd
     return cast(AxesImage, axes.pcolorfast(_edges(across), _edges(upward), values, **look))
 
 
+def largest_of_bins(order: np.ndarray, values: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
+    """Middles of at most `most` bins of engine orders, and the largest value in each, shape (speeds, bins)."""
+    width = -(-len(order) // most)
+    whole = len(order) // width * width
+    return order[:whole].reshape(-1, width).mean(axis=1), values[:, :whole].reshape(len(values), -1, width).max(axis=2)
+
+
 def _edges(middles: np.ndarray) -> np.ndarray:
     """Edges of cells about ascending middles, half-way between them; a single one has a cell of length 1."""
     middles = np.asarray(middles, dtype=float)

@@ -8,8 +8,6 @@ from matplotlib.figure import Figure
 
 from . import style
 
-_ENDS = {"leading edge": (0, "-"), "trailing edge": (-1, "--")}
-
 
 def draw_clearance(rms: xr.Dataset, title: str = "") -> Figure:
     """Clearance of the round casing at both ends of the tip of all blades in one scene."""
@@ -18,7 +16,7 @@ def draw_clearance(rms: xr.Dataset, title: str = "") -> Figure:
     for blade in rms["blade"].values:
         # blades may have been run at other speeds, and with fewer contact nodes
         room = 1e6 * rms["clearance"].sel(blade=blade).dropna("speed", how="all").dropna("contact_node", how="all")
-        for name, (node, line) in _ENDS.items():
+        for name, node, line in (("leading edge", 0, "-"), ("trailing edge", -1, "--")):
             curve = room.isel(contact_node=node)
             axes.plot(curve["speed"], curve, label=f"{blade}, {name}", color=styles[str(blade)]["color"], linestyle=line)
     axes.set(xlabel="speed (rad/s)", ylabel="clearance before vibration (µm)", title=f"clearance in scene {title}")

@@ -15,11 +15,9 @@ from matplotlib.ticker import MaxNLocator
 from r37core.rom.naming import NAMED_MODES
 
 from . import style
-from .bins import largest_of_bins
 from .casing_map import draw_casing_map
-from .cells import draw_cells
+from .cells import draw_cells, largest_of_bins
 
-_DECIBELS = 60.0
 _MOST_BINS = 400
 DIRECTIONS = {"amplitude": "normal", "amplitude_tangential": "tangential"}
 
@@ -63,7 +61,7 @@ def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: x
     decibels = 20.0 * np.log10(np.maximum(values / largest[:, None], 1e-30))
     strip.semilogy(speed, largest, linewidth=0.8)
     style.rpm_axis(strip, most_ticks=6)
-    picture = draw_cells(axes, speed, order, decibels.T, vmin=-_DECIBELS, vmax=0.0, cmap="magma")
+    picture = draw_cells(axes, speed, order, decibels.T, vmin=-60.0, vmax=0.0, cmap="magma")
     for mode in NAMED_MODES:
         frequency = campbell["frequency"].sel(mode=mode)
         turning = frequency["speed"].values[1:]

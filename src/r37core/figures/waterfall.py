@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from r37core.rom.naming import NAMED_MODES
 
 from . import style
-from .bins import largest_of_bins
+from .cells import largest_of_bins
 from .maps import DIRECTIONS
 
 _LINES = 24

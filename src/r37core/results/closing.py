@@ -1,8 +1,14 @@
-"""What tables say in a run's last line."""
+"""What a finished run says: names, counts, the largest stress, where nothing touched. Light: Snakemake's start imports it."""
 
 from __future__ import annotations
 
-import pandas as pd
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def counted(number: int, name: str) -> str:
@@ -20,3 +26,23 @@ def largest_stress_text(table: pd.DataFrame, speed: str) -> str:
     row = table.loc[table["max_von_mises_pa"].idxmax()]
     gigapascals = 1e-9 * row["max_von_mises_pa"]
     return f"; the largest stress {gigapascals:.2f} GPa, {row['blade']} in {row['scene']} at {row[speed]:.6g} rad/s"
+
+
+def interaction_title(mode: str, engine_order: str | int | None) -> str:
+    """What meets there: 1B/4, the engine order alone without a mode, or neither."""
+    if mode:
+        return f"{mode}/{engine_order}"
+    return "a peak of its own" if engine_order in (None, "") else f"engine order {engine_order}"
+
+
+def remarks_on_contact(runs: Sequence[tuple[str, np.ndarray]]) -> list[str]:
+    """A line on all runs without a contact force at any speed, whose zeros are no result.
+
+    `runs`: blade and scene in words, and the largest normal force (N) at each speed, NaN for a speed that was not run.
+    """
+    apart = [of for of, force in runs if np.isfinite(force).any() and not np.any(force > 0.0)]
+    remark = (
+        f"{', '.join(apart)}: the tip touched nothing at any speed, so all numbers are zero; casing.clearance_m, casing.lobes "
+        "and casing.amplitude_clearances say where it can"
+    )
+    return [remark] if apart else []

@@ -16,7 +16,6 @@ from .speed_ranges import SpeedRange, joined, ranges_above
 NOTE = "direct contact: matches with modes and the stress of one revolution are chance"
 NO_PEAK = "above yield without a peak of the motion: nothing to match with a mode"
 
-_HALF, _FEWEST = 0.5, 5
 _OF_NORMAL = 1.4826 / np.sqrt(1.5)
 """Standard deviation per median distance of a value from the line between its neighbours, of normal scatter."""
 
@@ -88,13 +87,14 @@ def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:
     share = (speeds[1:-1] - speeds[:-2]) / (speeds[2:] - speeds[:-2])
     off = np.abs(level[1:-1] - (1.0 - share) * level[:-2] - share * level[2:])
     distance = np.abs(speeds[1:-1] - speeds[index])
-    near = distance <= max(HALF_WIDTH, np.sort(distance)[min(_FEWEST, len(distance)) - 1])
+    # five at least
+    near = distance <= max(HALF_WIDTH, np.sort(distance)[min(5, len(distance)) - 1])
     return float(_OF_NORMAL * np.median(off[near]))
 
 
 def _fall(speeds: np.ndarray, level: np.ndarray, peak_index: int) -> tuple[float, float]:
     """Speed (rad/s) above a peak from which on the motion is below half of the peak's, and half of where it is so by turns."""
-    loud = level[peak_index:] >= _HALF * level[peak_index]
+    loud = level[peak_index:] >= 0.5 * level[peak_index]
     quiet = np.flatnonzero(~loud)
     if not len(quiet):
         return np.nan, np.nan

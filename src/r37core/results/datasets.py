@@ -20,10 +20,7 @@ from .variables import AXES, DATASETS, FLAGS
 
 
 def write_sweep_dataset(
-    kind: str,
-    responses: Mapping[tuple[str, str], Path | str],
-    file: Path | str,
-    provenance: Mapping[str, object],
+    kind: str, responses: Mapping[tuple[str, str], Path | str], file: Path | str, provenance: Mapping[str, object]
 ) -> None:
     """Join one kind of result (a key of DATASETS) of the responses, keyed by (blade, scene), into (blade, scene, speed, ...).
 

@@ -11,8 +11,8 @@ import xarray as xr
 
 from r37core.time_integration.status import RunStatus
 
+from .closing import interaction_title
 from .exceedance import CERTAIN, POSSIBLE, Exceedance
-from .interaction_title import interaction_title
 from .measures import drop_after
 from .speed_ranges import SpeedRange
 

@@ -125,10 +125,7 @@ class YieldRange:
 
 
 def range_above_yield(speeds: np.ndarray, ratio: np.ndarray) -> YieldRange:
-    """Where the stress, a `ratio` of yield at ascending `speeds` (rad/s), is above it; between speeds it is a straight line.
-
-    An infinite ratio, of a run that diverged, is above yield, and so is nothing of the way to a speed below.
-    """
+    """Where the stress, a `ratio` of yield at ascending `speeds` (rad/s), infinite of a run that diverged, is above it."""
     ranges = ranges_above(speeds, ratio, 1.0)
     if not ranges:
         return YieldRange(np.nan, np.nan, 0.0 if len(speeds) else np.nan, False)

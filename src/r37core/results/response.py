@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import netCDF4
 import numpy as np
@@ -16,7 +15,7 @@ from r37core.time_integration.speed_file import read_speed
 
 from .measures import first_yield
 from .netcdf import create_axis, create_labels, create_variable, status_flags
-from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, OF_STRESS, VARIABLES
+from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, VARIABLES
 
 _BLOCK = 32
 """Speeds that are in memory at once, since writing takes as long for one as for many."""
@@ -45,11 +44,6 @@ def write_response(
             values = next(iter(rows.values()))
             if first == 0:
                 _create(dataset, speeds, values, history_speeds)
-                of_all: dict[str, Any] = values | {"casing_cone_angle": values["cone_angle"], "yield_stress": yield_stress}
-                for name, variable in OF_ALL_SPEEDS.items():
-                    if name in of_all and (name not in OF_STRESS or "max_von_mises" in values):
-                        value = of_all[name]
-                        create_variable(dataset, name, variable)[...] = str(value) if variable.dtype == "str" else value
             for name in VARIABLES:
                 if name in values:
                     dataset[name][block] = np.stack([row[name] for row in rows.values()])
@@ -60,13 +54,24 @@ def write_response(
 
 
 def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
-    """The variables of one speed, and the coordinates they need."""
-    values = dict(run)
+    """The variables of one speed, and the coordinates that they need."""
+    values = {**run, "casing_cone_angle": run["cone_angle"]}
     for kind in ("rms", "peak"):
         values |= {f"{kind}_{direction}": column for direction, column in zip(DIRECTIONS, run[kind].T, strict=True)}
     values["revolution_maximum"] = run["revolution_maxima"][:, :, DIRECTIONS.index("normal")]
+    values["revolution"] = np.arange(1, len(values["revolution_maximum"]) + 1)
     if "amplitude" in run:
         values["amplitude"], values["amplitude_tangential"] = run["amplitude"]
+    if "wear" in run:
+        sectors = len(run["wear"])
+        values["angle"] = np.arange(sectors) * 2.0 * np.pi / sectors
+        values["lobes"] = np.arange(len(run["wear_harmonic"]))
+    if "clearance" in run:
+        values["contact_node"] = np.arange(1, len(run["clearance"]) + 1)
+    if "casing_energy" in run:
+        values["casing_mode"] = np.arange(1, len(run["casing_energy"]) + 1)
+    if "max_von_mises" in run:
+        values["yield_stress"] = np.array(yield_stress)
     if "revolution_von_mises" in run:
         revolutions = len(values["revolution_maximum"])
         values |= stress_statistic(run["revolution_von_mises"][revolutions // 2 - revolutions :], yield_stress)
@@ -78,18 +83,7 @@ def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.nda
 def _create(
     dataset: netCDF4.Dataset, speeds: Sequence[float], values: Mapping[str, np.ndarray], history_speeds: Sequence[float]
 ) -> None:
-    coordinates = {"speed": np.array(speeds), "revolution": np.arange(1, len(values["revolution_maximum"]) + 1)}
-    if "amplitude" in values:
-        coordinates["engine_order"] = values["engine_order"]
-    if "wear" in values:
-        sectors = len(values["wear"])
-        coordinates["angle"] = np.arange(sectors) * 2.0 * np.pi / sectors
-        coordinates["lobes"] = np.arange(len(values["wear_harmonic"]))
-    if "clearance" in values:
-        coordinates["contact_node"] = np.arange(1, len(values["clearance"]) + 1)
-    if "casing_order" in values:
-        coordinates["casing_mode"] = np.arange(1, len(values["casing_energy"]) + 1)
-        coordinates["casing_order"] = values["casing_order"]
+    coordinates = {name: values[name] for name in AXES if name in values} | {"speed": np.array(speeds)}
     if history_speeds:
         coordinates["history_speed"] = np.array(history_speeds)
     create_labels(dataset, "tip_point", TIP_POINTS)
@@ -101,3 +95,7 @@ def _create(
     dataset["status"].setncatts(status_flags())
     for name, variable in HISTORIES.items() if history_speeds else ():
         create_variable(dataset, name, variable)
+    for name, variable in OF_ALL_SPEEDS.items():
+        if name in values:
+            value = values[name]
+            create_variable(dataset, name, variable)[...] = str(value) if variable.dtype == "str" else value

@@ -8,8 +8,6 @@ import pandas as pd
 
 from r37core.io import atomic_write, readable
 
-_NAMES = ("blade", "scene", "mode")
-
 
 def write_table(table: pd.DataFrame, file: Path | str, digits: int | None = None) -> None:
     """Write a table without its index; numbers in full, or with so many digits."""
@@ -23,4 +21,4 @@ def read_table(file: Path | str) -> pd.DataFrame:
     A blade may be called NA, inf or 1e5.
     """
     with readable(file):
-        return pd.read_csv(file, dtype=dict.fromkeys(_NAMES, str), keep_default_na=False, na_values=[""])
+        return pd.read_csv(file, dtype=dict.fromkeys(("blade", "scene", "mode"), str), keep_default_na=False, na_values=[""])

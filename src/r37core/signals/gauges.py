@@ -7,24 +7,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from r37core.fem.elements import ELEMENTS
+from r37core.fem.elements import ELEMENTS, Element
 from r37core.fem.surface import outer_faces
 from r37core.mesh.blade_mesh import BladeMesh
 
 from .gauge import Gauge
 
-_OUTSIDE = 0.05  # of a triangle: so far beyond its sides a place still counts as in it
-
 
 @dataclass(frozen=True)
 class _SurfacePoint:
-    """A point on the surface: its element (type and row), local coordinates there, and two directions in the surface.
+    """A point on the surface: its element and the numbers of its nodes, local coordinates there, two directions in the surface.
 
     `slopes`, shape (2, 3): change of the local coordinates along them; `parameters`, shape (2, 2): of (chord, span).
     """
 
-    name: str
-    row: int
+    element: Element
+    nodes: np.ndarray
     local: np.ndarray
     slopes: np.ndarray
     parameters: np.ndarray
@@ -43,21 +41,16 @@ def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> n
 def gauge_points(mesh: BladeMesh, gauges: Sequence[Gauge]) -> np.ndarray:
     """Where the gauges are (m), shape (gauges, 3)."""
     points = [_surface_point(mesh, gauge) for gauge in gauges]
-    return np.array([ELEMENTS[at.name].shape_functions(at.local[None])[0] @ _coordinates(mesh, at) for at in points])
+    return np.array([at.element.shape_functions(at.local[None])[0] @ mesh.points[at.nodes] for at in points])
 
 
 def _row(mesh: BladeMesh, basis: np.ndarray, gauge: Gauge) -> np.ndarray:
     point = _surface_point(mesh, gauge)
-    element, coordinates = ELEMENTS[point.name], _coordinates(mesh, point)[None]
-    tangents = point.slopes @ element.jacobian(coordinates, point.local[None])[0, 0].T
+    coordinates = mesh.points[point.nodes][None]
+    tangents = point.slopes @ point.element.jacobian(coordinates, point.local[None])[0, 0].T
     direction = _direction(tangents, point.parameters, gauge.angle)
-    gradients, _ = element.physical_gradients(coordinates, point.local[None])
-    along = gradients[0, 0] @ direction
-    return np.einsum("a,aij,i->j", along, basis[mesh.blocks[point.name][point.row]], direction, optimize=True)
-
-
-def _coordinates(mesh: BladeMesh, point: _SurfacePoint) -> np.ndarray:
-    return mesh.points[mesh.blocks[point.name][point.row]]
+    gradients, _ = point.element.physical_gradients(coordinates, point.local[None])
+    return np.einsum("a,aij,i->j", gradients[0, 0] @ direction, basis[point.nodes], direction, optimize=True)
 
 
 def _direction(tangents: np.ndarray, parameters: np.ndarray, angle: float) -> np.ndarray:
@@ -82,16 +75,16 @@ def _surface_point(mesh: BladeMesh, gauge: Gauge) -> _SurfacePoint:
     shares = np.linalg.solve(edges.transpose(0, 2, 1), offset[:, :, None])[:, :, 0]
     shares = np.column_stack([1.0 - shares.sum(axis=1), shares])
     best = int(np.argmax(shares.min(axis=1)))
-    if shares[best].min() < -_OUTSIDE:
+    # a little beyond the sides of a triangle a place still counts as in it
+    if shares[best].min() < -0.05:
         raise ValueError(
             f"a strain gauge at chord {gauge.chord:g} and span {gauge.span:g} is not on the {gauge.side} side of the mesh; "
             "take a place farther from the edges (signals.gauges in config.yaml)"
         )
-    name, row = _element_of(mesh, corners[best])
-    corner_numbers = [int(np.flatnonzero(mesh.blocks[name][row] == node)[0]) for node in corners[best]]
-    nodes = ELEMENTS[name].nodes[corner_numbers]
+    element, nodes = _element_of(mesh, corners[best])
+    local = element.nodes[[int(np.flatnonzero(nodes == node)[0]) for node in corners[best]]]
     # the shape functions' local coordinates are linear in those of a triangle of corners, chord and span (nearly) too
-    return _SurfacePoint(name, row, shares[best] @ nodes, nodes[1:] - nodes[:1], edges[best])
+    return _SurfacePoint(element, nodes, shares[best] @ local, local[1:] - local[:1], edges[best])
 
 
 def _triangles(mesh: BladeMesh, side: str) -> list[np.ndarray]:
@@ -108,9 +101,9 @@ def _triangles(mesh: BladeMesh, side: str) -> list[np.ndarray]:
     return triangles
 
 
-def _element_of(mesh: BladeMesh, corners: np.ndarray) -> tuple[str, int]:
+def _element_of(mesh: BladeMesh, corners: np.ndarray) -> tuple[Element, np.ndarray]:
     for name, nodes in mesh.blocks.items():
         rows = np.flatnonzero(np.isin(nodes, corners).sum(axis=1) == len(corners))
         if len(rows):
-            return name, int(rows[0])
+            return ELEMENTS[name], nodes[rows[0]]
     raise AssertionError("an outer face belongs to an element")

@@ -12,8 +12,6 @@ SPECTROGRAM_REVOLUTIONS = 8
 TRACK_REVOLUTIONS = 2
 """Length of the window of an order's track; over whole revolutions whole orders do not leak into each other."""
 
-_FAINT = 0.01
-
 
 def spectrogram(signal: np.ndarray, turn: np.ndarray, per_revolution: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Engine orders, revolutions (middle of the windows) and amplitudes, shape (orders, revolutions), of a signal.
@@ -47,7 +45,7 @@ def strongest_orders(signal: np.ndarray, turn: np.ndarray, per_revolution: int, 
     _, amplitudes = order_tracks(signal, turn, per_revolution, orders)
     largest = amplitudes.max(axis=1) if amplitudes.shape[1] else np.zeros(len(orders))
     chosen = np.argsort(-largest, kind="stable")[:count]
-    return np.sort(orders[chosen[largest[chosen] >= _FAINT * largest.max()]])
+    return np.sort(orders[chosen[largest[chosen] >= 0.01 * largest.max()]])
 
 
 def _windows(
