@@ -11,8 +11,7 @@ from pathlib import Path
 import pandas as pd
 
 from r37core.io import write_text
-from r37core.results.member_ends import ENDS
-from r37core.results.ranges import read_ranges
+from r37core.results.ranges import ENDS, read_ranges
 from r37core.rounding import rounded_to
 from r37core.studies.tables import markdown_table
 

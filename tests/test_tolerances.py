@@ -23,8 +23,7 @@ from r37core.product.reading import read_settings
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.interactions import COLUMNS, find_interactions
 from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
-from r37core.results.member_ends import ENDS
-from r37core.results.ranges import as_ranges_bear, read_ranges, with_ranges
+from r37core.results.ranges import ENDS, as_ranges_bear, read_ranges, with_ranges
 from r37core.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset

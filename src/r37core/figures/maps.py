@@ -85,7 +85,14 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     wear = maps["wear"].dropna("speed", how="all")
     figure, axes = plt.subplots(figsize=(style.COLUMN * 1.4, 3.4))
     if wear.sizes["speed"]:
-        _draw_wear(axes, wear, campbell)
+        degrees, millimetres = np.degrees(wear["angle"].values), 1e3 * wear.transpose("angle", "speed").values
+        picture = draw_cells(axes, wear["speed"].values, degrees, millimetres, cmap="viridis")
+        figure.colorbar(picture, ax=axes, label="wear (mm)")
+        low, high = axes.get_xlim()
+        for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
+            if low <= speed <= high:
+                axes.axvline(speed, color="white", linewidth=0.7, linestyle=":")
+                _write_on_dark(axes, f"1B/{order}", (speed - low) / (high - low), 352.0, ha="left", va="top")
         # triangles at the upper edge, where some of the lining is worn through
         worn = maps["speed"].values[maps["worn_through_share"].values > 0.0]
         look: dict[str, Any] = {"color": "white", "markeredgecolor": "black", "markersize": 5, "markeredgewidth": 0.5}
@@ -96,14 +103,3 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     style.rpm_axis(axes)
     axes.grid(False)
     return figure
-
-
-def _draw_wear(axes: Axes, wear: xr.DataArray, campbell: xr.Dataset) -> None:
-    degrees, millimetres = np.degrees(wear["angle"].values), 1e3 * wear.transpose("angle", "speed").values
-    picture = draw_cells(axes, wear["speed"].values, degrees, millimetres, cmap="viridis")
-    axes.figure.colorbar(picture, ax=axes, label="wear (mm)")
-    low, high = axes.get_xlim()
-    for order, speed in campbell["crossing_speed"].sel(mode="1B").to_series().dropna().items():
-        if low <= speed <= high:
-            axes.axvline(speed, color="white", linewidth=0.7, linestyle=":")
-            _write_on_dark(axes, f"1B/{order}", (speed - low) / (high - low), 352.0, ha="left", va="top")

@@ -52,9 +52,8 @@ class Campbell:
 def modal_assurance(first: np.ndarray, second: np.ndarray, mass: np.ndarray) -> np.ndarray:
     """Mass-weighted modal assurance criterion between two sets of shapes (columns), shape (first, second)."""
     product = np.abs(first.conj().T @ mass @ second) ** 2
-    norms_first = np.einsum("ik,ij,jk->k", first.conj(), mass, first).real
-    norms_second = np.einsum("ik,ij,jk->k", second.conj(), mass, second).real
-    return product / norms_first[:, None] / norms_second[None, :]
+    norms = [np.einsum("ik,ij,jk->k", shapes.conj(), mass, shapes).real for shapes in (first, second)]
+    return product / norms[0][:, None] / norms[1]
 
 
 def campbell_diagram(model: ReducedModel, speeds: np.ndarray, modes: int) -> Campbell:

@@ -63,11 +63,10 @@ def coincidences(frequency: xr.DataArray, mode: RingMode, wave: str) -> Iterator
     The blade's is interpolated by a cubic spline, the wave's is a straight line: the roots are exact of both.
     """
     speeds = frequency["speed"].values
-    of_wave = seen_from_rotor(mode, wave, speeds)
     crossing_speeds = {
         float(speed)
         for sign in (1.0, -1.0)
-        for speed in CubicSpline(speeds, frequency.values - sign * of_wave).roots(extrapolate=False)
+        for speed in CubicSpline(speeds, frequency.values - sign * seen_from_rotor(mode, wave, speeds)).roots(extrapolate=False)
         if speed > 0.0
     }
     for speed in sorted(crossing_speeds):

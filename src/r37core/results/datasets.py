@@ -31,9 +31,8 @@ def write_sweep_dataset(
     """
     blades = list(dict.fromkeys(blade for blade, _ in responses))
     scenes = list(dict.fromkeys(scene for _, scene in responses))
-    _check_numerics(responses)
+    axes = _axes(responses)
     with new_netcdf(file, provenance) as target:
-        axes = _axes(responses)
         for name, labels in (("blade", blades), ("scene", scenes), ("tip_point", TIP_POINTS)):
             create_labels(target, name, labels)
         contacts: dict[str, dict[str, None]] = {}
@@ -57,27 +56,21 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> x
     return xr.merge([part for part in parts if part.sizes["speed"]] or parts[:1], compat="override", join="exact")
 
 
-def _check_numerics(responses: Mapping[tuple[str, str], Path | str]) -> None:
+def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]:
+    """Union of each numeric axis over the responses, all of the same numerics."""
+    axes: dict[str, np.ndarray] = {}
     first_with: dict[str, Path | str] = {}
     for source in responses.values():
         with open_netcdf(source) as response:
             first_with.setdefault(getattr(response, "numerics", "unknown numerics"), source)
+            for name in AXES.keys() & response.variables.keys():
+                axes[name] = np.union1d(axes.get(name, np.empty(0)), response[name][:].filled(np.nan))
     if len(first_with) > 1:
         (first, file), (other, another), *_ = first_with.items()
         raise InputFileError(
             f"{file} was made with {first}, {another} with {other}; a dataset holds one fidelity level: "
             "delete the one that is out of date and run again"
         )
-
-
-def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]:
-    """Union of each numeric axis over the responses."""
-    axes: dict[str, np.ndarray] = {}
-    for source in responses.values():
-        with open_netcdf(source) as response:
-            for name in AXES:
-                if name in response.variables:
-                    axes[name] = np.union1d(axes.get(name, np.empty(0)), response[name][:].filled(np.nan))
     return axes
 
 

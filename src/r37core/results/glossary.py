@@ -12,7 +12,7 @@ from pathlib import Path
 from r37core.io import write_text
 from r37core.text_file import with_part
 
-from . import member_ends
+from . import ranges
 from .exceedance import CERTAIN, POSSIBLE
 from .measures import DROP_WITHIN
 
@@ -143,7 +143,7 @@ RANKING = {
 CHANCE = "chance_better_than_"
 """Begin of columns of ranking.csv that compare a blade with another one, whose name follows."""
 
-ENDS = {f"_{end}": "median" if quantile == 0.5 else f"{quantile:.0%}" for end, quantile in member_ends.ENDS.items()}
+ENDS = {f"_{end}": "median" if quantile == 0.5 else f"{quantile:.0%}" for end, quantile in ranges.ENDS.items()}
 """Ends of columns with the quantiles over the members of a sample, and how they are called."""
 
 

@@ -10,8 +10,10 @@ import pandas as pd
 from r37core.io import readable
 from r37core.rounding import rounded_to
 
-from .member_ends import ENDS
 from .table_file import read_table
+
+ENDS = {"low": 0.05, "median": 0.5, "high": 0.95}
+"""End of a column's name -> quantile of the members: nine tenths of them lie between the outer two."""
 
 RANGED = ("peak_speed_rad_s", "width_above_yield_rad_s", "first_yield_speed_rad_s", "max_von_mises_pa")
 """Columns of summary.csv that have a range."""

@@ -15,7 +15,7 @@ from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of
 from .measures import drop_after, motion, peak_of
-from .member_ends import ENDS
+from .ranges import ENDS
 from .table_file import read_table
 
 MeasuresOfMembers = dict[tuple[str, str], dict[str, dict[str, float]]]
@@ -99,7 +99,7 @@ def ranking_table(
     """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
 
     `measures`: blade and scene -> its `robustness`; `members`: the same of each member of a sample, by name, for their
-    ranges (`_low`, `_high`: member_ends.ENDS) and the chance to be better than each other blade: the share of the
+    ranges (`_low`, `_high`: ranges.ENDS) and the chance to be better than each other blade: the share of the
     members that both blades have, which have the same values of the scene's numbers, in which it is; equal ones count half.
     """
     table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in measures.items()])

@@ -85,9 +85,9 @@ def _arrivals(
     """Arrivals (s) and displacements (m) of both tip points, shape (2, probes, revolutions)."""
     times = record.turn * 2.0 * np.pi / speed
     arrivals, displacements = [], []
-    for number, (x, y, _) in enumerate(tip.select([0, -1]).points):
+    for (x, y, _), tangential in zip(tip.select([0, -1]).points, record.tangential.T, strict=True):
         radius, theta = float(np.hypot(x, y)), float(np.arctan2(y, x))
-        arrived, rigid = arrival_times(times, record.tangential[:, number], radius, speed, theta - probes, numbers)
+        arrived, rigid = arrival_times(times, tangential, radius, speed, theta - probes, numbers)
         arrivals.append(arrived)
         displacements.append(radius * speed * (arrived - rigid))
     return np.array(arrivals), np.array(displacements)

@@ -13,8 +13,8 @@ from r37core.dataset_file import SPEED_RPM, Variable, about, read_dataset
 from r37core.io import readable
 from r37core.plans.member_values import is_of_sample, number_of
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
-from r37core.results.member_ends import ENDS
 from r37core.results.netcdf import status_flags
+from r37core.results.ranges import ENDS
 from r37core.results.ranking import MEASURES_RANKED_BY, robustness
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus

@@ -9,8 +9,7 @@ import numpy as np
 import pandas as pd
 
 from r37core.results.interactions import Interaction, InteractionChoice
-from r37core.results.member_ends import ENDS
-from r37core.results.ranges import COLUMNS, RANGED
+from r37core.results.ranges import COLUMNS, ENDS, RANGED
 
 ROBUST = 0.5
 """Share of the members that show an interaction, below which it is not robust."""
