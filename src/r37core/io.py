@@ -21,12 +21,8 @@ from .checksums import checksum_file, is_as_written
 FILE_ATTRIBUTES = {"Conventions": "CF-1.11", "r37core_version": __version__}
 """Global attributes of every netCDF file."""
 
-
 JOB_LOG = logging.getLogger("r37core")
 """What a step says for the log of its job; from Python nobody hears it who does not ask for this logger's level DEBUG."""
-
-_FULL = 2**20
-"""Bytes left on a disk that counts as full."""
 
 
 class InputFileError(RuntimeError):
@@ -67,12 +63,12 @@ def room_for(file: Path) -> Iterator[None]:
 
 
 def _no_room(error: Exception, folder: Path) -> str | None:
-    """What there is no room for, and the remedy; None for an error of another kind."""
+    """What there is no room for, and the remedy; None for an error of another kind. Below 1 MiB a disk counts as full."""
     number = getattr(error, "errno", None)
     # netCDF has numbers of its own, below 0, which say nothing of the cause
     unknown = number is None or number < 0
     limited = resource.getrlimit(resource.RLIMIT_FSIZE)[0] != resource.RLIM_INFINITY
-    if number in (errno.ENOSPC, errno.EDQUOT) or (unknown and folder.is_dir() and shutil.disk_usage(folder).free < _FULL):
+    if number in (errno.ENOSPC, errno.EDQUOT) or (unknown and folder.is_dir() and shutil.disk_usage(folder).free < 2**20):
         return "the disk is full; free some space"
     if number == errno.EFBIG or (unknown and limited):
         return "files may not be as large here; raise the limit (ulimit -f)"

@@ -43,9 +43,8 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
     left.legend(loc="upper left", ncols=3, frameon=bool(casings), framealpha=0.9)
     style.rpm_axis(left)
     for name in NAMED_MODES[:2]:
-        clearance = campbell["dynamic_clearance"].sel(mode=name)
-        along = 1e3 * clearance["tangential_displacement"]
-        right.plot(along, 1e3 * clearance, label=name, color=style.mode_colour(campbell, name))
+        clearance = 1e3 * campbell["dynamic_clearance"].sel(mode=name)
+        right.plot(1e3 * clearance["tangential_displacement"], clearance, label=name, color=style.mode_colour(campbell, name))
     right.set(xlabel="tangential displacement (mm)", ylabel="change of clearance (mm)", title="dynamic clearance, leading edge")
     right.legend()
     return figure

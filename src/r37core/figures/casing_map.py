@@ -40,9 +40,9 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
         axes.grid(False)
     panels[0, 0].set_ylabel("nodal diameters")
     figure.colorbar(picture, ax=panels[0], label=f"rms (dB below {1e3 * largest:.3g} mm)")
-    energy = maps["casing_energy"].transpose("casing_mode", "speed").values
+    energy = maps["casing_energy"].transpose("casing_mode", "speed").values.sum(axis=0)
     look = "." if len(speed) == 1 else "-"
-    panels[1, 0].semilogy(speed, np.maximum(energy.sum(axis=0), 1e-15), look)
+    panels[1, 0].semilogy(speed, np.maximum(energy, 1e-15), look)
     panels[1, 0].set(xlabel="speed (rad/s)", ylabel="energy (J)")
     total = 1e3 * np.sqrt(sum(np.sum(level**2, axis=0) for level in levels.values()))
     panels[1, 1].semilogy(speed, np.maximum(total, 1e-12), look)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from . import style
 
 
-def draw_clearance(rms: xr.Dataset, title: str = "") -> Figure:
+def draw_clearance(rms: xr.Dataset, title: str) -> Figure:
     """Clearance of the round casing at both ends of the tip of all blades in one scene."""
     figure, axes = plt.subplots(figsize=(style.PAGE, 3.4))
     styles = style.blade_styles(rms["blade"].values)

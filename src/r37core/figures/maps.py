@@ -43,9 +43,9 @@ def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Fig
         strip.set_title(direction)
     grid[0, 0].set_ylabel("largest (mm)")
     grid[1, 0].set_ylabel("engine order")
-    if any(pictures):
+    if picture := next(filter(None, pictures), None):
         label = "amplitude (dB below the largest at that speed)"
-        figure.colorbar(next(filter(None, pictures)), ax=grid[1], location="bottom", aspect=60, label=label)
+        figure.colorbar(picture, ax=grid[1], location="bottom", aspect=60, label=label)
     return figure
 
 

@@ -16,9 +16,9 @@ import pyvista
 from r37core.io import atomic_write
 
 
-def new_plotter(columns: int, size: tuple[int, int], rows: int = 1) -> pyvista.Plotter:
-    """An off-screen plotter with `columns` panels side by side in each of `rows` and a window of `size` pixels."""
-    return pyvista.Plotter(shape=(rows, columns), off_screen=True, window_size=list(size), border=False)
+def new_plotter(columns: int, size: tuple[int, int]) -> pyvista.Plotter:
+    """An off-screen plotter with `columns` panels side by side and a window of `size` pixels."""
+    return pyvista.Plotter(shape=(1, columns), off_screen=True, window_size=list(size), border=False)
 
 
 def look(plotter: pyvista.Plotter, seen_from: tuple[float, float, float] = (0.25, -1.0, 0.9), zoom: float = 1.3) -> None:

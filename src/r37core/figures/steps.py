@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
@@ -21,7 +20,8 @@ def draw(input: Any, output: Any, params: Any) -> None:
     """
     arguments = dict(params.items())
     function, caption, of, *_ = (arguments.pop(name) for name in ("draw", "caption", "of", "step", "code"))
-    arguments |= {name: _read(file, of) for name, file in input.items()}
+    # a table, or the part of a dataset that is of the figure's blade and scene
+    arguments |= {name: read_table(file) if file.endswith(".csv") else read_dataset(file, of) for name, file in input.items()}
     if of:
         arguments["title"] = ", ".join(of.values())
     module, name = function.rsplit(".", 1)
@@ -32,8 +32,3 @@ def blade_shapes(input: Any, output: Any, params: Any) -> None:
     """Draw the meshes of all blades. Inputs: meshes. Params: blades, caption. Outputs: png, pdf."""
     draw_blade_shapes(dict(zip(params.blades, as_list(input.meshes), strict=True)), output.png)
     save(picture_figure(output.png), output.pdf, params.caption)
-
-
-def _read(file: str, part: Mapping[str, str]) -> Any:
-    """A table, or the part of a dataset that is of the figure's blade and scene."""
-    return read_table(file) if file.endswith(".csv") else read_dataset(file, part)

@@ -49,14 +49,14 @@ def _draw(axes: Axes, amplitude: xr.DataArray, rows: list[int], campbell: xr.Dat
     speeds = amplitude["speed"].values
     values = amplitude.transpose("speed", "engine_order").values
     low, high = float(speeds[0]), float(speeds[-1])
-    distance = max(high - low, 1.0) / _LINES
+    largest_height = _HEIGHT * (max(high - low, 1.0) / _LINES)
     order, coarse = largest_of_bins(amplitude["engine_order"].values, values[rows], _MOST_BINS)
     for line_number, row in enumerate(rows):
         speed = speeds[row]
         height = np.clip(20.0 * np.log10(np.maximum(coarse[line_number], 1e-30) / top) / _DECIBELS + 1.0, 0.0, None)
         frequency = order * speed / (2.0 * np.pi)
         shown = frequency <= highest
-        line = speed + _HEIGHT * distance * height[shown]
+        line = speed + largest_height * height[shown]
         # the lowest speed is in front
         front = 2.0 - 1e-3 * line_number
         axes.fill_between(frequency[shown], speed, line, facecolor="white", linewidth=0.0, zorder=front)
@@ -68,16 +68,12 @@ def _draw(axes: Axes, amplitude: xr.DataArray, rows: list[int], campbell: xr.Dat
         axes.plot(frequency, frequency["speed"], color=colour, linestyle="--", linewidth=0.9, zorder=4)
         x = float(np.interp(high, frequency["speed"].values, frequency.values))
         axes.annotate(mode, (x, 1.0), xycoords=("data", "axes fraction"), color=colour, fontsize=7, ha="center")
-    axes.set_ylim(low, high + _HEIGHT * distance)
-    _draw_scale(axes, low, _HEIGHT * distance, highest)
-
-
-def _draw_scale(axes: Axes, low: float, height: float, highest: float) -> None:
-    """How high the largest amplitude stands, at the lower right, where orders end."""
-    x, y = 0.97 * highest, low + 0.4 * height
+    axes.set_ylim(low, high + largest_height)
+    # how high the largest amplitude stands, at the lower right, where orders end
+    x, y = 0.97 * highest, low + 0.4 * largest_height
     bar = {"arrowstyle": "|-|", "mutation_scale": 2.0, "linewidth": 0.7}
-    axes.annotate("", (x, y), (x, y + height), arrowprops=bar, zorder=5)
-    axes.annotate(f"{_DECIBELS:.0f} dB ", (x, y + 0.5 * height), fontsize=6, ha="right", va="center", zorder=5)
+    axes.annotate("", (x, y), (x, y + largest_height), arrowprops=bar, zorder=5)
+    axes.annotate(f"{_DECIBELS:.0f} dB ", (x, y + 0.5 * largest_height), fontsize=6, ha="right", va="center", zorder=5)
 
 
 def thinned(speeds: np.ndarray, largest: np.ndarray) -> list[int]:

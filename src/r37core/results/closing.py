@@ -24,8 +24,8 @@ def largest_stress_text(table: pd.DataFrame, speed: str) -> str:
     if "max_von_mises_pa" not in table or table["max_von_mises_pa"].isna().all():
         return ""
     row = table.loc[table["max_von_mises_pa"].idxmax()]
-    gigapascals = 1e-9 * row["max_von_mises_pa"]
-    return f"; the largest stress {gigapascals:.2f} GPa, {row['blade']} in {row['scene']} at {row[speed]:.6g} rad/s"
+    where = f"{row['blade']} in {row['scene']} at {row[speed]:.6g} rad/s"
+    return f"; the largest stress {1e-9 * row['max_von_mises_pa']:.2f} GPa, {where}"
 
 
 def interaction_title(mode: str, engine_order: str | int | None) -> str:

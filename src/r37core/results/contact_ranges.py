@@ -29,11 +29,11 @@ def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) 
     exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
     ranges = _ranges(response, exceedance)
     rows = [_row(response, exceedance, within) for within in ranges]
-    alone = [peak for peak in peaks if not any(of.begin <= peak.peak.peak_speed_rad_s <= of.end for of in ranges)]
-    for peak in alone:
+    for peak in peaks:
         at = peak.peak.peak_speed_rad_s
-        beside = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
-        rows.append(replace(beside, crossing=replace(beside.crossing, direction=peak.crossing.direction)))
+        if not any(within.begin <= at <= within.end for within in ranges):
+            row = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
+            rows.append(replace(row, crossing=replace(row.crossing, direction=peak.crossing.direction)))
     return sorted(rows, key=lambda row: row.peak.peak_speed_rad_s)
 
 

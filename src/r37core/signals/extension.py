@@ -15,17 +15,17 @@ def signals_have_runs(settings: Settings) -> None:
     """Signals are wanted of blades that are there and of some scene, and are no longer than its runs."""
     wanted, documents = settings.section(SECTION), settings.documents
     if wanted.blades != "all":
-        settings.documents.known(("signals", "blades"), wanted.blades, settings.designs.entries, documents.blades)
-    speeds = wanted.speeds()
+        documents.known(("signals", "blades"), wanted.blades, settings.designs.entries, documents.blades)
+    speeds, key = wanted.speeds(), ("signals", wanted.key_of_speeds)
     if speeds is None:
         return
     if isinstance(speeds, list):
         for name in settings.scenes:
-            slow_run_can_be_done(length_of_run(settings, name, speeds[0]), settings, ("signals", wanted.key_of_speeds))
+            slow_run_can_be_done(length_of_run(settings, name, speeds[0]), settings, key)
     with_signal = {name: scene for name, scene in settings.scenes.items() if "signal" in scene.results}
     if not with_signal:
         raise documents.config.refusal(
-            ("signals", wanted.key_of_speeds),
+            key,
             "speeds, though no scene that is run has signal among its results",
             f"such a scene ({', '.join(settings.scenes)} of {documents.scenes.name} are run), or no speeds",
         )
