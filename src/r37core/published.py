@@ -21,6 +21,11 @@ class PublishedInteraction:
         """Name in file names."""
         return f"{self.blade}_{self.engine_order}"
 
+    @property
+    def label(self) -> str:
+        """Name in tables and figures."""
+        return f"{self.blade} 1B/{self.engine_order}"
+
 
 INTERACTIONS = (
     PublishedInteraction("Ref", 4, 1672.0, 1717.0),

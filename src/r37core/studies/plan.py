@@ -1,8 +1,8 @@
 """What the rules of the studies ask for, and what a study may take from the settings of a run.
 
-A study is a folder. Its `cases.py` has `cases(settings)`, what runs, by name; `inputs(settings)`, what the report reads beside
-their responses; `outputs(settings)`, its files by name; `values(settings)`, plain values for the report. Its `report.py` has
-`report(responses, files, values)`, the content of each output.
+A study is a folder. Its `cases.py` has `cases(settings)`, what runs, by name; `values(settings)`, plain values for the report;
+`inputs(settings)`, what the report reads beside their responses, if anything; `outputs(settings)`, its files by name, if there
+are others than one table. Its `report.py` has `report(responses, files, values)`, the content of each output.
 """
 
 from __future__ import annotations
@@ -39,13 +39,15 @@ class Studies:
 
     def outputs(self, study: str) -> dict[str, str]:
         """Files of a study."""
-        return _plan(study).outputs(self._settings)
+        outputs = getattr(_plan(study), "outputs", lambda _: {"table": f"<results>/studies/{study}.md"})
+        return outputs(self._settings)
 
     def inputs(self, study: str) -> Callable[[Any], dict[str, Any]]:
         """What a study is made of: the responses of its cases, and other results of this run."""
+        others = getattr(_plan(study), "inputs", lambda _: {})
         return lambda wildcards: {
             "cases": [paths.fill(paths.STUDY_CASE, study=study, case=name) for name in self._cases(study)],
-            **_plan(study).inputs(self._settings),
+            **others(self._settings),
         }
 
     def names(self, study: str) -> Callable[[Any], list[str]]:
@@ -63,7 +65,13 @@ class Studies:
     def case_inputs(self, wildcards: Any) -> dict[str, str]:
         """Files that a case is run from."""
         case = self._case(wildcards)
-        files = model_files(case.blade, case.model)
+        if isinstance(case.model, str):
+            where = {"blade": case.blade, "tip_line": case.model}
+            files = {"rom": paths.fill(paths.REDUCED_MODEL, **where), "contact": paths.fill(paths.CONTACT_MODEL, **where)}
+        else:
+            where = {"blade": case.blade, "model": case.model.name}
+            names = {"rom": "rom.nc", "contact": "contact.npz", "cost": "cost.json"}
+            files = {kind: paths.fill(paths.STUDY_MODEL, **where, file=name) for kind, name in names.items()}
         if "stress" not in case.results:
             del files["rom"]
         if case.crossing:
@@ -100,17 +108,8 @@ def _cases_of(settings: Settings, study: str) -> dict[str, Case]:
     return cases
 
 
-def model_files(blade: str, model: ModelChoice | str) -> dict[str, str]:
-    """Files of a model: of a study, with its Campbell diagram and cost, or this run's own."""
-    if isinstance(model, str):
-        where = {"blade": blade, "tip_line": model}
-        return {"rom": paths.fill(paths.REDUCED_MODEL, **where), "contact": paths.fill(paths.CONTACT_MODEL, **where)}
-    names = {"rom": "rom.nc", "contact": "contact.npz", "cost": "cost.json"}
-    return {kind: paths.fill(paths.STUDY_MODEL, blade=blade, model=model.name, file=file) for kind, file in names.items()}
-
-
 def campbell_file(blade: str, model: ModelChoice | str) -> str:
-    """Campbell diagram of a model."""
+    """Campbell diagram of a model: of a study, or this run's own on the tip line of this name."""
     if isinstance(model, str):
         return paths.fill(paths.CAMPBELL, blade=blade)
     return paths.fill(paths.STUDY_MODEL, blade=blade, model=model.name, file="campbell.nc")

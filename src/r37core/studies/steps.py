@@ -46,15 +46,12 @@ def report(input: Any, output: Any, params: Any) -> None:
     responses = {name: read_dataset(file) for name, file in zip(params.cases, as_list(input.cases), strict=True)}
     contents = import_module(f"r37core.studies.{params.study}.report").report(responses, input, params.values)
     for name, content in contents.items():
-        _write(content, getattr(output, name))
-
-
-def _write(content: Any, file: str) -> None:
-    if isinstance(content, str):
-        write_text(content, file)
-    elif isinstance(content, xr.Dataset):
-        write_dataset(content, file)
-    elif callable(content):
-        content(file)
-    else:
-        save(content, file)
+        file = getattr(output, name)
+        if isinstance(content, str):
+            write_text(content, file)
+        elif isinstance(content, xr.Dataset):
+            write_dataset(content, file)
+        elif callable(content):
+            content(file)
+        else:
+            save(content, file)

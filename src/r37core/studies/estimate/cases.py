@@ -35,11 +35,6 @@ def cases(settings: Settings) -> dict[str, Case]:
     return cases_of_runs
 
 
-def inputs(settings: Settings) -> dict[str, Any]:
-    """Nothing else."""
-    return {}
-
-
 def outputs(settings: Settings) -> dict[str, str]:
     """The projection."""
     return {"json": "<results>/studies/estimate.json", "table": "<results>/studies/estimate.md"}

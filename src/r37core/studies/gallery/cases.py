@@ -8,9 +8,10 @@ from typing import Any
 from r37core.config import ConfigError, Settings
 from r37core.exports.plan import EXPORTED_MODES
 from r37core.plans import paths
-from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, PublishedInteraction
+from r37core.published import BLADES, INTERACTIONS, REFERENCE
 
 from ..case import Case, SweptPeak
+from ..modelling_choices.cases import PUBLISHED_SPEEDS, scene_name
 from ..plan import case_of_sweep
 
 FINE, COARSE = 248, 62
@@ -72,38 +73,41 @@ ITEMS = (
 )
 
 
+RUNS_OF_SWEEP = (*((blade, "lined") for blade in BLADES), (REFERENCE, "direct"))
+"""Blade and kind of scene of every run of the sweep that is shown."""
+
+
 def scenes_of(settings: Settings) -> dict[str, str]:
-    """Names of the scene with lining and of the one without."""
-    section = settings.studies.modelling_choices
-    return {"lined": section.lined_scene, "direct": section.direct_scene}
-
-
-def runs_of_sweep() -> list[tuple[str, str]]:
-    """Blade and kind of scene of every run of the sweep that is shown."""
-    return [*((blade, "lined") for blade in BLADES), (REFERENCE, "direct")]
-
-
-def order_4(blade: str) -> PublishedInteraction:
-    """The blade's interaction of 1B with engine order 4."""
-    return next(interaction for interaction in INTERACTIONS if interaction.blade == blade and interaction.engine_order == 4)
+    """Names of the scene with lining and of the one without; ConfigError where blades, scenes or their results are missing."""
+    scenes = {kind: scene_name(settings, kind) for kind in ("lined", "direct")}
+    lacking = [blade for blade in BLADES if blade not in settings.blades]
+    lacking += [scene for scene in scenes.values() if scene not in settings.scenes]
+    if lacking:
+        raise ConfigError(
+            f"config.yaml: blades, scenes: the gallery needs {', '.join(lacking)}, which this run leaves out; "
+            f"allowed: at least {', '.join(BLADES)} in {' and '.join(scenes.values())}"
+        )
+    for kind, scene in scenes.items():
+        wanted = {"spectrum", "stress", *(["wear"] if kind == "lined" else [])}
+        if missing := wanted - set(settings.scenes[scene].results):
+            raise ConfigError(f"scenes.yaml: {scene}.results: the gallery needs {', '.join(sorted(missing))}, too")
+    return scenes
 
 
 def cases(settings: Settings) -> dict[str, Case]:
     """Stress of every revolution at the published speeds and at each blade's own peak, and one revolution in detail."""
-    _check(settings)
-    cases_of_runs = {f"{blade}__{kind}": _histories(settings, blade, kind) for blade, kind in runs_of_sweep()}
-    detail = _with_instants(case_of_sweep(settings, REFERENCE, scenes_of(settings)["lined"], speeds=(), results=()), FINE)
-    return cases_of_runs | {REVOLUTION: replace(detail, speeds=(INTERACTIONS[0].peak,), results=("stress", "instants"))}
-
-
-def _histories(settings: Settings, blade: str, kind: str) -> Case:
-    scene = scenes_of(settings)[kind]
-    published = tuple(sorted((INTERACTIONS[0].peak, DIRECT_PEAK, QUIET))) if blade == REFERENCE else ()
-    about, peak = order_4(blade).campbell, None
-    if kind == "lined":
-        peak = SweptPeak(scene, WINDOW[0] * about, WINDOW[1] * about)
-    case = case_of_sweep(settings, blade, scene, speeds=published, results=("stress",), swept_peak=peak, history_speeds=None)
-    return _with_instants(case, COARSE)
+    scenes, main = scenes_of(settings), INTERACTIONS[0]
+    campbell = {row.blade: row.campbell for row in INTERACTIONS if row.engine_order == main.engine_order}
+    cases_of_runs = {}
+    for blade, kind in RUNS_OF_SWEEP:
+        scene = scenes[kind]
+        fields: dict[str, Any] = {"speeds": PUBLISHED_SPEEDS if blade == REFERENCE else (), "results": ("stress",)}
+        if kind == "lined":
+            fields["swept_peak"] = SweptPeak(scene, WINDOW[0] * campbell[blade], WINDOW[1] * campbell[blade])
+        case = case_of_sweep(settings, blade, scene, history_speeds=None, **fields)
+        cases_of_runs[f"{blade}__{kind}"] = _with_instants(case, COARSE)
+    detail = case_of_sweep(settings, REFERENCE, scenes["lined"], speeds=(main.peak,), results=("stress", "instants"))
+    return cases_of_runs | {REVOLUTION: _with_instants(detail, FINE)}
 
 
 def _with_instants(case: Case, number: int) -> Case:
@@ -112,10 +116,9 @@ def _with_instants(case: Case, number: int) -> Case:
 
 def inputs(settings: Settings) -> dict[str, Any]:
     """Responses of the sweep, and what pictures are made of; ConfigError without the benchmark's blades and scenes."""
-    _check(settings)
     scenes = scenes_of(settings)
     return {
-        "responses": [paths.fill(paths.RESPONSE, blade=blade, scene=scenes[kind]) for blade, kind in runs_of_sweep()],
+        "responses": [paths.fill(paths.RESPONSE, blade=blade, scene=scenes[kind]) for blade, kind in RUNS_OF_SWEEP],
         "campbells": [paths.fill(paths.CAMPBELL, blade=blade) for blade in BLADES],
         "geometry": paths.fill(paths.GEOMETRY, blade=REFERENCE),
         "meshes": [paths.fill(paths.MESH, blade=blade) for blade in BLADES],
@@ -130,23 +133,8 @@ def outputs(settings: Settings) -> dict[str, str]:
 
 def values(settings: Settings) -> dict[str, Any]:
     """Names of the scenes, where stress is recovered on the reference blade, and the level."""
-    _check(settings)
     return {
         "scenes": scenes_of(settings),
         "submesh": settings.reduction_choice(REFERENCE).stress_submesh,
         "fidelity": settings.fidelity_name,
     }
-
-
-def _check(settings: Settings) -> None:
-    lacking = [blade for blade in BLADES if blade not in settings.blades]
-    lacking += [scene for scene in scenes_of(settings).values() if scene not in settings.scenes]
-    if lacking:
-        raise ConfigError(
-            f"config.yaml: blades, scenes: the gallery needs {', '.join(lacking)}, which this run leaves out; "
-            f"allowed: at least {', '.join(BLADES)} in {' and '.join(scenes_of(settings).values())}"
-        )
-    for name, scene in scenes_of(settings).items():
-        wanted = {"spectrum", "stress", *(["wear"] if name == "lined" else [])}
-        if missing := wanted - set(settings.scenes[scene].results):
-            raise ConfigError(f"scenes.yaml: {scene}.results: the gallery needs {', '.join(sorted(missing))}, too")

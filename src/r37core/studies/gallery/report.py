@@ -15,14 +15,14 @@ from r37core.dataset_file import read_dataset
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 from r37core.product.captions import caption
-from r37core.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE, PublishedInteraction
+from r37core.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE
 from r37core.results.measures import peak_of, strongest_order
 from r37core.rom.reduction_choice import StressSubmesh
 
 from ..checks import Check, number, ran, with_histories
 from ..modelling_choices.cases import DIRECT
 from ..modelling_choices.validation import choice_checks, structure_checks, survey_checks
-from .cases import COARSE, FINE, ITEMS, REVOLUTION, WINDOW, Item, runs_of_sweep
+from .cases import COARSE, FINE, ITEMS, REVOLUTION, RUNS_OF_SWEEP, WINDOW, Item
 from .figures import GalleryData, gallery_figures
 from .shapes import draw_mesh, draw_modes, draw_variants
 
@@ -49,12 +49,13 @@ def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str,
 
 def gallery_data(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> GalleryData:
     """From the responses of the sweep, and those of the cases beside it."""
-    swept = {run: read_dataset(file) for run, file in zip(runs_of_sweep(), files.responses, strict=True)}
-    histories = {run: ran(responses["__".join(run)], "__".join(run)) for run in runs_of_sweep()}
-    shipped = {row.name: interaction_run(swept[row.blade, "lined"], row) for row in INTERACTIONS}
-    for blade in BLADES:
-        name = f"{blade}_4"
-        shipped[name] = with_histories(shipped[name], histories[blade, "lined"])
+    swept = {run: read_dataset(file) for run, file in zip(RUNS_OF_SWEEP, files.responses, strict=True)}
+    histories = {run: ran(responses["__".join(run)], "__".join(run)) for run in RUNS_OF_SWEEP}
+    shipped = {
+        row.name: swept[row.blade, "lined"].sel(speed=slice(WINDOW[0] * row.campbell, WINDOW[1] * row.campbell))
+        for row in INTERACTIONS
+    }
+    shipped |= {f"{blade}_4": with_histories(shipped[f"{blade}_4"], histories[blade, "lined"]) for blade in BLADES}
     direct = swept[REFERENCE, "direct"]
     shipped[DIRECT] = with_histories(direct, histories[REFERENCE, "direct"])
     return GalleryData(
@@ -67,29 +68,24 @@ def gallery_data(responses: Mapping[str, xr.Dataset], files: Any, values: Mappin
     )
 
 
-def interaction_run(run: xr.Dataset, row: PublishedInteraction) -> xr.Dataset:
-    """The speeds of a run about an interaction."""
-    return run.sel(speed=slice(WINDOW[0] * row.campbell, WINDOW[1] * row.campbell))
-
-
 def gallery_checks(data: GalleryData, geometry: xr.Dataset, nodes: int) -> list[Check]:
     """All checks: those of the modelling choices, and a few that only pictures need. `nodes`: of the reference blade's mesh."""
     campbells, shipped = data.campbells, data.shipped
-    checks = structure_checks(geometry, campbells) + choice_checks(shipped)
-    checks += survey_checks(data.survey, shipped)
     rest = float(campbells[REFERENCE]["frequency"].sel(mode="1B", speed=0.0))
-    checks.append(Check("Ref: 1B at rest, through the published crossings", _at_rest(), rest, "Hz"))
-    checks.append(Check("mesh: nodes", float(MESH_NODES), float(nodes), "", 0.05))
     loss = 1.0 - data.revolution[:: FINE // COARSE].max() / data.revolution.max()
     text = f"{100 * loss:.2g}% below that of {FINE}"
-    checks.append(Check(f"largest stress of the last revolution from {COARSE} instants", None, text))
-    for row in INTERACTIONS:
-        order = strongest_order(peak_of(shipped[row.name])["amplitude"], above=_FIRST_LOBES)
-        name = f"{row.blade} 1B/{row.engine_order}: engine order of the largest amplitude at the peak"
-        checks.append(Check(name, float(row.engine_order), order, "", 0.01))
-    order = strongest_order(peak_of(shipped[DIRECT])["amplitude"], above=_FIRST_LOBES)
-    checks.append(Check("direct, engine order of the largest amplitude at the largest rms", None, order))
-    return checks
+    orders = {name: strongest_order(peak_of(run)["amplitude"], above=_FIRST_LOBES) for name, run in shipped.items()}
+    at_peak = "engine order of the largest amplitude at the peak"
+    return [
+        *structure_checks(geometry, campbells),
+        *choice_checks(shipped),
+        *survey_checks(data.survey, shipped),
+        Check("Ref: 1B at rest, through the published crossings", _at_rest(), rest, "Hz"),
+        Check("mesh: nodes", float(MESH_NODES), float(nodes), "", 0.05),
+        Check(f"largest stress of the last revolution from {COARSE} instants", None, text),
+        *(Check(f"{row.label}: {at_peak}", float(row.engine_order), orders[row.name], "", 0.01) for row in INTERACTIONS),
+        Check("direct, engine order of the largest amplitude at the largest rms", None, orders[DIRECT]),
+    ]
 
 
 def _at_rest() -> float:

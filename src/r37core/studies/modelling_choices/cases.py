@@ -115,7 +115,7 @@ LEVEL = "level"
 MESHES = (10000, 40000)
 """Nodes of the meshes whose Campbell diagrams are compared."""
 
-_PUBLISHED = tuple(sorted((INTERACTIONS[0].peak, DIRECT_PEAK, QUIET)))
+PUBLISHED_SPEEDS = tuple(sorted((INTERACTIONS[0].peak, DIRECT_PEAK, QUIET)))
 """Speeds (rad/s) whose stress the paper shows for every revolution."""
 
 _HIGHEST_ORDER = 12
@@ -141,7 +141,7 @@ def windows(choice: ModellingChoice, steps: SpeedSteps) -> dict[str, Window]:
     wanted = [interaction for interaction in INTERACTIONS if choice.blades is None or interaction.blade in choice.blades]
     windows_by_name = {interaction.name: _interaction(interaction, choice.fine, steps) for interaction in wanted}
     if INTERACTIONS[0] in wanted:
-        windows_by_name[HISTORIES] = Window(REFERENCE, "lined", _PUBLISHED, _PUBLISHED)
+        windows_by_name[HISTORIES] = Window(REFERENCE, "lined", PUBLISHED_SPEEDS, PUBLISHED_SPEEDS)
     if not choice.only_lining:
         windows_by_name[DIRECT] = _direct(choice.fine, steps)
     return windows_by_name
@@ -156,7 +156,7 @@ def _interaction(interaction: PublishedInteraction, fine: bool, steps: SpeedStep
 def _direct(fine: bool, steps: SpeedSteps) -> Window:
     window = grid(DIRECT_PEAK, *DIRECT_WINDOW, steps.fine if fine else steps.coarse)
     others = {*ELSEWHERE, DIRECT_PEAK + 1.0} if fine else {*ELSEWHERE}
-    return Window(REFERENCE, "direct", tuple(sorted({*window, *others})), _PUBLISHED)
+    return Window(REFERENCE, "direct", tuple(sorted({*window, *others})), PUBLISHED_SPEEDS)
 
 
 def _surveys(step: float) -> dict[str, Window]:
@@ -178,16 +178,12 @@ def grid(centre: float, below: float, above: float, step: float) -> tuple[float,
 def cases(settings: Settings) -> dict[str, Case]:
     """A case for each choice, blade and window of speeds, as `choice/window`."""
     steps = settings.studies.modelling_choices.speed_steps_rad_s
-    return {
-        f"{name}/{window_name}": _case(settings, choice, window)
-        for name, choice in CHOICES.items()
-        for window_name, window in windows(choice, steps).items()
-    }
-
-
-def _case(settings: Settings, choice: ModellingChoice, window: Window) -> Case:
-    entry = plain_scene(settings, scene_name(settings, window.kind))
-    return case_in(settings, choice, window, checked_scene(changed(entry, choice.changes)))
+    planned = {}
+    for name, choice in CHOICES.items():
+        for window_name, window in windows(choice, steps).items():
+            entry = plain_scene(settings, scene_name(settings, window.kind))
+            planned[f"{name}/{window_name}"] = case_in(settings, choice, window, checked_scene(changed(entry, choice.changes)))
+    return planned
 
 
 def scene_name(settings: Settings, kind: str) -> str:

@@ -116,8 +116,7 @@ def draw_choices(choices: Mapping[str, Runs]) -> Figure:
         errors = 100.0 * (np.array(speeds) / published.peak - 1.0)
         marker = "o" if published.engine_order == 4 else "^sD"[published.engine_order - 5]
         color = f"C{number}" if published.engine_order == 4 else "C0"
-        label = f"{published.blade} 1B/{published.engine_order}"
-        axes.plot(errors, rows, marker, color=color, alpha=0.8, markersize=5, linestyle="none", label=label)
+        axes.plot(errors, rows, marker, color=color, alpha=0.8, markersize=5, linestyle="none", label=published.label)
     for row, runs in enumerate(choices.values()):
         found_peaks = sum(np.isfinite(peak_speed(runs[published.name])) for published in INTERACTIONS if published.name in runs)
         axes.annotate(

@@ -19,6 +19,13 @@ from .cases import CHOICES, HISTORIES, SHIPPED, SURVEY, VARIED
 from .figures import draw_blades, draw_choices, draw_histories, draw_reference, draw_stress
 from .validation import Runs, choice_checks, convergence_checks, shipped_checks
 
+_DIRECT = (
+    "direct: largest rms, normal and tangential together",
+    "direct: last speed before the drop",
+    "direct at 1344: first yield, shortly before",
+)
+"""Checks of direct contact in the table of choices."""
+
 
 def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, Any]:
     """Tables and pictures."""
@@ -63,7 +70,7 @@ def runs_of(responses: Mapping[str, xr.Dataset]) -> dict[str, dict[str, xr.Datas
 
 def choices_table(choices: Mapping[str, Runs]) -> str:
     """Lined peaks of every choice, largest error, drops; then direct contact; then how many checks agree."""
-    peaks = [f"{interaction.blade} 1B/{interaction.engine_order}: {interaction.peak:g}" for interaction in INTERACTIONS]
+    peaks = [f"{interaction.label}: {interaction.peak:g}" for interaction in INTERACTIONS]
     head = ["choice", *peaks, "largest error", "drops", "first yield at 1717: 40"]
     head += [f"direct, largest rms: {DIRECT_PEAK:g}", "drop after: 1344", "first yield there: 90", "agree"]
     return markdown_table(head, (_cells(name, runs) for name, runs in choices.items()))
@@ -76,14 +83,7 @@ def _cells(name: str, runs: Runs) -> list[str]:
     drops = [check for name, check in checks.items() if name.endswith("drop after the peak")]
     largest = f"{100 * max(errors):.2g}%" if np.isfinite(max(errors)) else f"{sum(np.isinf(errors))} differ"
     lined = [*speeds, largest, score(drops), _ours(checks, "Ref lined at 1717: first yield")]
-    direct = [
-        _ours(checks, name)
-        for name in (
-            "direct: largest rms, normal and tangential together",
-            "direct: last speed before the drop",
-            "direct at 1344: first yield, shortly before",
-        )
-    ]
+    direct = [_ours(checks, name) for name in _DIRECT]
     return [CHOICES[name].what, *lined, *direct, score(list(checks.values()))]
 
 

@@ -68,11 +68,6 @@ def inputs(settings: Settings) -> dict[str, Any]:
     return {"campbell": "<results>/campbell.nc"}
 
 
-def outputs(settings: Settings) -> dict[str, str]:
-    """The tables."""
-    return {"table": "<results>/studies/refinement.md"}
-
-
 def values(settings: Settings) -> dict[str, Any]:
     """Plans of the speeds, steps of the plain grids, and what a sweep refines by."""
     rounds, pairs = Rounds(Sweep(settings)), adaptive(settings)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -47,63 +47,44 @@ class Extreme:
 
 def extremes(lined: str, direct: str) -> list[Extreme]:
     """All cases; `lined` and `direct`: names of a scene with a lining and of one without."""
-    both = (lined, direct)
-    cases = [
-        Extreme(
-            f"{integrator} step over limit", f"{share:g}", scene, share_of_limit=share, integrator=integrator, revolutions=20
-        )
-        for integrator, shares in (
-            (CENTRAL_DIFFERENCE, (0.01, 0.1, 0.5, 0.9, 0.99, 1.0, 1.05)),
-            (EXACT_MODAL, (0.1, 1.0, 3.0, 10.0, 100.0)),
-        )
-        for share in shares
-        for scene in both
+
+    def several(what: str, values: Sequence[float], fields: Callable[[Any], dict[str, Any]], *scenes: str) -> list[Extreme]:
+        """One of each value in each scene, by default in both; `fields` of Extreme from the value."""
+        return [Extreme(what, f"{value:g}", scene, **fields(value)) for value in values for scene in scenes or (lined, direct)]
+
+    def step(integrator: str) -> Callable[[float], dict[str, Any]]:
+        return lambda share: {"share_of_limit": share, "integrator": integrator, "revolutions": 20}
+
+    def friction(direction: str) -> Callable[[float], dict[str, Any]]:
+        return lambda value: {"changes": {"friction.coefficient": value, "friction.direction": direction}}
+
+    def entry(path: str) -> Callable[[float], dict[str, Any]]:
+        return lambda value: {"changes": {path: value}}
+
+    def model(key: str) -> Callable[[int], dict[str, Any]]:
+        return lambda value: {"model": {key: value}, "share_of_limit": 0.4, "integrator": CENTRAL_DIFFERENCE}
+
+    return [
+        *several(f"{CENTRAL_DIFFERENCE} step over limit", (0.01, 0.1, 0.5, 0.9, 0.99, 1.0, 1.05), step(CENTRAL_DIFFERENCE)),
+        *several(f"{EXACT_MODAL} step over limit", (0.1, 1.0, 3.0, 10.0, 100.0), step(EXACT_MODAL)),
+        *several("speed", (2.0, 10.0), lambda speed: {"speed": speed, "revolutions": 2}),
+        *several("speed", (100.0, 3000.0, 5000.0), lambda speed: {"speed": speed}),
+        *several("clearance", (0.0, 1e-9, 1e-2), entry(_CLEARANCE)),
+        *several("lobes", (1, 5, 20), entry("casing.lobes")),
+        *several("ovalisation in clearances", (0.0, 10.0), entry("casing.amplitude_clearances")),
+        *several("damping ratio", (0.0, 0.1, 0.999, 1.0), entry("damping_ratio")),
+        *several("friction against_rotation", (0.0, 0.5, 1.0), friction("against_rotation")),
+        *several("friction along_rotation", (0.0, 0.5, 1.0), friction("along_rotation")),
+        *several("lining thickness", (1e-6, 1e-4, 5e-2), entry("lining.thickness_m"), lined),
+        *several("elastic modulus", (1e4, 1e6, 1e8, 1e10, 1e12), entry("lining.elastic_modulus_pa"), lined),
+        *several("plastic modulus", (0.0, 1e4, 1e12), entry("lining.plastic_modulus_pa"), lined),
+        *several("yield stress", (0.0, 1e6, 1e9), entry("lining.yield_stress_pa"), lined),
+        *several("bars", (10, 100, 100000, 1000000), entry("lining.bars"), lined),
+        *several("boundary nodes", (1, 2, 20, 40), model("boundary_nodes")),
+        *several("fixed-interface modes", (0, 60, 200), model("fixed_interface_modes")),
+        *several("mesh nodes", (500, 1000, 60000), model("nodes")),
+        *several("revolutions", (1, 2, 5000), lambda number: {"revolutions": number}),
     ]
-    cases += [
-        Extreme("speed", f"{speed:g}", scene, speed=float(speed), revolutions=2 if speed <= 10 else 60)
-        for speed in (2, 10, 100, 3000, 5000)
-        for scene in both
-    ]
-    cases += [
-        Extreme(what, f"{value:g}", scene, {path: value})
-        for what, path, values in (
-            ("clearance", _CLEARANCE, (0.0, 1e-9, 1e-2)),
-            ("lobes", "casing.lobes", (1, 5, 20)),
-            ("ovalisation in clearances", "casing.amplitude_clearances", (0.0, 10.0)),
-            ("damping ratio", "damping_ratio", (0.0, 0.1, 0.999, 1.0)),
-        )
-        for value in values
-        for scene in both
-    ]
-    cases += [
-        Extreme("friction " + direction, f"{value:g}", scene, {"friction.coefficient": value, "friction.direction": direction})
-        for direction in ("against_rotation", "along_rotation")
-        for value in (0.0, 0.5, 1.0)
-        for scene in both
-    ]
-    cases += [
-        Extreme(what, f"{value:g}", lined, {path: value})
-        for what, path, values in (
-            ("lining thickness", "lining.thickness_m", (1e-6, 1e-4, 5e-2)),
-            ("elastic modulus", "lining.elastic_modulus_pa", (1e4, 1e6, 1e8, 1e10, 1e12)),
-            ("plastic modulus", "lining.plastic_modulus_pa", (0.0, 1e4, 1e12)),
-            ("yield stress", "lining.yield_stress_pa", (0.0, 1e6, 1e9)),
-            ("bars", "lining.bars", (10, 100, 100000, 1000000)),
-        )
-        for value in values
-    ]
-    cases += [
-        Extreme(what, f"{value:g}", scene, model={key: value}, share_of_limit=0.4, integrator=CENTRAL_DIFFERENCE)
-        for what, key, values in (
-            ("boundary nodes", "boundary_nodes", (1, 2, 20, 40)),
-            ("fixed-interface modes", "fixed_interface_modes", (0, 60, 200)),
-            ("mesh nodes", "nodes", (500, 1000, 60000)),
-        )
-        for value in values
-        for scene in both
-    ]
-    cases += [Extreme("revolutions", str(number), scene, revolutions=number) for number in (1, 2, 5000) for scene in both]
-    return cases
 
 
 def cases(settings: Settings) -> dict[str, Case]:
@@ -147,16 +128,6 @@ def _of_scene(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str,
     """The changes, of the cold clearance in a scene that has one."""
     cold = "casing.clearance.cold_m" if "clearance" in entry["casing"] else _CLEARANCE
     return {cold if path == _CLEARANCE else path: value for path, value in changes.items()}
-
-
-def inputs(settings: Settings) -> dict[str, Any]:
-    """Nothing else."""
-    return {}
-
-
-def outputs(settings: Settings) -> dict[str, str]:
-    """The table."""
-    return {"table": "<results>/studies/stability.md"}
 
 
 def values(settings: Settings) -> dict[str, Any]:

@@ -130,11 +130,6 @@ def values_of(settings: Settings) -> dict[str, list[str]]:
     return {name: [_text(value) for value in of.values] for name, of in section.parameters.varied().items()} if section else {}
 
 
-def inputs(settings: Settings) -> dict[str, Any]:
-    """Nothing else."""
-    return {}
-
-
 def outputs(settings: Settings) -> dict[str, str]:
     """All numbers, tables, and figures."""
     files = {"dataset": "tradeoff.nc", "levels": "levels.md", "table": "tradeoff.md", "growth": "growth.md"}

@@ -98,11 +98,6 @@ def _shipped(settings: Settings) -> list[str]:
     return [name for name in modelling_choices.cases(settings) if name.split("/")[0] in (SHIPPED, SURVEY)]
 
 
-def outputs(settings: Settings) -> dict[str, str]:
-    """The table."""
-    return {"table": "<results>/studies/validation_ranges.md"}
-
-
 def values(settings: Settings) -> dict[str, Any]:
     """Which Campbell diagrams and which runs as shipped there are, and the tolerances in words."""
     words = {key: tolerance.words for key, tolerance in _tolerances(settings).items()}
