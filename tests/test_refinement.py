@@ -349,7 +349,8 @@ def test_study_names_what_is_missed():
     """Of two interactions above yield the one in the window is found, the other one, 5 rad/s wide, only by every speed."""
     response, diagram = spiked((1232.0, 1237.0, 1e-3), (1832.0, 1836.0, 1e-3)), campbell([1200.0])
     found = compare(response, diagram, replay(response, diagram, PLAN, CHOICE), InteractionChoice())
-    assert [(one.peak, one.is_found, one.same) for one in found.interactions] == [(1237.0, True, True), (1836.0, False, False)]
+    rows = [(one.interaction.peak.peak_speed_rad_s, one.nearest is not None, one.same) for one in found.interactions]
+    assert rows == [(1237.0, True, True), (1836.0, False, False)]
     every = compare(response, diagram, [plain_grid(PLAN, 1.0)], InteractionChoice())
     assert (every.runs, [one.same for one in every.interactions]) == (1251, [True, True])
     table = refinement_table({"refined": {("Ref", "abradable"): found}, "every 1 rad/s": {("Ref", "abradable"): every}},
@@ -367,7 +368,7 @@ def test_study_says_what_is_robust():
     several = {name: spiked(*spikes) for name, spikes in {"0": one, "1": both, "2": one}.items()}
     members = {name: above_yield(member, diagram, InteractionChoice()) for name, member in several.items()}
     found = compare(response, diagram, replay(response, diagram, PLAN, CHOICE), InteractionChoice(), members)
-    assert [(one.is_found, one.robust, one.share_of_members) for one in found.interactions] == [
+    assert [(one.nearest is not None, one.robust, one.share_of_members) for one in found.interactions] == [
         (True, True, 1.0),
         (False, False, pytest.approx(1 / 3)),
     ]

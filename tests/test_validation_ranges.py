@@ -11,7 +11,7 @@ from r37core.studies.checks import Check, claim
 from r37core.studies.modelling_choices.cases import DIRECT
 from r37core.studies.plan import Studies
 from r37core.studies.validation_ranges.cases import NOMINAL, cases, values
-from r37core.studies.validation_ranges.ranges import judge, range_report, range_table
+from r37core.studies.validation_ranges.report import judge, range_report, range_table
 
 SAID = "CS100: slightly more"
 PUBLISHED = [

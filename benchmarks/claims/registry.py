@@ -241,7 +241,7 @@ CLAIMS = (
         ),
         ("{snakemake} validation_ranges",),
         minutes=90,
-        code=(*_study("validation_ranges", "ranges"), *_CHECKS),
+        code=(*_study("validation_ranges"), *_CHECKS),
         configuration=(*_BENCHMARK, "config/config.yaml:studies.validation_ranges"),
         numbers=(*_ALL, "stress"),
     ),

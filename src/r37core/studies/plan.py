@@ -39,15 +39,15 @@ class Studies:
 
     def outputs(self, study: str) -> dict[str, str]:
         """Files of a study."""
-        outputs = getattr(_plan(study), "outputs", lambda _: {"table": f"<results>/studies/{study}.md"})
-        return outputs(self._settings)
+        plan = _plan(study)
+        return plan.outputs(self._settings) if hasattr(plan, "outputs") else {"table": f"<results>/studies/{study}.md"}
 
     def inputs(self, study: str) -> Callable[[Any], dict[str, Any]]:
         """What a study is made of: the responses of its cases, and other results of this run."""
-        others = getattr(_plan(study), "inputs", lambda _: {})
+        plan = _plan(study)
         return lambda wildcards: {
             "cases": [paths.fill(paths.STUDY_CASE, study=study, case=name) for name in self._cases(study)],
-            **others(self._settings),
+            **(plan.inputs(self._settings) if hasattr(plan, "inputs") else {}),
         }
 
     def names(self, study: str) -> Callable[[Any], list[str]]:

@@ -15,17 +15,14 @@ import xarray as xr
 from ..checks import ran
 from ..tables import markdown_table
 
-PARTS = ("time integration", "start-up", "workflow", "reduction")
-
-
-IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
+_IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
 """What the script of a simulation imports."""
 
 
 def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, str]:
     """The projection from the cases' costs, as JSON and as a table."""
     samples = [sample_of(ran(response, name), values["runs"][name]) for name, response in responses.items()]
-    estimate = project_costs(samples, time_start_up(IMPORTS), values["workflow_s_per_job"], values["cores"])
+    estimate = project_costs(samples, time_start_up(), values["workflow_s_per_job"], values["cores"])
     return {"json": json.dumps(estimate, indent=1) + "\n", "table": describe(estimate, values["fidelity"])}
 
 
@@ -41,15 +38,14 @@ def sample_of(response: xr.Dataset, number: int) -> dict[str, float]:
     return {"time integration": share * per_run, "reduction": reduction, "runs": number}
 
 
-def time_start_up(imports: str, rounds: int = 7) -> float:
-    """CPU seconds of an interpreter that does the imports of a job and ends: the median of some rounds."""
+def time_start_up() -> float:
+    """CPU seconds of an interpreter that does the imports of a job and ends: the median of seven."""
     spent = []
-    for _ in range(rounds):
+    for _ in range(7):
         before = os.times()
-        subprocess.run([sys.executable, "-c", imports], check=True)
+        subprocess.run([sys.executable, "-c", _IMPORTS], check=True)
         after = os.times()
-        used = after.children_user + after.children_system - before.children_user - before.children_system
-        spent.append(used)
+        spent.append(after.children_user + after.children_system - before.children_user - before.children_system)
     return statistics.median(spent)
 
 
@@ -72,5 +68,6 @@ def describe(estimate: Mapping[str, float], fidelity: str) -> str:
     """The projection as a table in Markdown."""
     runs = estimate["runs"]
     head = f"Level `{fidelity}`: {runs:.0f} simulations, {estimate['wall'] / 3600:.2f} h on {estimate['cores']:.0f} cores."
-    rows = [[part, f"{estimate[part] / 3600:.2f}", f"{estimate[part] / runs:.3f}"] for part in (*PARTS, "total")]
+    parts = ("time integration", "start-up", "workflow", "reduction", "total")
+    rows = [[part, f"{estimate[part] / 3600:.2f}", f"{estimate[part] / runs:.3f}"] for part in parts]
     return f"{head}\n\n{markdown_table(['part', 'core hours', 'core seconds per simulation'], rows)}"

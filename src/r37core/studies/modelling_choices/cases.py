@@ -14,7 +14,7 @@ from r37core.config import Settings, checked_scene
 from r37core.config.study_sections import SpeedSteps
 from r37core.contact.scene import Scene
 from r37core.plans import paths
-from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, PublishedInteraction
+from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE
 
 from ..case import Case, ModelChoice, changed
 from ..plan import campbell_file, integration_of_level, kept_of, level_of, material_of, model_of_level, plain_scene
@@ -138,25 +138,20 @@ def windows(choice: ModellingChoice, steps: SpeedSteps) -> dict[str, Window]:
     """What a choice runs, by name; `steps` (rad/s): of the grids `fine`, `coarse` and `survey`."""
     if choice.surveys:
         return _surveys(steps.survey)
-    wanted = [interaction for interaction in INTERACTIONS if choice.blades is None or interaction.blade in choice.blades]
-    windows_by_name = {interaction.name: _interaction(interaction, choice.fine, steps) for interaction in wanted}
-    if INTERACTIONS[0] in wanted:
-        windows_by_name[HISTORIES] = Window(REFERENCE, "lined", PUBLISHED_SPEEDS, PUBLISHED_SPEEDS)
+    step = steps.fine if choice.fine else steps.coarse
+    planned = {}
+    for row in INTERACTIONS:
+        if choice.blades is None or row.blade in choice.blades:
+            centre, (below, above) = (row.campbell, FINE_WINDOW) if choice.fine else (row.peak, COARSE_WINDOW)
+            speeds = grid(centre, below * centre, above * centre, step)
+            planned[row.name] = Window(row.blade, "lined", speeds, follow=choice.fine)
+    if INTERACTIONS[0].name in planned:
+        planned[HISTORIES] = Window(REFERENCE, "lined", PUBLISHED_SPEEDS, PUBLISHED_SPEEDS)
     if not choice.only_lining:
-        windows_by_name[DIRECT] = _direct(choice.fine, steps)
-    return windows_by_name
-
-
-def _interaction(interaction: PublishedInteraction, fine: bool, steps: SpeedSteps) -> Window:
-    centre, (below, above) = (interaction.campbell, FINE_WINDOW) if fine else (interaction.peak, COARSE_WINDOW)
-    speeds = grid(centre, below * centre, above * centre, steps.fine if fine else steps.coarse)
-    return Window(interaction.blade, "lined", speeds, follow=fine)
-
-
-def _direct(fine: bool, steps: SpeedSteps) -> Window:
-    window = grid(DIRECT_PEAK, *DIRECT_WINDOW, steps.fine if fine else steps.coarse)
-    others = {*ELSEWHERE, DIRECT_PEAK + 1.0} if fine else {*ELSEWHERE}
-    return Window(REFERENCE, "direct", tuple(sorted({*window, *others})), PUBLISHED_SPEEDS)
+        others = {*ELSEWHERE, DIRECT_PEAK + 1.0} if choice.fine else {*ELSEWHERE}
+        speeds = tuple(sorted(others.union(grid(DIRECT_PEAK, *DIRECT_WINDOW, step))))
+        planned[DIRECT] = Window(REFERENCE, "direct", speeds, PUBLISHED_SPEEDS)
+    return planned
 
 
 def _surveys(step: float) -> dict[str, Window]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.adaptive.criterion import CURVES, RefinementChoice
+from r37core.adaptive.criterion import RefinementChoice
 from r37core.adaptive.rounds import first_round, round_after
 from r37core.dataset_file import read_dataset
 from r37core.plain import from_plain
@@ -28,20 +28,14 @@ TOLERANCE = 2.0
 
 @dataclass(frozen=True)
 class Comparison:
-    """One interaction above yield of the whole grid, and what the adaptive speeds have of it.
+    """One interaction above yield of the whole grid, and the `nearest` that the adaptive speeds show within its width.
 
-    Speeds and widths in rad/s, `stress` in Pa; `found_peak` and `found_width` NaN where there is no interaction
-    above yield within the width, or TOLERANCE, of it. `share_of_members`: how many of a sample's show it above yield, at
-    every speed of the grid; NaN without members.
+    `nearest`: above yield, too, and within TOLERANCE at least; None where there is none. `share_of_members`: how many of a
+    sample's show it above yield, at every speed of the grid; NaN without members.
     """
 
-    mode: str
-    engine_order: int | None
-    peak: float
-    width: float
-    stress: float
-    found_peak: float
-    found_width: float
+    interaction: Interaction
+    nearest: Interaction | None
     share_of_members: float
 
     @property
@@ -50,24 +44,21 @@ class Comparison:
         return self.share_of_members >= ROBUST
 
     @property
-    def is_found(self) -> bool:
-        """Whether there is one at all."""
-        return not math.isnan(self.found_peak)
-
-    @property
     def same(self) -> bool:
         """Whether peak and width agree."""
-        return abs(self.found_peak - self.peak) <= TOLERANCE and abs(self.found_width - self.width) <= TOLERANCE
+        if self.nearest is None:
+            return False
+        pairs = zip(_peak_and_width(self.interaction), _peak_and_width(self.nearest), strict=True)
+        return all(abs(theirs - ours) <= TOLERANCE for ours, theirs in pairs)
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """One way to choose speeds of one blade and scene: runs of its first round, of all, and the interactions above yield.
+    """One way to choose speeds of one blade and scene: its runs, its rounds, and the interactions above yield.
 
     `errors`: of a line drawn through its speeds, see `errors_between`.
     """
 
-    first: int
     runs: int
     rounds: int
     interactions: list[Comparison]
@@ -106,13 +97,12 @@ def replay(response: xr.Dataset, campbell: xr.Dataset, plan: SpeedPlan, choice: 
 
 
 def _measured(response: xr.Dataset) -> dict[float, list[float]]:
-    """Status and CURVES of each speed (rad/s)."""
+    """Status and adaptive.criterion.CURVES of each speed (rad/s)."""
     edge = leading_edge(response)
     stress = (
         response["max_von_mises"] / response["yield_stress"] if "max_von_mises" in response else edge["rms_normal"] * np.nan
     )
     columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], stress]
-    assert len(columns) == 1 + len(CURVES)
     rows = np.stack([column.values.astype(float) for column in columns], axis=1)
     return dict(zip(map(float, response["speed"].values), rows.tolist(), strict=True))
 
@@ -138,8 +128,8 @@ def compare(
     run = sorted(speed for new in speeds for speed in new)
     wanted, got = (above_yield(part, campbell, interactions) for part in (response, response.sel(speed=run)))
     shares = shares_of_members(wanted, members, interactions) if members else [math.nan] * len(wanted)
-    compared = [_held_against(row, got, share) for row, share in zip(wanted, shares, strict=True)]
-    return Outcome(len(speeds[0]), len(run), len(speeds), compared, errors_between(response, run))
+    compared = [Comparison(row, _nearest(row, got), share) for row, share in zip(wanted, shares, strict=True)]
+    return Outcome(len(run), len(speeds), compared, errors_between(response, run))
 
 
 def errors_between(response: xr.Dataset, run: Sequence[float]) -> tuple[float, float, float]:
@@ -168,31 +158,21 @@ def _missed(speed: np.ndarray, curve: np.ndarray, run: Sequence[float]) -> tuple
 
 def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
     """Interactions of a response that pass yield, in direct contact certainly."""
-    return [row for row in find_interactions(response, campbell, interactions) if _width(row) > 0.0]
+    return [row for row in find_interactions(response, campbell, interactions) if _peak_and_width(row)[1] > 0.0]
 
 
-def _width(row: Interaction) -> float:
-    """Width above yield (rad/s): of the last revolution, in direct contact of what is certain."""
+def _peak_and_width(row: Interaction) -> tuple[float, float]:
+    """Speed of the peak and width above yield (rad/s): of the last revolution, in direct contact of what is certain."""
     every = row.all_revolutions
     width = every.certain_to_rad_s - every.certain_from_rad_s if row.note else row.last_revolution.width_above_yield_rad_s
-    return 0.0 if math.isnan(width) else width
+    return row.peak.peak_speed_rad_s, 0.0 if math.isnan(width) else width
 
 
-def _held_against(row: Interaction, got: Sequence[Interaction], share_of_members: float) -> Comparison:
-    """One interaction beside the nearest of those that were found."""
-    peak, width = row.peak.peak_speed_rad_s, _width(row)
+def _nearest(row: Interaction, got: Sequence[Interaction]) -> Interaction | None:
+    """The nearest of some interactions within an interaction's width, or TOLERANCE, of its peak."""
+    peak, width = _peak_and_width(row)
     near = [other for other in got if abs(other.peak.peak_speed_rad_s - peak) <= max(width, TOLERANCE)]
-    nearest = min(near, key=lambda other: abs(other.peak.peak_speed_rad_s - peak), default=None)
-    return Comparison(
-        mode=row.crossing.mode,
-        engine_order=row.crossing.engine_order,
-        peak=peak,
-        width=width,
-        stress=row.all_revolutions.median_von_mises_pa if row.note else row.last_revolution.max_von_mises_pa,
-        found_peak=nearest.peak.peak_speed_rad_s if nearest else math.nan,
-        found_width=_width(nearest) if nearest else math.nan,
-        share_of_members=share_of_members,
-    )
+    return min(near, key=lambda other: abs(other.peak.peak_speed_rad_s - peak), default=None)
 
 
 def refinement_table(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], every: Mapping[tuple[str, str], int]) -> str:
@@ -203,15 +183,13 @@ def refinement_table(outcomes: Mapping[str, Mapping[tuple[str, str], Outcome]], 
     `every`: number of speeds of the whole grid of each blade and scene.
     """
     first = next(iter(outcomes.values()))
-    rows = []
-    for blade, scene in first:
-        cells = [_cell([ways[blade, scene]]) for ways in outcomes.values()]
-        rows.append([blade, scene, _whole([first[blade, scene]], every[blade, scene]), *cells])
     scenes = dict.fromkeys(scene for _, scene in first)
-    for scene in scenes:
-        totals = [_cell([run for pair, run in ways.items() if pair[1] == scene]) for ways in outcomes.values()]
-        of_scene = [pair for pair in first if pair[1] == scene]
-        rows.append(["all", scene, _whole([first[pair] for pair in of_scene], sum(every[pair] for pair in of_scene)), *totals])
+    lines = [(pair, [pair]) for pair in first]
+    lines += [(("all", scene), [pair for pair in first if pair[1] == scene]) for scene in scenes]
+    rows = []
+    for names, pairs in lines:
+        cells = [_cell([ways[pair] for pair in pairs]) for ways in outcomes.values()]
+        rows.append([*names, _whole([first[pair] for pair in pairs], sum(every[pair] for pair in pairs)), *cells])
     missed = [(*pair, row) for pair, outcome in first.items() for row in outcome.interactions if not row.same]
     return (
         f"Interactions above yield that are found at all, and with peak and width within {TOLERANCE:g} rad/s; runs of each way "
@@ -244,10 +222,11 @@ def _whole(outcomes: Sequence[Outcome], runs: int) -> str:
 
 def _cell(outcomes: Sequence[Outcome]) -> str:
     together = [row for outcome in outcomes for row in outcome.interactions]
-    robust = f", {sum(row.is_found and row.robust for row in together)} of the robust" if _with_members(together) else ""
+    matched = [row for row in together if row.nearest is not None]
+    robust = f", {sum(row.robust for row in matched)} of the robust" if _with_members(together) else ""
     rounds = f" in {outcomes[0].rounds} rounds" if len(outcomes) == 1 and outcomes[0].rounds > 1 else ""
-    matched, same = (sum(getattr(row, name) for row in together) for name in ("is_found", "same"))
-    return f"{matched} found{robust}, {same} the same, {sum(run.runs for run in outcomes)} runs{rounds}"
+    same, runs = sum(row.same for row in together), sum(run.runs for run in outcomes)
+    return f"{len(matched)} found{robust}, {same} the same, {runs} runs{rounds}"
 
 
 def _with_members(interactions: Sequence[Comparison]) -> bool:
@@ -259,10 +238,16 @@ def _of_missed(missed: Sequence[tuple[str, str, Comparison]]) -> str:
         return "Nothing is missed.\n"
     rows = []
     for blade, scene, row in missed:
-        order = "" if row.engine_order is None or math.isnan(row.engine_order) else f"/{row.engine_order}"
-        name = f"{row.mode}{order}" if row.mode else f"no crossing, order {row.engine_order}"
-        matched = f"{row.found_peak:g}, {row.found_width:.1f}" if row.is_found else "none"
+        crossing, every, last = row.interaction.crossing, row.interaction.all_revolutions, row.interaction.last_revolution
+        order = "" if crossing.engine_order is None or math.isnan(crossing.engine_order) else f"/{crossing.engine_order}"
+        name = f"{crossing.mode}{order}" if crossing.mode else f"no crossing, order {crossing.engine_order}"
+        stress = every.median_von_mises_pa if row.interaction.note else last.max_von_mises_pa
+        ours, theirs = (_shown(each) for each in (row.interaction, row.nearest))
         share = "" if math.isnan(row.share_of_members) else f"{100 * row.share_of_members:.0f}%"
-        rows.append([blade, scene, name, f"{row.peak:g}, {row.width:.1f}", f"{1e-9 * row.stress:.2f}", matched, share])
+        rows.append([blade, scene, name, ours, f"{1e-9 * stress:.2f}", theirs, share])
     head = ["blade", "scene", "interaction", "peak, width (rad/s)", "largest stress (GPa)", "found peak, width", "members"]
     return f"Missed, or off by more:\n\n{markdown_table(head, rows)}"
+
+
+def _shown(row: Interaction | None) -> str:
+    return "none" if row is None else "{:g}, {:.1f}".format(*_peak_and_width(row))

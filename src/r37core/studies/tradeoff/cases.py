@@ -13,9 +13,7 @@ import numpy as np
 
 from r37core.config import ConfigError, Settings
 from r37core.config.study_sections import TradeoffSection
-from r37core.contact.scene import Scene
 from r37core.speeds import exact_text
-from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 from ..case import Case
@@ -24,57 +22,38 @@ from ..plan import blade_name_of, integration_of_level, kept_of, level_of, mater
 LEVEL = "level"
 """The parameter that changes everything at once: the fidelity level."""
 
-OF_THE_MODEL: Mapping[str, Callable[[str], dict[str, Any]]] = {
-    "mesh_nodes": lambda value: {"nodes": int(value)},
-    "boundary_nodes": lambda value: {"boundary_nodes": int(value)},
-    "fixed_interface_modes": lambda value: {"fixed_interface_modes": int(value)},
-    "stress_region": lambda value: {"whole_blade_stress": value == "whole"},
+Change = Callable[[Case, str], Case]
+
+
+def _change(path: str, value_of: Callable[[str], Any], **others: Any) -> Change:
+    """Sets the field of a case at a dotted path, and `others` next to it; without that part the case stays as it is."""
+    *parts, field = path.split(".")
+    return lambda case, value: _with(case, parts, {field: value_of(value), **others})
+
+
+def _with(whole: Any, parts: list[str], fields: Mapping[str, Any]) -> Any:
+    if whole is None or not parts:
+        return whole and replace(whole, **fields)
+    return replace(whole, **{parts[0]: _with(getattr(whole, parts[0]), parts[1:], fields)})
+
+
+CHANGES: Mapping[str, Change] = {
+    LEVEL: lambda case, value: case,
+    # a step that is unstable is refused
+    "central_difference_step": _change("choice.time_step", float, shorten=False, integrator=CENTRAL_DIFFERENCE),
+    "exact_modal_step": _change("choice.time_step", float, shorten=False, integrator=EXACT_MODAL),
+    "static_above": _change("choice.static_above", float),
+    "revolutions": _change("choice.revolutions", int),
+    "highest_frequency": _change("choice.highest_frequency", float),
+    "stress_instants": _change("choice.snapshots_per_revolution", int),
+    "mesh_nodes": _change("model.nodes", int),
+    "boundary_nodes": _change("model.boundary_nodes", int),
+    "fixed_interface_modes": _change("model.fixed_interface_modes", int),
+    "stress_region": _change("model.whole_blade_stress", lambda value: value == "whole"),
+    "bars": _change("scene.lining.bars", int),
+    "friction_form": _change("scene.friction.vector", lambda value: value == "vector"),
 }
-"""Parameter -> fields of ModelChoice, from a value's text."""
-
-
-def _step(integrator: str, value: str) -> dict[str, Any]:
-    """Numbers of a given step, which is refused where it is unstable."""
-    return {"time_step": float(value), "shorten": False, "integrator": integrator}
-
-
-OF_THE_INTEGRATION: Mapping[str, Callable[[str], dict[str, Any]]] = {
-    "central_difference_step": lambda value: _step(CENTRAL_DIFFERENCE, value),
-    "exact_modal_step": lambda value: _step(EXACT_MODAL, value),
-    "static_above": lambda value: {"static_above": float(value)},
-    "revolutions": lambda value: {"revolutions": int(value)},
-    "highest_frequency": lambda value: {"highest_frequency": float(value)},
-    "stress_instants": lambda value: {"snapshots_per_revolution": int(value)},
-}
-"""Parameter -> fields of IntegrationChoice, from a value's text."""
-
-
-def _with_bars(scene: Scene, value: str) -> Scene:
-    return replace(scene, lining=scene.lining and replace(scene.lining, bars=int(value)))
-
-
-def _with_friction(scene: Scene, value: str) -> Scene:
-    return replace(scene, friction=scene.friction and replace(scene.friction, vector=value == "vector"))
-
-
-OF_THE_SCENE: Mapping[str, Callable[[Scene, str], Scene]] = {"bars": _with_bars, "friction_form": _with_friction}
-"""Parameter -> the scene with a value, from its text."""
-
-PARAMETERS = (LEVEL, *OF_THE_INTEGRATION, *OF_THE_MODEL, *OF_THE_SCENE)
-
-
-def vary(parameter: str, value: str, scene: Scene, choice: IntegrationChoice) -> tuple[Scene, IntegrationChoice]:
-    """Scene and time integration with one parameter set; the level and parameters of the model change neither.
-
-    Raises ValueError for an unknown parameter.
-    """
-    if parameter not in PARAMETERS:
-        raise ValueError(f"unknown parameter {parameter}")
-    if parameter in OF_THE_SCENE:
-        return OF_THE_SCENE[parameter](scene, value), choice
-    if parameter in OF_THE_INTEGRATION:
-        return scene, replace(choice, **OF_THE_INTEGRATION[parameter](value))
-    return scene, choice
+"""Parameter -> the case of the base level with a value of it, from the value's text."""
 
 
 def cases(settings: Settings) -> dict[str, Case]:
@@ -93,23 +72,20 @@ def cases(settings: Settings) -> dict[str, Case]:
 
 def _case(settings: Settings, section: TradeoffSection, parameter: str, value: str, scene: str) -> Case:
     level = value if parameter == LEVEL else section.base
-    model = model_of_level(settings, level)
-    if parameter in OF_THE_MODEL:
-        model = replace(model, **OF_THE_MODEL[parameter](value))
     blade, entry = blade_name_of(settings, section), scene_entry_of(settings, scene)
-    varied, choice = vary(parameter, value, entry.scene(), integration_of_level(settings, level, entry.scene()))
     as_the_scene = [result for result in entry.results if result == "static_stress"]
-    return Case(
+    case = Case(
         blade,
-        model,
-        varied,
-        choice,
+        model_of_level(settings, level),
+        entry.scene(),
+        integration_of_level(settings, level, entry.scene()),
         speeds=tuple(sorted({share for shares in shares_of(section).values() for share in shares})),
-        results=("energy", "spectrum", "stress", *as_the_scene, "instants", *(["wear"] if varied.lining else [])),
+        results=("energy", "spectrum", "stress", *as_the_scene, "instants", *(["wear"] if entry.scene().lining else [])),
         material=material_of(settings, blade),
         kept=kept_of(level_of(settings, level)),
         crossing=("1B", section.engine_order),
     )
+    return CHANGES[parameter](case, value)
 
 
 def shares_of(section: TradeoffSection) -> dict[str, list[float]]:

@@ -51,7 +51,8 @@ PAIRS = (
 
 def report(responses: Mapping[str, xr.Dataset], files: Any, values: Mapping[str, Any]) -> dict[str, Any]:
     """All numbers, the tables of parameters, levels and growth, and figures."""
-    references, together = values["references"], gather_cases(responses, values["places"], values["references"])
+    references = values["references"]
+    together = gather_cases(responses, values["places"], references)
     growing = growths(together)
     made = {
         "dataset": together.assign_attrs({name: values[name] for name in ("blade", "base_level")}),
@@ -76,19 +77,15 @@ def gather_cases(
     """
     together = _values(responses, places)
     parameters, values = together["parameter"].values, together["value"].values
-    shape = (together.sizes["case"], together.sizes["scene"], len(places), len(QUANTITIES))
-    error, scatter, speed_error = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape[:2], np.nan)
-    for row, parameter in enumerate(parameters):
-        reference = int(np.flatnonzero((parameters == parameter) & (values == references[parameter]))[0])
-        for column in range(shape[1]):
-            ours, theirs = (together.isel(case=number, scene=column) for number in (row, reference))
-            speed_error[row, column] = abs(centre_of_peak(ours) / centre_of_peak(theirs) - 1.0)
-            for number, place in enumerate(places):
-                error[row, column, number], scatter[row, column, number] = compare(ours, theirs, place)
+    rows = [np.flatnonzero((parameters == name) & (values == references[name])).item() for name in parameters]
+    theirs = together.isel(case=rows)
+    errors, scatters = zip(*(compare(together, theirs, place) for place in places), strict=True)
+    speed_error = abs(centre_of_peak(together) / centre_of_peak(theirs) - 1.0)
     together = together.assign_coords(quantity=list(QUANTITIES), at=list(places))
     dims = ("case", "scene", "at", "quantity")
-    together["error"] = (dims, error, about("1", "relative difference of means over neighbouring speeds"))
-    together["scatter"] = (dims, scatter, about("1", "root mean square of the relative differences at the single speeds"))
+    together["error"] = (dims, np.stack(errors, axis=2), about("1", "relative difference of means over neighbouring speeds"))
+    what = "root mean square of the relative differences at the single speeds"
+    together["scatter"] = (dims, np.stack(scatters, axis=2), about("1", what))
     together["peak_speed_error"] = (dims[:2], speed_error, about("1", "relative difference of the rms-weighted mean speed"))
     return together
 
@@ -102,7 +99,7 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[i
     dims = ("case", "scene", "speed_number")
     shape = (len(cases), len(scenes), len(speeds))
     data = {name: np.full(shape, np.nan) for name in (*QUANTITIES, "status", "energy_residual")}
-    costs = {name: np.full(shape[:2], np.nan) for name in COSTS}
+    data |= {name: np.full(shape[:2], np.nan) for name in COSTS}
     of_model = {name: np.full(shape[:1], np.nan) for name in _OF_THE_MODEL}
     refused = np.full(shape[:2], "", dtype=object)
     for name, (case, scene) in names.items():
@@ -119,11 +116,10 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[i
                 data[quantity][at] = edge[quantity].values
             data["energy_residual"][at] = energy_share(response)
             for cost in COSTS:
-                costs[cost][at] = response[cost].mean() if cost in response else response.attrs[cost]
+                data[cost][at] = response[cost].mean() if cost in response else response.attrs[cost]
     units = {**QUANTITIES, **COSTS}
     together = xr.Dataset(
-        {name: (dims, array, about(units.get(name, "1"), name.replace("_", " "))) for name, array in data.items()}
-        | {name: (dims[:2], array, about(units[name], name.replace("_", " "))) for name, array in costs.items()}
+        {name: (dims[: array.ndim], array, about(units.get(name, "1"), name.replace("_", " "))) for name, array in data.items()}
         | {name: ("case", array) for name, array in of_model.items()}
         | {"refused": (dims[:2], refused)},
         {"scene": scenes, "place": ("speed_number", [place for place, several in places.items() for _ in several])},
@@ -134,26 +130,31 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[i
 
 
 def compare(ours: xr.Dataset, theirs: xr.Dataset, place: str) -> tuple[np.ndarray, np.ndarray]:
-    """Errors and scatter of one scene at one place, by QUANTITIES; NaN where the reference has nothing."""
+    """Errors and scatter at one place, shape (cases, scenes, QUANTITIES); NaN where the reference has nothing."""
     at = ours["place"].values == place
     errors, scatters = [], []
     for name in QUANTITIES:
-        x, y = ours[name].values[at], theirs[name].values[at]
-        errors.append(abs(x.mean() / y.mean() - 1.0) if y.mean() > 0.0 else np.nan)
-        scatters.append(np.sqrt(np.mean((x / y - 1.0) ** 2)) if np.all(y > 0.0) else np.nan)
-    return np.array(errors), np.array(scatters)
+        x, y = (np.compress(at, each[name].values, axis=-1) for each in (ours, theirs))
+        mean, positive = y.mean(axis=-1), np.all(y > 0.0, axis=-1, keepdims=True)
+        errors.append(abs(x.mean(axis=-1) / np.where(mean > 0.0, mean, np.nan) - 1.0))
+        scatters.append(np.sqrt(np.mean((x / np.where(positive, y, np.nan) - 1.0) ** 2, axis=-1)))
+    return np.stack(errors, axis=-1), np.stack(scatters, axis=-1)
 
 
-def centre_of_peak(case: xr.Dataset) -> float:
-    """Mean speed (rad/s) over peak and jump, weighted with the squared rms: moves smoothly where the largest one jumps."""
-    at = np.isin(case["place"].values, ["peak", "jump"])
-    weight = case["rms_normal"].values[at] ** 2 + case["rms_tangential"].values[at] ** 2
-    return float((case["speed"].values[at] * weight).sum() / weight.sum())
+def centre_of_peak(cases: xr.Dataset) -> np.ndarray:
+    """Mean speeds (rad/s) over peak and jump, weighted with the squared rms: smooth where the largest one jumps.
+
+    Shape (cases, scenes).
+    """
+    at = np.isin(cases["place"].values, ["peak", "jump"])
+    weight = np.compress(at, cases["rms_normal"].values ** 2 + cases["rms_tangential"].values ** 2, axis=-1)
+    return (cases["speed"].values[at] * weight).sum(axis=-1) / weight.sum(axis=-1)
 
 
 def level_error(together: xr.Dataset, value: str, quantities: Iterable[str] = CONVERGING) -> float:
     """Error of a fidelity level: the largest at the peak, over scenes and `quantities`."""
-    case = together.isel(case=(together["parameter"].values == LEVEL) & (together["value"].values == value))
+    levels = _cases_of(together, LEVEL)
+    case = levels.isel(case=levels["value"].values == value)
     return float(case["error"].sel(at="peak", quantity=list(quantities)).max())
 
 
@@ -163,11 +164,15 @@ def parameter_tables(together: xr.Dataset, references: Mapping[str, str]) -> str
     head += ["peak speed", "rms, normal, off resonance", "CPU s", "MB", "kB written"]
     tables = []
     for parameter in dict.fromkeys(together["parameter"].values):
-        cases = together.isel(case=np.flatnonzero(together["parameter"].values == parameter))
+        cases = _cases_of(together, parameter)
         rows = [_cells(cases.isel(case=row).sel(scene=scene)) for row in range(cases.sizes["case"]) for scene in cases["scene"]]
         heading = f"### {parameter.replace('_', ' ')} (reference: {references[parameter]})"
         tables.append(f"{heading}\n\n{markdown_table(head, rows)}")
     return "\n".join(tables)
+
+
+def _cases_of(together: xr.Dataset, parameter: str) -> xr.Dataset:
+    return together.isel(case=together["parameter"].values == parameter)
 
 
 def _cells(case: xr.Dataset) -> list[str]:
@@ -189,28 +194,26 @@ def _percent(value: xr.DataArray) -> str:
 def level_table(together: xr.Dataset, tolerance: float) -> str:
     """The levels' errors and costs, and the one recommended for the tolerance."""
     rows = np.flatnonzero(together["parameter"].values == LEVEL)
-    names = [str(together["value"].values[row]) for row in rows]
-    errors = {name: level_error(together, name) for name in names}
-    costs = {name: float(together["cpu_s"].isel(case=row).mean()) for name, row in zip(names, rows, strict=True)}
-    models = [f"{float(together['model_cpu_s'].isel(case=row)):.0f}" for row in rows]
+    levels = {str(together["value"].values[row]): together.isel(case=row) for row in rows}
+    errors = {name: level_error(together, name) for name in levels}
+    costs = {name: float(level["cpu_s"].mean()) for name, level in levels.items()}
     cells = [
         [
             f"`{name}`",
             f"{100 * errors[name]:.1f}%",
             f"{costs[name]:.2f}",
-            model,
+            f"{float(level['model_cpu_s']):.0f}",
             f"{100 * level_error(together, name, MAXIMA):.1f}%",
         ]
-        for name, model in zip(names, models, strict=True)
+        for name, level in levels.items()
     ]
     head = ["level", "error at the peak", "CPU s per run", "building the model, CPU s", "largest values differ by"]
-    table = markdown_table(head, cells)
     chosen = recommended_level(errors, costs, tolerance)
     if chosen is None:
         advice = f"No level is within the tolerance of {100 * tolerance:g}%: the best has {100 * min(errors.values()):.1f}%."
     else:
         advice = f"Recommended for a tolerance of {100 * tolerance:g}%: `{chosen}`."
-    return f"{table}\n{advice}\n"
+    return f"{markdown_table(head, cells)}\n{advice}\n"
 
 
 @dataclass(frozen=True)
@@ -229,15 +232,13 @@ def growths(together: xr.Dataset) -> list[Growth]:
     """All pairs whose parameter the study varied; costs are means over the scenes."""
     pairs = []
     for parameter, cost, of in PAIRS:
-        rows = np.flatnonzero(together["parameter"].values == parameter)
-        values = np.array([float(value) for value in together["value"].values[rows]])
-        costs = together[cost].isel(case=rows)
-        cost_of_value = costs.mean("scene").values if "scene" in costs.dims else costs.values
-        usable = np.isfinite(cost_of_value) & (cost_of_value > 0.0) & (values > 0.0)
-        if usable.sum() >= 3:
-            order = np.argsort(values[usable])
-            values, cost_of_value = values[usable][order], cost_of_value[usable][order]
-            pairs.append(Growth(parameter, cost, of, values, cost_of_value, exponent_of(values, cost_of_value)))
+        cases = _cases_of(together, parameter)
+        values = cases["value"].values.astype(float)
+        costs = cases[cost].mean("scene").values if "scene" in cases[cost].dims else cases[cost].values
+        usable = np.flatnonzero(np.isfinite(costs) & (costs > 0.0) & (values > 0.0))
+        if len(usable) >= 3:
+            rows = usable[np.argsort(values[usable])]
+            pairs.append(Growth(parameter, cost, of, values[rows], costs[rows], exponent_of(values[rows], costs[rows])))
     return pairs
 
 
@@ -260,22 +261,20 @@ def growth_table(pairs: list[Growth]) -> str:
 
 def draw_parameter(together: xr.Dataset, parameter: str) -> Figure:
     """Errors at the peak and the CPU time per run over one parameter's values, one column per scene."""
-    rows = np.flatnonzero(together["parameter"].values == parameter)
-    labels = [str(value) for value in together["value"].values[rows]]
-    scenes = together["scene"].values
+    varied, scenes = _cases_of(together, parameter), together["scene"].values
+    labels = [str(value) for value in varied["value"].values]
     figure, panels = plt.subplots(2, len(scenes), figsize=(4.6 * len(scenes), 5.2), sharex=True, sharey="row", squeeze=False)
-    for column, scene in enumerate(scenes):
-        cases = together.isel(case=rows).sel(scene=scene)
+    for scene, errors, costs in zip(scenes, *panels, strict=True):
+        cases = varied.sel(scene=scene)
         for name in QUANTITIES:
             error = cases["error"].sel(at="peak", quantity=name).values
             if np.any(np.isfinite(error)):
-                panels[0, column].plot(labels, np.maximum(error, _FLOOR), "o-", label=name.replace("_", " "))
-        panels[0, column].set_yscale("log")
-        panels[0, column].set_title(str(scene), fontsize=9)
-        panels[1, column].plot(labels, cases["cpu_s"].values, "s-", color="0.3")
-        panels[1, column].set_yscale("log")
-        panels[1, column].set_xlabel(parameter.replace("_", " "))
-        panels[1, column].tick_params(axis="x", rotation=30)
+                errors.plot(labels, np.maximum(error, _FLOOR), "o-", label=name.replace("_", " "))
+        errors.set_yscale("log")
+        errors.set_title(str(scene), fontsize=9)
+        costs.plot(labels, cases["cpu_s"].values, "s-", color="0.3")
+        costs.set(yscale="log", xlabel=parameter.replace("_", " "))
+        costs.tick_params(axis="x", rotation=30)
     panels[0, 0].set_ylabel("relative error of the mean at the peak")
     panels[1, 0].set_ylabel("CPU s per run")
     figure.legend(*style.legend_entries(panels[0]), loc="outside lower center", ncols=6)
@@ -286,10 +285,9 @@ def draw_pareto(together: xr.Dataset) -> Figure:
     """Error of the normal rms at the peak over CPU time per run, all parameters; levels stand out."""
     scenes = together["scene"].values
     figure, panels = plt.subplots(1, len(scenes), figsize=(5.4 * len(scenes), 4.6), sharey=True, squeeze=False)
-    parameters = list(dict.fromkeys(together["parameter"].values))
     for axes, scene in zip(panels[0], scenes, strict=True):
-        for number, parameter in enumerate(parameters):
-            cases = together.isel(case=np.flatnonzero(together["parameter"].values == parameter)).sel(scene=scene)
+        for number, parameter in enumerate(dict.fromkeys(together["parameter"].values)):
+            cases = _cases_of(together, parameter).sel(scene=scene)
             error = np.maximum(cases["error"].sel(at="peak", quantity="rms_normal").values, _FLOOR)
             level = parameter == LEVEL
             marker = "*" if level else "osv^Dx+"[number % 7]

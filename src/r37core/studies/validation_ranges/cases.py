@@ -46,16 +46,16 @@ def _scenes(settings: Settings, kind: str) -> dict[str, Scene]:
     """The `lined` or the `direct` scene without tolerances, and as each member has it."""
     entry = scene_entry_of(settings, scene_name(settings, kind))
     numbers, tolerances, scenes = scene_numbers(entry), _tolerances(settings), {NOMINAL: entry.scene()}
-    nominal = [numbers.get(key) for key in tolerances]
-    for member, point in _sample(settings, len(tolerances)).items():
+    nominal, section = [numbers.get(key) for key in tolerances], _section(settings)
+    for member, point in sobol_points(len(tolerances), section.members, section.seed).items():
+        if not is_of_sample(member):
+            continue
         values = dict(zip(tolerances, drawn(tolerances.values(), nominal, point), strict=True))
         try:
             scenes[member] = changed_scene(entry, {key: value for key, value in values.items() if value is not None})
         except ImpossibleValueError as error:
-            path, text = (
-                ("studies", "validation_ranges", "of_scenes", error.key),
-                f"member {member}: {error}; or a narrower tolerance",
-            )
+            path = ("studies", "validation_ranges", "of_scenes", error.key)
+            text = f"member {member}: {error}; or a narrower tolerance"
             raise settings.documents.config.error(path, text) from None
     return scenes
 
@@ -63,12 +63,6 @@ def _scenes(settings: Settings, kind: str) -> dict[str, Scene]:
 def _tolerances(settings: Settings) -> Mapping[str, Spread]:
     """Key of each number -> how it spreads; tolerances/checks.py has seen that the scenes have them."""
     return {key: entry.spread() for key, entry in _section(settings).of_scenes.items()}
-
-
-def _sample(settings: Settings, numbers: int) -> dict[str, tuple[float, ...]]:
-    section = _section(settings)
-    points = sobol_points(numbers, section.members, section.seed)
-    return {member: point for member, point in points.items() if is_of_sample(member)}
 
 
 def _section(settings: Settings) -> ValidationRangesSection:
