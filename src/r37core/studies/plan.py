@@ -14,7 +14,7 @@ from types import ModuleType
 from typing import Any, TypeVar
 
 from r37core.blade.definition import BladeDefinition
-from r37core.config import BladeSettings, ConfigError, SceneEntry, Settings, plain
+from r37core.config import BladeSettings, ConfigError, SceneEntry, Settings
 from r37core.config.study_sections import StabilitySection, TradeoffSection
 from r37core.contact.scene import Scene
 from r37core.fem.material import Material
@@ -184,11 +184,6 @@ def case_of_sweep(settings: Settings, blade: str, scene: str, **fields: Any) -> 
         "kept": kept_of(settings.fidelity),
     }
     return Case(**{**own, **fields})
-
-
-def plain_scene(settings: Settings, name: str) -> Mapping[str, Any]:
-    """A scene of the scenes file as plain values, to be changed and checked again."""
-    return plain(scene_entry_of(settings, name))
 
 
 def _known(kind: str, name: str, entries: Mapping[str, Entry]) -> Entry:

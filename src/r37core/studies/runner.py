@@ -114,8 +114,7 @@ class _Runs:
             self._follow()
 
     def _choice(self, speed: float) -> IntegrationChoice:
-        case = self.case
-        choice = case.choice
+        case, choice = self.case, self.case.choice
         if "stress" in case.results:
             snapshot_revolutions = choice.revolutions if speed in self.histories else choice.revolutions_in_statistic
             choice = replace(choice, snapshot_revolutions=snapshot_revolutions)

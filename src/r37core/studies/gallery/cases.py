@@ -51,11 +51,7 @@ ITEMS = (
         (r"^Ref lined at .*first yield", r"^direct at .*first yield", r"below yield", r"^at \d+: ", r"first contact$"),
     ),
     Item("stress", "Stress over speed", (r"^Ref 1B/4: width above yield", r"^direct: largest rms")),
-    Item(
-        "wear_content",
-        "Wear and its spatial content",
-        (r"^Ref 1B/\d: lobes", r"^Ref lined: worn through", r"^Ref lined: deepest wear"),
-    ),
+    Item("wear_content", "Wear and its spatial content", (r"^Ref 1B/\d: lobes", r"^Ref lined: (worn through|deepest wear)")),
     Item("variants", "Shapes of the variants", (r"^(?!Ref)\w+ 1B/4: Campbell$",)),
     Item("variants_spectra", "Spectral maps of the variants, with lining", (r"^(?!Ref)\w+ 1B/4: (engine order|lobes)",)),
     Item(

@@ -19,11 +19,10 @@ from r37core.figures.maps import draw_spectral_map
 from r37core.published import BLADES, INTERACTIONS, REFERENCE, VARIANTS, WIDTH_ABOVE_YIELD
 from r37core.results.measures import history_of, peak_of, width_above_yield
 
-from ..modelling_choices.figures import draw_blades, draw_histories, draw_reference
+from ..modelling_choices.figures import SCENES, draw_blades, draw_histories, draw_reference
 from ..modelling_choices.validation import Runs
 from .cases import COARSE, FINE
 
-_LABELS = {"lined": "abradable lining", "direct": "direct contact"}
 _DECADES = 4.0
 _DOTS_PER_INCH = 120
 """So that the pages of docs/ stay small."""
@@ -63,7 +62,7 @@ def gallery_figures(data: GalleryData) -> dict[str, Callable[[str], None]]:
         "peak_histories": lambda: draw_peak_histories(data.shipped),
         "widths": lambda: draw_widths(data.shipped),
     }
-    for kind, label in _LABELS.items():
+    for kind, (label, _) in SCENES.items():
         drawn[f"spectrum_{kind}"] = partial(draw_spectral_map, data.swept[REFERENCE, kind], campbell, f"{REFERENCE}, {label}")
     return {name: partial(_save, draw) for name, draw in drawn.items()}
 
@@ -87,7 +86,7 @@ def draw_revolution(stress: np.ndarray, speed: float) -> Figure:
 def draw_stress_over_speed(survey: Runs) -> Figure:
     """Largest stress of the last revolution of the reference blade in both scenes, with the yield line."""
     figure, axes = plt.subplots(figsize=(style.PAGE, 3.0))
-    for kind, label in _LABELS.items():
+    for kind, (label, _) in SCENES.items():
         run = survey[f"Ref_{kind}"]
         axes.semilogy(run["speed"], 1e-9 * run["max_von_mises"], marker=".", markersize=2, linewidth=0.9, label=label)
     style.yield_lines(axes, {REFERENCE: float(survey["Ref_lined"]["yield_stress"])}, named=True)

@@ -106,20 +106,14 @@ def verdict(checks: Sequence[Check]) -> str:
     """What agrees with the published values, what does not, and what is ours alone, each as a list."""
     scored = [check for check in checks if check.published is not None]
     agreeing, differing = ([check for check in scored if check.agrees == agrees] for agrees in (True, False))
-    parts = []
-    if agreeing:
-        items = [_one(check) for check in agreeing] if len(agreeing) <= _LISTED else [_summed(agreeing)]
-        parts.append(_listed(f"**Agrees** ({len(agreeing)} of {len(scored)}):", items))
-    if differing:
-        parts.append(_listed("**Does not agree**:", [_one(check) for check in differing]))
-    alone = [f"{check.name} {_with_unit(check)}" for check in checks if check.published is None]
-    if alone:
-        parts.append(_listed("Ours alone:", alone))
-    return "\n\n".join(parts)
-
-
-def _listed(head: str, items: Sequence[str]) -> str:
-    return "\n".join([head, "", *(f"- {item}" for item in items)])
+    groups = {
+        f"**Agrees** ({len(agreeing)} of {len(scored)}):": list(map(_one, agreeing))
+        if len(agreeing) <= _LISTED
+        else [_summed(agreeing)],
+        "**Does not agree**:": list(map(_one, differing)),
+        "Ours alone:": [f"{check.name} {_with_unit(check)}" for check in checks if check.published is None],
+    }
+    return "\n\n".join("\n".join([head, "", *(f"- {item}" for item in items)]) for head, items in groups.items() if items)
 
 
 def _one(check: Check) -> str:

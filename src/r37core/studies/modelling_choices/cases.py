@@ -10,14 +10,14 @@ from dataclasses import dataclass, field, replace
 from math import ceil, floor
 from typing import Any
 
-from r37core.config import Settings, checked_scene
+from r37core.config import Settings, checked_scene, plain
 from r37core.config.study_sections import SpeedSteps
 from r37core.contact.scene import Scene
 from r37core.plans import paths
 from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE
 
 from ..case import Case, ModelChoice, changed
-from ..plan import campbell_file, integration_of_level, kept_of, level_of, material_of, model_of_level, plain_scene
+from ..plan import campbell_file, integration_of_level, kept_of, level_of, material_of, model_of_level, scene_entry_of
 
 
 @dataclass(frozen=True)
@@ -176,7 +176,7 @@ def cases(settings: Settings) -> dict[str, Case]:
     planned = {}
     for name, choice in CHOICES.items():
         for window_name, window in windows(choice, steps).items():
-            entry = plain_scene(settings, scene_name(settings, window.kind))
+            entry = plain(scene_entry_of(settings, scene_name(settings, window.kind)))
             planned[f"{name}/{window_name}"] = case_in(settings, choice, window, checked_scene(changed(entry, choice.changes)))
     return planned
 

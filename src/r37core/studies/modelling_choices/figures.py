@@ -17,7 +17,9 @@ from r37core.results.measures import history_of, leading_edge, peak_speed
 from .cases import CHOICES, DIRECT
 from .validation import PEAK_WITHIN, Runs
 
-_SCENES = {"lined": ("abradable lining", "C0"), "direct": ("direct contact", "C1")}
+SCENES = {"lined": ("abradable lining", "C0"), "direct": ("direct contact", "C1")}
+"""Kind of scene -> its label and colour."""
+
 _DIRECTIONS = {"rms_normal": "normal to the casing", "rms_tangential": "tangential"}
 
 
@@ -28,7 +30,7 @@ def draw_reference(survey: Runs, shipped: Runs) -> Figure:
     figure, panels = plt.subplots(2, 1, figsize=(style.PAGE, 5.0), sharex=True)
     for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
         for scene, run in runs.items():
-            label, color = _SCENES[scene]
+            label, color = SCENES[scene]
             axes.semilogy(run["speed"], 1e3 * run[name], color=color, linewidth=1.1, label=label)
         for row in INTERACTIONS:
             if row.blade == "Ref":
@@ -89,7 +91,7 @@ def draw_histories(shipped: Runs) -> Figure:
     figure, panels = plt.subplots(1, 3, figsize=(style.PAGE, 2.9), sharey=True)
     for axes, speed in zip(panels, (INTERACTIONS[0].peak, DIRECT_PEAK, QUIET), strict=True):
         for scene, run in runs.items():
-            label, color = _SCENES[scene]
+            label, color = SCENES[scene]
             history = 1e-9 * history_of(run, speed)
             shown = np.where(history > 0.0, history, np.nan)
             axes.semilogy(run["revolution"], shown, color=color, linewidth=1.2, label=label)

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from r37core.config import ConfigError, Settings, checked_scene
+from r37core.config import ConfigError, Settings, checked_scene, plain
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 from ..case import Case, changed
-from ..plan import blade_name_of, integration_of_level, kept_of, level_of, material_of, model_of_level, plain_scene
+from ..plan import blade_name_of, integration_of_level, kept_of, level_of, material_of, model_of_level, scene_entry_of
 
 HALF = "__half_step"
 """End of the name of an extreme's second case."""
@@ -89,11 +89,11 @@ def extremes(lined: str, direct: str) -> list[Extreme]:
 
 def cases(settings: Settings) -> dict[str, Case]:
     """Each extreme at three neighbouring speeds, and the same with half the step that it takes."""
-    by_name: dict[str, Case] = {}
+    planned: dict[str, Case] = {}
     for extreme in _extremes(settings):
         case = _case(settings, extreme)
-        by_name |= {extreme.name: case, f"{extreme.name}{HALF}": replace(case, half_step=True)}
-    return by_name
+        planned |= {extreme.name: case, f"{extreme.name}{HALF}": replace(case, half_step=True)}
+    return planned
 
 
 def _extremes(settings: Settings) -> list[Extreme]:
@@ -102,7 +102,7 @@ def _extremes(settings: Settings) -> list[Extreme]:
 
 
 def _case(settings: Settings, extreme: Extreme) -> Case:
-    section, entry = settings.studies.stability, plain_scene(settings, extreme.scene)
+    section, entry = settings.studies.stability, plain(scene_entry_of(settings, extreme.scene))
     blade = blade_name_of(settings, section)
     scene, refused = None, ""
     try:

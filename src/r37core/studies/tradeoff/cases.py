@@ -79,7 +79,7 @@ def _case(settings: Settings, section: TradeoffSection, parameter: str, value: s
         model_of_level(settings, level),
         entry.scene(),
         integration_of_level(settings, level, entry.scene()),
-        speeds=tuple(sorted({share for shares in shares_of(section).values() for share in shares})),
+        speeds=tuple(_every_share(section)),
         results=("energy", "spectrum", "stress", *as_the_scene, "instants", *(["wear"] if entry.scene().lining else [])),
         material=material_of(settings, blade),
         kept=kept_of(level_of(settings, level)),
@@ -93,11 +93,9 @@ def shares_of(section: TradeoffSection) -> dict[str, list[float]]:
     return {name: np.linspace(place.first, place.last, place.speeds).tolist() for name, place in section.places}
 
 
-def _rows_of(section: TradeoffSection) -> dict[str, list[int]]:
-    """Where the speeds of each place stand among all of a case, which are ascending; places may share speeds."""
-    shares = shares_of(section)
-    every = sorted({share for of_place in shares.values() for share in of_place})
-    return {name: [every.index(share) for share in of_place] for name, of_place in shares.items()}
+def _every_share(section: TradeoffSection) -> list[float]:
+    """Speeds of all places, which may share some, ascending."""
+    return sorted({share for shares in shares_of(section).values() for share in shares})
 
 
 def values_of(settings: Settings) -> dict[str, list[str]]:
@@ -118,10 +116,11 @@ def values(settings: Settings) -> dict[str, Any]:
     """Which speeds lie at each place, reference values, and what the levels are held against."""
     section = settings.studies.tradeoff
     assert section is not None
+    every = _every_share(section)
     return {
         "blade": blade_name_of(settings, section),
         "base_level": section.base,
-        "places": _rows_of(section),
+        "places": {name: [every.index(share) for share in shares] for name, shares in shares_of(section).items()},
         "references": {name: _text(entry.reference) for name, entry in section.parameters.varied().items()},
         "tolerance": settings.config.tolerance,
     }
