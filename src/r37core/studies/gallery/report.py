@@ -106,11 +106,10 @@ def verdict(checks: Sequence[Check]) -> str:
     """What agrees with the published values, what does not, and what is ours alone, each as a list."""
     scored = [check for check in checks if check.published is not None]
     agreeing, differing = ([check for check in scored if check.agrees == agrees] for agrees in (True, False))
+    agreed = [_summed(agreeing)] if len(agreeing) > _LISTED else [_one(check) for check in agreeing]
     groups = {
-        f"**Agrees** ({len(agreeing)} of {len(scored)}):": list(map(_one, agreeing))
-        if len(agreeing) <= _LISTED
-        else [_summed(agreeing)],
-        "**Does not agree**:": list(map(_one, differing)),
+        f"**Agrees** ({len(agreeing)} of {len(scored)}):": agreed,
+        "**Does not agree**:": [_one(check) for check in differing],
         "Ours alone:": [f"{check.name} {_with_unit(check)}" for check in checks if check.published is None],
     }
     return "\n\n".join("\n".join([head, "", *(f"- {item}" for item in items)]) for head, items in groups.items() if items)
