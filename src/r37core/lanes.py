@@ -60,13 +60,16 @@ def _shuffle(builder: Any, a: Any, b: Any, numbers: list[int]) -> Any:
     return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(_INTEGER, LANES), numbers))
 
 
+def _in_every_lane(builder: Any, kind: ir.VectorType, number: Any) -> Any:
+    single = builder.insert_element(ir.Constant(kind, ir.Undefined), number, _INTEGER(0))
+    return _shuffle(builder, single, single, [0] * LANES)
+
+
 def _spread(context: Any, builder: Any, kind: types.Type, value: Any) -> Any:
     """Lanes as they are, a number in every lane."""
     if kind == _lanes:
         return value
-    number = context.cast(builder, value, kind, types.float64)
-    single = builder.insert_element(ir.Constant(_NUMBERS, ir.Undefined), number, _INTEGER(0))
-    return _shuffle(builder, single, single, [0] * LANES)
+    return _in_every_lane(builder, _NUMBERS, context.cast(builder, value, kind, types.float64))
 
 
 def _of_lanes(symbol: Callable, result: types.Type, count: int, build: Callable) -> None:
@@ -89,20 +92,15 @@ def _of_lanes(symbol: Callable, result: types.Type, count: int, build: Callable)
         lower_builtin(symbol, *kinds)(lower)
 
 
-def _intrinsic_of_llvm(name: str) -> Callable:
-    def build(builder: Any, value: Any) -> Any:
-        kind = ir.FunctionType(_NUMBERS, [_NUMBERS])
-        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{LANES}f64"), [value])
-
-    return build
+def _call_llvm(builder: Any, name: str, *values: Any) -> Any:
+    kind = ir.FunctionType(_NUMBERS, [_NUMBERS] * len(values))
+    return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{LANES}f64"), values)
 
 
 def _fused(builder: Any, product: Any, negative: bool, addend: Any) -> Any:
     """A product, or its negative, and what is added to it, rounded once; twice on a processor that cannot."""
     first, second = product.operands
-    kind = ir.FunctionType(_NUMBERS, [_NUMBERS] * 3)
-    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.fmuladd.v{LANES}f64")
-    return builder.call(function, [builder.fneg(first) if negative else first, second, addend])
+    return _call_llvm(builder, "fmuladd", builder.fneg(first) if negative else first, second, addend)
 
 
 def _is_product(value: Any) -> bool:
@@ -121,6 +119,10 @@ def _subtract(builder: Any, a: Any, b: Any) -> Any:
     return _fused(builder, b, True, a) if _is_product(b) else builder.fsub(a, b)
 
 
+def _larger(builder: Any, a: Any, b: Any) -> Any:
+    return builder.select(builder.fcmp_ordered(">", a, b), a, b)
+
+
 for _symbols, _build in {
     (operator.add, operator.iadd): _add,
     (operator.sub, operator.isub): _subtract,
@@ -132,9 +134,9 @@ for _symbols, _build in {
 _of_lanes(operator.neg, _lanes, 1, lambda builder, a: builder.fneg(a))
 _of_lanes(operator.lt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered("<", a, b))
 _of_lanes(operator.gt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered(">", a, b))
-_of_lanes(np.maximum, _lanes, 2, lambda builder, a, b: builder.select(builder.fcmp_ordered(">", a, b), a, b))
-_of_lanes(np.sqrt, _lanes, 1, _intrinsic_of_llvm("sqrt"))
-_of_lanes(np.abs, _lanes, 1, _intrinsic_of_llvm("fabs"))
+_of_lanes(np.maximum, _lanes, 2, _larger)
+_of_lanes(np.sqrt, _lanes, 1, lambda builder, a: _call_llvm(builder, "sqrt", a))
+_of_lanes(np.abs, _lanes, 1, lambda builder, a: _call_llvm(builder, "fabs", a))
 
 
 @type_callable(np.where)
@@ -226,8 +228,7 @@ def flag_at(typingctx, number):
     def build(context, builder, sig, args):
         kind = ir.VectorType(ir.IntType(64), LANES)
         lane = context.cast(builder, args[0], sig.args[0], types.int64)
-        single = builder.insert_element(ir.Constant(kind, ir.Undefined), lane, _INTEGER(0))
-        return builder.icmp_signed("==", _shuffle(builder, single, single, [0] * LANES), ir.Constant(kind, list(range(LANES))))
+        return builder.icmp_signed("==", _in_every_lane(builder, kind, lane), ir.Constant(kind, list(range(LANES))))
 
     return _flags(number), build
 
@@ -239,11 +240,11 @@ def first_bit(typingctx, bits):
 
 
 @intrinsic
-def sums_of_lanes(typingctx, a, b, c, d, e, f, g, h):
-    """Lane k of the result is the sum of all lanes of the k-th argument: every stage halves the number of vectors."""
+def sums_of_lanes(typingctx, vectors):
+    """Lane k of the result is the sum of all lanes of the k-th vector of a tuple: every stage halves their number."""
 
     def build(context, builder, sig, args):
-        sums, half = list(args), LANES // 2
+        sums, half = cgutils.unpack_tuple(builder, args[0]), LANES // 2
         while half:
             upper = [LANES * bool(lane & half) for lane in range(LANES)]
             kept = [lane + upper[lane] for lane in range(LANES)]
@@ -253,36 +254,28 @@ def sums_of_lanes(typingctx, a, b, c, d, e, f, g, h):
             half //= 2
         return sums[0]
 
-    return _lanes(*[_lanes] * LANES), build
+    return _lanes(vectors), build
+
+
+def _joined(builder: Any, join: Callable, lanes: Any) -> Any:
+    """All lanes, joined to one number: every stage halves how many differ."""
+    half = LANES // 2
+    while half:
+        lanes = join(builder, lanes, _shuffle(builder, lanes, lanes, [lane ^ half for lane in range(LANES)]))
+        half //= 2
+    return builder.extract_element(lanes, _INTEGER(0))
 
 
 @intrinsic
 def sum_of_lanes(typingctx, value):
     """The sum of all lanes."""
-
-    def build(context, builder, sig, args):
-        total, half = args[0], LANES // 2
-        while half:
-            total = builder.fadd(total, _shuffle(builder, total, total, [lane ^ half for lane in range(LANES)]))
-            half //= 2
-        return builder.extract_element(total, _INTEGER(0))
-
-    return types.float64(value), build
+    return types.float64(value), lambda context, builder, sig, args: _joined(builder, ir.IRBuilder.fadd, args[0])
 
 
 @intrinsic
 def largest_of_lanes(typingctx, value):
     """The largest of all lanes, none of which is NaN."""
-
-    def build(context, builder, sig, args):
-        largest, half = args[0], LANES // 2
-        while half:
-            other = _shuffle(builder, largest, largest, [lane ^ half for lane in range(LANES)])
-            largest = builder.select(builder.fcmp_ordered(">", largest, other), largest, other)
-            half //= 2
-        return builder.extract_element(largest, _INTEGER(0))
-
-    return types.float64(value), build
+    return types.float64(value), lambda context, builder, sig, args: _joined(builder, _larger, args[0])
 
 
 @intrinsic
@@ -322,21 +315,17 @@ numbers_at, integers_at = _elements_at(types.float64), _elements_at(types.int64)
 """The doubles, or integers, that begin at an address, which is an integer of a record."""
 
 
+def _same_address(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    return builder.bitcast(args[0], context.get_value_type(sig.return_type))
+
+
 @intrinsic
 def numbers_of(typingctx, record):
     """The doubles that a record begins with."""
-
-    def build(context, builder, sig, args):
-        return builder.bitcast(args[0], context.get_value_type(sig.return_type))
-
-    return types.CPointer(types.float64)(record), build
+    return types.CPointer(types.float64)(record), _same_address
 
 
 @intrinsic
 def pointed_at(typingctx, pointer):
     """The record that a pointer points at, not a copy of it."""
-
-    def build(context, builder, sig, args):
-        return builder.bitcast(args[0], context.get_value_type(sig.return_type))
-
-    return pointer.dtype(pointer), build
+    return pointer.dtype(pointer), _same_address

@@ -84,8 +84,8 @@ def object_code(assembly: str, symbol: str, name: str) -> bytes:
     module.get_function(symbol).name = name
     machine = _target_machine(opt=3, reloc="pic", codemodel="small")
     _drop_unreached(module, machine)
-    outside = [f.name for f in module.functions if f.is_declaration and not f.name.startswith("llvm.")]
-    missing = [function for function in outside if not _in_process(function)]
+    process, outside = ctypes.CDLL(None), [f.name for f in module.functions if f.is_declaration]
+    missing = [name for name in outside if not name.startswith("llvm.") and not hasattr(process, name)]
     if missing:
         raise ObjectCodeError(f"{name} needs {', '.join(missing)}, which only its compiler has")
     return machine.emit_object(module)
@@ -125,7 +125,3 @@ def _drop_unreached(module: llvm.ModuleRef, machine: llvm.TargetMachine) -> None
     passes.add_simplify_cfg_pass()
     passes.add_global_dead_code_eliminate_pass()
     passes.run(module, llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options()))
-
-
-def _in_process(function: str) -> bool:
-    return hasattr(ctypes.CDLL(None), function)

@@ -7,26 +7,21 @@ casing's motion has the same bits in all. Its work and loss count in the first r
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numba import types
 
 from r37core.alignment import LANES
-from r37core.lanes import OPTIONS, inlined, load, pointed_at, spread, store, sum_of_lanes
-from r37core.native import object_code
-from r37core.program_constants import with_constants
+from r37core.lanes import inlined, load, pointed_at, spread, store, sum_of_lanes
 
 from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, release_contact
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
 from .kind import Kind
-from .layout import MODAL_ROWS, Capacity, constants_record, integration_record
+from .layout import Capacity
+from .program import address_of, compile_loop
 from .ring_steps import turn_jump, turn_step
 from .segment_steps import begin_segment, end_segment
 from .steps import leave_casing, list_pressed, measure_gaps, mode_lanes, node_lanes, predict, push_lanes, record, sum_pushes
-
-OTHERS = 0
-"""How many constants of a speed are not of modes."""
 
 
 @inlined
@@ -130,7 +125,7 @@ def _integrate(addresses, blades):
     place = first.call.first_step % first.steps_per_revolution
     interval = place // steps_per_block * coarse_per_block
     for b in range(blades):
-        begin_segment(pointed_at(addresses[b]), zero, OTHERS)
+        begin_segment(pointed_at(addresses[b]), zero)
     while done < first.call.blocks and within:
         start = first.call.first_step + done * steps_per_block
         remaining = 0.0 if at_once else np.exp(-first.casing.rise * (start + first.call.ahead))
@@ -195,8 +190,5 @@ def _integrate(addresses, blades):
 
 def compile_lockstep(capacity: Capacity, kind: Kind) -> bytes:
     """Object code of `advance(records, count)`: a function of the records' addresses, that returns the blocks of steps done."""
-    others = constants_record(*capacity).itemsize // 8 - MODAL_ROWS * capacity.modes
-    integrate = with_constants(_integrate, kind.constants | {"OTHERS": others})
-    records = types.CPointer(types.CPointer(numba.from_dtype(integration_record(capacity))))
-    advance = numba.cfunc(types.int64(records, types.int64), **OPTIONS)(integrate.py_func)
-    return object_code(advance.inspect_llvm(), advance.native_name, "advance")
+    records = types.CPointer(address_of(capacity))
+    return compile_loop(_integrate, types.int64(records, types.int64), capacity, kind)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numba
 import numpy as np
 from numba import types
@@ -18,9 +20,6 @@ from .layout import MODAL_ROWS, Capacity, constants_record, integration_record
 from .ring_steps import turn_jump, turn_step
 from .segment_steps import begin_segment, end_segment
 from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, node_lanes, predict, record
-
-OTHERS = 0
-"""How many constants of a speed are not of modes."""
 
 
 @inlined
@@ -43,7 +42,7 @@ def _integrate(address):
     while done < m.call.blocks:
         begins = done == until
         if begins:
-            until += begin_segment(m, segment, OTHERS)
+            until += begin_segment(m, segment)
         start = m.call.first_step + done * m.steps_per_block
         remaining = 0.0 if at_once else np.exp(-m.casing.rise * (start + m.call.ahead))
         if place == 0 or begins:
@@ -115,9 +114,18 @@ def _integrate(address):
 
 def compile_integration(capacity: Capacity, kind: Kind) -> bytes:
     """Object code of `advance(record)`: a function of the record's address that returns the blocks of steps done."""
+    return compile_loop(_integrate, types.int64(address_of(capacity)), capacity, kind)
+
+
+def address_of(capacity: Capacity) -> types.CPointer:
+    """The type of a record's address."""
+    return types.CPointer(numba.from_dtype(integration_record(capacity)))
+
+
+def compile_loop(integrate: Any, signature: Any, capacity: Capacity, kind: Kind) -> bytes:
+    """Object code of a loop over steps of this signature, called `advance`."""
     others = constants_record(*capacity).itemsize // 8 - MODAL_ROWS * capacity.modes
-    integrate = with_constants(_integrate, kind.constants | {"OTHERS": others})
+    integrate = with_constants(integrate, kind.constants | {"OTHERS": others})
     # the loop itself, not a function around it: what a compiled function calls was optimised and emitted once already
-    signature = types.int64(types.CPointer(numba.from_dtype(integration_record(capacity))))
     advance = numba.cfunc(signature, **OPTIONS)(integrate.py_func)
     return object_code(advance.inspect_llvm(), advance.native_name, "advance")

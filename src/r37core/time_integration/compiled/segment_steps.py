@@ -11,29 +11,32 @@ from r37core.lanes import inlined, integers_at, load, numbers_at, numbers_of, st
 from .layout import MODAL_ROWS
 from .steps import mode_lanes
 
+OTHERS = 0
+"""How many constants of a speed are not of modes: a constant of each program (r37core.program_constants)."""
+
 
 @inlined
-def begin_segment(m, segment, others):
-    """Go on at the speed of a segment, with `others` constants that are not of modes; returns its blocks of steps."""
+def begin_segment(m, segment):
+    """Go on at the speed of a segment; returns its blocks of steps."""
     index = integers_at(m.call.speed_indices)[segment]
     if index != m.call.speed_index:
-        take_speed(m, index, others)
+        take_speed(m, index)
     put_motion(m, 2 * segment)
     return integers_at(m.call.lasting)[segment]
 
 
 @inlined
-def take_speed(m, index, others):
+def take_speed(m, index):
     """Take the constants of another speed, and write the motion's velocity as an increment at it."""
     for i in range(0, mode_lanes(m), LANES):
         of_displacement = load(m.speed.increment_by_displacement, i) * load(m.u, i)
         store(m.increment, i, (load(m.increment, i) - of_displacement) * load(m.speed.velocity_by_increment, i))
     own, table, modes, most = numbers_of(m), numbers_at(m.call.constants), mode_lanes(m), len(m.u)
-    first = index * (MODAL_ROWS * modes + others)
+    first = index * (MODAL_ROWS * modes + OTHERS)
     for row in range(MODAL_ROWS):
         for i in range(0, modes, LANES):
             store(own, row * most + i, load(table, first + row * modes + i))
-    for i in range(0, others, LANES):
+    for i in range(0, OTHERS, LANES):
         store(own, MODAL_ROWS * most + i, load(table, first + MODAL_ROWS * modes + i))
     for k in range(m.nodes):
         m.problem.diagonal[k] = m.speed.columns[k, k]

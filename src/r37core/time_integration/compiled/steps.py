@@ -56,7 +56,7 @@ def along(rows, direction, modal, g, used):
         x += load(rows, (direction, g + 5, i)) * amplitude
         y += load(rows, (direction, g + 6, i)) * amplitude
         z += load(rows, (direction, g + 7, i)) * amplitude
-    return sums_of_lanes(s, t, u, v, w, x, y, z)
+    return sums_of_lanes((s, t, u, v, w, x, y, z))
 
 
 @inlined
