@@ -32,7 +32,6 @@ from r37core.time_integration.rotor_simulation import BladesSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
-from r37core.time_integration.state import Schedule
 
 RESULTS = Path("results")
 FOLDER = RESULTS / "studies/rotor"
@@ -240,8 +239,7 @@ def one_time_grid(model, speed, scene, choice, number):
     outs, passages = [blade.room(0, samples) for blade in blades], []
     for blade, state, out in zip(blades, states, outs, strict=True):
         state.wear = states[0].wear
-        schedule = Schedule(np.zeros(1), np.zeros(1), len(state.displacement))
-        passages.append(Passage(blade.engine, state, out, schedule, in_parts=True))
+        passages.append(Passage(blade.engine, state, out))
     for _ in range(samples):
         for passage in passages:
             passage.go_on(1)

@@ -17,6 +17,7 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups import schedule
 from r37core.run_ups.choice import RunUpChoice
+from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.tables import safe_rates
 from r37core.stress.recovery import stress_operator
@@ -101,7 +102,8 @@ def accuracy_table():
         schedule.LARGEST_LEAD, schedule.LARGEST_STIFFENING = lead, stiffening
         choice_of_rate = RunUpChoice(0.98 * speed, 1.012 * speed, None, rate, None, choice.revolutions, 0, worn=False)
         run_up = choice_of_rate.run_up(choice.samples_per_revolution)
-        result = record_run_up(model, scene.scene, choice, run_up, (), highest_order=20, stress=None, yield_stress=np.inf)
+        integration = RunUpIntegration(model, scene.scene, choice, run_up)
+        result = record_run_up(integration, (), highest_order=20, stress=None, yield_stress=np.inf)
         return result["rms"][choice.revolutions :, 0, [0, 2]]
 
     for rate in ACCURACY_RATES:
@@ -137,9 +139,8 @@ def needed_rate(blade, settings, campbell, changes):
     rows = []
     for rate in RATES:
         run_up = replace(run_up_choice, rate=rate).of_blade(choice.samples_per_revolution, campbell.sel(blade=blade), VARIED)
-        result = record_run_up(
-            model, scene, choice, run_up, (), highest_order=20, stress=recovery, yield_stress=material.yield_stress
-        )
+        integration = RunUpIntegration(model, scene, choice, run_up)
+        result = record_run_up(integration, (), highest_order=20, stress=recovery, yield_stress=material.yield_stress)
         stress = float(result["max_von_mises"][run_up_choice.before :].max())
         rows.append({"rate_rad_s2": rate, "max_von_mises_pa": stress, "status": "completed"})
     safe = safe_rates(pd.DataFrame(rows).assign(yield_stress_pa=material.yield_stress))

@@ -316,7 +316,8 @@ def test_responses_have_the_clearance_and_the_stress_of_rotation(whole, steel, t
         tensors = nodal_stress(whole.stress_elements, whole.stress_submesh.points, alone[:, :, None], steel)
         assert found == pytest.approx(von_mises(tensors).max(), rel=1e-6)
     run_up, choice = RunUp(1000.0, 1500.0, 5.0, 1, 1, worn=False), replace(choice, revolutions=1)
-    kept = record_run_up(contact, scene, choice, run_up, results, highest_order=5, stress=recovery, yield_stress=1e9)
+    integration = RunUpIntegration(contact, scene, choice, run_up)
+    kept = record_run_up(integration, results, highest_order=5, stress=recovery, yield_stress=1e9)
     np.testing.assert_allclose(kept["max_von_mises"][[0, -1]], largest, rtol=1e-6)
     assert np.all(np.diff(kept["max_von_mises"]) >= 0.0)
 
@@ -334,10 +335,7 @@ def test_a_run_up_leaves_no_instant_out_that_has_the_largest_stress(whole, steel
     for largest in (shipped, of_all):
         monkeypatch.setattr(revolutions, "largest_stress", largest)
         kept = record_run_up(
-            contact,
-            growing(NARROW),
-            choice,
-            run_up,
+            RunUpIntegration(contact, growing(NARROW), choice, run_up),
             ["stress", "static_stress"],
             highest_order=5,
             stress=recovery,

@@ -78,7 +78,7 @@ def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
 
 def test_the_reference_slides_with_the_speed_of_each_segment(contact):
     problem = Simulation(contact, 1600.0, NARROW, replace(LONG, engine="reference")).problem
-    engine = Simulation.at_speeds(problem, np.array([1590.0, 1610.0]), None).engine
+    engine = Simulation.of_problem(problem, np.array([1590.0, 1610.0])).engine
     for place, speed in enumerate((1590.0, 1610.0)):
         engine.take(place)
         np.testing.assert_allclose(engine.rotation_velocity, problem.casing.rotation_velocity * speed / 1600.0, rtol=1e-14)
@@ -306,7 +306,8 @@ def _integral(slope, curvature, time):
 
 
 def recorded(model, scene, choice, run_up, results=("spectrum", "wear", "energy")):
-    return record_run_up(model, scene, choice, run_up, results, highest_order=8, stress=None, yield_stress=1e9)
+    integration = RunUpIntegration(model, scene, choice, run_up)
+    return record_run_up(integration, results, highest_order=8, stress=None, yield_stress=1e9)
 
 
 def test_modes_that_pass_the_highest_frequency_come_and_go(contact):

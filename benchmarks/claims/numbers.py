@@ -21,6 +21,7 @@ from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model
 from r37core.rom.reduction_choice import PATCHES
+from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
 from r37core.stress.recovery import stress_operator
@@ -72,7 +73,8 @@ def measured(root: Path) -> Numbers:
     run_up = RunUp(1690.0, 1700.0, float(_REVOLUTIONS), 2, 2, False)
     choice = replace(settings.integration_choice(_BLADE, "abradable", 1690.0), snapshot_revolutions=0)
     more = {"highest_order": 1, "stress": None, "yield_stress": np.inf}
-    numbers["run_up"] = _of_run(record_run_up(contact, settings.scenes["abradable"].scene, choice, run_up, (), **more))
+    integration = RunUpIntegration(contact, settings.scenes["abradable"].scene, choice, run_up)
+    numbers["run_up"] = _of_run(record_run_up(integration, (), **more))
     return {name: {key: float(f"{value:.9g}") for key, value in of.items()} for name, of in numbers.items()}
 
 

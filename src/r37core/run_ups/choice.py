@@ -119,24 +119,21 @@ class RunUpChoice:
         Raises RunUpError where there is no crossing, and for speeds beyond the diagram's.
         """
         try:
-            return self._of_blade(samples_per_revolution, campbell)
+            if self.crossing is None:
+                return self.run_up(samples_per_revolution)
+            assert campbell is not None
+            mode, order, highest = self.crossing.mode, self.crossing.engine_order, float(campbell["speed"].max())
+            speed = float(campbell["crossing_speed"].sel(mode=mode, engine_order=order))
+            if not np.isfinite(speed):
+                raise RunUpError(
+                    f"found a run-up about {mode} and engine order {order}, which do not cross up to {highest:g} rad/s; "
+                    "allowed: crossings of the Campbell diagram (`blades` of a run-up says which it is for)"
+                )
+            run_up = self.run_up(samples_per_revolution, speed)
+            check_highest(max(run_up.start, run_up.stop), highest)
+            return run_up
         except RunUpError as error:
             raise RunUpError(f"config.yaml: run_ups.{name}: {error}") from None
-
-    def _of_blade(self, samples_per_revolution: int, campbell: xr.Dataset | None) -> RunUp:
-        if self.crossing is None:
-            return self.run_up(samples_per_revolution)
-        assert campbell is not None
-        mode, order = self.crossing.mode, self.crossing.engine_order
-        speed, highest = float(campbell["crossing_speed"].sel(mode=mode, engine_order=order)), float(campbell["speed"].max())
-        if not np.isfinite(speed):
-            raise RunUpError(
-                f"found a run-up about {mode} and engine order {order}, which do not cross up to {highest:g} rad/s; "
-                "allowed: crossings of the Campbell diagram (`blades` of a run-up says which it is for)"
-            )
-        run_up = self.run_up(samples_per_revolution, speed)
-        check_highest(max(run_up.start, run_up.stop), highest)
-        return run_up
 
 
 def check_highest(speed: float, highest: float) -> None:

@@ -51,27 +51,29 @@ class RunUpIntegration:
     """A run-up as it goes: the `state` of the time integration, and the `velocity` of the modes, shape (modes,).
 
     `energy` (J): of the stepped modes; `stiffness_work` (J): what the change of the stiffness with the speed has brought to it.
-    Both are those of the last stage's end. `wear` (m), shape (rings, bars): of a lining that is worn at the beginning.
+    Both are those of the last stage's end.
 
     Raises what Problem raises at either end, with the steps of the lower speed, which are the longest; ValueError for a model
     with a Coriolis matrix: complex modes turn into each other as the speed changes.
     """
 
-    def __init__(
-        self, model: ContactModel, scene: Scene, choice: IntegrationChoice, run_up: RunUp, wear: np.ndarray | None = None
-    ):
+    def __init__(self, model: ContactModel, scene: Scene, choice: IntegrationChoice, run_up: RunUp):
         if model.coriolis is not None:
             raise ValueError("run-ups do not carry the Coriolis force")
         low, high = sorted((run_up.start, run_up.stop))
         check_room(model, scene, np.array([low, *scene.casing.growth_speeds, high]).clip(low, high))
         coarsest = resolved_problem(model, low, scene, choice)
-        self._model, self._scene = model, scene
-        self._choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.grid.steps_per_sample)
+        self.model, self.run_up, self._scene = model, run_up, scene
+        self.choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.grid.steps_per_sample)
         # between two speeds with a stable position there are only such
         self._of_ends: dict[float, Problem] = {}
         self._of_ends = {high: self._problem(high), low: coarsest}
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
         self.intervals = schedule(run_up, choice.samples_per_revolution, float(stiffening))
+        self.start()
+
+    def start(self, wear: np.ndarray | None = None) -> None:
+        """Put the blade at rest at the first speed, in a lining with this `wear` (m), shape (rings, bars), None: as new."""
         self._simulation: Simulation | None = None
         self.state = at_rest(self._problem(self.intervals[0].speed))
         if wear is not None:
@@ -81,7 +83,7 @@ class RunUpIntegration:
         self.energy = self.stiffness_work = 0.0
 
     def _problem(self, speed: float) -> Problem:
-        return self._of_ends.get(speed) or Problem(self._model, speed, self._scene, self._choice)
+        return self._of_ends.get(speed) or Problem(self.model, speed, self._scene, self.choice)
 
     @property
     def balance(self) -> dict[str, np.ndarray]:
@@ -95,19 +97,20 @@ class RunUpIntegration:
         """Do all segments; ends with some that say so when the run diverges."""
         state, modes = self.state, None
         for interval in self.intervals:
-            problem, distinct = self._problem(interval.speed), interval.distinct_speeds
+            problem, (distinct_speeds, of_segments) = self._problem(interval.speed), interval.distinct_speeds
             # in the memory of the one before
-            self._simulation = simulation = Simulation.at_speeds(problem, distinct.speeds, self._simulation)
+            before = None if self._simulation is None else self._simulation.engine
+            self._simulation = simulation = Simulation.of_problem(problem, distinct_speeds, before)
             constants, increments = simulation.segments, simulation.segments.increments
             assert increments is not None
             if modes is not None:
                 self._project(problem.blade.modes.T @ modes)
             modes = problem.blade.modes
-            simulation.engine.take(distinct.of_segments[0])
-            state.increment[:] = increments.increment(distinct.of_segments[0], state.displacement, self.velocity)
+            simulation.engine.take(of_segments[0])
+            state.increment[:] = increments.increment(of_segments[0], state.displacement, self.velocity)
             at_once = min(_AT_ONCE, revolutions_at_once(problem.grid.steps_per_revolution))
-            for part in interval.at_once(at_once * self._choice.samples_per_revolution):
-                indices, lasting = distinct.of_segments[part], interval.lasting[part]
+            for part in interval.at_once(at_once * self.choice.samples_per_revolution):
+                indices, lasting = of_segments[part], interval.lasting[part]
                 call, first = Schedule(indices, lasting, len(state.displacement)), state.samples
                 record = simulation.follow(state, call)
                 lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
@@ -118,7 +121,7 @@ class RunUpIntegration:
                 )
                 self.stiffness_work += float(begun[0] - self.energy + np.sum(begun[1:] - ended[:-1]))
                 self.energy = float(ended[-1])
-                speeds = np.repeat(distinct.speeds[indices], lasted)
+                speeds = np.repeat(distinct_speeds[indices], lasted)
                 yield IntegratedSegments(
                     speeds,
                     record.samples,

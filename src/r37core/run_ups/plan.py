@@ -89,7 +89,7 @@ class RunUps:
                 "scene": Simulations(self.sweep).plain_scene,
                 "choice": self.choice,
                 "run_up": self.run_up,
-                "results": self.results,
+                "results": lambda wildcards: list(self.sweep.results(wildcards)),
                 "highest_order": self.sweep.settings.fidelity.time_integration.spectrum_highest_order,
                 "yield_stress": self.sweep.yield_stress,
                 "provenance": made.sweep,
@@ -112,10 +112,6 @@ class RunUps:
         choice = self.sweep.settings.integration_choice(blade, scene, 0.0)
         before = self.choices[blade, scene][name].before
         return replace(choice, revolutions=before, snapshot_revolutions=before if choice.snapshots_per_revolution else 0)
-
-    def results(self, wildcards: Any) -> list[str]:
-        """What is wanted of the scene."""
-        return list(self.sweep.results(wildcards))
 
 
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:

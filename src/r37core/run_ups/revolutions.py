@@ -8,29 +8,21 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.linalg import block_diag
 
-from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
-from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.kept_numbers import amplitudes
+from r37core.time_integration.kept_numbers import KEPT, amplitudes, with_rotation
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
 from .integration import IntegratedSegments, RunUpIntegration
-from .schedule import RunUp
 
 _AT_ONCE, _INSTANTS_AT_ONCE = 32, 256
 """Revolutions that wait at most before they are reduced; instants whose stresses are in memory together."""
 
-_SPECTRA = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
-
 
 def record_run_up(
-    model: ContactModel,
-    scene: Scene,
-    choice: IntegrationChoice,
-    run_up: RunUp,
+    integration: RunUpIntegration,
     results: Sequence[str],
     *,
     highest_order: int,
@@ -44,19 +36,19 @@ def record_run_up(
     `amplitude` (m), shape (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion;
     `max_von_mises` (Pa) and `max_wear` (m, by the end of the constant-speed segment that the revolution ends in), shape
     (revolutions,). A run that diverges has the revolutions before it; one that does so while it wears the lining is that of
-    the lining as new. Raises what RunUpIntegration raises.
+    the lining as new.
     """
-    orders = highest_order if "spectrum" in results else None
-    wear, diverged = None, False
-    for _ in range(1 + run_up.worn):
-        integration, reached = RunUpIntegration(model, scene, choice, run_up, wear), 0
-        revolutions = _Revolutions(model, choice, orders, stress, "static_stress" in results)
+    orders, run_up, choice = highest_order if "spectrum" in results else None, integration.run_up, integration.choice
+    diverged = False
+    for repeats in range(1 + run_up.worn):
+        if repeats:
+            integration.start(integration.state.wear)
+        revolutions, reached = _Revolutions(integration.model, choice, orders, stress, "static_stress" in results), 0
         for segments in integration.segments():
             diverged, reached = segments.diverged, reached + len(segments.samples)
             revolutions.add(segments)
         if diverged:
             break
-        wear = integration.state.wear
     totals = integration.state.totals
     result = revolutions.joined() | {
         "status": np.array(int(RunStatus.DIVERGED if diverged else RunStatus.COMPLETED)),
@@ -108,7 +100,7 @@ class _Revolutions:
                 self._stress_of_shapes = self.stress.max_von_mises(self._to_stressed.T)
             numbers = segments.snapshots
             if self.static_stress:
-                numbers = np.hstack([numbers, rotation_amplitudes(self.model.rotation_stiffening, segments.snapshot_speeds)])
+                numbers = with_rotation(numbers, self.model, segments.snapshot_speeds)
             # of a sum of shapes the stress is no more than the sum of theirs
             self._wait(coordinates=numbers @ self._to_stressed.T, bound=np.abs(numbers) @ self._stress_of_shapes)
         waiting = sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution
@@ -144,7 +136,7 @@ class _Revolutions:
         }
         if self.highest_order is not None:
             # of the leading edge, its directions before the samples
-            motion = np.moveaxis(samples[:, :, 0, _SPECTRA], 1, 2)
+            motion = np.moveaxis(samples[:, :, 0, KEPT], 1, 2)
             reduced["amplitude"] = amplitudes(motion)[..., : self.highest_order + 1].astype(np.float32)
         if self.stress is not None:
             reduced["max_von_mises"] = largest_stress(self.stress, arrays["coordinates"], arrays["bound"])

@@ -61,13 +61,6 @@ class SpeedSegment(NamedTuple):
     samples: int
 
 
-class DistinctSpeeds(NamedTuple):
-    """Different `speeds` (rad/s), shape (speeds,), and which of them each segment has."""
-
-    speeds: np.ndarray
-    of_segments: np.ndarray
-
-
 @dataclass(frozen=True)
 class ModalInterval:
     """Constant-speed segments that are integrated in the modes of one `speed` (rad/s)."""
@@ -75,11 +68,10 @@ class ModalInterval:
     speed: float
     segments: tuple[SpeedSegment, ...]
 
-    @cached_property
-    def distinct_speeds(self) -> DistinctSpeeds:
-        """The speeds of the segments."""
-        speeds, of_segments = np.unique([segment.speed for segment in self.segments], return_inverse=True)
-        return DistinctSpeeds(speeds, of_segments)
+    @property
+    def distinct_speeds(self) -> tuple[np.ndarray, np.ndarray]:
+        """Different speeds (rad/s), shape (speeds,), and which of them each segment has, shape (segments,)."""
+        return np.unique([segment.speed for segment in self.segments], return_inverse=True)
 
     @cached_property
     def lasting(self) -> np.ndarray:

@@ -16,6 +16,7 @@ from r37core.time_integration.speed_file import write_speed
 
 from .choice import RunUpChoice
 from .dataset import write_run_ups
+from .integration import RunUpIntegration
 from .revolutions import record_run_up
 from .tables import rate_table, run_up_table
 
@@ -25,18 +26,14 @@ def record(input: Any, output: Any, params: Any) -> None:
 
     Params: scene, choice, run_up, name, results, highest_order, yield_stress, provenance.
     """
-    stress = read_stress_operator(input.stress) if hasattr(input, "stress") else None
     choice = from_plain(IntegrationChoice, params.choice)
     campbell = read_dataset(input.campbell) if hasattr(input, "campbell") else None
-    run_up = from_plain(RunUpChoice, params.run_up)
+    run_up = from_plain(RunUpChoice, params.run_up).of_blade(choice.samples_per_revolution, campbell, params.name)
     result = record_run_up(
-        read_contact_model(input.model),
-        from_plain(Scene, params.scene),
-        choice,
-        run_up.of_blade(choice.samples_per_revolution, campbell, params.name),
+        RunUpIntegration(read_contact_model(input.model), from_plain(Scene, params.scene), choice, run_up),
         params.results,
         highest_order=params.highest_order,
-        stress=stress,
+        stress=read_stress_operator(input.stress) if hasattr(input, "stress") else None,
         yield_stress=params.yield_stress,
     )
     write_speed(result, output.run_up, params.provenance)

@@ -10,7 +10,7 @@ import numpy as np
 from r37core.contact.casing import casing_axes
 
 from .casing_of_run import CasingOfRun
-from .gyroscopic import complex_recursion
+from .gyroscopic import ComplexRecursion
 from .integrators import Recursion, joined, recursion
 from .stepped_blade import SteppedBlade
 
@@ -40,7 +40,7 @@ class ContactOperators:
             ring, grid = self.casing.ring, self.blade.grid
             of_ring = recursion(grid.choice.integrator, ring.frequencies, ring.damping_ratios, grid.time_step)
             own = joined(own, of_ring)
-        return own if self.blade.complex_modes is None else complex_recursion(own)
+        return own if self.blade.complex_modes is None else ComplexRecursion(own.keep, own.pull, own.inverse, own.lost)
 
     @cached_property
     def _shapes(self) -> tuple[np.ndarray, np.ndarray]:

@@ -118,8 +118,3 @@ class ComplexRecursion(Recursion):
         kinetic = (self.lost * displacement + self.keep * increment) * increment
         elastic = self.pull * displacement * (displacement - increment)
         return np.sum((kinetic + elastic) * self.keep / (2.0 * self.inverse), axis=-1)
-
-
-def complex_recursion(recursion: Recursion) -> ComplexRecursion:
-    """A recursion as that of complex modes."""
-    return ComplexRecursion(recursion.keep, recursion.pull, recursion.inverse, recursion.lost)

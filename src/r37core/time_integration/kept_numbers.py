@@ -90,7 +90,8 @@ def stress_histories(
     shapes, and what follows a force at once is in proportion to the flexibility, 1/factor^2.
     """
     choice, per_revolution = problems[0].choice, problems[0].choice.snapshots_per_revolution
-    rotation = rotation_of(problems[0], static_stress)
+    model, speed = problems[0].model, problems[0].speed
+    rotation = rotation_amplitudes(model.rotation_stiffening, speed) if static_stress else np.empty(0)
     history = np.full((len(records), choice.snapshot_revolutions), np.nan, dtype=np.float32)
     groups: dict[tuple[int, int], list[int]] = {}
     for place, record in enumerate(records):
@@ -104,16 +105,11 @@ def stress_histories(
         for row, place in enumerate(places[1:], 1):
             states[row] = states[row].copy()
             states[row][:, stepped:] *= (factors[places[0]] / factors[place]) ** 2
-        shapes = problems[0].model.to_reduced @ contact.state_shapes
+        shapes = model.to_reduced @ contact.state_shapes
         joined = states[0] if len(states) == 1 else np.concatenate(states)
         largest = largest_of_revolutions(stress, joined, shapes, rotation, per_revolution)
         history[places, :revolutions] = largest.reshape(len(places), revolutions)
     return history
-
-
-def rotation_of(problem: Problem, static_stress: bool) -> np.ndarray:
-    """Amplitudes of rotation's shapes at the speed, none where its stress is not wanted."""
-    return rotation_amplitudes(problem.model.rotation_stiffening, problem.speed) if static_stress else np.empty(0)
 
 
 def casing_numbers(problem: Problem, record: SimulationRecord, highest_order: int) -> dict[str, np.ndarray]:

@@ -21,10 +21,6 @@ from .step_limit import UnstableStepError
 from .stepped_blade import SteppedBlade
 from .time_grid import TimeGrid
 
-NO_CORIOLIS = "central differences do not carry the Coriolis force; use the integrator exact_modal"
-NO_EXACT_GAP = "an elastic casing needs the linear gap: the exact one is that of a casing which keeps its shape"
-"""Why a problem is refused."""
-
 
 @dataclass(frozen=True, eq=False)
 class Problem:
@@ -45,9 +41,9 @@ class Problem:
 
     def __post_init__(self) -> None:
         if self.model.coriolis is not None and self.choice.integrator == CENTRAL_DIFFERENCE:
-            raise ValueError(NO_CORIOLIS)
+            raise ValueError("central differences do not carry the Coriolis force; use the integrator exact_modal")
         if self.scene.casing.ring and self.scene.exact_gap:
-            raise ValueError(NO_EXACT_GAP)
+            raise ValueError("an elastic casing needs the linear gap: the exact one is that of a casing which keeps its shape")
         self.grid.check_table(padded(len(self.model.theta)))
         check_ring(self.model, self.scene)
         check_room(self.model, self.scene, np.array([self.speed]))

@@ -16,19 +16,14 @@ from .problem import Problem, stable_problem
 from .step_checks import check_rotor_step
 from .step_limit import UnstableStepError
 
-NO_COUPLING = "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
-NO_CENTRAL_DIFFERENCES = "an elastic casing under a rotor needs the integrator exact_modal"
-NO_SHARED_RING = "one ring of bars per node (lining.rings: per_node)"
-"""What a rotor needs."""
-
 
 def refusal_of(scene: Scene) -> str | None:
     """What the blades of a scene's rotor need that it does not have, None where they can be run."""
     if scene.rotor is None:
         return None
-    if scene.lining is None:
-        return None if scene.casing.ring else NO_COUPLING
-    return NO_SHARED_RING if scene.lining.shared_ring else None
+    if scene.lining is None and not scene.casing.ring:
+        return "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
+    return "one ring of bars per node (lining.rings: per_node)" if scene.lining and scene.lining.shared_ring else None
 
 
 def blade_problems(
@@ -43,7 +38,7 @@ def blade_problems(
     if refused:
         raise ValueError(f"rotor: allowed: {refused}")
     if scene.casing.ring and not choice.second_order:
-        raise ValueError(NO_CENTRAL_DIFFERENCES)
+        raise ValueError("an elastic casing under a rotor needs the integrator exact_modal")
 
     @cache
     def problem(factor: float, longer: float, angle: float) -> Problem:

@@ -19,7 +19,7 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
 from .clearance import initial_wear
-from .compiled.lockstep import Lockstep
+from .compiled.lockstep import advance_in_lockstep
 from .compiled.passage import Passage, Start
 from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
@@ -27,7 +27,7 @@ from .problem import Problem
 from .reference.lockstep import advance_together
 from .rotor_blades import blade_problems, on_steps
 from .simulate import Simulation
-from .state import Schedule, SimulationRecord, SimulationState
+from .state import SimulationRecord, SimulationState
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class BladesSimulation:
             angles = [0.0 if self.elastic else on_steps(angle, steps) for angle in self.rotor.angles]
             done, worn = advance_together(engines, states, outs, angles, self.rotor.order)
         elif self.elastic:
-            done, worn = Lockstep(engines, self.rotor.order).advance(states, outs)
+            done, worn = advance_in_lockstep(engines, states, outs, self.rotor.order)
         else:
             starts = [self._start(angle) for angle in self.rotor.angles]
             done, worn = self._pass_by_pass(states, outs, starts, self.rotor.order, revolutions)
@@ -152,7 +152,7 @@ class BladesSimulation:
         """Let blade after blade pass the casing in this order; returns the samples done of each, and its wear (m)."""
         per_revolution = self.problem.choice.samples_per_revolution
         passages = [
-            Passage(simulation.engine, state, out, Schedule.of_one_speed(0, len(state.displacement)), start, in_parts=True)
+            Passage(simulation.engine, state, out, start=start)
             for simulation, state, out, start in zip(self.blades, states, outs, starts, strict=True)
         ]
         total = revolutions * per_revolution
@@ -174,5 +174,8 @@ class BladesSimulation:
 def _beside_each_other(problems: Sequence[Problem]) -> list[Simulation]:
     """One simulation each; that of the most modes is made first, so that the others have room in its capacity."""
     largest = int(np.argmax([len(problem.blade.frequencies) for problem in problems]))
-    first = Simulation.beside(problems[largest], None)
-    return [first if place == largest else Simulation.beside(problem, first) for place, problem in enumerate(problems)]
+    first = Simulation.of_problem(problems[largest])
+    return [
+        first if place == largest else Simulation.of_problem(problem, beside=first.engine)
+        for place, problem in enumerate(problems)
+    ]

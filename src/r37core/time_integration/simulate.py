@@ -16,7 +16,7 @@ from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
 from .reference.engine import ReferenceEngine
 from .run_length import revolutions_at_once
-from .segments import Segments, own_segment, segments_at
+from .segments import own_segment, segments_at
 from .state import Schedule, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
@@ -34,30 +34,24 @@ class Simulation:
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         if scene.rotor is not None:
             raise ValueError("a scene with a rotor: see BladesSimulation")
-        problem = stable_problem(model, speed, scene, choice)
-        self._take(problem, own_segment(problem), None)
+        self._take(stable_problem(model, speed, scene, choice))
 
     @classmethod
-    def at_speeds(cls, problem: Problem, speeds: np.ndarray, before: Simulation | None) -> Simulation:
-        """One whose engine goes at several `speeds` (rad/s), shape (speeds,), in the modes of the problem's, from the first on.
+    def of_problem(
+        cls, problem: Problem, speeds: np.ndarray | None = None, before: Any = None, beside: Any = None
+    ) -> Simulation:
+        """One of a problem; with `speeds` (rad/s), shape (speeds,), its engine goes at these in the problem's modes.
 
-        `before`: a simulation that is done, of the same scene and choice, of whose engine is kept what fits.
+        `before`, `beside`: engines of the same scene and choice, see CompiledEngine.
         """
         simulation = cls.__new__(cls)
-        simulation._take(problem, segments_at(problem, speeds), None if before is None else before.engine)
+        simulation._take(problem, speeds, before, beside)
         return simulation
 
-    @classmethod
-    def beside(cls, problem: Problem, other: Simulation | None) -> Simulation:
-        """One of a problem beside another of the same casing, whose tables it shares."""
-        simulation = cls.__new__(cls)
-        simulation._take(problem, own_segment(problem), None, None if other is None else other.engine)
-        return simulation
-
-    def _take(self, problem: Problem, segments: Segments, before: Any, beside: Any = None) -> None:
-        self.problem, self.segments = problem, segments
+    def _take(self, problem: Problem, speeds: np.ndarray | None = None, before: Any = None, beside: Any = None) -> None:
+        self.problem, self.segments = problem, own_segment(problem) if speeds is None else segments_at(problem, speeds)
         # of one choice, so of one class
-        self.engine: Any = _ENGINES[problem.choice.engine](problem, segments, before, beside)
+        self.engine: Any = _ENGINES[problem.choice.engine](problem, self.segments, before, beside)
 
     def start(self, motion: InitialMotion | None = None) -> SimulationState:
         """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
@@ -83,7 +77,7 @@ class Simulation:
             kept = self._snapshots(first, done)
             rows = SimulationRecord(out.samples[done : done + part], out.snapshots[kept : self._snapshots(first, done + part)])
             state.samples = first + done
-            advanced = self.engine.advance(state, rows, Schedule.of_one_speed(part, len(state.displacement)))
+            advanced = self.engine.advance(state, rows, Schedule([0], [part], len(state.displacement)))
             done, reached = done + advanced, advanced == part
         state.samples = first + samples
         return self.recorded(first, out, done)

@@ -46,11 +46,6 @@ class Schedule:
         segments = len(self.samples)
         self.ends, self.wear = np.empty((segments, 2, 2, modes)), np.zeros(segments)
 
-    @classmethod
-    def of_one_speed(cls, samples: int, modes: int) -> Schedule:
-        """The schedule of one segment at the first speed."""
-        return cls([0], [samples], modes)
-
 
 @dataclass(frozen=True)
 class SimulationRecord:

@@ -10,8 +10,6 @@ from .contact_operators import ContactOperators
 from .integrators import CENTRAL_DIFFERENCE, Recursion
 from .step_limit import UnstableStepError, largest_pressed_ratio, ratio_of_pressed_nodes
 
-_OF_BLADE = "this reduced model", "raise basis_tolerance to drop the highest modes"
-
 
 def check_step(contact: ContactOperators) -> None:
     """Raises UnstableStepError unless the run's step is below its limits, of the free blade and of the pressed one."""
@@ -31,8 +29,9 @@ def check_step(contact: ContactOperators) -> None:
 def _check_published_step(contact: ContactOperators, taken: str) -> None:
     highest = contact.highest_frequency
     limit = 2.0 / highest
-    of_casing = highest > contact.blade.frequencies[-1]
-    what, remedy = ("this casing", "leave its highest modes out") if of_casing else _OF_BLADE
+    what, remedy = "this reduced model", "raise basis_tolerance to drop the highest modes"
+    if highest > contact.blade.frequencies[-1]:
+        what, remedy = "this casing", "leave its highest modes out"
     if not contact.blade.grid.time_step < limit:
         raise UnstableStepError(
             f"{taken} stability limit of {what}, {limit:.6g} s (highest mode {highest / 2e3 / np.pi:.1f} kHz); "

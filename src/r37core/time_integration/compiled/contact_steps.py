@@ -17,15 +17,7 @@ from r37core.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lane
 
 from .kind import LINED, VECTOR_FRICTION
 from .layout import MERIDIONAL, NORMAL, TANGENTIAL
-from .steps import bar_at, leave_casing, node_lanes, push_blade, set_friction_of_listed
-
-
-@inlined
-def push_contact(m, work, lost):
-    """Push the blade with the forces at t_n; adds the work, doubled, and the energy lost."""
-    pressed, work, lost = push_blade(m, work, lost)
-    m.totals.steps_in_contact += pressed
-    return work, lost
+from .steps import bar_at, leave_casing, node_lanes, set_friction_of_listed
 
 
 @inlined

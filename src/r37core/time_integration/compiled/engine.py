@@ -305,11 +305,8 @@ class CompiledEngine:
     def _lay_out_static_modes(self, problem: Problem) -> None:
         self.record[0]["contact"]["relaxation"] = problem.blade.relaxation
         force_outputs = problem.contact.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
-        padded_forces = np.zeros((*force_outputs.shape[:2], self._node_lanes))
-        padded_forces[:, :, : self._nodes] = force_outputs
-        self.put(
-            flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces.reshape(1, len(force_outputs), -1)
-        )
+        padded_forces = aligned_copy(force_outputs, self._node_lanes).reshape(1, len(force_outputs), -1)
+        self.put(flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces)
 
 
 class _CasingTables:
@@ -331,14 +328,11 @@ class _CasingTables:
 
     def fits(self, problem: Problem) -> bool:
         """Whether they are those of this problem, too."""
-        mine, grid = self._of, problem.grid
-        steps = (mine.grid.steps_per_revolution, mine.grid.steps_per_sample) == (
-            grid.steps_per_revolution,
-            grid.steps_per_sample,
+        mine, other = (
+            (of.grid.steps_per_revolution, of.grid.steps_per_sample, of.scene.casing.lobes, of.scene.casing.width)
+            for of in (self._of, problem)
         )
-        casing, other = mine.scene.casing, problem.scene.casing
-        lobes = (casing.lobes, casing.width) == (other.lobes, other.width)
-        return steps and lobes and np.array_equal(mine.casing.tip.theta, problem.casing.tip.theta)
+        return mine == other and np.array_equal(self._of.casing.tip.theta, problem.casing.tip.theta)
 
 
 @cache

@@ -12,7 +12,7 @@ from r37core.native import Sources, cached_object, load_function
 
 from ..jump_numbers import LOSS_DD, LOSS_UD, LOSS_UU
 from ..run_length import revolutions_at_once
-from ..state import Schedule, SimulationRecord, SimulationState
+from ..state import SimulationRecord, SimulationState
 from .engine import SOURCES, CompiledEngine
 from .kind import Kind
 from .layout import Capacity
@@ -21,40 +21,35 @@ from .passage import Passage
 _SOURCES = Sources(*SOURCES.files, "time_integration/compiled/lockstep_program.py")
 
 
-class Lockstep:
-    """The engines of a rotor's blades, of one capacity, in the `order` in which their forces on the casing are summed.
+def advance_in_lockstep(
+    engines: Sequence[CompiledEngine],
+    states: Sequence[SimulationState],
+    outs: Sequence[SimulationRecord],
+    order: Sequence[int],
+) -> tuple[list[int], list[float]]:
+    """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the bars (m).
 
-    Each has the casing's modes; these are made alike to the last bit, and those of the first count for their loss.
+    `engines` of a rotor's blades, of one capacity; their forces on the casing are summed in this `order`. Each has the casing's
+    modes; these are made alike to the last bit, and those of the first count for their loss.
     """
-
-    def __init__(self, engines: Sequence[CompiledEngine], order: Sequence[int]):
-        self._engines, self._order = engines, order
-        first = engines[order[0]]
-        for place in order[1:]:
-            _take_casing(engines[place], first)
-        self._addresses = np.array([engines[place].address for place in order], dtype=np.uint64)
-        self._program = _program(first.capacity, first.kind)
-
-    def advance(self, states: Sequence[SimulationState], outs: Sequence[SimulationRecord]) -> tuple[list[int], list[float]]:
-        """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the bars (m)."""
-        passages = []
-        for engine, state, out in zip(self._engines, states, outs, strict=True):
-            schedule = Schedule.of_one_speed(0, len(state.displacement))
-            passages.append(Passage(engine, state, out, schedule, in_parts=True))
-        done, samples, grid, blades = 0, len(outs[0].samples), self._engines[0].problem.grid, len(self._engines)
-        blocks = revolutions_at_once(blades * grid.steps_per_revolution) * grid.choice.samples_per_revolution
-        reached = blocks
-        while done < samples and reached == blocks:
-            blocks = min(blocks, samples - done)
-            for passage in passages:
-                passage.ask(blocks)
-            reached = int(self._program(self._addresses.ctypes.data, blades))
-            done += reached
-            for passage in passages:
-                passage.done = done
+    first, blades = engines[order[0]], len(engines)
+    for place in order[1:]:
+        _take_casing(engines[place], first)
+    addresses = np.array([engines[place].address for place in order], dtype=np.uint64)
+    passages = [Passage(engine, state, out) for engine, state, out in zip(engines, states, outs, strict=True)]
+    done, samples, grid = 0, len(outs[0].samples), first.problem.grid
+    blocks = reached = revolutions_at_once(blades * grid.steps_per_revolution) * grid.choice.samples_per_revolution
+    while done < samples and reached == blocks:
+        blocks = min(blocks, samples - done)
         for passage in passages:
-            passage.end()
-        return [done] * len(passages), [passage.worn for passage in passages]
+            passage.ask(blocks)
+        reached = int(_program(first.capacity, first.kind)(addresses.ctypes.data, blades))
+        done += reached
+        for passage in passages:
+            passage.done = done
+    for passage in passages:
+        passage.end()
+    return [done] * blades, [passage.worn for passage in passages]
 
 
 def _take_casing(engine: CompiledEngine, first: CompiledEngine) -> None:

@@ -62,7 +62,6 @@ def _fly(addresses, blades):
         store(m.block_loss, 0, predict(m, load(m.block_loss, 0)))
         if m.follows != 0:
             sum_pushes(m)
-            m.totals.steps_in_contact += 1.0
             pushed = True
     return pushed
 

@@ -26,7 +26,7 @@ AT_ONCE = Start()
 class Passage:
     """Blocks of steps from a `state` on, as a `schedule` says, with samples and snapshots into `out`; `done`: how many.
 
-    Of several parts there is one segment, of which the largest wear is not kept.
+    Without a schedule it goes on in parts at the first speed, and the largest wear is not kept.
     """
 
     def __init__(
@@ -34,17 +34,16 @@ class Passage:
         engine: CompiledEngine,
         state: SimulationState,
         out: SimulationRecord,
-        schedule: Schedule,
+        schedule: Schedule | None = None,
         start: Start = AT_ONCE,
-        in_parts: bool = False,
     ):
-        self._engine, self._state, self._out, self._schedule = engine, state, out, schedule
+        self._engine, self._state, self._out, self._in_parts = engine, state, out, schedule is None
+        self._schedule = schedule or Schedule([0], [0], len(state.displacement))
         self._grid, self._start = engine.problem.grid, start
         # where nothing pads the vectors the program writes into `out` itself
         padded = out.snapshots.shape[1] != engine.snapshot_width or not isinstance(engine.mode_columns, slice)
         self._snapshots = np.empty((len(out.snapshots), engine.snapshot_width)) if padded else out.snapshots
-        self._ends = np.empty((*schedule.ends.shape[:-1], engine.mode_lanes))
-        self._lasting, self._in_parts = schedule.samples, in_parts
+        self._ends = np.empty((*self._schedule.ends.shape[:-1], engine.mode_lanes))
         self.done = 0
         m = engine.record[0]
         engine.put_modes(u=state.displacement, increment=state.increment)
@@ -53,10 +52,10 @@ class Passage:
             engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         addresses = {
             "constants": engine.constants,
-            "speed_indices": schedule.speed_indices,
-            "lasting": self._lasting,
+            "speed_indices": self._schedule.speed_indices,
+            "lasting": self._schedule.samples,
             "ends": self._ends,
-            "worn": None if in_parts else schedule.wear,
+            "worn": None if schedule is None else schedule.wear,
             "wear": state.wear,
             "samples": out.samples,
             "snapshots": self._snapshots,
@@ -68,12 +67,10 @@ class Passage:
         m["samples_before_snapshots"] = self._grid.samples_before_snapshots + start.samples
         m["call"]["ahead"] = (start.late - start.samples) * self._grid.steps_per_sample
 
-    def go_on(self, blocks: int) -> int:
-        """Do so many more; returns how many were done, fewer when an output passed the limit or is NaN."""
+    def go_on(self, blocks: int) -> None:
+        """Do so many more, fewer when an output passes the limit or is NaN."""
         self.ask(blocks)
-        done = self._engine.call()
-        self.done += done
-        return done
+        self.done += self._engine.call()
 
     def ask(self, blocks: int) -> None:
         """Have the record say that so many more are to be done."""
@@ -85,7 +82,7 @@ class Passage:
             call["samples"] = self._samples_at + self.done * self._out.samples.strides[0]
             call["snapshots"] = self._snapshots_at + kept * self._snapshots.strides[0]
         if self._in_parts:
-            self._lasting[0] = blocks
+            self._schedule.samples[0] = blocks
 
     @property
     def worn(self) -> float:

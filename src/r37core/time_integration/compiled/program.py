@@ -13,13 +13,13 @@ from r37core.native import object_code
 from r37core.program_constants import with_constants
 
 from ..jump_numbers import COARSE, STRIDES
-from .contact_steps import press_contact, push_contact, release_contact
+from .contact_steps import press_contact, release_contact
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
 from .kind import EXACT_GAP, PUBLISHED, Kind
 from .layout import MODAL_ROWS, Capacity, constants_record, integration_record
 from .ring_steps import turn_jump, turn_step
 from .segment_steps import begin_segment, end_segment
-from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, node_lanes, predict, record
+from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, node_lanes, predict, push_blade, record
 
 
 @inlined
@@ -76,7 +76,7 @@ def _integrate(address):
             here = place + position if place + position < m.steps_per_revolution else 0
             lobes = m.casing.amplitude * (1.0 - remaining)
             if not PUBLISHED and follows:
-                work, lost = push_contact(m, work, lost)
+                work, lost = push_blade(m, work, lost)
                 bounded = False
             if m.pairs > 0:
                 turn_step(m)

@@ -185,15 +185,6 @@ def set_friction_against_last(m):
 
 
 @inlined
-def set_friction_of_all(m):
-    """Vector friction on all nodes, and the gaps' response with it."""
-    set_friction_against_last(m)
-    for k in range(m.nodes):
-        for g in range(0, node_lanes(m), LANES):
-            store(m.speed.response, (k, g), response_with_friction(m, k, g))
-
-
-@inlined
 def response_with_friction(m, k, g):
     """Opening of gaps per unit multiplier of a node, with the vector friction that comes with it."""
     response = load(m.speed.coupling, (NORMAL, k, g)) + load(m.speed.coupling, (TANGENTIAL, k, g)) * m.friction_share[0, k]
@@ -264,7 +255,10 @@ def press_casing(m):
     p = m.problem
     if VECTOR_FRICTION:
         # the others' reaction may bring any of them to the casing
-        set_friction_of_all(m)
+        set_friction_against_last(m)
+        for k in range(m.nodes):
+            for g in range(0, node_lanes(m), LANES):
+                store(m.speed.response, (k, g), response_with_friction(m, k, g))
     guessed = 0
     for g in range(node_lanes(m) // LANES):
         p.touching[g] = m.on_casing[g]
@@ -292,13 +286,6 @@ def list_pressed(m):
 
 
 @inlined
-def clear_force(m):
-    """No node is pressed."""
-    for g in range(0, node_lanes(m), LANES):
-        store(m.force, g, 0.0)
-
-
-@inlined
 def set_friction_force(m):
     """Friction of the forces on all nodes."""
     for g in range(0, node_lanes(m), LANES):
@@ -309,14 +296,10 @@ def set_friction_force(m):
 
 @inlined
 def push_blade(m, work, lost):
-    """Correct displacement and increment for the forces; adds the work, doubled, and the energy lost.
-
-    Returns also whether any node is pressed.
-    """
-    if not sum_pushes(m):
-        return False, work, lost
-    work, lost = push_lanes(m, 0, mode_lanes(m), work, lost)
-    return True, work, lost
+    """Correct displacement and increment for the forces; adds the work, doubled, and the energy lost."""
+    if sum_pushes(m):
+        work, lost = push_lanes(m, 0, mode_lanes(m), work, lost)
+    return work, lost
 
 
 @inlined
@@ -325,6 +308,7 @@ def sum_pushes(m):
     p, count = m.problem, list_pressed(m)
     if count == 0:
         return False
+    m.totals.steps_in_contact += 1.0
     largest = m.totals.largest_force
     for j in range(count):
         largest = max(largest, -m.force[p.listed[j]])
@@ -420,7 +404,8 @@ def kick_complex_modes(m, i, push, increment_push, work, lost):
 @inlined
 def meet(m, place, work, lost):
     """Everything that happens in a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
-    clear_force(m)
+    for g in range(0, node_lanes(m), LANES):
+        store(m.force, g, 0.0)
     closed = True
     if LINED:
         closed = press_lining(m, place)
@@ -430,9 +415,7 @@ def meet(m, place, work, lost):
         leave_casing(m)
     if VECTOR_FRICTION:
         set_friction_force(m)
-    pressed, work, lost = push_blade(m, work, lost)
-    m.totals.steps_in_contact += pressed
-    return work, lost
+    return push_blade(m, work, lost)
 
 
 @inlined
