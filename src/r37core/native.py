@@ -42,18 +42,14 @@ def this_processor() -> tuple[str, str]:
 
 
 class Sources:
-    """Files of the package that object code is made from, as they were when this was made: where they are imported."""
+    """Files of the package that object code is made from; `digest`: of them as they were when they were imported."""
 
     def __init__(self, *files: str):
         self.files = files
-        self.digest = self._read()
+        self.digest = self.digest_now()
 
-    @property
-    def unchanged(self) -> bool:
-        """Whether the files are still those."""
-        return self._read() == self.digest
-
-    def _read(self) -> bytes:
+    def digest_now(self) -> bytes:
+        """The digest of the files as they are."""
         return hashlib.sha256(b"".join((_PACKAGE / file).read_bytes() for file in self.files)).digest()
 
 
@@ -70,7 +66,7 @@ def cached_object(name: str, sources: Sources, about: object, build: Callable[[]
         logging.getLogger("r37").info("compiling the %s for this processor, up to half a minute", name.replace("_", " "))
         return build()
 
-    return kept_bytes(f"{name}.o", made_of, told, lambda: sources.unchanged)
+    return kept_bytes(f"{name}.o", made_of, told, lambda: sources.digest_now() == sources.digest)
 
 
 def object_code(assembly: str, symbol: str, name: str) -> bytes:

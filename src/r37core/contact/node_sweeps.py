@@ -48,14 +48,12 @@ def forces_of_laws(c, g, penetration, thickness, lined):
 
     Negative where a node is clear.
     """
-    if lined:
-        elastic = load(c.elastic, g) * (penetration - load(c.wear, g))
-        plastic = load(c.offset, g) + load(c.plastic, g) * penetration
-        of_bar = np.where(elastic < plastic, elastic, plastic)
-        force = np.maximum(of_bar, (penetration - thickness) * load(c.stiffness, g))
-    else:
-        force = penetration * load(c.stiffness, g)
-    return force
+    if not lined:
+        return penetration * load(c.stiffness, g)
+    elastic = load(c.elastic, g) * (penetration - load(c.wear, g))
+    plastic = load(c.offset, g) + load(c.plastic, g) * penetration
+    of_bar = np.where(elastic < plastic, elastic, plastic)
+    return np.maximum(of_bar, (penetration - thickness) * load(c.stiffness, g))
 
 
 @inlined

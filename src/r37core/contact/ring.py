@@ -45,8 +45,7 @@ class Ring:
     """
 
     radius: Annotated[
-        float,
-        Key("of the ring's middle line; at least the tip's, at most a quarter more", "_m", ge=1e-3, le=100),
+        float, Key("of the ring's middle line; at least the tip's, at most a quarter more", "_m", ge=1e-3, le=100)
     ]
     thickness: Annotated[float, Key("radial; at most a fifth of the radius", "_m", ge=1e-6, le=10)]
     width: Annotated[float, Key("axial", "_m", ge=1e-6, le=100)]
@@ -57,8 +56,7 @@ class Ring:
         float, Key("radial stiffness per length of circumference; 0: a free ring", "_n_m2", ge=0, le=1e15)
     ] = 0.0
     tangential_foundation: Annotated[
-        float,
-        Key("tangential stiffness per length of circumference; without it no ring turns", "_n_m2", ge=0, le=1e15),
+        float, Key("tangential stiffness per length of circumference; without it no ring turns", "_n_m2", ge=0, le=1e15)
     ] = 0.0
     highest_nodal_diameter: Annotated[
         int,

@@ -36,8 +36,7 @@ class Lining:
     ] = False
     bar_width: Annotated[float, Key("width of a bar, along the casing's meridian", "_m", ge=1e-6, le=1)] = 0.001
     bar_area: Annotated[
-        float | None,
-        Key("area of a bar, in place of its width times its arc length at the tip", "_m2", ge=1e-12, le=1),
+        float | None, Key("area of a bar, in place of its width times its arc length at the tip", "_m2", ge=1e-12, le=1)
     ] = None
 
     def area(self, radius: float) -> float:

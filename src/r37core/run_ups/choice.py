@@ -65,8 +65,7 @@ class RunUpChoice:
         Key("the rate in revolutions per minute per second", "_rpm_s", ge=1e-2, le=1e10, optional=True),
     ]
     revolutions: Annotated[
-        float | None,
-        Key("revolutions that the change takes, in place of a rate", ge=SHORTEST, le=LONGEST, optional=True),
+        float | None, Key("revolutions that the change takes, in place of a rate", ge=SHORTEST, le=LONGEST, optional=True)
     ]
     before: Annotated[
         int,

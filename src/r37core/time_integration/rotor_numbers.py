@@ -29,8 +29,9 @@ def rotor_numbers(
     rotor, choice = simulation.rotor, simulation.problem.choice
     assert rotor is not None
     half = np.array([part[choice.revolutions // 2 * choice.samples_per_revolution :, 0, KEPT] for part in samples])
-    maxima = np.array([_motion(part[:, 0, KEPT]).reshape(choice.revolutions, -1).max(axis=1) for part in samples])
-    rms = np.sqrt(np.mean(_motion(half) ** 2, axis=1))
+    motion = np.array([np.linalg.norm(part[:, 0, KEPT], axis=-1) for part in samples])
+    maxima = motion.reshape(len(motion), choice.revolutions, -1).max(axis=2)
+    rms = np.sqrt(np.mean(np.linalg.norm(half, axis=-1) ** 2, axis=1))
     growth, span = in_spans(maxima)
     return {
         "blade_number": np.array(rotor.numbers),
@@ -56,10 +57,6 @@ def stress_of_blades(history: np.ndarray) -> dict[str, np.ndarray]:
         "blade_von_mises": of_blades,
         "stress_span_revolutions": np.array(span),
     }
-
-
-def _motion(displacement: np.ndarray) -> np.ndarray:
-    return np.linalg.norm(displacement, axis=-1)
 
 
 def in_spans(values: np.ndarray) -> tuple[np.ndarray, int]:

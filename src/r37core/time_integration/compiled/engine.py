@@ -67,9 +67,7 @@ class CompiledEngine:
     """
 
     record: np.ndarray
-    constants: np.ndarray
     _corners: dict[tuple[str, tuple[int, ...]], np.ndarray]
-    _tables: _CasingTables
 
     def __init__(
         self,

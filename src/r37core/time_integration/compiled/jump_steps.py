@@ -89,12 +89,9 @@ def choose_jump(m, place, first_stride, left, remaining):
     if CORIOLIS:
         for i in range(0, mode_lanes(m), LANES):
             store(m.last_second_difference, i, second_difference(m, i))
-    stride = first_stride
-    if left < COARSE:
-        stride = 0
-    else:
-        while m.flight.lengths[stride] > left:
-            stride -= 1
+    stride = 0 if left < COARSE else first_stride
+    while m.flight.lengths[stride] > left:
+        stride -= 1
     while not _is_clear(m, place, stride, remaining):
         if stride <= 1:
             return -1

@@ -51,18 +51,14 @@ def capacity_of(modes: int, nodes: int) -> Capacity:
     return Capacity(most_modes, most_nodes)
 
 
-def _numbers(names: str, kind: type = np.float64) -> list[Field]:
-    return [(name, kind, ()) for name in names.split()]
-
-
-def _arrays(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
+def _fields(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
     return [(name, kind, shape) for name in names.split()]
 
 
-LINING = aligned_record(_numbers(" ".join(field.name for field in fields(Lining)) + " area"))
+LINING = aligned_record(_fields(" ".join(field.name for field in fields(Lining)) + " area"))
 """What the law of the lining may use: every field of Lining as a number, and a bar's area (m2)."""
 
-CASING = aligned_record(_numbers("amplitude rise period width cosine sine"))
+CASING = aligned_record(_fields("amplitude rise period width cosine sine"))
 """Amplitude (m) of the lobes; rise rate times step; angle (rad) between lobes and their relative width; cone angle."""
 
 
@@ -71,12 +67,12 @@ def complementarity_record(nodes: int) -> np.dtype:
     groups = padded(nodes) // padded(1)
     return aligned_record(
         [
-            *_arrays("gap multiplier answer short diagonal", nodes),
-            *_arrays("left", nodes + 1, nodes),
-            *_arrays("matrix", nodes, nodes + 1),
-            *_arrays("listed", nodes, kind=np.int64),
-            *_arrays("touching wrong", groups, kind=np.int64),
-            *_numbers("lanes", kind=np.int64),  # that the nodes fill
+            *_fields("gap multiplier answer short diagonal", nodes),
+            *_fields("left", nodes + 1, nodes),
+            *_fields("matrix", nodes, nodes + 1),
+            *_fields("listed", nodes, kind=np.int64),
+            *_fields("touching wrong", groups, kind=np.int64),
+            *_fields("lanes", kind=np.int64),  # that the nodes fill
         ]
     )
 
@@ -86,17 +82,17 @@ def contact_record(nodes: int) -> np.dtype:
     return aligned_record(
         [
             # gaps (m) without forces and with those found, and these (N); what the last sweep changed (m)
-            *_arrays("gap opened pressure change", nodes),
+            *_fields("gap opened pressure change", nodes),
             # the laws of the listed nodes: own flexibility (m/N) and one over it; wear (m) of the bar; lines of
             # the bar's law in series with the node
-            *_arrays("own stiffness wear elastic offset plastic", nodes),
+            *_fields("own stiffness wear elastic offset plastic", nodes),
             # opening of the last node's gap per force on the one before (m/N)
-            *_arrays("columns", nodes, nodes),
+            *_fields("columns", nodes, nodes),
             # numbers of the listed nodes; the bar of each node
-            *_arrays("listed bar", nodes, kind=np.int64),
-            *_arrays("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
-            *_numbers("relaxation"),
-            *_numbers("lanes", kind=np.int64),  # that the nodes fill
+            *_fields("listed bar", nodes, kind=np.int64),
+            *_fields("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
+            *_fields("relaxation"),
+            *_fields("lanes", kind=np.int64),  # that the nodes fill
         ]
     )
 
@@ -120,14 +116,14 @@ def constants_record(modes: int, nodes: int) -> np.dtype:
     """What of a time integration changes with the speed while its modes are held, of whole vectors of modes and nodes."""
     return aligned_record(
         [
-            *_arrays(_MODAL_CONSTANTS, modes),
-            *_arrays("jumps", STRIDES, _NUMBERS_OF_A_JUMP, modes),
+            *_fields(_MODAL_CONSTANTS, modes),
+            *_fields("jumps", STRIDES, _NUMBERS_OF_A_JUMP, modes),
             # normal displacement of the last node per force in the three directions on the one before
-            *_arrays("coupling", 3, nodes, nodes),
+            *_fields("coupling", 3, nodes, nodes),
             # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
-            *_arrays("response columns", nodes, nodes),
-            *_arrays("clearance", nodes),  # of the round casing (m)
-            *_arrays("slow_modes", STRIDES, kind=np.int64),
+            *_fields("response columns", nodes, nodes),
+            *_fields("clearance", nodes),  # of the round casing (m)
+            *_fields("slow_modes", STRIDES, kind=np.int64),
         ]
     )
 
@@ -136,11 +132,11 @@ def _flight_record(modes: int, nodes: int) -> np.dtype:
     """Of jumps: amplitudes of the modes, and how far these get beyond in one; how far they bring the nodes; strides."""
     return aligned_record(
         [
-            *_arrays("amplitude beyond", modes),
-            *_arrays("reach", STRIDES, nodes),
-            *_arrays("across towards", nodes),
-            *_arrays("decay", STRIDES),
-            *_arrays("lengths reach_known", STRIDES, kind=np.int64),
+            *_fields("amplitude beyond", modes),
+            *_fields("reach", STRIDES, nodes),
+            *_fields("across towards", nodes),
+            *_fields("decay", STRIDES),
+            *_fields("lengths reach_known", STRIDES, kind=np.int64),
         ]
     )
 
@@ -148,13 +144,13 @@ def _flight_record(modes: int, nodes: int) -> np.dtype:
 CALL = aligned_record(
     [
         # where it begins, how many blocks of steps it asks for, and the speed it is at
-        *_numbers("first_step blocks speed_index", kind=np.int64),
+        *_fields("first_step blocks speed_index", kind=np.int64),
         # how many steps the time is ahead of their number
-        *_numbers("ahead"),
+        *_fields("ahead"),
         # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each interval
-        *_numbers("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
+        *_fields("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
         # constants of all speeds; speed and blocks of each segment; motion at its ends, and largest wear by then
-        *_numbers("constants speed_indices lasting ends worn", kind=np.int64),
+        *_fields("constants speed_indices lasting ends worn", kind=np.int64),
     ]
 )
 """One call of the program."""
@@ -170,49 +166,49 @@ def integration_record(capacity: Capacity) -> np.dtype:
             ("speed", constants_record(modes, nodes), ()),
             # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; with Coriolis the increment of the last one,
             # had there been no force
-            *_arrays("u increment last_increment last_second_difference", modes),
-            *_arrays("push increment_push", modes),  # forces on the modes and, with Coriolis, on their increments
+            *_fields("u increment last_increment last_second_difference", modes),
+            *_fields("push increment_push", modes),  # forces on the modes and, with Coriolis, on their increments
             # displacement of the nodes per mode, the size of it per amplitude that turns, and what a unit normal force does to
             # the modes, with constant friction
-            *_arrays("displacement_operator size_operator", 3, nodes, modes),
-            *_arrays("push_operator", nodes, modes),
-            *_arrays("outputs", 1, modes, modes),
-            *_arrays("sample", modes),
+            *_fields("displacement_operator size_operator", 3, nodes, modes),
+            *_fields("push_operator", nodes, modes),
+            *_fields("outputs", 1, modes, modes),
+            *_fields("sample", modes),
             # with Coriolis the same per increment
-            *_arrays("increment_operator", 3, nodes, modes),
-            *_arrays("increment_push_operator", nodes, modes),
-            *_arrays("increment_outputs", 1, modes, modes),
-            *_arrays("friction_share", 2, nodes),  # tangential and meridional force per normal force
-            *_arrays("force", nodes),
-            *_arrays("friction_force", 2, nodes),
+            *_fields("increment_operator", 3, nodes, modes),
+            *_fields("increment_push_operator", nodes, modes),
+            *_fields("increment_outputs", 1, modes, modes),
+            *_fields("friction_share", 2, nodes),  # tangential and meridional force per normal force
+            *_fields("force", nodes),
+            *_fields("friction_force", 2, nodes),
             # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
             # at a sample, and the static modes' part of it; the contact problem
-            *_arrays("flexibility", 3, nodes, nodes),
-            *_arrays("static_force", 3 * nodes),
-            *_arrays("force_outputs", 1, modes, 3 * nodes),
+            *_fields("flexibility", 3, nodes, nodes),
+            *_fields("static_force", 3 * nodes),
+            *_fields("force_outputs", 1, modes, 3 * nodes),
             ("contact", contact_record(nodes), ()),
-            *_arrays("rotation", nodes),  # signed sliding in a step by the rotation (m)
-            *_arrays("bar_position", nodes),  # angle at step 0, in bars
-            *_arrays("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
+            *_fields("rotation", nodes),  # signed sliding in a step by the rotation (m)
+            *_fields("bar_position", nodes),  # angle at step 0, in bars
+            *_fields("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", complementarity_record(nodes), ()),
-            *_arrays("beyond on_casing", groups, kind=np.int64),
+            *_fields("beyond on_casing", groups, kind=np.int64),
             # by how much pairs of the casing's modes turn in a jump and, in the last row, in a step
-            *_arrays("turn_cosine turn_sine", STRIDES + 1, modes // 2),
+            *_fields("turn_cosine turn_sine", STRIDES + 1, modes // 2),
             ("flight", _flight_record(modes, nodes), ()),
             ("lining", LINING, ()),
             ("casing", CASING, ()),
             ("totals", TOTALS, ()),
             # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
-            *_arrays("block_work block_loss", LANES),
-            *_numbers("follows", kind=np.int64),
-            *_numbers("worn"),  # off all bars together (m)
-            *_numbers("limit friction"),
+            *_fields("block_work block_loss", LANES),
+            *_fields("follows", kind=np.int64),
+            *_fields("worn"),  # off all bars together (m)
+            *_fields("limit friction"),
             # how much of the record is used: vectors of modes and of nodes; numbers
-            *_arrays("vectors", 2, kind=np.int64),
-            *_numbers("pairs number_of_outputs nodes rings", kind=np.int64),
+            *_fields("vectors", 2, kind=np.int64),
+            *_fields("pairs number_of_outputs nodes rings", kind=np.int64),
             # whether it jumps, friction is part of the complementarity problem, and its direction follows the sliding
-            *_numbers("jumping coupled follows_sliding", kind=np.int64),
-            *_numbers("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),
+            *_fields("jumping coupled follows_sliding", kind=np.int64),
+            *_fields("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),
             ("call", CALL, ()),
         ]
     )

@@ -210,8 +210,8 @@ def bar_at(m, k, place):
 
 
 @inlined
-def press_bars(m, place):
-    """Normal forces of the bars that the nodes press; wears them. Returns how many nodes are listed as pressing."""
+def press_lining(m, place):
+    """Normal forces of the bars that the nodes press, which wear them; whether a node reaches the casing behind the lining."""
     p, lining, wear = m.problem, m.lining, numbers_at(m.call.wear)
     count = list_nodes(m.beyond, p.listed)
     if VECTOR_FRICTION:
@@ -227,14 +227,6 @@ def press_bars(m, place):
         stress, wear[bar] = _return_mapping(-p.gap[k], before, lining.elastic_modulus, lining)
         m.worn += wear[bar] - before
         m.force[k] = -stress * lining.area
-    return count
-
-
-@inlined
-def press_lining(m, place):
-    """Normal forces of the lining; returns whether a node reaches the casing behind it."""
-    p, lining = m.problem, m.lining
-    count = press_bars(m, place)
     any_closed = 0
     for g in range(0, node_lanes(m), LANES):
         gap = load(p.gap, g) + lining.thickness
@@ -429,10 +421,27 @@ def leave_casing(m):
 def record(m, block, row, pressed):
     """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit.
 
-    `pressed`: whether there are forces.
+    `pressed`: whether there are forces, which the static modes follow.
     """
-    snapshots, modes, nodes = numbers_at(m.call.snapshots), mode_lanes(m), node_lanes(m)
-    bounded = sample(m, block, pressed)
+    samples, snapshots = numbers_at(m.call.samples), numbers_at(m.call.snapshots)
+    outputs, modes, nodes = m.number_of_outputs, mode_lanes(m), node_lanes(m)
+    if not PUBLISHED:
+        for g in range(0, nodes, LANES):
+            store(m.static_force, g, load(m.force, g))
+            store(m.static_force, nodes + g, load(m.friction_force, (0, g)))
+            store(m.static_force, 2 * nodes + g, load(m.friction_force, (1, g)))
+    beyond = 0
+    for g in range(0, outputs, LANES):
+        total = along(m.outputs, 0, m.u, g, modes)
+        if CORIOLIS:
+            total += along(m.increment_outputs, 0, m.increment, g, modes)
+        if not PUBLISHED and pressed:
+            total += along(m.force_outputs, 0, m.static_force, g, 3 * nodes)
+        store(m.sample, g, total)
+        # written so that NaN fails as well
+        beyond |= ~bits_of(np.abs(total) < m.limit) & ((1 << LANES) - 1)
+    for o in range(outputs):
+        samples[block * outputs + o] = m.sample[o]
     if row >= 0:
         numbers = 2 * modes if CORIOLIS else modes
         width = numbers + (0 if PUBLISHED else 3 * nodes)
@@ -442,28 +451,4 @@ def record(m, block, row, pressed):
                 snapshots[row * width + modes + i] = m.increment[i]
         for k in range(width - numbers):
             snapshots[row * width + numbers + k] = m.static_force[k]
-    return bounded
-
-
-@inlined
-def sample(m, block, pressed):
-    """The outputs, with those of the static modes; returns whether they are within the limit."""
-    samples, outputs, nodes = numbers_at(m.call.samples), m.number_of_outputs, node_lanes(m)
-    if not PUBLISHED:
-        for g in range(0, nodes, LANES):
-            store(m.static_force, g, load(m.force, g))
-            store(m.static_force, nodes + g, load(m.friction_force, (0, g)))
-            store(m.static_force, 2 * nodes + g, load(m.friction_force, (1, g)))
-    beyond = 0
-    for g in range(0, outputs, LANES):
-        total = along(m.outputs, 0, m.u, g, mode_lanes(m))
-        if CORIOLIS:
-            total += along(m.increment_outputs, 0, m.increment, g, mode_lanes(m))
-        if not PUBLISHED and pressed:
-            total += along(m.force_outputs, 0, m.static_force, g, 3 * nodes)
-        store(m.sample, g, total)
-        # written so that NaN fails as well
-        beyond |= ~bits_of(np.abs(total) < m.limit) & ((1 << LANES) - 1)
-    for o in range(outputs):
-        samples[block * outputs + o] = m.sample[o]
     return beyond == 0
