@@ -556,8 +556,8 @@ def test_revolutions_last_as_long_as_their_samples(contact):
     per_revolution = choice.samples_per_revolution
     angle = 2.0 * np.pi * np.arange(2 * per_revolution) / per_revolution
     samples = np.zeros((2 * per_revolution, 2, 3))
-    samples[:, 0, revolutions_module._SPECTRA[0]] = 1.0 + 3.0 * np.cos(4.0 * angle)
-    samples[:, 0, revolutions_module._SPECTRA[1]] = 2.0 * np.cos(5.0 * angle)
+    samples[:, 0, revolutions_module.KEPT[0]] = 1.0 + 3.0 * np.cos(4.0 * angle)
+    samples[:, 0, revolutions_module.KEPT[1]] = 2.0 * np.cos(5.0 * angle)
     speeds, wear = np.full(len(samples), 100.0), np.zeros(len(samples))
     collected = revolutions_module._Revolutions(contact, choice, 5, None, False)
     collected.add(

@@ -70,8 +70,7 @@ class Casing:
         """f(theta), between 0 and 1, for angles in rad."""
         if self.lobes == 0:
             return np.zeros_like(theta)
-        period = 2.0 * np.pi / self.lobes
-        return lobe_shape(theta, period, self.width)
+        return lobe_shape(theta, 2.0 * np.pi / self.lobes, self.width)
 
     def angle(self, tip_cone_angle: float) -> float:
         """Half angle (rad) of the casing's cone round a blade whose tip has `tip_cone_angle` (rad)."""

@@ -80,3 +80,33 @@ class CasingOfRun:
     def theta(self, step: np.ndarray | int) -> np.ndarray:
         """Angle (rad) of the undeformed contact nodes at a step of a revolution; the rotor turns towards negative theta."""
         return self.tip.theta - 2.0 * np.pi * step / self.grid.steps_per_revolution
+
+    @property
+    def initial_wear(self) -> np.ndarray:
+        """Wear (m) of each ring of the lining where the tip reaches into it before anything vibrates, shape (rings, 1).
+
+        The speed was reached slowly, so the tip has cut its way and presses nothing.
+        """
+        depth = np.maximum(-self.clearance, 0.0)
+        return (depth if self.rings == len(depth) else depth.max(keepdims=True))[:, None]
+
+    def gaps(
+        self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float = 0.0
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
+
+        `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its normal, tangent and
+        meridian, shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the run; `angle` (rad): at
+        which the blade stands beyond that of its model.
+        """
+        theta = self.theta(step % self.grid.steps_per_revolution) + angle
+        normal, across, meridional = displacement
+        position = normal
+        if self.scene.exact_gap:
+            # the displaced node's radius is sqrt((r + u_r)^2 + u_theta^2), its angle theta + atan(u_theta/(r + u_r))
+            cosine, sine = np.cos(self.cone_angle), np.sin(self.cone_angle)
+            radius = self.tip.radius + cosine * normal + sine * meridional
+            position = position + cosine * (np.hypot(radius, across) - radius)
+            theta = theta + np.arctan2(across, radius)
+        lobes = self.scene.casing.lobe(theta, np.array(step * self.grid.time_step), self.grid.duration)
+        return clearance - lobes - position, theta

@@ -62,12 +62,3 @@ def check_ring(model: ContactModel, scene: Scene) -> None:
         f"casing.ring.radius_m of the scene (scenes.yaml): found {ring:g} m round a tip at {tip:.4g} m; "
         f"allowed: {tip:.4g} to {LARGEST_RING * tip:.4g} m"
     )
-
-
-def initial_wear(clearance: np.ndarray, rings: int) -> np.ndarray:
-    """Wear (m) of each ring of the lining where the tip reaches into it before anything vibrates, shape (rings, 1).
-
-    `clearance` (m), shape (nodes,). The speed was reached slowly, so the tip has cut its way and presses nothing.
-    """
-    depth = np.maximum(-clearance, 0.0)
-    return (depth if rings == len(depth) else depth.max(keepdims=True))[:, None]

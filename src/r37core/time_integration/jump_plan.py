@@ -15,23 +15,17 @@ from .jump_numbers import COARSE, STRIDES
 
 @dataclass(frozen=True)
 class JumpPlan:
-    """Jumps of `lengths` steps, shape (strides,): what is left of a block after whole intervals, then doubling ones.
+    """Jumps of `jump_lengths` steps.
 
     `slow_modes`, shape (strides,): modes followed along their tangent; `jumps`, shape (strides, 8, modes): the entries of the
     map less the identity (u from u, u from d, d from u, d from d), the loss as a quadratic form (uu, ud, dd), and how far a
     mode of unit amplitude gets beyond its tangent or, for fast ones, from zero; `amplitude_rows`, shape (2, modes): the
-    imaginary part of a mode's complex amplitude from u and d. Of several recursions all but the lengths have a
-    first axis more.
+    imaginary part of a mode's complex amplitude from u and d. Of several recursions all have a first axis more.
     """
 
-    lengths: np.ndarray
     slow_modes: np.ndarray
     jumps: np.ndarray
     amplitude_rows: np.ndarray
-
-    def __getitem__(self, row: int | None) -> JumpPlan:
-        """The plan of one of several recursions; None: one as several."""
-        return JumpPlan(self.lengths, self.slow_modes[row], self.jumps[row], self.amplitude_rows[row])
 
 
 def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int, followed: int) -> JumpPlan | None:
@@ -61,7 +55,7 @@ def plan_jumps(recursion: Recursion, steps_per_block: int, multiple: int, follow
         beyond = 0.5 * curvature * length * (length + 1)
         slow[..., stride] = np.count_nonzero(beyond[..., :followed] < 1.0, axis=-1) // multiple * multiple
         jumps[..., stride, 7, :] = np.where(np.arange(modes) < slow[..., stride, None], beyond, 1.0)
-    return JumpPlan(lengths, slow, jumps, amplitude_rows)
+    return JumpPlan(slow, jumps, amplitude_rows)
 
 
 def jump_lengths(steps_per_block: int) -> np.ndarray:

@@ -18,7 +18,6 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-from .clearance import initial_wear
 from .compiled.lockstep import advance_in_lockstep
 from .compiled.passage import Passage, Start
 from .initial_motion import InitialMotion, InitialMotionError
@@ -89,7 +88,7 @@ class BladesSimulation:
         states = [simulation.start() for simulation in self.blades]
         if self.problem.scene.lining is None:
             return states
-        wear = [initial_wear(problem.casing.clearance, problem.casing.rings) for problem in self.problems]
+        wear = [problem.casing.initial_wear for problem in self.problems]
         if self.rotor.shared_lining:
             deepest = np.max(wear, axis=0)
             shared = np.zeros((self.problem.casing.rings, self.problem.casing.bars)) + deepest

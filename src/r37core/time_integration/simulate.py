@@ -9,7 +9,6 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-from .clearance import initial_wear
 from .compiled.engine import CompiledEngine
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
@@ -126,6 +125,6 @@ def at_rest(problem: Problem) -> SimulationState:
     directions, nodes, modes = problem.contact.displacement_operator.shape
     wear = None if problem.scene.lining is None else np.zeros((problem.casing.rings, problem.casing.bars))
     if wear is not None and problem.scene.casing.changes_with_speed:
-        wear += initial_wear(problem.casing.clearance, problem.casing.rings)
+        wear += problem.casing.initial_wear
     forces = np.zeros((directions, nodes))
     return SimulationState(np.zeros(modes), np.zeros(modes), wear, np.zeros(nodes, dtype=bool), forces)

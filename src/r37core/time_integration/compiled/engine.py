@@ -68,6 +68,7 @@ class CompiledEngine:
 
     record: np.ndarray
     _corners: dict[tuple[str, tuple[int, ...]], np.ndarray]
+    _tables: _CasingTables
 
     def __init__(
         self,
@@ -105,8 +106,6 @@ class CompiledEngine:
         self._constant_share: np.ndarray | None = None
         self._take_room(before)
         self._lay_out(problem)
-        if kind.coriolis:
-            self._lay_out_coriolis(problem)
         if problem.casing.ring is not None:
             self._lay_out_ring(problem.casing.ring, problem)
         self._lay_out_casing(problem, before or beside)
@@ -241,13 +240,12 @@ class CompiledEngine:
             steps_per_block=problem.grid.steps_per_sample,
             samples_per_snapshot=problem.grid.samples_per_snapshot,
         )
-
-    def _lay_out_coriolis(self, problem: Problem) -> None:
-        self.put_modes(
-            increment_operator=problem.contact.increment_operator,
-            increment_push_operator=problem.contact.increment_operator[NORMAL],
-            increment_outputs=problem.contact.output_operator[None, :, self._modes : 2 * self._modes],
-        )
+        if self.kind.coriolis:
+            self.put_modes(
+                increment_operator=problem.contact.increment_operator,
+                increment_push_operator=problem.contact.increment_operator[NORMAL],
+                increment_outputs=problem.contact.output_operator[None, :, self._modes : 2 * self._modes],
+            )
 
     def _lay_out_ring(self, ring: RingMotion, problem: Problem) -> None:
         lengths = jump_lengths(problem.grid.steps_per_sample) if problem.choice.jumps else np.empty(0)

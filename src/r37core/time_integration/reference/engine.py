@@ -15,7 +15,6 @@ import numpy as np
 from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Lining
 
-from ..gaps import gaps
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
@@ -176,7 +175,7 @@ class ReferenceEngine:
 
     def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it."""
-        return gaps(self.problem, self.clearance, np.array([rows @ u for rows in self.rows]), n, self.angle)
+        return self.problem.casing.gaps(self.clearance, np.array([rows @ u for rows in self.rows]), n, self.angle)
 
     def _directions(self, d: np.ndarray) -> np.ndarray:
         """Forces per unit normal force on each node, shape (3, nodes): towards the axis, with friction against the sliding.
