@@ -40,17 +40,17 @@ def kept_file(name: str, made_of: object, make: Callable[[Path], None], folder: 
 def kept_bytes(name: str, made_of: object, make: Callable[[], bytes], worth_keeping: Callable[[], bool]) -> bytes:
     """The same of a content in memory, which is kept if it is `worth_keeping` when it is made."""
     name = _hashed(name, made_of)
-    content = read_kept(name)
-    if content is None:
-        with _alone(_folder() / name):
-            content = read_kept(name)
-            if content is None:
-                content = make()
-                if worth_keeping():
-                    # a full disk is for those to tell who write results
-                    with suppress(OSError):
-                        keep(content, name)
-    return content
+    if (content := read_kept(name)) is not None:
+        return content
+    with _alone(_folder() / name):
+        if (content := read_kept(name)) is not None:
+            return content
+        content = make()
+        if worth_keeping():
+            # a full disk is for those to tell who write results
+            with suppress(OSError):
+                keep(content, name)
+        return content
 
 
 def read_kept(name: str) -> bytes | None:

@@ -16,8 +16,8 @@ from r37core.contact.node_sweeps import set_laws, sweep_nodes, wear_bars
 from r37core.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
 from .kind import LINED, VECTOR_FRICTION
-from .layout import MERIDIONAL, NORMAL, TANGENTIAL
-from .steps import bar_at, leave_casing, node_lanes, set_friction_of_listed
+from .layout import NORMAL
+from .steps import bar_at, leave_casing, node_lanes, set_friction_of_listed, with_friction
 
 
 @inlined
@@ -89,13 +89,9 @@ def list_beyond(m, count, place):
 @inlined
 def set_column(m, k):
     """What a normal force on a node, with the friction that it brings, opens the gaps by at once."""
-    c = m.contact
+    c, coupled = m.contact, m.coupled != 0
     for g in range(0, node_lanes(m), LANES):
-        column = load(m.flexibility, (NORMAL, k, g))
-        if m.coupled != 0:
-            column += load(m.flexibility, (TANGENTIAL, k, g)) * m.friction_share[0, k]
-            column += load(m.flexibility, (MERIDIONAL, k, g)) * m.friction_share[1, k]
-        store(c.columns, (k, g), column)
+        store(c.columns, (k, g), with_friction(m, m.flexibility, k, g) if coupled else load(m.flexibility, (NORMAL, k, g)))
 
 
 @inlined

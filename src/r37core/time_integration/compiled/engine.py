@@ -153,8 +153,7 @@ class CompiledEngine:
             of_modes["increment_by_velocity"] = increments.by_velocity
             of_modes["velocity_by_increment"] = 1.0 / increments.by_velocity
         if plan is not None:
-            fields["slow_modes"] = plan.slow_modes
-            of_modes |= {"jumps": plan.jumps}
+            fields["slow_modes"], of_modes["jumps"] = plan.slow_modes, plan.jumps
             of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
         fields |= {name: self._spread(values) for name, values in of_modes.items()}
         table = aligned_zeros((len(clearance),), constants_record(self.mode_lanes, self.capacity.nodes))

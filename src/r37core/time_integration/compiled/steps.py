@@ -81,13 +81,12 @@ def predict(m, lost):
     for i in range(0, mode_lanes(m), LANES):
         if CORIOLIS:
             store(m.last_second_difference, i, second_difference(m, i))
-        u, last = load(m.u, i), load(m.increment, i)
-        d = load(m.speed.keep, i) * last - load(m.speed.pull, i) * u
+        u, last, keep, pull = load(m.u, i), load(m.increment, i), load(m.speed.keep, i), load(m.speed.pull, i)
+        d = keep * last - pull * u
         store(m.last_increment, i, last)
         store(m.increment, i, d)
         store(m.u, i, u + d)
         if CORIOLIS:
-            keep, pull = load(m.speed.keep, i), load(m.speed.pull, i)
             lost += load(m.speed.loss, i) * (pull * u * (u - last) + ((1.0 - keep) * u + keep * last) * last)
         else:
             lost += load(m.speed.loss, i) * ((d + last) * (d + last))
@@ -185,10 +184,13 @@ def set_friction_against_last(m):
 
 
 @inlined
-def response_with_friction(m, k, g):
-    """Opening of gaps per unit multiplier of a node, with the vector friction that comes with it."""
-    response = load(m.speed.coupling, (NORMAL, k, g)) + load(m.speed.coupling, (TANGENTIAL, k, g)) * m.friction_share[0, k]
-    return response + load(m.speed.coupling, (MERIDIONAL, k, g)) * m.friction_share[1, k]
+def with_friction(m, table, k, g):
+    """What a unit normal force on a node does to the nodes from g on, with the vector friction that comes with it.
+
+    `table`: what forces along the normal, the tangent and the meridian do.
+    """
+    response = load(table, (NORMAL, k, g)) + load(table, (TANGENTIAL, k, g)) * m.friction_share[0, k]
+    return response + load(table, (MERIDIONAL, k, g)) * m.friction_share[1, k]
 
 
 @inlined
@@ -233,7 +235,7 @@ def press_lining(m, place):
         for j in range(count):
             k = p.listed[j]
             if VECTOR_FRICTION:
-                gap -= response_with_friction(m, k, g) * m.force[k]
+                gap -= with_friction(m, m.speed.coupling, k, g) * m.force[k]
             else:
                 gap -= load(m.speed.response, (k, g)) * m.force[k]
         store(p.gap, g, gap)
@@ -250,7 +252,7 @@ def press_casing(m):
         set_friction_against_last(m)
         for k in range(m.nodes):
             for g in range(0, node_lanes(m), LANES):
-                store(m.speed.response, (k, g), response_with_friction(m, k, g))
+                store(m.speed.response, (k, g), with_friction(m, m.speed.coupling, k, g))
     guessed = 0
     for g in range(node_lanes(m) // LANES):
         p.touching[g] = m.on_casing[g]
@@ -398,10 +400,7 @@ def meet(m, place, work, lost):
     """Everything that happens in a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
     for g in range(0, node_lanes(m), LANES):
         store(m.force, g, 0.0)
-    closed = True
-    if LINED:
-        closed = press_lining(m, place)
-    if closed:
+    if not LINED or press_lining(m, place):
         press_casing(m)
     else:
         leave_casing(m)
