@@ -72,7 +72,7 @@ def in_spans(values: np.ndarray) -> tuple[np.ndarray, int]:
 def nodal_diameters(displacement: np.ndarray, late: np.ndarray, rotor: Rotor) -> dict[str, np.ndarray]:
     """How the motion of the blades is made of waves that run round the rotor.
 
-    `displacement` (m), shape (blades, samples, directions), of whole revolutions; `late`, shape (blades,): see RotorRecord. A
+    `displacement` (m), shape (blades, samples, directions), of whole revolutions; `late`, shape (blades,): see BladesRecord. A
     wave of n nodal diameters at frequency w is x_b(t) = Re(X exp(i(w t - n theta_b))), positive n in the sense of growing
     theta. With the Fourier transform X_bd(w) of each blade's motion along the direction d the share of n is
 

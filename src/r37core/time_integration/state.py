@@ -52,8 +52,8 @@ class SimulationRecord:
     """What some revolutions leave behind.
 
     `samples` (m), shape (samples, 6): normal, radial and tangential displacement of the leading edge, then of the trailing
-    edge; `snapshots`, shape (snapshots, numbers): see Problem.state_shapes; `diverged`; `casing` (m), shape (samples, casing
-    modes), of an elastic casing: see Problem.output_operator. What an engine fills has them among the samples.
+    edge; `snapshots`, shape (snapshots, numbers): see ContactOperators; `diverged`; `casing` (m), shape (samples, casing
+    modes), of an elastic casing: see ContactOperators. What an engine fills has them among the samples.
     """
 
     samples: np.ndarray
