@@ -36,7 +36,9 @@ def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):
             assert re.search(r"output:\s+(\*\*)?pictures\(", rule), rule
             kind = re.search(r'caption=captioned\("(\w+)"\)|drawing\(\s*code,\s*"[\w.]+",\s*"(\w+)"', rule)
             assert "draw_map" in rule or (kind[1] or kind[2]) in CAPTIONS, rule
-    assert "report(" in (root / "workflow/rules/common.smk").read_text().split("def pictures(")[1].split("\n\n\n")[0]
+    functions = (root / "workflow/rules/common.smk").read_text()
+    assert "report(" in functions.split("def shown(")[1].split("\n\n\n")[0]
+    assert "shown(" in functions.split("def pictures(")[1].split("\n\n\n")[0]
 
 
 def test_the_kind_of_a_map_is_a_wildcard():

@@ -153,4 +153,4 @@ def test_the_plan_asks_for_what_the_designs_of_a_round_need(config_copy, monkeyp
     assert search.responses_of_scenes(Named(design="d0000")) == {"abradable": 1}
     assert search.density(Named(design="d0000")) == settings.blades["Free"].material.density
     assert remarks(settings)[0].startswith("search: 7 designs of 'Free' in rounds of 2, at most 3 simulations of each")
-    assert search.budget(None) == [7, 3, 2] and search.number_of_best(None) == 3
+    assert search.budget(None) == [7, 3, 2] and search.designs.entry.best == 3

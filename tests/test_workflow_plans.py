@@ -33,7 +33,7 @@ from r37core.studies.refinement import cases as refinement
 from r37core.studies.stability import cases as stability
 from r37core.studies.tradeoff import cases as tradeoff
 from r37core.tolerances.members import members_of
-from r37core.tolerances.plan import Tolerances
+from r37core.tolerances.plan import RESPONSE_OF_MEMBER, Tolerances
 
 
 @pytest.fixture(scope="module")
@@ -179,8 +179,8 @@ def test_a_round_of_members_reads_those_of_the_sample(with_members):
     }
     assert rounds.yields_of_round(sample) == [1.0e9, 1.0e9]
     assert rounds.refinement_choice(sample)["largest_share"] == 0.4 != rounds.refinement_choice(REF)["largest_share"]
-    assert len(tolerances.responses) == 2 * 2 * 5 - 2 and len(tolerances.responses_of_sample) == 2 * 2
-    assert tolerances.responses[0] == "<results>/tolerances/0/Ref/abradable/response.nc"
+    assert len(tolerances.runs) == 2 * 2 * 5 - 2 and len(tolerances.runs_of_sample) == 2 * 2
+    assert filled({RESPONSE_OF_MEMBER: tolerances.runs})[0] == "<results>/tolerances/0/Ref/abradable/response.nc"
 
 
 @pytest.mark.parametrize(

@@ -21,9 +21,9 @@ from r37core.plans.simulation_plan import Simulations
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
 from r37core.product.panels import panel_files, panel_modules, panel_parameters
-from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing, shown
+from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing
 from r37core.product.sampling import beside, sampling_of
-from r37core.product.targets import files_of, simulated, tables, targets
+from r37core.product.targets import simulated, tables, targets
 
 ROOT = Path(workflow.current_basedir).parent.parent
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -52,10 +52,15 @@ def stage(made: Stage):
     return {**step(made.step), **made.params}
 
 
+def shown(file, text, category, figure, subcategory=EVERY_SCENE):
+    """An output that stands in the report; `text`: the .rst file of its caption."""
+    return report(file, caption=text, category=category, subcategory=subcategory, labels={"figure": figure})
+
+
 def pictures(name, category, subcategory, figure):
     """Outputs of a figure: the PNG, which stands in the report, and the PDF."""
-    shown_as = shown(TEXTS / "figure.rst", category, subcategory, figure=figure)
-    return {"png": report(f"<results>/figures/{name}.png", **shown_as), "pdf": f"<results>/figures/{name}.pdf"}
+    png = shown(f"<results>/figures/{name}.png", TEXTS / "figure.rst", category, figure, subcategory)
+    return {"png": png, "pdf": f"<results>/figures/{name}.pdf"}
 
 
 pathvars:

@@ -12,10 +12,7 @@ use rule step as design_table with:
         summary=rules.summary.output[0],
         geometry=expand(paths.nominal(paths.GEOMETRY), blade=families.designs),
     output:
-        table=report(
-            "<results>/designs.csv",
-            **shown(PACKAGE / "designs/report.rst", "Families", EVERY_SCENE, figure="table of designs"),
-        ),
+        table=shown("<results>/designs.csv", PACKAGE / "designs/report.rst", "Families", "table of designs"),
     log:
         "<logs>/designs.log",
     params:

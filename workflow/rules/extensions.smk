@@ -9,4 +9,4 @@ for extension in EXTENSIONS:
         name:
             extension.name
         input:
-            files_of(extension, sweep),
+            paths.filled(extension.all_targets(sweep)),

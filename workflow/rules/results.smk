@@ -3,9 +3,8 @@
 
 use rule step as configuration with:
     output:
-        configuration=report(
-            "<results>/configuration.json",
-            **shown(TEXTS / "configuration.rst", "Configuration", EVERY_SCENE, figure="configuration"),
+        configuration=shown(
+            "<results>/configuration.json", TEXTS / "configuration.rst", "Configuration", "configuration"
         ),
     log:
         "<logs>/configuration.log",
@@ -54,10 +53,7 @@ use rule step as summary with:
         **({"ranges": sampling.ranges} if sampling else {}),
         campbell=rules.campbell_of_all.output[0],
     output:
-        table=report(
-            "<results>/summary.csv",
-            **shown(TEXTS / "summary.rst", TOGETHER, EVERY_SCENE, figure="interactions"),
-        ),
+        table=shown("<results>/summary.csv", TEXTS / "summary.rst", TOGETHER, "interactions"),
     log:
         "<logs>/summary.log",
     resources:
@@ -72,10 +68,7 @@ use rule step as ranking with:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
         **({"members": sampling.dataset} if sampling else {}),
     output:
-        table=report(
-            "<results>/ranking.csv",
-            **shown(TEXTS / "ranking.rst", TOGETHER, EVERY_SCENE, figure="ranking"),
-        ),
+        table=shown("<results>/ranking.csv", TEXTS / "ranking.rst", TOGETHER, "ranking"),
     log:
         "<logs>/ranking.log",
     resources:
@@ -89,10 +82,7 @@ use rule step as coincidences with:
     input:
         campbell=rules.campbell_of_all.output[0],
     output:
-        table=report(
-            "<results>/coincidences.csv",
-            **shown(TEXTS / "coincidences.rst", TOGETHER, EVERY_SCENE, figure="coincidences"),
-        ),
+        table=shown("<results>/coincidences.csv", TEXTS / "coincidences.rst", TOGETHER, "coincidences"),
     log:
         "<logs>/coincidences.log",
     resources:
@@ -114,10 +104,7 @@ use rule step as explorer with:
         summary=rules.summary.output[0],
         ranking=rules.ranking.output[0],
     output:
-        page=report(
-            "<results>/explorer.html",
-            **shown(TEXTS / "explorer.rst", TOGETHER, EVERY_SCENE, figure="explorer"),
-        ),
+        page=shown("<results>/explorer.html", TEXTS / "explorer.rst", TOGETHER, "explorer"),
     log:
         "<logs>/explorer.log",
     resources:

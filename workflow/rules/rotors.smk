@@ -23,10 +23,7 @@ use rule step as rotors_dataset with:
         rotors=paths.filled({ROTOR_OF_RUN: paths.of_runs(rotor_runs(sweep))}),
     output:
         dataset="<results>/rotor.nc",
-        table=report(
-            "<results>/rotors.csv",
-            **shown(PACKAGE / "rotors/report.rst", TOGETHER, EVERY_SCENE, figure="whole rotors"),
-        ),
+        table=shown("<results>/rotors.csv", PACKAGE / "rotors/report.rst", TOGETHER, "whole rotors"),
     log:
         "<logs>/rotors_dataset.log",
     params:

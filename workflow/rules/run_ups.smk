@@ -38,10 +38,7 @@ use rule step as run_up_tables with:
     input:
         dataset=rules.run_ups_dataset.output.dataset,
     output:
-        runs=report(
-            "<results>/run_ups.csv",
-            **shown(PACKAGE / "run_ups/report.rst", TOGETHER, EVERY_SCENE, figure="run-ups"),
-        ),
+        runs=shown("<results>/run_ups.csv", PACKAGE / "run_ups/report.rst", TOGETHER, "run-ups"),
         rates="<results>/run_up_rates.csv",
     log:
         "<logs>/run_up_tables.log",

@@ -91,9 +91,7 @@ use rule step as search_dataset with:
         round=search.last_round,
     output:
         dataset=DATASET,
-        table=report(
-            TABLE, **shown(PACKAGE / "search/report.rst", "Search", EVERY_SCENE, figure="designs of the search")
-        ),
+        table=shown(TABLE, PACKAGE / "search/report.rst", "Search", "designs of the search"),
     log:
         "<logs>/search_dataset.log",
     params:
@@ -101,7 +99,7 @@ use rule step as search_dataset with:
         choice=search.choice,
         # another number of rounds, whose files may all be there
         budget=search.budget,
-        start=search.start_values,
+        start=lambda wildcards: search.designs.start_values,
         fidelity=settings.fidelity_name,
 
 
@@ -116,7 +114,7 @@ use rule step as search_best with:
     params:
         **step("search.steps.best"),
         entries=search.entries,
-        number=search.number_of_best,
+        number=lambda wildcards: search.designs.entry.best,
 
 
 use rule figure as search_designs_figure with:

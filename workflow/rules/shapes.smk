@@ -42,10 +42,7 @@ use rule step as shapes_page with:
         modes=rules.mode_shapes.output.folder,
         worst=shown_shapes.worst_shapes,
     output:
-        page=report(
-            "<results>/shapes/{blade}.html",
-            **shown(PACKAGE / "shapes/report.rst", "{blade}", EVERY_SCENE, figure="moving shapes"),
-        ),
+        page=shown("<results>/shapes/{blade}.html", PACKAGE / "shapes/report.rst", "{blade}", "moving shapes"),
     log:
         "<logs>/shapes/{blade}_page.log",
     params:

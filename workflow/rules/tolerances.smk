@@ -1,13 +1,13 @@
 # Tolerances: what is made of the members of samples, each with other values of what is never known exactly. Their models and runs
 # are made by the rules of the sweep.
-from r37core.tolerances.plan import DATASET, TABLE, Tolerances
+from r37core.tolerances.plan import DATASET, RESPONSE_OF_MEMBER, TABLE, Tolerances
 
 tolerances = settings.made(Tolerances)
 
 
 use rule step as tolerances_dataset with:
     input:
-        responses=tolerances.responses,
+        responses=paths.filled({RESPONSE_OF_MEMBER: tolerances.runs}),
         rounds=tolerances.first_rounds,
     output:
         dataset=DATASET,
@@ -26,14 +26,11 @@ use rule step as tolerances_dataset with:
 use rule step as tolerance_table with:
     input:
         **tolerances.nominal,
-        responses=tolerances.responses_of_sample,
+        responses=paths.filled({RESPONSE_OF_MEMBER: tolerances.runs_of_sample}),
         campbells=tolerances.campbells_of_sample,
         rounds=tolerances.first_rounds,
     output:
-        table=report(
-            TABLE,
-            **shown(PACKAGE / "tolerances/report.rst", TOGETHER, EVERY_SCENE, figure="tolerances"),
-        ),
+        table=shown(TABLE, PACKAGE / "tolerances/report.rst", TOGETHER, "tolerances"),
     log:
         "<logs>/tolerance_table.log",
     params:

@@ -60,9 +60,8 @@ def _steps_heard(stream: TextIO) -> Iterator[None]:
 
 def show(line: str, stream: TextIO | None) -> None:
     """Write a line of a job to where messages go, if anywhere, in place of the progress that stands there on a terminal."""
-    if stream is None:
-        return
-    print(f"\r\x1b[K{line}" if stream.isatty() else line, file=stream)
+    if stream is not None:
+        print(f"\r\x1b[K{line}" if stream.isatty() else line, file=stream)
 
 
 @contextlib.contextmanager

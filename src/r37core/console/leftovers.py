@@ -19,11 +19,7 @@ from r37core.speeds import SpeedPlan, exact_text
 
 
 def leftovers(results: Path, settings: Settings) -> list[Path]:
-    """Folders and files in the folder `results` that the configuration no longer asks for.
-
-    Those of blades, scenes and speeds that are not run any more, and datasets, figures and models that are not made any more.
-    What no rule makes is left alone.
-    """
+    """Folders and files in `results` that the configuration no longer asks for; what no rule makes is left alone."""
     left = {*_of_runs(results, settings), *_dropped(results, settings)} if results.is_dir() else set()
     return sorted(path for path in left if left.isdisjoint(path.parents))
 

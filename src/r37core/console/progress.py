@@ -26,9 +26,6 @@ QUIET_EVENTS = frozenset({"job_info", "job_started", "job_finished", "progress",
 HANDLER = "DefaultStreamHandler"
 """Name of Snakemake's handler of messages on the terminal."""
 
-_SIMULATION = "simulate"
-"""The rule whose jobs are counted."""
-
 _CHATTER = (
     "Select jobs to execute",
     "Execute ",
@@ -85,17 +82,12 @@ class Progress(logging.Filter):
                 self._write(at_once=True)
         elif event == "job_finished":
             rule, blade, output = self._jobs.pop(record.job_id, ("", "", ""))  # type: ignore[attr-defined]
-            if rule == _SIMULATION:
+            if rule == "simulate":
                 self._simulated[blade] += 1
                 self._diverged += _diverged(Path(output))
         elif event == "progress":
             self._done, self._known = record.done, record.total  # type: ignore[attr-defined]
             self._write(at_once=record.done == record.total, last=record.done == record.total)  # type: ignore[attr-defined]
-
-    @property
-    def _running(self) -> list[str]:
-        """Rule and blade of jobs that have not ended, those that began last."""
-        return [f"{rule} {blade}".strip() for rule, blade, _ in list(self._jobs.values())[-2:]]
 
     def line(self) -> str:
         """What there is to say now."""
@@ -107,15 +99,15 @@ class Progress(logging.Filter):
             shown = ", ".join(f"{blade} {number}" for blade, number in blades[-3:])
             more = f"{len(blades) - 3} blades more, " if len(blades) > 3 else ""
             bound = f" of at most {self.most}" if self._simulated.total() <= self.most else ""
-            parts.append(f"simulations {self._simulated.total()}{bound} ({more}{shown})")
-            parts.append(f"{self._diverged} diverged")
+            parts += [f"simulations {self._simulated.total()}{bound} ({more}{shown})", f"{self._diverged} diverged"]
         if rate > 0.0:
             parts.append(f"{rate:.1f} a second")
         if rate > 0.0 and (self._simulated or self._done == self._known):
             # jobs before the first simulation take a hundred times as long as those after it
             parts.append(f"{_duration((self._known - self._done) / rate)} for those known")
         if self._jobs and not self._simulated:
-            parts.append(f"now {', '.join(self._running)}")
+            last = list(self._jobs.values())[-2:]
+            parts.append(f"now {', '.join(f'{rule} {blade}'.strip() for rule, blade, _ in last)}")
         return "; ".join(parts)
 
     def _write(self, at_once: bool, last: bool = False) -> None:

@@ -34,9 +34,8 @@ def design_table(
 ) -> pd.DataFrame:
     """One row for each design and scene: blade, scene, design variables, MEASURES.
 
-    `designs`: blade -> key -> value; `masses` (kg) by blade; `datasets`: campbell, rms and, if there, stress;
-    `interactions`: summary.csv. What a scene does not compute, and
-    what does not happen (no speed above yield, no interaction of 1B), is NaN.
+    `designs`: blade -> key -> value; `masses` (kg) by blade; `datasets`: campbell, rms and, if there, stress; `interactions`:
+    summary.csv. What a scene does not compute, and what does not happen (no interaction of 1B), is NaN.
     """
     rows = []
     for blade, variables in designs.items():

@@ -8,6 +8,7 @@ import json
 import os
 from collections.abc import Collection, Iterator
 from functools import cache
+from itertools import takewhile
 from pathlib import Path
 
 from r37core.kept import keep, read_kept
@@ -64,7 +65,7 @@ class CodeHashes:
         return sorted(parts - {(self._version_file, "")}, key=self._order)
 
     def _needed_by(self, file: Path, function: str) -> list[tuple[Path, str]]:
-        return list({(imported, ""): None for name in imported_names(file, function) for imported in self._files(name)})
+        return list({(imported, ""): None for name in _facts(file, function)[1] for imported in self._files(name)})
 
     def _order_of(self, part: tuple[Path, str]) -> tuple[bool, tuple[str, ...], str]:
         return part[0].is_relative_to(self._scripts), part[0].parts, part[1]
@@ -102,16 +103,8 @@ def _entries(folder: Path) -> frozenset[str]:
     return frozenset(os.listdir(folder)) if folder.is_dir() else frozenset()
 
 
-def imported_names(file: Path, function: str = "") -> tuple[str, ...]:
-    """Absolute dotted names of all that a file imports, functions' own imports included, or that its `function` uses."""
-    return _facts(file, function)[1]
-
-
 def fingerprint(file: Path, function: str = "") -> bytes:
-    """Hash of what a Python file does, or its `function` and what that uses of it.
-
-    It is of the syntax tree without docstrings, the same in every version of Python.
-    """
+    """Hash of what a file does, or its `function` and what that uses: the same for other docstrings and versions of Python."""
     return _facts(file, function)[0]
 
 
@@ -133,17 +126,17 @@ class _FactsOfFiles:
             tree = ast.parse(content)
             if function:
                 tree = _used_by(function, tree)
-            self._known[key] = (_fingerprint(tree).hex(), _imported_names(tree, package))
+            text = "".join(f"{part}\0" for part in _parts(tree))
+            self._known[key] = (hashlib.sha256(text.encode()).hexdigest(), _imported_names(tree, package))
             self._new = True
         fingerprint, names = self._known[key]
         return bytes.fromhex(fingerprint), tuple(names)
 
     def save(self) -> None:
-        if self._new and len(self._known) <= self._MOST:
-            keep(json.dumps(self._known).encode(), self._NAME)
-        elif self._new:
-            # those of versions long past
-            keep(b"{}", self._NAME)
+        if self._new:
+            # too many are of versions long past
+            kept = self._known if len(self._known) <= self._MOST else {}
+            keep(json.dumps(kept).encode(), self._NAME)
         self._new = False
 
 
@@ -179,6 +172,7 @@ def _bound_by(statement: ast.stmt) -> set[str]:
 
 
 def _imported_names(tree: ast.Module, package: list[str]) -> list[str]:
+    """Absolute dotted names of all that is imported, functions' own imports included."""
     names: list[str] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
@@ -190,21 +184,9 @@ def _imported_names(tree: ast.Module, package: list[str]) -> list[str]:
     return names
 
 
-def _fingerprint(tree: ast.Module) -> bytes:
-    digest = hashlib.sha256()
-    for part in _parts(tree):
-        digest.update(part.encode() + b"\0")
-    return digest.digest()
-
-
 def _package_of(file: Path) -> list[str]:
     """Names of the packages that a file lies in, from the outermost."""
-    names: list[str] = []
-    folder = file.parent
-    while (folder / "__init__.py").exists():
-        names.insert(0, folder.name)
-        folder = folder.parent
-    return names
+    return [folder.name for folder in takewhile(lambda folder: (folder / "__init__.py").exists(), file.parents)][::-1]
 
 
 def _parts(node: ast.AST) -> Iterator[str]:

@@ -20,10 +20,7 @@ from .provenance import Attributes
 
 @dataclass(frozen=True)
 class Imported:
-    """Blades by what gives them.
-
-    Methods with `wildcards` are inputs and parameters of rules.
-    """
+    """Blades by what gives them; methods with `wildcards` are inputs and parameters of rules."""
 
     settings: Settings
 

@@ -13,9 +13,6 @@ import scipy
 
 from r37core.config.spread import Spread
 
-MEMBER_NAME = r"\d+(?:b|f\d+)?"
-"""Pattern of a member's name."""
-
 
 def sobol_points(numbers: int, members: int, seed: int) -> dict[str, tuple[float, ...]]:
     """Name of each member -> its point: where it lies among the values of each number, shares above 0 and below 1.
@@ -30,10 +27,8 @@ def sobol_points(numbers: int, members: int, seed: int) -> dict[str, tuple[float
     first, second = both[:, :numbers], both[:, numbers:]
     mixed = [np.where(np.arange(numbers) == number, second, first) for number in range(numbers)]
     names = zip(*(together(row, range(numbers)) for row in range(members)), strict=True)
-    pairs = [
-        pair for names, sample in zip(names, [first, second, *mixed], strict=True) for pair in zip(names, sample, strict=True)
-    ]
-    return {name: tuple(point.tolist()) for name, point in pairs}
+    samples = zip(names, [first, second, *mixed], strict=True)
+    return {name: tuple(point.tolist()) for names, points in samples for name, point in zip(names, points, strict=True)}
 
 
 def together(row: int, numbers: Iterable[int]) -> list[str]:

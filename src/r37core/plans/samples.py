@@ -95,17 +95,12 @@ class Samples:
 
     def sample(self, wildcards: Any) -> Sample:
         """Of a blade and scene, with the member."""
-        folder, _ = folder_and_name(wildcards)
-        pair = (wildcards.blade, wildcards.scene)
+        (folder, _), pair = folder_and_name(wildcards), (wildcards.blade, wildcards.scene)
         return self.beside[folder][pair] if folder else self._nominal(pair)
 
     def member(self, wildcards: Any) -> Member:
         """Of a blade and scene."""
         return self.sample(wildcards).members[folder_and_name(wildcards)[1]]
-
-    def model(self, wildcards: Any) -> str:
-        """The part `member` of the paths of the model that a member's runs start from."""
-        return self.member(wildcards).model
 
     def blade(self, wildcards: Any) -> BladeSettings:
         """The blade of a member, which is the same in all scenes."""

@@ -21,11 +21,12 @@ class Simulations:
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
+        integration = self.sweep.settings.fidelity.time_integration
         task = {
             "scene": self.plain_scene(wildcards),
             "choice": to_plain(self._choice(wildcards, float(wildcards.speed))),
             "results": [result for result in self.sweep.results(wildcards) if result in OF_RUNS],
-            "kept": self.kept,
+            "kept": {key: getattr(integration, key) for key in ("spectrum_highest_order", "wear_angles")},
         }
         return json.dumps(task)
 
@@ -46,9 +47,3 @@ class Simulations:
         """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
         blades = list(self.sweep.settings.blades)
         return 1 - blades.index(wildcards.blade) / len(blades)
-
-    @property
-    def kept(self) -> dict[str, int]:
-        """How much of a run its file keeps."""
-        keys = ("spectrum_highest_order", "wear_angles")
-        return {key: getattr(self.sweep.settings.fidelity.time_integration, key) for key in keys}

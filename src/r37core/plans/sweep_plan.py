@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property, partial
 from itertools import chain, count, takewhile
@@ -55,7 +55,7 @@ class Sweep:
 
     def _of_model(self, wildcards: Any, pattern: str) -> str:
         tip_line = self.settings.scenes[wildcards.scene].tip_line
-        return paths.fill(pattern, member=self.samples.model(wildcards), blade=wildcards.blade, tip_line=tip_line)
+        return paths.fill(pattern, member=self.samples.member(wildcards).model, blade=wildcards.blade, tip_line=tip_line)
 
     def nominal_stamp(self, wildcards: Any) -> list[str]:
         """What a member waits for: the nominal runs can be done, which else would be said once for every member."""
@@ -64,7 +64,8 @@ class Sweep:
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds are adaptive."""
-        speeds = speeds_of_rounds(self.speed_plan(wildcards), partial(self.new_speeds, wildcards))
+        plan, rounds = self.speed_plan(wildcards), map(partial(self.new_speeds, wildcards), count())
+        speeds = sorted(chain.from_iterable(takewhile(bool, rounds)) if plan.refined else plan.certain)
         return paths.speed_files(member_of(wildcards), wildcards, speeds)
 
     def new_speeds(self, wildcards: Any, number: int) -> list[float]:
@@ -110,11 +111,6 @@ class Sweep:
         return [pair for pair in pairs if kind == KINDS[0] or kind in self.settings.results_of(*pair)]
 
 
-def speeds_of_rounds(plan: SpeedPlan, new_speeds: Callable[[int], Sequence[float]]) -> list[float]:
-    """Speeds (rad/s), ascending: `new_speeds` of all rounds until one has none, where they are adaptive."""
-    return sorted(chain.from_iterable(takewhile(bool, map(new_speeds, count()))) if plan.refined else plan.certain)
-
-
 def speeds_of_round(file: str, plan: SpeedPlan | None = None) -> list[float]:
     """Speeds (rad/s) that a round asked for, of those that its `plan` may ask for.
 
@@ -128,8 +124,7 @@ def _speeds_of_round(file: str, _time: int, plan: SpeedPlan | None) -> list[floa
     content = read_json(file)
     with readable(file):
         speeds = [float(speed) for speed in content["new"]]
-        strange = set() if plan is None else set(speeds).difference(_all_of(plan))
-        if strange:
+        if strange := set() if plan is None else set(speeds).difference(_all_of(plan)):
             raise ValueError(f"it asks for {min(strange):.9g} rad/s, which is no speed of the configuration")
         return speeds
 

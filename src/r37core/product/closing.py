@@ -9,13 +9,10 @@ from pathlib import Path
 from r37core.config import Settings
 from r37core.io import InputFileError
 from r37core.plans.extension import Extension
+from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 
 from .extensions import EXTENSIONS
-from .targets import files_of
-
-_FIRST = (".html", ".png", ".csv")
-"""Suffixes of files that a person opens, the best first."""
 
 
 def lines_of_extensions(settings: Settings, began: float) -> list[str]:
@@ -26,7 +23,7 @@ def lines_of_extensions(settings: Settings, began: float) -> list[str]:
 
 def line_of_extension(extension: Extension, sweep: Sweep, results: Path, began: float) -> str:
     """What an extension has found, in the folder `results`, and where to look; empty where all that it made is older."""
-    files = [results / file.removeprefix("<results>/") for file in files_of(extension, sweep)]
+    files = [results / file.removeprefix("<results>/") for file in filled(extension.all_targets(sweep))]
     made = [file for file in files if file.exists() and file.stat().st_mtime >= began]
     if not made:
         return ""
@@ -42,5 +39,6 @@ def line_of_extension(extension: Extension, sweep: Sweep, results: Path, began: 
 def _look_at(extension: Extension, files: list[Path], results: Path) -> Path:
     if extension.look_at:
         return results / extension.look_at.removeprefix("<results>/")
-    order = {suffix: place for place, suffix in enumerate(_FIRST)}
+    # what a person opens, the best first
+    order = {".html": 0, ".png": 1, ".csv": 2}
     return min((file for file in files if file.exists()), key=lambda file: order.get(file.suffix, len(order)))

@@ -16,8 +16,7 @@ _PACKAGE = Path(__file__).parent.parent
 
 def panel_files(sweep: Sweep) -> dict[str, str]:
     """Extension -> the dataset that its panels show; those of extensions that have one in this run."""
-    files = {extension.name: filled(extension.panel.dataset(sweep)) for extension in EXTENSIONS if extension.panel}
-    return {name: file for name, (file,) in ((name, several) for name, several in files.items() if several)}
+    return {name: file for name, panel in _panels(sweep).items() for file in filled(panel.dataset(sweep))}
 
 
 def panel_modules(sweep: Sweep) -> list[str]:
@@ -36,5 +35,5 @@ def panel_parameters(sweep: Sweep) -> dict[str, Any]:
 
 def _panels(sweep: Sweep) -> dict[str, Panel]:
     """Extension -> its panel, of those that have one in this run."""
-    files = panel_files(sweep)
-    return {extension.name: extension.panel for extension in EXTENSIONS if extension.panel and extension.name in files}
+    panels = {extension.name: extension.panel for extension in EXTENSIONS if extension.panel}
+    return {name: panel for name, panel in panels.items() if filled(panel.dataset(sweep))}

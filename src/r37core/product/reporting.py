@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from r37core.plans.code import CodeHashes
@@ -12,11 +11,6 @@ from .captions import caption
 
 TOGETHER = "All blades"
 EVERY_SCENE = "every scene"
-
-
-def shown(text: Path, category: str, subcategory: str, **labels: str) -> dict[str, Any]:
-    """Arguments of Snakemake's `report` flag for one kind of output, with wildcards in braces; `text`: its .rst file."""
-    return {"caption": text, "category": category, "subcategory": subcategory, "labels": labels}
 
 
 def captioned(figure: str | None = None) -> Callable[[Any], str]:

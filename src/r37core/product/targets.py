@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from r37core.config.casing_remarks import elastic_casings
-from r37core.plans.extension import Extension
 from r37core.plans.paths import Wildcards, filled, of, of_runs, pictures
 from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
 
@@ -34,11 +33,6 @@ def everything(sweep: Sweep) -> dict[str, Wildcards]:
 def simulated(sweep: Sweep) -> list[str]:
     """Files of the extensions' own simulations."""
     return [file for extension in EXTENSIONS for file in filled(extension.simulated(sweep))]
-
-
-def files_of(extension: Extension, sweep: Sweep) -> list[str]:
-    """All files of an extension that are asked for."""
-    return filled(extension.all_targets(sweep))
 
 
 def _of_pipeline(sweep: Sweep) -> dict[str, Wildcards]:

@@ -76,11 +76,7 @@ def _of_designs(designs: dict[str, Design], evaluated: dict[str, Evaluated], cho
     objectives, constraints = list(choice.objectives), list(choice.constraints)
     return {
         "value": (("design", "variable"), [design.values for design in designs.values()], about("1", "in the unit of the key")),
-        "round": (
-            "design",
-            [design.round for design in designs.values()],
-            about("1", "that proposed the design; -1 of the start"),
-        ),
+        "round": ("design", [each.round for each in designs.values()], about("1", "that proposed the design; -1 of the start")),
         "refused": ("design", [design.refused or "" for design in designs.values()], {"long_name": "why it cannot be built"}),
         "feasible": ("design", np.array(feasible, "i1"), about("1", "whether it can be built and keeps all constraints")),
         "objective_value": (("design", "objective"), quantities(objectives, 0), about("1", "in the unit of the objective")),

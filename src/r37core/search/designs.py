@@ -102,38 +102,26 @@ class SearchDesigns:
 
     def _members(self, name: str, blade: BladeSettings, scene: str) -> dict[str, Member]:
         """Members under tolerances, with a model of their own where the blade is another one."""
-        members = {}
-        for member, changes in self._changes(blade, scene).items():
-            other = changed_blade(blade, changes["of_blades"])
-            own = path_part(f"{FOLDER}/{name}", NOMINAL if other.elastic == blade.elastic else member)
-            members[member] = Member(other, changed_scene(self.settings.scene_entries[scene], changes["of_scenes"]), own)
-        return members
-
-    def _changes(self, blade: BladeSettings, scene: str) -> dict[str, dict[str, dict[str, float]]]:
-        """Member -> section -> key -> value."""
-        tolerances = self.entry.tolerances
+        tolerances, scene_entry = self.entry.tolerances, self.settings.scene_entries[scene]
         if tolerances is None:
             return {}
-        of_scene = scene_numbers(self.settings.scene_entries[scene])
-        spreads = tolerances.spreads
+        of_scene, spreads = scene_numbers(scene_entry), tolerances.spreads
         nominal = [blade_number(blade, key) if where == "of_blades" else of_scene.get(key) for where, key in spreads]
         points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
-        changes: dict[str, dict[str, dict[str, float]]] = {}
-        for member, point in points.items():
-            if not is_of_sample(member):
-                continue
-            changes[member] = {"of_blades": {}, "of_scenes": {}}
-            for (where, key), value in zip(spreads, drawn(spreads.values(), nominal, point), strict=True):
+        members = {}
+        for member in filter(is_of_sample, points):
+            changes: dict[str, dict[str, float]] = {"of_blades": {}, "of_scenes": {}}
+            for (where, key), value in zip(spreads, drawn(spreads.values(), nominal, points[member]), strict=True):
                 if value is not None:
-                    changes[member][where][key] = value
-        return changes
+                    changes[where][key] = value
+            other = changed_blade(blade, changes["of_blades"])
+            own = path_part(f"{FOLDER}/{name}", NOMINAL if other.elastic == blade.elastic else member)
+            members[member] = Member(other, changed_scene(scene_entry, changes["of_scenes"]), own)
+        return members
 
 
 def start_value(entry: BladeEntry, key: str) -> float | None:
-    """Value of a dotted key of an entry; None where it has none.
-
-    A share, or a law over the span, that is left out has the value that changes nothing.
-    """
+    """Value of a dotted key of an entry, for a share or law that is left out one that changes nothing; None without a value."""
     first, *others = key.split(".")
     inner: Any = getattr(entry, first, None)
     if inner is None and (first in SECTION_KEYS or key in SHARES):

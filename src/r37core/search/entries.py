@@ -23,10 +23,7 @@ _HEADER = """\
 
 
 def entries_of(search: xr.Dataset, designs: Sequence[str], start: str, entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Name -> entry of some designs, the best first: the start's name with _best1, _best2, ...
-
-    `entries`: those that they start at, of which `start` is the last.
-    """
+    """Name (`start` with _best1, _best2, ...) -> entry of some designs, the best first, made of the `entries` of the start."""
     made: dict[str, Any] = {}
     for place, design in enumerate(designs, 1):
         content = dict(entries[start])

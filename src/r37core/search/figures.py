@@ -21,8 +21,7 @@ from .shown import in_lines, with_unit
 
 _START_LOOK: dict[str, Any] = {"color": "0.15", "marker": "s", "markersize": 5, "linestyle": "none", "zorder": 5}
 _BEST_LOOK: dict[str, Any] = {"color": style.COLOURS[1], "marker": "*", "markersize": 8, "linestyle": "none", "zorder": 6}
-_KEEPS = "keeps all constraints"
-_BREAKS = "breaks a constraint"
+_FRONT_LOOK: dict[str, Any] = {"color": style.COLOURS[1], "marker": "o", "markersize": 4.5, "zorder": 4, "clip_on": False}
 
 _SKEWED = 0.1
 """Values of at least 0, the smallest below this share of the largest, are drawn on a square-root scale."""
@@ -55,11 +54,11 @@ def draw_designs(search: xr.Dataset) -> Figure:
     """Best value of each objective over the number of designs; objectives against each other, a single one over the rounds."""
     objectives = [_objective(search, name) for name in search["objective"].values]
     pairs = list(combinations(objectives, 2))
-    rows, columns = _grid(max(len(pairs), 1))
+    columns = 1 if len(pairs) <= 3 else 2
+    rows = -(-max(len(pairs), 1) // columns)
     heights = max(1.7 * len(objectives), (3.2 if len(pairs) <= 1 else 2.4) * rows)
     figure = plt.figure(figsize=(style.PAGE, heights + 0.6))
-    parts: Any = figure.subfigures(1, 2, width_ratios=[1.0, 1.15 if columns == 1 else 1.7])
-    left, right = parts
+    left, right = figure.subfigures(1, 2, width_ratios=[1.0, 1.15 if columns == 1 else 1.7], squeeze=False)[0]
     panels_of_best = _panels(left, len(objectives), 1)
     for number, (axes, objective) in enumerate(zip(panels_of_best, objectives, strict=True)):
         _draw_best(axes, search, objective, style.COLOURS[number % len(style.COLOURS)])
@@ -133,16 +132,6 @@ def _tried(search: xr.Dataset) -> np.ndarray:
     return np.flatnonzero(~_is_start(search))
 
 
-def _is_feasible(search: xr.Dataset) -> np.ndarray:
-    return search["feasible"].values.astype(bool)
-
-
-def _grid(number: int) -> tuple[int, int]:
-    """Rows and columns of so many panels."""
-    columns = 1 if number <= 3 else 2
-    return -(-number // columns), columns
-
-
 def _panels(figure: Any, rows: int, columns: int) -> list[Axes]:
     return list(figure.subplots(rows, columns, squeeze=False).flat)
 
@@ -150,7 +139,7 @@ def _panels(figure: Any, rows: int, columns: int) -> list[Axes]:
 def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: str) -> None:
     """Best feasible value so far over the number of designs, the start as a line, and where the first designs end."""
     tried = _tried(search)
-    values = np.where(_is_feasible(search), objective.values, np.inf)[tried]
+    values = np.where(search["feasible"].values == 1, objective.values, np.inf)[tried]
     best = np.minimum.accumulate(np.where(np.isnan(values), np.inf, values))
     numbers = np.arange(1, len(tried) + 1)
     if np.isfinite(best).any():
@@ -161,9 +150,8 @@ def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: st
     else:
         why = "no design keeps all constraints" if search.sizes["constraint"] else "no design could be built"
         axes.set_title(why, fontsize=7)
-    start = objective.values[_is_start(search)]
-    if np.isfinite(start).all():
-        (level,) = start
+    (level,) = objective.values[_is_start(search)]
+    if np.isfinite(level):
         axes.axhline(level, color=_START_LOOK["color"], linewidth=0.9, linestyle="--")
         near = {"transform": axes.get_yaxis_transform(), "va": "bottom", "ha": "right", "fontsize": 7}
         axes.text(1.0, level, f"start {level:.4g}", color=_START_LOOK["color"], **near)
@@ -172,7 +160,7 @@ def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: st
         axes.axvline(first + 0.5, color="0.5", linewidth=0.8, linestyle=":")
     axes.set_xlim(0.0, len(tried) + 1.0)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    shown = objective._replace(values=np.append(best[np.isfinite(best)], start))
+    shown = objective._replace(values=np.append(best[np.isfinite(best)], level))
     axes.set_ylabel(f"best {shown.axis_label}")
     _scale(axes, "y", shown)
 
@@ -185,15 +173,8 @@ def _draw_pair(axes: Axes, search: xr.Dataset, across: _Objective, up: _Objectiv
         _points(axes, across.values[kept & ~start], up.values[kept & ~start], **look)
     front = search["not_dominated"].values.astype(bool)
     order = np.flatnonzero(front)[np.lexsort((up.values[front], across.values[front]))]
-    line = "-" if joined else "none"
-    look = {
-        "color": style.COLOURS[1],
-        "marker": "o",
-        "markersize": 4.5,
-        "zorder": 4,
-        "label": "none is better in all objectives",
-    }
-    _points(axes, across.values[order], up.values[order], drawstyle="steps-post", linestyle=line, clip_on=False, **look)
+    look = {**_FRONT_LOOK, "linestyle": "-" if joined else "none", "label": "none is better in all objectives"}
+    _points(axes, across.values[order], up.values[order], drawstyle="steps-post", **look)
     if len(order) <= _MOST_NAMED:
         for index in order[~start[order]]:
             at = across.values[index], up.values[index]
@@ -248,12 +229,11 @@ def _draw_slice(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
 
 def _kinds(search: xr.Dataset) -> Iterator[tuple[np.ndarray, dict[str, Any]]]:
     """Which designs break a constraint, and which keep all of them, and how they are drawn; only what there is."""
-    feasible = _is_feasible(search)
+    feasible = search["feasible"].values.astype(bool)
     common: dict[str, Any] = {"marker": "o", "linestyle": "none", "markersize": 4, "clip_on": False}
-    pale = {**common, "color": "0.72", "markerfacecolor": "none", "markeredgewidth": 0.7, "zorder": 2, "label": _BREAKS}
-    plain = {**common, "color": style.COLOURS[0], "markeredgewidth": 0.0, "zorder": 3, "label": _KEEPS}
-    if not search.sizes.get("constraint", 1):
-        plain["label"] = "designs"
+    breaks, keeps = "breaks a constraint", "keeps all constraints" if search.sizes.get("constraint", 1) else "designs"
+    pale = {**common, "color": "0.72", "markerfacecolor": "none", "markeredgewidth": 0.7, "zorder": 2, "label": breaks}
+    plain = {**common, "color": style.COLOURS[0], "markeredgewidth": 0.0, "zorder": 3, "label": keeps}
     for kept, look in ((~feasible, pale), (feasible, plain)):
         if (kept & ~_is_start(search)).any():
             yield kept, look
@@ -294,7 +274,6 @@ def _limits(values: np.ndarray) -> tuple[float, float]:
 
 def _scale(axes: Axes, which: str, objective: _Objective) -> None:
     """Limits of an axis, and the square-root scale of a skewed objective: near 0, where the good designs are, it is wide."""
-    of_axis = axes.xaxis if which == "x" else axes.yaxis
     set_limits = axes.set_xlim if which == "x" else axes.set_ylim
     known = objective.values[np.isfinite(objective.values)]
     if not known.size:
@@ -307,6 +286,7 @@ def _scale(axes: Axes, which: str, objective: _Objective) -> None:
     set_scale("function", functions=(_root, _square))
     # a little below 0, so that points there are seen whole
     set_limits(-(0.04**2) * top, 1.12 * top)
+    of_axis = axes.xaxis if which == "x" else axes.yaxis
     of_axis.set_major_locator(FixedLocator(_ticks(top)))
     of_axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     of_axis.set_minor_locator(NullLocator())

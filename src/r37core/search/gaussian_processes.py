@@ -9,7 +9,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import ModuleType
 from typing import Any
 
@@ -73,23 +73,20 @@ class Fit:
             return self
         expected = self.at(point[None])[0]
         points, numbers = np.vstack([self.points, point]), np.append(self.numbers, expected)
-        variances = np.append(self.variances, 1e-8)
+        return self._through(points, numbers, np.append(self.variances, 1e-8))
+
+    def without(self, index: int) -> float:
+        """Mean of a process that varies, where one number is left out, at its point, with the hyperparameters of all."""
+        kept = np.arange(len(self.points)) != index
+        rest = self._through(self.points[kept], self.numbers[kept], self.variances[kept])
+        return float(rest.at(self.points[index : index + 1])[0][0])
+
+    def _through(self, points: np.ndarray, numbers: np.ndarray, variances: np.ndarray) -> Fit:
+        """A process with the same hyperparameters through other numbers."""
         process = _regressor(self.process.kernel_, variances, optimizer=None)
         with _quiet():
             process.fit(points, (numbers - self.mean) / self.scale)
-        return Fit(process, self.mean, self.scale, self.noise, points, numbers, variances)
-
-    def without(self, index: int) -> tuple[float, float]:
-        """Mean and standard deviation where one number is left out, at its point, with the hyperparameters of all."""
-        if self.process is None:
-            return self.mean, 0.0
-        kept = np.arange(len(self.points)) != index
-        process = _regressor(self.process.kernel_, self.variances[kept], optimizer=None)
-        with _quiet():
-            process.fit(self.points[kept], (self.numbers[kept] - self.mean) / self.scale)
-        rest = Fit(process, self.mean, self.scale, self.noise, self.points[kept], self.numbers[kept], self.variances[kept])
-        mean, deviation = rest.at(self.points[index : index + 1])
-        return float(mean[0]), float(deviation[0])
+        return replace(self, process=process, points=points, numbers=numbers, variances=variances)
 
 
 def fit(points: np.ndarray, numbers: np.ndarray, scatters: np.ndarray, seed: int) -> Fit:

@@ -11,9 +11,6 @@ from r37core.units import shown_unit
 
 from .shown import in_lines, with_unit
 
-_DIGITS = 5
-"""Of a number on the page."""
-
 
 def search_contents(search: xr.Dataset) -> dict[str, object]:
     """Of each design of `search.nc` its numbers in the units that are shown; None for what is not known."""
@@ -44,4 +41,4 @@ def _quantity(search: xr.Dataset, kind: str, name: str) -> dict[str, object]:
 
 
 def _numbers(values: np.ndarray) -> list[float | None]:
-    return [float(f"{value:.{_DIGITS}g}") if math.isfinite(value) else None for value in values.tolist()]
+    return [float(f"{value:.5g}") if math.isfinite(value) else None for value in values.tolist()]

@@ -1,7 +1,4 @@
-"""Which of the tried designs are the best: for one objective an order, for several those that no other design beats.
-
-Objectives count as they stand; their scatter is not used.
-"""
+"""The best of the tried designs, without regard to scatter: an order by one objective, and those that none beats in several."""
 
 from __future__ import annotations
 

@@ -72,9 +72,9 @@ class Search:
     def number_of_designs(self, wildcards: Any) -> int:
         """Designs of a round."""
         entry, number = self.designs.entry, int(wildcards.round)
-        return (
-            entry.first if number == 0 else max(0, min(entry.batch, entry.designs - entry.first - (number - 1) * entry.batch))
-        )
+        if number == 0:
+            return entry.first
+        return max(0, min(entry.batch, entry.designs - entry.first - (number - 1) * entry.batch))
 
     def budget(self, wildcards: Any) -> list[int]:
         """All that says how many designs each round has."""
@@ -94,12 +94,11 @@ class Search:
         number = int(wildcards.round)
         if number == 0:
             return {}
-        before = number - 1
         return {
-            "before": self.round_file(before),
-            "built": self.built_file(before),
+            "before": self.round_file(number - 1),
+            "built": self.built_file(number - 1),
             "start": paths.fill(MEASURES, design=START),
-            "measures": [paths.fill(MEASURES, design=name) for name in self._built(before)],
+            "measures": [paths.fill(MEASURES, design=name) for name in self._built(number - 1)],
         }
 
     def shapes(self, wildcards: Any) -> list[str]:
@@ -123,19 +122,16 @@ class Search:
         """What a design, or the start, is judged by."""
         own, blade = member_part(wildcards.design), self.designs.entry.blade
         of = {"member": own, "blade": blade, "tip_line": self.settings.structure.boundary.tip_line}
-        files = {
-            "geometry": paths.GEOMETRY,
-            "campbell": paths.CAMPBELL,
-            "contact": paths.CONTACT_MODEL,
-            "stress": paths.STRESS_OPERATOR,
-        }
-        runs = [
-            {"member": own + path_part("", member), "blade": blade, "scene": scene}
-            for (_, scene), sample in self._samples(wildcards.design).items()
-            for member in sample.members
-        ]
-        return {name: paths.fill(pattern, **of) for name, pattern in files.items()} | {
-            "responses": paths.filled({paths.RESPONSE: runs})
+        return {
+            "geometry": paths.fill(paths.GEOMETRY, **of),
+            "campbell": paths.fill(paths.CAMPBELL, **of),
+            "contact": paths.fill(paths.CONTACT_MODEL, **of),
+            "stress": paths.fill(paths.STRESS_OPERATOR, **of),
+            "responses": [
+                paths.fill(paths.RESPONSE, member=own + path_part("", member), blade=blade, scene=scene)
+                for (_, scene), sample in self._samples(wildcards.design).items()
+                for member in sample.members
+            ],
         }
 
     def responses_of_scenes(self, wildcards: Any) -> dict[str, int]:
@@ -179,14 +175,6 @@ class Search:
         if (table := plain[chain[-1]].pop("stacking_table", None)) is not None:
             plain[chain[-1]]["sweep_lean"] = stacking_table_rows(self.settings.root / table, chain[-1])
         return plain
-
-    def start_values(self, wildcards: Any) -> list[float | None]:
-        """Values of the variables that the start has; None where its entry does not say."""
-        return self.designs.start_values
-
-    def number_of_best(self, wildcards: Any) -> int:
-        """How many designs are written as entries."""
-        return self.designs.entry.best
 
 
 def choice_of(settings: Settings) -> SearchChoice:
@@ -240,10 +228,9 @@ def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the table, the best designs and the figures."""
     wildcards: paths.Wildcards = [{}] if is_asked(sweep.settings) else []
-    together = dict.fromkeys((DATASET, TABLE, BEST), wildcards)
-    if not wildcards:
-        # what an earlier search has left
-        together |= dict.fromkeys((ROUND, BUILT, SHAPE, MEASURES), wildcards)
+    # without a search: what an earlier one has left
+    left = () if wildcards else (ROUND, BUILT, SHAPE, MEASURES)
+    together = dict.fromkeys((DATASET, TABLE, BEST, *left), wildcards)
     return together | {file: of for name in FIGURES for file, of in paths.pictures(name, wildcards).items()}
 
 

@@ -24,7 +24,6 @@ NEAR = 0.01
 
 _CANDIDATES = 1024
 _DRAWS = 64
-_SMALLEST = 1e-300
 
 
 def first_designs(variables: Sequence[SearchVariable], number: int, seed: int) -> list[tuple[float, ...]]:
@@ -74,7 +73,7 @@ class Models:
 
     def log_chance(self, points: np.ndarray) -> np.ndarray:
         """Logarithm of the probability [point] that a design can be built and keeps every constraint."""
-        total = np.log(np.maximum(self.buildable(points), _SMALLEST))
+        total = np.log(np.maximum(self.buildable(points), 1e-300))
         for margin in self.margins:
             mean, deviation = margin.at(points)
             total += scipy.stats.norm.logcdf(mean / np.maximum(deviation, 1e-9 * max(margin.scale, abs(margin.mean), 1e-300)))
@@ -155,9 +154,7 @@ def _worth(models: Models, points: np.ndarray, taken: np.ndarray, draws: int) ->
 
 def _far_enough(candidates: np.ndarray, worth: np.ndarray, taken: np.ndarray) -> int:
     """Index of the best candidate that is no near copy of a design; where all are, of the one farthest from them."""
-    distance = np.full(len(candidates), np.inf)
-    for design in taken:
-        np.minimum(distance, np.abs(candidates - design).max(1), out=distance)
+    distance = scipy.spatial.distance.cdist(candidates, taken, "chebyshev").min(1, initial=np.inf)
     allowed = distance >= min(NEAR, distance.max())
     return int(np.argmax(np.where(allowed, worth, -np.inf)))
 
@@ -166,8 +163,7 @@ def _around(centres: np.ndarray, spread: float, generator: np.random.Generator) 
     """Points about `centres` [point, variable], within the ranges."""
     if not len(centres):
         return centres
-    each = math.ceil(256 / len(centres))
-    moved = np.repeat(centres, each, axis=0)
+    moved = np.repeat(centres, math.ceil(256 / len(centres)), axis=0)
     return np.clip(moved + spread * generator.standard_normal(moved.shape), 0.0, 1.0)
 
 

@@ -99,10 +99,7 @@ class DesignStructure:
 
 
 def static_stress(stress: StressOperator, stiffening: np.ndarray, speeds: Sequence[float]) -> dict[float, float]:
-    """Largest von Mises stress (Pa) by rotation alone at each of the speeds (rad/s).
-
-    `stiffening` as rotation_amplitudes has it.
-    """
+    """Largest von Mises stress (Pa) by rotation alone at each speed (rad/s); `stiffening` as rotation_amplitudes has it."""
     still = np.zeros((len(speeds), stress.coordinates))
     amplitudes = rotation_amplitudes(stiffening, np.array(speeds))
     return dict(zip(speeds, stress.max_von_mises(np.concatenate([still, amplitudes], axis=1)).tolist(), strict=True))

@@ -40,18 +40,14 @@ def tried_after(
 
 def round_after(tried: Mapping[str, Design], start: Mapping[str, Value], count: int, choice: SearchChoice) -> SearchRound:
     """The round of `count` designs that what was `tried` asks for."""
-    return SearchRound(_named(_proposed(tried, start, count, choice), len(tried)), tried, start)
-
-
-def _proposed(
-    tried: Mapping[str, Design], start: Mapping[str, Value], count: int, choice: SearchChoice
-) -> list[tuple[float, ...]]:
     if not count:
-        return []
+        return SearchRound({}, tried, start)
     if choice.method == QUASI_RANDOM:
-        return first_designs(choice.variables, len(tried) + count, choice.seed)[len(tried) :]
-    evaluated = [design.evaluated(name, choice, start) for name, design in tried.items()]
-    return propose(choice.variables, evaluated, count, choice.seed)
+        new = first_designs(choice.variables, len(tried) + count, choice.seed)[len(tried) :]
+    else:
+        evaluated = [design.evaluated(name, choice, start) for name, design in tried.items()]
+        new = propose(choice.variables, evaluated, count, choice.seed)
+    return SearchRound(_named(new, len(tried)), tried, start)
 
 
 def _named(values: list[tuple[float, ...]], before: int) -> dict[str, tuple[float, ...]]:

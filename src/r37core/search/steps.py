@@ -37,21 +37,19 @@ def propose_round(input: Any, output: Any, params: Any) -> str:
     """
     choice = from_plain(SearchChoice, params.choice)
     if params.round == 0:
-        write_round(asked := first_round(params.number, choice), output.round)
-        return progress(asked, choice, 0)
-    refused, before = read_json(input.built), read_round(input.before)
-    names = [name for name in before.new if name not in refused]
-    gave = {name: read_json(file) for name, file in zip(names, as_list(input.measures), strict=True)}
-    tried = tried_after(before, params.round, refused, gave)
-    write_round(asked := round_after(tried, read_json(input.start), params.number, choice), output.round)
+        asked = first_round(params.number, choice)
+    else:
+        refused, before = read_json(input.built), read_round(input.before)
+        names = [name for name in before.new if name not in refused]
+        gave = {name: read_json(file) for name, file in zip(names, as_list(input.measures), strict=True)}
+        tried = tried_after(before, params.round, refused, gave)
+        asked = round_after(tried, read_json(input.start), params.number, choice)
+    write_round(asked, output.round)
     return progress(asked, choice, params.round)
 
 
 def shape(input: Any, output: Any, params: Any) -> None:
-    """Whether a design can be built: its shape, its mesh, and something of it where stress is looked for.
-
-    Output: shape (json). Params: shape, edges, mesh, stress_submesh.
-    """
+    """Whether a design can be built. Output: shape (json). Params: shape, edges, mesh, stress_submesh."""
     # gmsh takes a second to load, which rounds have no use for
     from r37core.fem.mesh_quality import mesh_quality
     from r37core.mesh.generate import generate_mesh
@@ -102,18 +100,12 @@ def measure(input: Any, output: Any, params: Any) -> None:
         else (of_structure(quantity, structure, params.highest_speed), 0.0)
         for name, quantity in quantities.items()
     }
-    write_json({name: [_known(number) for number in value] for name, value in values.items()}, output.measures)
-
-
-def _known(value: float) -> float | None:
-    return value if math.isfinite(value) else None
+    known = {name: [number if math.isfinite(number) else None for number in value] for name, value in values.items()}
+    write_json(known, output.measures)
 
 
 def join(input: Any, output: Any, params: Any) -> None:
-    """All designs in one dataset and table. Input: round, the last. Params: choice, start, fidelity.
-
-    Outputs: dataset (nc), table (csv).
-    """
+    """Join all designs. Input: round, the last. Params: choice, start, fidelity. Outputs: dataset (nc), table (csv)."""
     made = {"fidelity": params.fidelity, "input_hash": content_digest(input.round)[:32]}
     dataset = search_dataset(read_round(input.round), from_plain(SearchChoice, params.choice), params.start)
     write_dataset(dataset, output.dataset, made)
@@ -121,10 +113,7 @@ def join(input: Any, output: Any, params: Any) -> None:
 
 
 def best(input: Any, output: Any, params: Any) -> None:
-    """The best designs as entries and STEP. Inputs: dataset, shapes (geometry of all). Output: folder.
-
-    Params: entries, number.
-    """
+    """Write the best designs as entries and STEP. Inputs: dataset, shapes (all). Params: entries, number. Output: folder."""
     search, folder = read_dataset(input.dataset), Path(output.folder)
     ordered = search.isel(design=np.flatnonzero(search["order"].values > 0)).sortby("order")
     designs = ordered["design"].values[: params.number].tolist()

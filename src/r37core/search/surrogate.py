@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,14 +30,13 @@ class Slices:
 class SurrogateSensitivity:
     """Sobol' indices of each objective's surrogate over the ranges, and how far the surrogate can be believed.
 
-    `first` and `total` [objective, variable]. `left_out` [objective] is the root mean square error of the surrogate at designs
-    it was not told of, in the objective's unit; `predicted` [objective] the share of the variance that it predicts there, 1 at
-    best, 0 or less where the indices mean nothing. NaN where all designs have the same objective, or too few could be built.
+    `first` and `total` [objective, variable]. `predicted` [objective] is the share of the variance that the surrogate predicts
+    at designs it was not told of, 1 at best, 0 or less where the indices mean nothing. NaN where all designs have the same
+    objective, or too few could be built.
     """
 
     first: np.ndarray
     total: np.ndarray
-    left_out: np.ndarray
     predicted: np.ndarray
 
 
@@ -50,9 +49,8 @@ def slices(
     places = np.tile(centre, (len(variables), points, 1))
     for number in range(len(variables)):
         places[number, :, number] = along
-    fits = objective_fits(variables, evaluated, seed)
-    bands = np.full((2, _objectives(evaluated), len(variables), points), np.nan)
-    for number, process in enumerate(fits):
+    bands = np.full((2, len(evaluated[0].objectives), len(variables), points), np.nan)
+    for number, process in enumerate(objective_fits(variables, evaluated, seed)):
         bands[:, number] = np.reshape(process.at(places.reshape(-1, len(variables))), (2, len(variables), points))
     values = [variable.lowest + along * (variable.highest - variable.lowest) for variable in variables]
     return Slices(np.array(values), *bands)
@@ -64,16 +62,16 @@ def sensitivity(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluat
     Designs are left out one at a time with the hyperparameters of all. Source: Saltelli et al. (2010), Comput. Phys. Commun.
     181, 259-270, in scipy.stats.sobol_indices; Q2 as in Marrel et al. (2009), Reliab. Eng. Syst. Saf. 94, 742-751.
     """
-    objectives = _objectives(evaluated)
-    indices = np.full((2, objectives, len(variables)), np.nan)
-    errors = np.full((2, objectives), np.nan)
+    objectives = len(evaluated[0].objectives)
+    first, total = np.full((2, objectives, len(variables)), np.nan)
+    predicted = np.full(objectives, np.nan)
     for number, process in enumerate(objective_fits(variables, evaluated, seed)):
         if process.is_constant:
             continue
-        indices[:, number] = _indices(process, len(variables), seed)
-        misses = process.numbers - [process.without(index)[0] for index in range(len(process.numbers))]
-        errors[:, number] = np.sqrt(np.mean(misses**2)), 1.0 - np.mean(misses**2) / np.var(process.numbers)
-    return SurrogateSensitivity(*indices, *errors)
+        first[number], total[number] = _indices(process, len(variables), seed)
+        misses = process.numbers - [process.without(index) for index in range(len(process.numbers))]
+        predicted[number] = 1.0 - np.mean(misses**2) / np.var(process.numbers)
+    return SurrogateSensitivity(first, total, predicted)
 
 
 def objective_fits(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], seed: int) -> list[Fit]:
@@ -93,13 +91,5 @@ def _indices(process: Fit, variables: int, seed: int) -> np.ndarray:
         # all of the variance is of the one variable, for which scipy has no indices
         return np.ones((2, 1))
     dists = [scipy.stats.uniform()] * variables
-    sobol = scipy.stats.sobol_indices(func=_mean_of(process), n=_SAMPLE, dists=dists, rng=seed)
+    sobol = scipy.stats.sobol_indices(func=lambda points: process.at(points.T)[0], n=_SAMPLE, dists=dists, rng=seed)
     return np.array([sobol.first_order, sobol.total_order])
-
-
-def _objectives(evaluated: Sequence[Evaluated]) -> int:
-    return len(evaluated[0].objectives)
-
-
-def _mean_of(process: Fit) -> Callable[[np.ndarray], np.ndarray]:
-    return lambda points: process.at(points.T)[0]

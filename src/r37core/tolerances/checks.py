@@ -33,10 +33,7 @@ def members_can_be_drawn(settings: Settings) -> None:
 
 
 def members_of_the_study_are_possible(settings: Settings) -> None:
-    """The study of the published numbers names numbers of its two scenes, and none that these cannot have.
-
-    Scenes that this run leaves out matter only when the study is asked for.
-    """
+    """The study of the published numbers, where this run has its two scenes, names numbers that these can have."""
     study, choices = settings.studies.validation_ranges, settings.studies.modelling_choices
     names = (choices.lined_scene, choices.direct_scene)
     if study is None or not settings.scene_entries.keys() >= set(names):

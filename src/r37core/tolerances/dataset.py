@@ -150,9 +150,7 @@ def _rankings(sample: xr.Dataset) -> dict[str, xr.DataArray]:
         "rank_coefficient_low": _index([measure.low for measure in rankings], f"lower end of the rank coefficient, {sure}"),
         "rank_coefficient_high": _index([measure.high for measure in rankings], f"upper end of the rank coefficient, {sure}"),
         **_places("rank", [measure.places for measure in rankings], "rank coefficients, of numbers that have one beyond zero"),
-        "rank_explained": _of_measures(
-            [measure.explained for measure in rankings], "share of the ranks' variance that they explain"
-        ),
+        "rank_explained": _of_measures([each.explained for each in rankings], "share of the ranks' variance that they explain"),
         "rank_members": _of_measures([measure.members for measure in rankings], "members that the coefficients are made of"),
     }
 

@@ -11,10 +11,9 @@ SOBOL_RANKS = 32
 
 def remarks_on_rankings(members: int, numbers: int, sensitivity: bool) -> list[str]:
     """What a run should say before it starts where its members are too few to rank so many numbers."""
-    lines: list[str] = []
-    where = "(docs/tolerances.md#how-many-members)"
+    lines, where = [], "(docs/tolerances.md#how-many-members)"
     if numbers < 2:
-        return lines
+        return []
     if members < NAMES_THE_FIRST:
         what = f"do not rank the numbers; {NAMES_THE_FIRST} name the first, {RANKS} tell most apart"
         lines.append(f"tolerances: {members} members {what} {where}")

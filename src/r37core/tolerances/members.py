@@ -85,19 +85,14 @@ class Members:
         """
         return {pair: self._of(*pair) for pair in self.pairs}
 
-    def most_runs(self, blade: str, scene: str) -> int:
-        """Simulations of all members of a blade and scene, at most where speeds are adaptive."""
-        plan = self._settings.speed_plans[blade, scene]
-        return len(self.all.get((blade, scene), ())) * plan.at_most(self._entry.largest_share)
-
     @cached_property
     def _points(self) -> dict[str, tuple[float, ...]]:
         return sobol_points(len(self.numbers), self._entry.members, self._entry.seed)
 
     def _of(self, blade: str, scene: str) -> dict[str, Member]:
         nominal = self._nominals[blade, scene]
-        varied = [number for number, value in enumerate(nominal) if value is not None]
         self._check_ends(blade, scene, nominal)
+        varied = (number for number, value in enumerate(nominal) if value is not None)
         beside = (None, *varied) if self._entry.sensitivity else ()
         wanted = [name for name in self._points if is_of_sample(name) or number_of(name) in beside]
         return {name: self._member(name, blade, scene, nominal) for name in wanted}

@@ -20,7 +20,7 @@ FOLDER = "tolerances"
 """Of the members' files: the extension's name."""
 
 DATASET, TABLE = "<results>/tolerances.nc", "<results>/tolerances.csv"
-_RESPONSE = paths.RESPONSE.replace("{member}", path_part(FOLDER, "{member}"))
+RESPONSE_OF_MEMBER = paths.RESPONSE.replace("{member}", path_part(FOLDER, "{member}"))
 _FIRST_ROUND = paths.ROUND.replace("{member}", path_part(FOLDER)).replace("{round}", "0")
 
 _KEPT = ("spectrum", "stress", "static_stress")
@@ -37,17 +37,9 @@ class Tolerances:
     def _members(self) -> Members:
         return members_of(self.settings)
 
-    @property
-    def pairs(self) -> list[Pair]:
-        """Blades and scenes with members."""
-        return self._members.pairs
-
     @cached_property
     def samples(self) -> dict[Pair, Sample]:
-        """Members of each of them: the sample first, which alone says where speeds are adaptive, so that indices change none.
-
-        Then come those that sensitivity indices need beside it.
-        """
+        """Members by blade and scene: those that alone decide on adaptive speeds, then those for sensitivity indices."""
         settings, models = self.settings, self._models
         return {
             (blade, scene): Sample(
@@ -83,33 +75,25 @@ class Tolerances:
         return [run for run in self.runs if is_of_sample(run["member"])]
 
     @property
-    def responses(self) -> list[str]:
-        """Of all members."""
-        return paths.filled({_RESPONSE: self.runs})
-
-    @property
-    def responses_of_sample(self) -> list[str]:
-        """Of the members of the samples."""
-        return paths.filled({_RESPONSE: self.runs_of_sample})
-
-    @property
     def campbells_of_sample(self) -> list[str]:
         """The Campbell diagram of each of them."""
-        return [paths.fill(paths.CAMPBELL, member=self._model(run), blade=run["blade"]) for run in self.runs_of_sample]
-
-    def _model(self, run: dict[str, str]) -> str:
-        return self.samples[run["blade"], run["scene"]].members[run["member"]].model
+        models = self._models
+        return [
+            paths.fill(paths.CAMPBELL, member=models[run["blade"]][run["member"]], blade=run["blade"])
+            for run in self.runs_of_sample
+        ]
 
     @property
     def nominal(self) -> dict[str, list[str]]:
         """Responses and Campbell diagrams of the nominal runs."""
-        runs, blades = paths.of_runs(self.pairs), paths.of("blade", [blade for blade, _ in self.pairs])
+        pairs = self._members.pairs
+        runs, blades = paths.of_runs(pairs), paths.of("blade", [blade for blade, _ in pairs])
         return {"nominal": paths.filled({paths.RESPONSE: runs}), "nominal_campbells": paths.filled({paths.CAMPBELL: blades})}
 
     @property
     def adaptive(self) -> paths.Wildcards:
         """Blades and scenes whose members share rounds of refinement."""
-        return paths.of_runs(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
+        return paths.of_runs(pair for pair in self._members.pairs if self.settings.speed_plans[pair].refined)
 
     @property
     def first_rounds(self) -> list[str]:
@@ -140,16 +124,13 @@ SAMPLING = Sampling(samples, ranges=TABLE, dataset=DATASET)
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The responses of the members, and first rounds where their speeds are adaptive."""
     planned = sweep.settings.made(Tolerances)
-    return {_RESPONSE: planned.runs, _FIRST_ROUND: planned.adaptive}
+    return {RESPONSE_OF_MEMBER: planned.runs, _FIRST_ROUND: planned.adaptive}
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the table and the figures of the members."""
     pairs = paths.of_runs(members_of(sweep.settings).pairs)
-    return {
-        **{file: pairs and [{}] for file in (DATASET, TABLE)},
-        **paths.pictures("tolerances_{blade}__{scene}", pairs),
-    }
+    return dict.fromkeys((DATASET, TABLE), pairs and [{}]) | paths.pictures("tolerances_{blade}__{scene}", pairs)
 
 
 def remarks(settings: Settings) -> list[str]:

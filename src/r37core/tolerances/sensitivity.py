@@ -52,7 +52,7 @@ class Sensitivity:
 def sobol_indices(measure: Mapping[str, float], numbers: Sequence[int], count: int) -> Sensitivity:
     """First-order and total index of each of `count` numbers, of which those at `numbers` were varied.
 
-    `measure`: value of each member, by name (sample.sobol_points). Members for which any of the values that belong together is
+    `measure`: value of each member, by name (`sobol_points`). Members for which any of the values that belong together is
     no number are left out. Source: Saltelli et al. (2010), equations b and f of table 2.
     """
     from scipy import stats

@@ -23,8 +23,8 @@ class _Found:
     members: dict[str, Interaction] = field(default_factory=dict)
 
     def speed(self) -> float:
-        speeds = [row.peak.peak_speed_rad_s for row in (*filter(None, [self.nominal]), *self.members.values())]
-        return float(np.median(speeds))
+        rows = (*filter(None, [self.nominal]), *self.members.values())
+        return float(np.median([row.peak.peak_speed_rad_s for row in rows]))
 
     def any(self) -> Interaction:
         return self.nominal or next(iter(self.members.values()))
@@ -42,8 +42,7 @@ def ranges(
     `speeds`: first and last (rad/s) of the members; what the nominal run shows beyond them no member could.
     """
     within = [row for row in nominal if speeds[0] <= row.peak.peak_speed_rad_s <= speeds[1]]
-    matched = sorted(_matched(within, members, choice), key=_Found.speed)
-    return [_row(match, len(members)) for match in matched]
+    return [_row(match, len(members)) for match in sorted(_matched(within, members, choice), key=_Found.speed)]
 
 
 def shares_of_members(
