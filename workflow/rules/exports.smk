@@ -1,21 +1,14 @@
 # Results for other programs: mesh, surface, modes, worst stress, matrices. Not part of all_blades: snakemake exports
-from r37core.exports.plan import (
-    EXPORTED_MATRICES,
-    EXPORTED_MESH,
-    EXPORTED_MODES,
-    EXPORTED_STRESS,
-    EXPORTED_SURFACE,
-    Exports,
-)
+from r37core.exports import plan as exports_plan
 
-exported = Exports(imported, sweep)
+exported = exports_plan.Exports(imported, sweep)
 
 
 use rule step as exported_mesh with:
     input:
         mesh=paths.nominal(paths.MESH),
     output:
-        mesh=EXPORTED_MESH,
+        mesh=exports_plan.EXPORTED_MESH,
     log:
         "<logs>/exports/{blade}_mesh_{format}.log",
     wildcard_constraints:
@@ -31,7 +24,7 @@ use rule step as exported_surface with:
     input:
         geometry=paths.nominal(paths.GEOMETRY),
     output:
-        surface=EXPORTED_SURFACE,
+        surface=exports_plan.EXPORTED_SURFACE,
     log:
         "<logs>/exports/{blade}_surface.log",
     params:
@@ -43,7 +36,7 @@ use rule step as exported_modes with:
         mesh=paths.nominal(paths.MESH),
         model=structure.whole_blade_model,
     output:
-        folder=directory(EXPORTED_MODES),
+        folder=directory(exports_plan.EXPORTED_MODES),
     log:
         "<logs>/exports/{blade}_modes.log",
     params:
@@ -58,7 +51,7 @@ use rule step as exported_stress with:
         model=structure.whole_blade_model,
         speeds=exported.speed_files,
     output:
-        folder=directory(EXPORTED_STRESS),
+        folder=directory(exports_plan.EXPORTED_STRESS),
     log:
         "<logs>/exports/{blade}_stress_{scene}.log",
     params:
@@ -74,7 +67,7 @@ use rule step as exported_matrices with:
     input:
         unpack(exported.matrix_files),
     output:
-        folder=directory(EXPORTED_MATRICES),
+        folder=directory(exports_plan.EXPORTED_MATRICES),
     log:
         "<logs>/exports/{blade}_matrices.log",
     params:

@@ -66,12 +66,8 @@ def _planned(settings: Settings) -> dict[str, paths.Wildcards]:
     """Patterns of files that one configuration makes and another does not, with those of this one."""
     tip_lines = {settings.structure.boundary.tip_line, *(scene.tip_line for scene in settings.scenes.values())}
     models = [{"blade": blade, "tip_line": line} for blade in settings.blades for line in tip_lines]
-    return {
-        **everything(Sweep(settings)),
-        paths.CONTACT_MODEL: models,
-        paths.STRESS_OPERATOR: models,
-        paths.REDUCED_MODEL: models,
-    }
+    of_models = dict.fromkeys((paths.CONTACT_MODEL, paths.STRESS_OPERATOR, paths.REDUCED_MODEL), models)
+    return everything(Sweep(settings)) | of_models
 
 
 def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:

@@ -64,9 +64,8 @@ class Progress(logging.Filter):
         """Whether Snakemake's own handler should write the record."""
         event = str(getattr(record, "event", None) or "")
         self._take(event, record)
-        if event in QUIET_EVENTS or (not event and record.getMessage().strip().startswith(_CHATTER)):
-            return False
-        if not record.getMessage().strip():
+        message = record.getMessage().strip()
+        if event in QUIET_EVENTS or not message or (not event and message.startswith(_CHATTER)):
             return False
         self._close_line()
         return True

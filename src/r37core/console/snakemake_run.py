@@ -35,19 +35,17 @@ from .progress import Progress, quieten
 SNAKEMAKE = "9.27.1"
 """The version that this package was written for."""
 
-Refusal = Callable[[str], Exception]
-"""Snakemake's own exception, which it shows without a traceback."""
-
 
 @dataclass(frozen=True)
 class Console:
     """One run of the `workflow`, with its `settings` and scripts and its package's `source`.
 
-    `tell` warns the user; `began`: time in s; `caller`: of a run that a Python call has started, which says all itself.
+    `refusal`: Snakemake's own exception, which it shows without a traceback. `tell` warns the user; `began`: time in s;
+    `caller`: of a run that a Python call has started, which says all itself.
     """
 
     workflow: Any
-    refusal: Refusal
+    refusal: type[Exception]
     tell: Callable[[str], object]
     settings: Settings
     scripts: Path
@@ -89,7 +87,6 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     """Read the configuration of a run, say what there is to say, and put one line in place of thousands of messages.
 
     `root`: folder of our Snakefile. `values`: configuration that another Snakefile gives its module r37, on top of all.
-
     Snakemake's own messages of each job are in its log file, and on the terminal with R37_FULL_LOG=1 or --verbose. Raises
     `refusal` for a configuration that is not allowed.
     """
@@ -121,7 +118,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
 
 
 @contextlib.contextmanager
-def _refused(refusal: Refusal) -> Iterator[None]:
+def _refused(refusal: type[Exception]) -> Iterator[None]:
     try:
         yield
     except ConfigError as error:

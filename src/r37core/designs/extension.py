@@ -19,18 +19,16 @@ def families_have_shapes(settings: Settings) -> None:
             )
 
 
-_CAPTIONS = {
-    "designs": (
-        "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
-        "the tip swings along free modes, where interactions lie, speeds certainly and possibly above yield, largest stress."
-    ),
-}
-"""Kind of figure -> what is seen in it."""
-
 EXTENSION = Extension(
     name="designs",
     checks=(families_have_shapes,),
     targets=targets,
-    captions=_CAPTIONS,
+    captions={
+        "designs": (
+            "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
+            "the tip swings along free modes, where interactions lie, speeds certainly and possibly above yield, largest "
+            "stress."
+        ),
+    },
     closing="designs.closing.closing",
 )

@@ -18,10 +18,6 @@ Targets = Callable[[Sweep], dict[str, Wildcards]]
 """Patterns of files -> the wildcards of each that a run asks for; none where its configuration does without."""
 
 
-def _nothing(_: Sweep) -> dict[str, Wildcards]:
-    return {}
-
-
 @dataclass(frozen=True)
 class Panel:
     """What an extension shows in the explorer of a run that has its dataset.
@@ -62,8 +58,8 @@ class Extension:
     checks: tuple[Callable[[Settings], None], ...] = ()
     sampling: Sampling | None = None
     later: Callable[[Settings, Path], Callable[[str], Mapping[Pair, Sample]]] | None = None
-    simulated: Targets = _nothing
-    targets: Targets = _nothing
+    simulated: Targets = lambda _: {}
+    targets: Targets = lambda _: {}
     remarks: Callable[[Settings], list[str]] = lambda _: []
     captions: Mapping[str, str] = field(default_factory=dict)
     panel: Panel | None = None

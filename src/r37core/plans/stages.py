@@ -32,11 +32,10 @@ class Stage:
     def values(self, wildcards: Any, input: Any = None) -> dict[str, Any]:
         """The parameters of one job."""
         arguments = {"wildcards": wildcards, "input": input}
-
-        def value(param: Any) -> Any:
-            return param(*(arguments[name] for name in inspect.signature(param).parameters)) if callable(param) else param
-
-        return {name: value(param) for name, param in self.params.items()}
+        return {
+            name: param(*(arguments[each] for each in inspect.signature(param).parameters)) if callable(param) else param
+            for name, param in self.params.items()
+        }
 
 
 def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]:

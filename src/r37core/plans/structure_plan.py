@@ -19,10 +19,7 @@ from .samples import NOMINAL, Pair, Sample, Samples, folder_and_name, member_of
 
 @dataclass(frozen=True)
 class Structure:
-    """Numbers of the rules from shape to Campbell diagram, of the blades of `settings` and of those of samples `beside` them.
-
-    Methods with `wildcards` are inputs and parameters of rules.
-    """
+    """Numbers of the rules from shape to Campbell diagram, also of samples `beside` the sweep; `wildcards` as of Sweep."""
 
     settings: Settings
     beside: Mapping[str, Mapping[Pair, Sample]] = field(default_factory=dict)

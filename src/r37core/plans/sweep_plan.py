@@ -51,7 +51,7 @@ class Sweep:
 
     def stress_operator(self, wildcards: Any) -> list[str]:
         """The stress of a blade per motion, for a scene whose stress is wanted."""
-        return [self._of_model(wildcards, paths.STRESS_OPERATOR)] if self.with_stress(wildcards) else []
+        return [self._of_model(wildcards, paths.STRESS_OPERATOR)] if "stress" in self.results(wildcards) else []
 
     def _of_model(self, wildcards: Any, pattern: str) -> str:
         tip_line = self.settings.scenes[wildcards.scene].tip_line
@@ -91,10 +91,6 @@ class Sweep:
     def results(self, wildcards: Any) -> tuple[str, ...]:
         """What is wanted of a blade and scene."""
         return self.samples.sample(wildcards).results
-
-    def with_stress(self, wildcards: Any) -> bool:
-        """Whether the stress of a blade and scene is wanted."""
-        return "stress" in self.results(wildcards)
 
     def stress_history_speeds(self, wildcards: Any) -> tuple[float, ...]:
         """Speeds (rad/s) of a blade and scene whose stress is kept for every revolution."""

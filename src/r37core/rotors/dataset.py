@@ -66,12 +66,10 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
     """
     rows = [_row(read_speed(file), yield_stress) for file in files]
     data = {name: np.stack([row[name] for row in rows]) for name in VARIABLES if name in rows[0]}
-    for name in OF_ALL_SPEEDS:
-        data[name] = data[name][0]
     coordinates = {name: rows[0][name] for name in AXES if name in rows[0]}
     of_speeds = {name: variable for name, variable in VARIABLES.items() if name not in OF_ALL_SPEEDS}
     dataset = dataset_of(of_speeds, data | coordinates | {"speed": speeds}, {"speed": SPEED, **AXES}, {}, ("speed",))
-    still = {name: (VARIABLES[name].dims, data[name], VARIABLES[name].attributes) for name in OF_ALL_SPEEDS}
+    still = {name: (VARIABLES[name].dims, rows[0][name], VARIABLES[name].attributes) for name in OF_ALL_SPEEDS}
     dataset = dataset.assign(still)
     dataset["status"].attrs |= status_flags()
     return dataset
@@ -96,8 +94,7 @@ def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarra
 
 def _ends(values: np.ndarray, span: np.ndarray, revolutions: int) -> np.ndarray:
     """Last revolution of each span; the last one ends with the run."""
-    count = values.shape[-1]
-    return revolutions - np.arange(count)[::-1] * int(span)
+    return revolutions - np.arange(values.shape[-1])[::-1] * int(span)
 
 
 def gather_rotors(files: Mapping[tuple[str, str], Path | str]) -> xr.Dataset:

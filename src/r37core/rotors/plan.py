@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from r37core.config import Settings
+from r37core.contact.rotor import Rotor
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 
 ROTOR_OF_RUN = "<results>/{blade}/{scene}/rotor.nc"
 
 
-def rotor_scenes(settings: Settings) -> list[str]:
-    """Names of the scenes that a whole rotor meets."""
-    return [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is not None]
+def scene_rotors(settings: Settings) -> dict[str, Rotor]:
+    """The rotors of the scenes that a whole rotor meets, by the scenes' names."""
+    return {name: chosen.scene.rotor for name, chosen in settings.scenes.items() if chosen.scene.rotor is not None}
 
 
 def rotor_runs(sweep: Sweep) -> list[tuple[str, str]]:
     """Pairs of blade and scene with a rotor."""
-    return [(blade, scene) for blade in sweep.settings.blade_names for scene in rotor_scenes(sweep.settings)]
+    return [(blade, scene) for blade in sweep.settings.blade_names for scene in scene_rotors(sweep.settings)]
 
 
 def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
@@ -33,12 +34,8 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def remarks(settings: Settings) -> list[str]:
     """Of scenes whose numbers are those of many blades."""
-    lines = []
-    for name in rotor_scenes(settings):
-        rotor = settings.scenes[name].scene.rotor
-        assert rotor is not None
-        lines.append(
-            f"scene '{name}': {len(rotor.numbers)} blades on one lining cost as many times a single one; rms, stress and "
-            "tables are those of the worst blade (docs/rotor.md)"
-        )
-    return lines
+    return [
+        f"scene '{name}': {len(rotor.numbers)} blades on one lining cost as many times a single one; rms, stress and "
+        "tables are those of the worst blade (docs/rotor.md)"
+        for name, rotor in scene_rotors(settings).items()
+    ]

@@ -74,8 +74,8 @@ class RunUps:
         """What a run-up starts from, with the stress operator where its stress is wanted."""
         prepared = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
         files = {"prepared": prepared, "model": self.sweep.contact_model(wildcards)}
-        if self.sweep.with_stress(wildcards):
-            (files["stress"],) = self.sweep.stress_operator(wildcards)
+        for file in self.sweep.stress_operator(wildcards):
+            files["stress"] = file
         if self._choice(wildcards).crossing:
             files["campbell"] = paths.fill(paths.CAMPBELL, blade=wildcards.blade)
         return files

@@ -31,13 +31,9 @@ class Constraint:
 
     def bounds(self, start: float) -> tuple[float, float]:
         """Lowest and highest value, infinite without a bound, where the start has the value `start`."""
-
-        def bound(value: float | None, percent: float | None, none: float) -> float:
-            if percent is not None:
-                return 0.01 * percent * start
-            return none if value is None else value
-
-        return bound(self.lowest, self.lowest_percent, -math.inf), bound(self.highest, self.highest_percent, math.inf)
+        low = self.lowest if self.lowest_percent is None else 0.01 * self.lowest_percent * start
+        high = self.highest if self.highest_percent is None else 0.01 * self.highest_percent * start
+        return -math.inf if low is None else low, math.inf if high is None else high
 
 
 @dataclass(frozen=True)

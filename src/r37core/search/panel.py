@@ -14,17 +14,14 @@ from .shown import in_lines, with_unit
 
 def search_contents(search: xr.Dataset) -> dict[str, object]:
     """Of each design of `search.nc` its numbers in the units that are shown; None for what is not known."""
-    objectives = [_quantity(search, "objective", name) for name in search["objective"].values]
-    constraints = [_quantity(search, "constraint", name) for name in search["constraint"].values]
-    variables = [
-        {"label": in_lines(str(key)), "values": _numbers(search["value"].sel(variable=key).values)}
-        for key in search["variable"].values
-    ]
     return {
         "designs": [str(name) for name in search["design"].values],
-        "objectives": objectives,
-        "constraints": constraints,
-        "variables": variables,
+        "objectives": [_quantity(search, "objective", name) for name in search["objective"].values],
+        "constraints": [_quantity(search, "constraint", name) for name in search["constraint"].values],
+        "variables": [
+            {"label": in_lines(str(key)), "values": _numbers(search["value"].sel(variable=key).values)}
+            for key in search["variable"].values
+        ],
         "feasible": search["feasible"].values.astype(bool).tolist(),
         "front": search["not_dominated"].values.astype(bool).tolist(),
         "order": search["order"].values.tolist(),

@@ -42,32 +42,24 @@ RoundFile = Callable[[int], str]
 
 @dataclass(frozen=True)
 class Search:
-    """Plan of the search that the settings of a `sweep` ask for; methods with `wildcards` are inputs and parameters of rules.
-
-    `round_file`, `built_file`: of a finished round of designs, and of the shapes of its designs.
-    """
+    """Plan of a `sweep`'s search, `wildcards` as of Sweep; `round_file`, `built_file`: of a finished round, of its shapes."""
 
     sweep: Sweep
     round_file: RoundFile
     built_file: RoundFile
 
     @property
-    def settings(self) -> Settings:
-        """Of the run."""
-        return self.sweep.settings
-
-    @property
     def designs(self) -> SearchDesigns:
         """What designs are made of."""
-        return designs_of(self.settings)
+        return designs_of(self.sweep.settings)
 
     def choice(self, wildcards: Any) -> dict[str, Any]:
         """What is sought, as plain values."""
-        return to_plain(choice_of(self.settings))
+        return to_plain(choice_of(self.sweep.settings))
 
     def quantities(self, wildcards: Any) -> dict[str, Any]:
         """What a design is judged by, as plain values."""
-        return to_plain(choice_of(self.settings).quantities)
+        return to_plain(choice_of(self.sweep.settings).quantities)
 
     def number_of_designs(self, wildcards: Any) -> int:
         """Designs of a round."""
@@ -81,13 +73,10 @@ class Search:
         entry = self.designs.entry
         return [entry.designs, entry.first, entry.batch]
 
-    def _round(self, number: int) -> SearchRound:
-        return round_of(self.round_file(number))
-
     def _built(self, number: int) -> list[str]:
         """Designs of a round that could be built."""
         refused = read_json(self.built_file(number))
-        return [name for name in self._round(number).new if name not in refused]
+        return [name for name in round_of(self.round_file(number)).new if name not in refused]
 
     def round_inputs(self, wildcards: Any) -> dict[str, Any]:
         """What a round looks at: the round before it, and what its designs gave."""
@@ -103,7 +92,7 @@ class Search:
 
     def shapes(self, wildcards: Any) -> list[str]:
         """Whether each design of a round can be built."""
-        return [paths.fill(SHAPE, design=name) for name in self._round(int(wildcards.round)).new]
+        return [paths.fill(SHAPE, design=name) for name in round_of(self.round_file(int(wildcards.round))).new]
 
     def shape(self, wildcards: Any) -> dict[str, Any]:
         """Definition of a design's shape, or why there is none, as plain values."""
@@ -116,12 +105,12 @@ class Search:
 
     def stress_submesh(self, wildcards: Any) -> dict[str, Any]:
         """Where the stress of a design is looked for, as plain values."""
-        return to_plain(self.settings.reduction_choice(self.designs.entry.blade).stress_submesh)
+        return to_plain(self.sweep.settings.reduction_choice(self.designs.entry.blade).stress_submesh)
 
     def measured(self, wildcards: Any) -> dict[str, Any]:
         """What a design, or the start, is judged by."""
         own, blade = member_part(wildcards.design), self.designs.entry.blade
-        of = {"member": own, "blade": blade, "tip_line": self.settings.structure.boundary.tip_line}
+        of = {"member": own, "blade": blade, "tip_line": self.sweep.settings.structure.boundary.tip_line}
         return {
             "geometry": paths.fill(paths.GEOMETRY, **of),
             "campbell": paths.fill(paths.CAMPBELL, **of),
@@ -164,16 +153,13 @@ class Search:
         return [paths.fill(paths.GEOMETRY, member=member_part(name), blade=blade) for name in names]
 
     def entries(self, wildcards: Any) -> dict[str, Any]:
-        """Entries of blades.yaml that the designs start at, as plain values: the bases first, the start last.
-
-        A table of sweep and lean, whose rows have the name of the start, stands in its entry.
-        """
-        entries, chain = self.settings.designs.entries, [self.designs.entry.blade]
+        """Entries of blades.yaml that the designs start at, as plain values: bases first, the start with its table last."""
+        entries, chain = self.sweep.settings.designs.entries, [self.designs.entry.blade]
         while (base := getattr(entries[chain[0]], "base", None)) is not None:
             chain.insert(0, base)
         plain = {name: entries[name].model_dump(exclude_none=True, exclude_unset=True) for name in chain}
         if (table := plain[chain[-1]].pop("stacking_table", None)) is not None:
-            plain[chain[-1]]["sweep_lean"] = stacking_table_rows(self.settings.root / table, chain[-1])
+            plain[chain[-1]]["sweep_lean"] = stacking_table_rows(self.sweep.settings.root / table, chain[-1])
         return plain
 
 

@@ -36,9 +36,8 @@ def propose(
 ) -> list[tuple[float, ...]]:
     """The next `batch` designs, values in the order of `variables`.
 
-    They depend on nothing but the arguments: neither on the order of `evaluated` nor on the number of cores. Raises ValueError
-    where the evaluated designs do not have equally many values, objectives and margins, and SearchPackageMissing without the
-    library.
+    They depend neither on the order of `evaluated` nor on the number of cores. Raises ValueError where the evaluated designs do
+    not have equally many values, objectives and margins, and SearchPackageMissing without the library.
     """
     _check(variables, evaluated)
     known = sorted(evaluated, key=lambda design: (design.values, design.name))

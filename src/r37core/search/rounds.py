@@ -30,10 +30,7 @@ def first_round(count: int, choice: SearchChoice) -> SearchRound:
 def tried_after(
     before: SearchRound, number: int, refused: Mapping[str, str], gave: Mapping[str, Mapping[str, Value]]
 ) -> dict[str, Design]:
-    """All designs tried in rounds before round `number`.
-
-    Of those of the round `before` it some were `refused`, each with a reason, and the others `gave` quantities.
-    """
+    """All designs tried before round `number`: those `before` it were `refused`, each with a reason, or `gave` quantities."""
     new = {name: Design(values, number - 1, refused.get(name), gave.get(name, {})) for name, values in before.new.items()}
     return {**before.tried, **new}
 

@@ -45,8 +45,7 @@ def slices(
 ) -> Slices:
     """Mean and standard deviation of each objective at `points` values of each variable, the others as in the design `at`."""
     along = np.linspace(0.0, 1.0, points)
-    centre = shares(variables, [at])[0]
-    places = np.tile(centre, (len(variables), points, 1))
+    places = np.tile(shares(variables, [at])[0], (len(variables), points, 1))
     for number in range(len(variables)):
         places[number, :, number] = along
     bands = np.full((2, len(evaluated[0].objectives), len(variables), points), np.nan)

@@ -94,9 +94,8 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
 def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:
     """What stays of one member."""
     edge = leading_edge(response)
-    member = edge[["status", *(name for name in (*_CURVES, "yield_stress") if name in edge)]].drop_vars(
-        "speed_rpm", errors="ignore"
-    )
+    kept = [name for name in ("status", *_CURVES, "yield_stress") if name in edge]
+    member = edge[kept].drop_vars("speed_rpm", errors="ignore")
     member = member.assign({name: ((), value, MEASURES[name].attributes) for name, value in values.items()})
     member["value"] = ("number", list(run.values), {"long_name": "value of the number, in the unit of its key"})
     return member.assign_coords(number=list(numbers)).expand_dims(member=[int(run.member)])
@@ -120,10 +119,8 @@ def _of_pair(
         quantiles = spread.quantile(QUANTILES, "member", method="inverted_cdf").where(~diverged.all("member"))
         sample[f"{name}_quantile"] = quantiles.assign_attrs(about(units, f"quantiles over the members: {meaning}"))
     if "max_von_mises" in sample:
-        for name, chance in _chances(ratio_to_yield(sample) > 1.0).items():
-            sample[name] = chance
-    for name, index in (_rankings(sample) | _sensitivities(measured, numbers)).items():
-        sample[name] = index
+        sample = sample.assign(_chances(ratio_to_yield(sample) > 1.0))
+    sample = sample.assign(_rankings(sample) | _sensitivities(measured, numbers))
     return sample.expand_dims(blade=[pair[0]], scene=[pair[1]])
 
 

@@ -8,16 +8,6 @@ from .checks import members_can_be_drawn, members_of_the_study_are_possible
 from .plan import FOLDER, SAMPLING, remarks, simulated, targets
 from .section import SECTION
 
-_CAPTIONS = {
-    "tolerances": (
-        "Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, and the "
-        "nominal run (dashed). Then the share of the members above yield, with the interval of the chance. Last, by how much "
-        "each number moves three measures, with intervals: rank coefficients, and where asked for Sobol's total indices. Above "
-        "the bars stands the place in the ranking; pale ones have none."
-    ),
-}
-"""Kind of figure -> what is seen in it."""
-
 EXTENSION = Extension(
     name=FOLDER,
     section=SECTION,
@@ -26,6 +16,13 @@ EXTENSION = Extension(
     simulated=simulated,
     targets=targets,
     remarks=remarks,
-    captions=_CAPTIONS,
+    captions={
+        "tolerances": (
+            "Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, and the "
+            "nominal run (dashed). Then the share of the members above yield, with the interval of the chance. Last, by how "
+            "much each number moves three measures, with intervals: rank coefficients, and where asked for Sobol's total "
+            "indices. Above the bars stands the place in the ranking; pale ones have none."
+        ),
+    },
     closing="tolerances.closing.closing",
 )
