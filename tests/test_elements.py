@@ -44,7 +44,7 @@ def test_faces_close_the_element_and_look_outwards(element):
     """The flux of (x, y, z) through the faces is three times the volume."""
     volume = element.mass_rule[1].sum()
     flux = 0.0
-    for face, corners in zip(element.faces, element.corner_faces, strict=True):
+    for face, corners in zip(element.faces, element.shape.faces, strict=True):
         points = element.nodes[list(corners)]
         flux += sum(
             points[0] @ np.cross(points[i] - points[0], points[i + 1] - points[0]) / 2 for i in range(1, len(points) - 1)

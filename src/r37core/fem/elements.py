@@ -5,15 +5,15 @@ coordinates: tetrahedra on the unit simplex; wedges xi, eta on the unit triangle
 
 An element's shape functions are the polynomials spanned by a set of monomials that are 1 at one node and 0 at all others
 (Zienkiewicz and Taylor, The Finite Element Method: complete quadratics for the tetrahedron, serendipity for wedge and
-hexahedron), so nodes and exponents define an element and no element has formulas of its own.
+hexahedron), so shape and monomials define an element and no element has formulas of its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations, product
+from itertools import product
 
 import numpy as np
 
@@ -21,29 +21,55 @@ from .quadrature import Rule, box_rule, tetrahedron_rule, wedge_rule
 
 
 @dataclass(frozen=True)
+class Shape:
+    """What the elements of first and of second order share.
+
+    `corners`: local coordinates, shape (n, 3); `edges`: two corners of each; `faces`: corners of each, counter-clockwise seen
+    from outside; `ideal`: determinant of the edges at a corner of the ideal element, whose edges have length 1.
+    """
+
+    corners: np.ndarray
+    edges: tuple[tuple[int, int], ...]
+    faces: tuple[tuple[int, ...], ...]
+    ideal: float
+
+
+@dataclass(frozen=True)
 class Element:
     """One type of element.
 
-    `name`: as in meshio; `abaqus`: as in Abaqus and CalculiX; `corners`: how many nodes are corners; `nodes`: local
-    coordinates, shape (n, 3); `exponents`: of the monomials that span the shape functions, shape (n, 3); `stiffness_rule`
-    and `mass_rule`: quadrature; `corner_faces`: corners of each face, counter-clockwise seen from outside; `ideal`:
-    determinant of the edges at a corner of the ideal element, whose edges have length 1.
+    `name`: as in meshio; `abaqus`: as in Abaqus and CalculiX; `spans`: whether x^i y^j z^k is among the monomials that span
+    the shape functions, of i, j and k up to 2; `stiffness_rule` and `mass_rule`: quadrature.
     """
 
     name: str
     abaqus: str
-    corners: int
-    nodes: np.ndarray
-    exponents: np.ndarray
+    shape: Shape
+    spans: Callable[[int, int, int], bool]
     stiffness_rule: Rule
     mass_rule: Rule
-    corner_faces: tuple[tuple[int, ...], ...]
-    ideal: float
+
+    @cached_property
+    def exponents(self) -> np.ndarray:
+        """Exponents of the monomials, shape (n, 3)."""
+        return np.array([e for e in product(range(3), repeat=3) if self.spans(*e)])
 
     @property
     def quadratic(self) -> bool:
         """Whether the edges have mid-nodes."""
-        return len(self.nodes) > self.corners
+        return len(self.exponents) > len(self.shape.corners)
+
+    @cached_property
+    def edges(self) -> dict[frozenset[int], int]:
+        """Mid-node of every edge, by the edge's two corners; empty for a linear element."""
+        numbered = enumerate(self.shape.edges, start=len(self.shape.corners))
+        return {frozenset(edge): node for node, edge in numbered if self.quadratic}
+
+    @cached_property
+    def nodes(self) -> np.ndarray:
+        """Local coordinates of the nodes, shape (n, 3)."""
+        corners = self.shape.corners
+        return np.array([*corners, *(corners[list(edge)].mean(axis=0) for edge in self.edges)])
 
     @cached_property
     def _coefficients(self) -> np.ndarray:
@@ -78,16 +104,10 @@ class Element:
         return self.shape_gradients(points)[None] @ np.linalg.inv(jacobian), np.linalg.det(jacobian)
 
     @cached_property
-    def edges(self) -> dict[frozenset[int], int]:
-        """Mid-node of every edge, by the edge's two corners; empty for a linear element."""
-        middle = {tuple(self.nodes[[i, j]].mean(axis=0)): frozenset((i, j)) for i, j in combinations(range(self.corners), 2)}
-        return {middle[tuple(self.nodes[node])]: node for node in range(self.corners, len(self.nodes))}
-
-    @cached_property
     def faces(self) -> tuple[tuple[int, ...], ...]:
         """Nodes of each face: corners counter-clockwise seen from outside, then the mid-nodes in the same turn."""
         faces = []
-        for corners in self.corner_faces:
+        for corners in self.shape.faces:
             edges = [frozenset(ends) for ends in zip(corners, (*corners[1:], corners[0]), strict=True)]
             faces.append((*corners, *(self.edges[edge] for edge in edges if self.quadratic)))
         return tuple(faces)
@@ -102,7 +122,7 @@ class Element:
     def edge_directions(self) -> np.ndarray:
         """Local directions of the edges, without those parallel to another, shape (directions, 3)."""
         directions: list[np.ndarray] = []
-        for face in self.corner_faces:
+        for face in self.shape.faces:
             for i, j in zip(face, (*face[1:], face[0]), strict=True):
                 direction = self.nodes[j] - self.nodes[i]
                 if all(np.any(np.cross(direction, other)) for other in directions):
@@ -115,96 +135,36 @@ def _monomials(points: np.ndarray, exponents: np.ndarray) -> np.ndarray:
     return np.prod(np.asarray(points, dtype=float)[:, None, :] ** exponents, axis=2)
 
 
-def _exponents(allowed) -> np.ndarray:
-    return np.array([e for e in product(range(3), repeat=3) if allowed(*e)])
-
-
-def _nodes(corners: Sequence[tuple[float, ...]], edges: tuple[tuple[int, int], ...]) -> np.ndarray:
-    vertices = np.array(corners, dtype=float)
-    return np.concatenate([vertices, *(vertices[[edge]].mean(axis=1) for edge in edges)])
-
-
-_TETRAHEDRON = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
-_WEDGE = [(x, y, z) for z in (-1, 1) for x, y in ((0, 0), (1, 0), (0, 1))]
-_BOX = [(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-_TETRAHEDRON_EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
-_WEDGE_EDGES = ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5))
-_BOX_EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))
-_TETRAHEDRON_FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
-_WEDGE_FACES = ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
-_BOX_FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+_TETRAHEDRON = Shape(
+    corners=np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], dtype=float),
+    edges=((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
+    faces=((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
+    ideal=np.sqrt(0.5),
+)
+_WEDGE = Shape(
+    corners=np.array([(x, y, z) for z in (-1, 1) for x, y in ((0, 0), (1, 0), (0, 1))], dtype=float),
+    edges=((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)),
+    faces=((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+    ideal=np.sqrt(0.75),
+)
+_BOX = Shape(
+    corners=np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))], dtype=float),
+    edges=((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)),
+    faces=((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
+    ideal=1.0,
+)
 
 # The stiffness rules are those of the elements of the same name in CalculiX. The wedge's nine points have no spurious modes
 # and are closer to converged than eighteen. The mass rules integrate the mass of a straight-sided element exactly.
 ELEMENTS = {
     element.name: element
     for element in (
-        Element(
-            name="tetra10",
-            abaqus="C3D10",
-            corners=4,
-            nodes=_nodes(_TETRAHEDRON, _TETRAHEDRON_EDGES),
-            exponents=_exponents(lambda i, j, k: i + j + k <= 2),
-            stiffness_rule=tetrahedron_rule(4),
-            mass_rule=tetrahedron_rule(15),
-            corner_faces=_TETRAHEDRON_FACES,
-            ideal=np.sqrt(0.5),
-        ),
-        Element(
-            name="wedge15",
-            abaqus="C3D15",
-            corners=6,
-            nodes=_nodes(_WEDGE, _WEDGE_EDGES),
-            exponents=_exponents(lambda i, j, k: i + j + k <= 2 or (i + j <= 2 and k == 1) or (i + j <= 1 and k == 2)),
-            stiffness_rule=wedge_rule(3, 3),
-            mass_rule=wedge_rule(6, 3),
-            corner_faces=_WEDGE_FACES,
-            ideal=np.sqrt(0.75),
-        ),
-        Element(
-            name="hexahedron20",
-            abaqus="C3D20",
-            corners=8,
-            nodes=_nodes(_BOX, _BOX_EDGES),
-            exponents=_exponents(lambda i, j, k: (i, j, k).count(2) <= 1),
-            stiffness_rule=box_rule(3),
-            mass_rule=box_rule(3),
-            corner_faces=_BOX_FACES,
-            ideal=1.0,
-        ),
-        Element(
-            name="tetra",
-            abaqus="C3D4",
-            corners=4,
-            nodes=_nodes(_TETRAHEDRON, ()),
-            exponents=_exponents(lambda i, j, k: i + j + k <= 1),
-            stiffness_rule=tetrahedron_rule(1),
-            mass_rule=tetrahedron_rule(4),
-            corner_faces=_TETRAHEDRON_FACES,
-            ideal=np.sqrt(0.5),
-        ),
-        Element(
-            name="wedge",
-            abaqus="C3D6",
-            corners=6,
-            nodes=_nodes(_WEDGE, ()),
-            exponents=_exponents(lambda i, j, k: i + j <= 1 and k <= 1),
-            stiffness_rule=wedge_rule(3, 2),
-            mass_rule=wedge_rule(3, 2),
-            corner_faces=_WEDGE_FACES,
-            ideal=np.sqrt(0.75),
-        ),
-        Element(
-            name="hexahedron",
-            abaqus="C3D8",
-            corners=8,
-            nodes=_nodes(_BOX, ()),
-            exponents=_exponents(lambda i, j, k: max(i, j, k) <= 1),
-            stiffness_rule=box_rule(2),
-            mass_rule=box_rule(2),
-            corner_faces=_BOX_FACES,
-            ideal=1.0,
-        ),
+        Element("tetra10", "C3D10", _TETRAHEDRON, lambda i, j, k: i + j + k <= 2, tetrahedron_rule(4), tetrahedron_rule(15)),
+        Element("wedge15", "C3D15", _WEDGE, lambda i, j, k: i + j <= 2 and i + j + k <= 3, wedge_rule(3, 3), wedge_rule(6, 3)),
+        Element("hexahedron20", "C3D20", _BOX, lambda i, j, k: (i, j, k).count(2) <= 1, box_rule(3), box_rule(3)),
+        Element("tetra", "C3D4", _TETRAHEDRON, lambda i, j, k: i + j + k <= 1, tetrahedron_rule(1), tetrahedron_rule(4)),
+        Element("wedge", "C3D6", _WEDGE, lambda i, j, k: i + j <= 1 and k <= 1, wedge_rule(3, 2), wedge_rule(3, 2)),
+        Element("hexahedron", "C3D8", _BOX, lambda i, j, k: max(i, j, k) <= 1, box_rule(2), box_rule(2)),
     )
 }
 """Every element by its name in meshio: second order first, then the linear ones, which are too stiff in bending."""

@@ -67,4 +67,4 @@ def scaled_jacobian(element: Element, coordinates: np.ndarray) -> np.ndarray:
     triples = [list(triple) for triple in combinations(range(lengths.shape[2]), 3)]
     independent = [triple for triple in triples if abs(np.linalg.det(element.edge_directions[triple])) > 0.5]
     longest = np.max([np.prod(lengths[:, :, triple], axis=2) for triple in independent], axis=0)
-    return (np.linalg.det(jacobian) / longest / element.ideal).min(axis=1)
+    return (np.linalg.det(jacobian) / longest / element.shape.ideal).min(axis=1)

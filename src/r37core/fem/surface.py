@@ -36,7 +36,7 @@ def outer_faces(blocks: Mapping[str, np.ndarray]) -> list[Faces]:
     by_shape: dict[tuple[int, int], list[np.ndarray]] = {}
     for name, elements in blocks.items():
         element = ELEMENTS[name]
-        for face, corners in zip(element.faces, element.corner_faces, strict=True):
+        for face, corners in zip(element.faces, element.shape.faces, strict=True):
             by_shape.setdefault((len(corners), len(face)), []).append(elements[:, list(face)])
     outer = []
     for corner_count in (3, 4):

@@ -34,8 +34,7 @@ def edge_traces(points: np.ndarray, blocks: Mapping[str, np.ndarray], members: n
     edges: dict[int, list[np.ndarray]] = {}
     for name, elements in blocks.items():
         element = ELEMENTS[name]
-        pairs = {frozenset(ends) for corners in element.corner_faces for ends in zip(corners, np.roll(corners, 1), strict=True)}
-        for start, end in sorted(map(sorted, pairs)):
+        for start, end in sorted(map(sorted, element.shape.edges)):
             local = [start, end] + ([element.edges[frozenset((start, end))]] if element.quadratic else [])
             inside = members[elements[:, local]].all(axis=1)
             edges.setdefault(len(local), []).append(elements[inside][:, local])
@@ -60,7 +59,7 @@ def face_traces(points: np.ndarray, blocks: Mapping[str, np.ndarray], members: n
     traces = []
     for name, elements in blocks.items():
         element = ELEMENTS[name]
-        for face, corners in zip(element.faces, element.corner_faces, strict=True):
+        for face, corners in zip(element.faces, element.shape.faces, strict=True):
             nodes = elements[members[elements[:, list(face)]].all(axis=1)]
             if len(nodes):
                 traces.append(_face_trace(points, element, list(face), list(corners), nodes))

@@ -88,7 +88,7 @@ def _check_parts(mesh: RawMesh) -> None:
 
 
 def _check_once(mesh: RawMesh, name: str, nodes: np.ndarray) -> None:
-    corners = np.sort(nodes[:, : ELEMENTS[name].corners], axis=1)
+    corners = np.sort(nodes[:, : len(ELEMENTS[name].shape.corners)], axis=1)
     _, first, of = np.unique(corners, axis=0, return_index=True, return_inverse=True)
     original = first[of.ravel()]
     again = np.flatnonzero(original != np.arange(len(nodes)))
@@ -106,8 +106,7 @@ def _check_one_order(mesh: RawMesh) -> None:
     edges: dict[bool, list[np.ndarray]] = {True: [], False: []}
     for name, nodes in mesh.blocks.items():
         element = ELEMENTS[name]
-        of_second_order = next(other for other in ELEMENTS.values() if other.quadratic and other.corners == element.corners)
-        corners = [nodes[:, list(edge)] for edge in of_second_order.edges]
+        corners = [nodes[:, edge] for edge in element.shape.edges]
         edges[element.quadratic].append(np.sort(np.concatenate(corners), axis=1))
     if not (edges[True] and edges[False]):
         return
