@@ -26,7 +26,7 @@ from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
 from .declaring import in_si
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
-from .section import FileName, LeftOut, Name, Section, Unique, check_names, plain, refused
+from .section import ByName, FileName, LeftOut, Name, Section, Unique, left_out, plain, refused
 from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, section_laws, with_section_laws
 from .si_fields import si_fields
 
@@ -84,45 +84,35 @@ class BladeEntry(Section):
     With `vary` or `designs` it is a family, many blades that differ in some numbers.
     """
 
-    profiles: FileName | LeftOut = Field(default=None, description="profile table (CSV)")
-    base: Name | LeftOut = Field(default=None, description="blade to inherit profiles, sweep and lean, and material from")
-    stacking_table: FileName | LeftOut = Field(default=None, description="sweep and lean table (CSV) with a column `blade`")
-    sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = Field(
-        default=None, description="the table written here, one entry a row"
+    profiles: FileName | LeftOut = left_out("profile table (CSV)")
+    base: Name | LeftOut = left_out("blade to inherit profiles, sweep and lean, and material from")
+    stacking_table: FileName | LeftOut = left_out("sweep and lean table (CSV) with a column `blade`")
+    sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = left_out("the table written here, one entry a row")
+    chordwise_sweep_deg: Annotated[float, Field(gt=-60, lt=60)] | LeftOut = left_out(
+        "one angle of sweep along the chord in place of a table, positive forward"
     )
-    chordwise_sweep_deg: Annotated[float, Field(gt=-60, lt=60)] | LeftOut = Field(
-        default=None, description="one angle of sweep along the chord in place of a table, positive forward"
+    sweep_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = left_out(
+        "share of the table's sweep that is kept, its own or that of its base"
     )
-    sweep_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = Field(
-        default=None, description="share of the table's sweep that is kept, its own or that of its base"
+    lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = left_out("share of the lean")
+    stagger_deg: Angles | LeftOut = left_out(
+        "added to the stagger of the profiles, on top of the base: a number, values at hub and tip (linear between "
+        "them), or a table over the span"
     )
-    lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = Field(default=None, description="share of the lean")
-    stagger_deg: Angles | LeftOut = Field(
-        default=None,
-        description="added to the stagger of the profiles, on top of the base: a number, values at hub and tip (linear between "
-        "them), or a table over the span",
-    )
-    camber_deg: Angles | LeftOut = Field(
-        default=None, description="added to the camber kappa_ic - kappa_oc of the profiles, as stagger_deg"
-    )
-    chord_percent: Shares | LeftOut = Field(
-        default=None, description="share of the profiles' chord that is kept, on the same cones, as stagger_deg"
-    )
-    thickness_percent: Shares | LeftOut = Field(
-        default=None, description="share of all thicknesses of the profiles that is kept, as stagger_deg"
-    )
+    camber_deg: Angles | LeftOut = left_out("added to the camber kappa_ic - kappa_oc of the profiles, as stagger_deg")
+    chord_percent: Shares | LeftOut = left_out("share of the profiles' chord that is kept, on the same cones, as stagger_deg")
+    thickness_percent: Shares | LeftOut = left_out("share of all thicknesses of the profiles that is kept, as stagger_deg")
     contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
     sense_check: bool = Field(default=True, description="refuse a table of which the trailing edge would lead in the rotation")
     material: MaterialSection = MaterialSection()
-    vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = Field(
-        default=None, description="a family: values of numeric keys, such as sweep_percent or material.density_kg_m3"
+    vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = left_out(
+        "a family: values of numeric keys, such as sweep_percent or material.density_kg_m3"
     )
     combine: Literal["grid", "pairs"] = Field(
         default="grid", description="every value with every other, or the first with the first"
     )
-    designs: FileName | LeftOut = Field(
-        default=None,
-        description="a family as a table (CSV), one design a row: its name in the column `blade`, then numeric keys",
+    designs: FileName | LeftOut = left_out(
+        "a family as a table (CSV), one design a row: its name in the column `blade`, then numeric keys"
     )
 
     @model_validator(mode="after")
@@ -155,15 +145,8 @@ Entry = Annotated[
 ]
 
 
-class Blades(RootModel):
+class Blades(RootModel[ByName[Entry]]):
     """blades.yaml, blades by name."""
-
-    root: Annotated[dict[Name, Entry], Field(min_length=1)]
-
-    @model_validator(mode="after")
-    def _names(self) -> Blades:
-        check_names(self.root)
-        return self
 
 
 @dataclass(frozen=True)

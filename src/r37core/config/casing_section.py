@@ -13,7 +13,7 @@ from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 
 from .declaring import DECLARED, declared_by, in_si
-from .section import LeftOut, Section, refused
+from .section import LeftOut, Section, left_out, refused
 from .si_fields import si_fields
 
 
@@ -72,8 +72,8 @@ class RingModeSection(Section):
     frequency_hz: Any = DECLARED
     modal_mass_kg: Any = DECLARED
     damping_ratio: Any = DECLARED
-    tangential_ratio: Annotated[float, Field(ge=-10, le=10)] | LeftOut = Field(
-        default=None, description="tangential over radial displacement; default: 1/nodal_diameter, bending alone; 0 without any"
+    tangential_ratio: Annotated[float, Field(ge=-10, le=10)] | LeftOut = left_out(
+        "tangential over radial displacement; default: 1/nodal_diameter, bending alone; 0 without any"
     )
 
     def mode(self) -> RingMode:
@@ -94,9 +94,9 @@ class CasingSection(Section):
     width: Any = DECLARED
     amplitude_clearances: Any = DECLARED
     rise_fraction: Any = DECLARED
-    ring: RingSection | LeftOut = Field(default=None, description="an elastic casing; rigid without it")
-    ring_modes: Annotated[list[RingModeSection], Field(min_length=1, max_length=200)] | LeftOut = Field(
-        default=None, description="the same by its modes, in place of ring"
+    ring: RingSection | LeftOut = left_out("an elastic casing; rigid without it")
+    ring_modes: Annotated[list[RingModeSection], Field(min_length=1, max_length=200)] | LeftOut = left_out(
+        "the same by its modes, in place of ring"
     )
 
     @model_validator(mode="after")

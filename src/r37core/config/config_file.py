@@ -16,7 +16,7 @@ from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, Stress
 from .blade_sections import CONTACT_IN_WORDS, Contact, Submesh
 from .declaring import DECLARED, declared_by, in_si
 from .fidelity import Reduction
-from .section import AllOrNames, ExtensionSection, FileName, LeftOut, Name, Section, Speed, refused
+from .section import AllOrNames, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
 
@@ -25,9 +25,7 @@ from .study_sections import StudiesSection
 class Boundary(Section):
     """The contact nodes, kept as physical coordinates of the reduced model."""
 
-    contact: Contact | LeftOut = Field(
-        default=None, description=f"{CONTACT_IN_WORDS}, for all blades; left out: as each blade says"
-    )
+    contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}, for all blades; left out: as each blade says")
 
 
 @declared_by(ReductionChoice, only_listed=True)
@@ -139,13 +137,9 @@ Part = Annotated[str, AfterValidator(_check_part)]
 class Run(Section):
     """Where the results go, and which share of them is made."""
 
-    name: Name | LeftOut = Field(
-        default=None,
-        description="a run with a name has its results in results/runs/<name>, beside those of others",
-    )
-    part: Part | LeftOut = Field(
-        default=None,
-        description="2/7: only the second of seven parts of the blades, for `snakemake responses` on several machines at once",
+    name: Name | LeftOut = left_out("a run with a name has its results in results/runs/<name>, beside those of others")
+    part: Part | LeftOut = left_out(
+        "2/7: only the second of seven parts of the blades, for `snakemake responses` on several machines at once"
     )
 
     def of_part(self, names: list[str]) -> list[str]:
@@ -170,9 +164,7 @@ class Config(Section):
         default=[SpeedRange(start=750.0, stop=2000.0)],
         description="speeds to simulate, as numbers and ranges; a range without a step takes the fidelity level's",
     )
-    speeds_rpm: RpmList | LeftOut = Field(
-        default=None, description="the same in revolutions per minute, in place of speeds; results stay in rad/s"
-    )
+    speeds_rpm: RpmList | LeftOut = left_out("the same in revolutions per minute, in place of speeds; results stay in rad/s")
     speeds_for: list[SpeedRule] = Field(
         default=[],
         description="other speeds for some blades or scenes (both, where both are given); the first entry that fits counts",

@@ -12,7 +12,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .declaring import DECLARED, declared_by, in_si
 from .document import Documents
-from .section import LeftOut, Name, Section, Speed, check_names, refused
+from .section import ByName, LeftOut, Section, Speed, left_out, refused
 
 _LARGEST_SIGNAL = 2**31
 """Bytes of tip motion that one run may keep in memory."""
@@ -38,12 +38,11 @@ class Reduction(Section):
 class Measured(Section):
     """What was found on the worst of seven blades (docs/accuracy.md); for `fidelity: auto`."""
 
-    error: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = Field(
-        default=None,
-        description="mean relative error of rms, with lining and in direct contact on patches; left out: auto never takes it",
+    error: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = left_out(
+        "mean relative error of rms, with lining and in direct contact on patches; left out: auto never takes it"
     )
-    error_on_points: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = Field(
-        default=None, description="the same in direct contact on points, where a run has that"
+    error_on_points: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = left_out(
+        "the same in direct contact on points, where a run has that"
     )
     cpu_s_per_run: float = Field(ge=1e-6, le=1e9, description="CPU seconds of a run")
 
@@ -66,12 +65,11 @@ class Steps(Section):
 class TimeIntegration(Section):
     """The time integration and what it keeps."""
 
-    time_step_s: Step | LeftOut = Field(
-        default=None,
-        description="largest step of every scene, shortened so that it divides a revolution; refused where it is unstable",
+    time_step_s: Step | LeftOut = left_out(
+        "largest step of every scene, shortened so that it divides a revolution; refused where it is unstable"
     )
-    largest_time_step_s: Steps | LeftOut = Field(
-        default=None, description="in place of time_step_s: of each kind of scene; shortened also where it is unstable"
+    largest_time_step_s: Steps | LeftOut = left_out(
+        "in place of time_step_s: of each kind of scene; shortened also where it is unstable"
     )
     revolutions: Any = DECLARED
     speed_step_rad_s: Speed = Field(description="step of the speed ranges that give none")
@@ -147,14 +145,11 @@ class Level(Section):
     time_integration: TimeIntegration
 
 
-class Levels(RootModel[dict[Name, Level]]):
+class Levels(RootModel[ByName[Level]]):
     """fidelity.yaml, accuracy levels by name."""
 
-    root: Annotated[dict[Name, Level], Field(min_length=1)]
-
     @model_validator(mode="after")
-    def _names(self) -> Levels:
-        check_names(self.root)
+    def _auto_is_no_level(self) -> Levels:
         if "auto" in self.root:
             raise refused(("auto",), "the level 'auto'", "another name; fidelity: auto picks a level")
         return self

@@ -13,7 +13,7 @@ from r37core.exchange.orientation import Orientation
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, ImportedSubmesh, MaterialSection
 from .declaring import DECLARED, declared_by, in_si
-from .section import FileName, LeftOut, Section, refused
+from .section import FileName, LeftOut, Section, left_out, refused
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
 Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
@@ -23,12 +23,12 @@ Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
 class SurfaceRule(Section):
     """All outer faces within limits; r is the distance from the rotor axis, x radial, z along the axis downstream."""
 
-    r_at_least_m: Radius = Field(default=None, description="lower bound of the distance from the rotor axis")
-    r_at_most_m: Radius = Field(default=None, description="upper bound of the distance from the rotor axis")
-    x_at_least_m: Length = Field(default=None, description="lower bound of the radial coordinate")
-    x_at_most_m: Length = Field(default=None, description="upper bound of the radial coordinate")
-    z_at_least_m: Length = Field(default=None, description="lower bound of the axial coordinate")
-    z_at_most_m: Length = Field(default=None, description="upper bound of the axial coordinate")
+    r_at_least_m: Radius = left_out("lower bound of the distance from the rotor axis")
+    r_at_most_m: Radius = left_out("upper bound of the distance from the rotor axis")
+    x_at_least_m: Length = left_out("lower bound of the radial coordinate")
+    x_at_most_m: Length = left_out("upper bound of the radial coordinate")
+    z_at_least_m: Length = left_out("lower bound of the axial coordinate")
+    z_at_most_m: Length = left_out("upper bound of the axial coordinate")
 
     @model_validator(mode="after")
     def _says_something(self) -> SurfaceRule:

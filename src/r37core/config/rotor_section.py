@@ -11,7 +11,7 @@ from r37core.contact.rotor import Rotor
 from r37core.yaml_file import KeyPath
 
 from .blade_table import MOST_BLADES, BladeTable
-from .section import LeftOut, Section, Unique, refused
+from .section import LeftOut, Section, Unique, left_out, refused
 from .spread import SpreadEntry
 
 LEAST_APART = 0.1
@@ -29,26 +29,23 @@ class RotorSection(Section):
     """Blades that run on one casing and wear one lining; their roots stand still, and nothing else couples them."""
 
     blades: Number = Field(description="how many places for blades there are")
-    missing: Unique[Number] | LeftOut = Field(default=None, description="numbers of the places without a blade, from 1")
+    missing: Unique[Number] | LeftOut = left_out("numbers of the places without a blade, from 1")
     mistuning_percent: BladeTable[Change] = Field(
         default={}, description="number of a blade -> change of all its frequencies, -95 to 1000; in place of what is drawn"
     )
-    mistuning_spread_percent: SpreadEntry | LeftOut = Field(
-        default=None,
-        description="drawn changes of the other blades, within the same bounds: {normal: 1} has a standard deviation of 1%",
+    mistuning_spread_percent: SpreadEntry | LeftOut = left_out(
+        "drawn changes of the other blades, within the same bounds: {normal: 1} has a standard deviation of 1%"
     )
     longer_m: BladeTable[Length] = Field(
         default={},
         description="number of a blade -> by how much it is longer than the model, -0.1 to 0.1; in place of what is drawn",
     )
-    longer_spread_m: SpreadEntry | LeftOut = Field(
-        default=None,
-        description="drawn lengths of the other blades, within the same bounds: {uniform: 2.0e-5} is plus or minus 20 um",
+    longer_spread_m: SpreadEntry | LeftOut = left_out(
+        "drawn lengths of the other blades, within the same bounds: {uniform: 2.0e-5} is plus or minus 20 um"
     )
     seed: int = Field(default=0, ge=0, le=2**31, description="of what is drawn; another one gives another rotor")
-    angles_deg: list[Annotated[float, Field(ge=-360, le=720)]] | LeftOut = Field(
-        default=None,
-        description="angles of all places, in the sense of growing theta, blades at least 0.1 apart; equal without them",
+    angles_deg: list[Annotated[float, Field(ge=-360, le=720)]] | LeftOut = left_out(
+        "angles of all places, in the sense of growing theta, blades at least 0.1 apart; equal without them"
     )
     lining: Literal["shared", "separate"] = Field(
         default="shared", description="separate: each blade has a lining of its own, as a single blade does"

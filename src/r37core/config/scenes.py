@@ -12,7 +12,7 @@ from r37core.time_integration.rotor_blades import refusal_of
 from .casing_section import CasingSection
 from .declaring import DECLARED, declared_by, in_si
 from .rotor_section import RotorSection
-from .section import LeftOut, Name, Rpm, Section, Speed, check_names, refused
+from .section import ByName, LeftOut, Rpm, Section, Speed, left_out, refused
 from .si_fields import si_fields
 from .speed_section import refuse_both_units
 
@@ -39,21 +39,15 @@ class FrictionSection(Section):
 class SceneEntry(Section):
     """One scene of scenes.yaml."""
 
-    tip_line: TipLine | LeftOut = Field(
-        default=None, description="line of the contact nodes; default: structure.boundary.tip_line"
-    )
+    tip_line: TipLine | LeftOut = left_out("line of the contact nodes; default: structure.boundary.tip_line")
     casing: CasingSection
-    lining: LiningSection | LeftOut = Field(default=None, description="abradable lining; without it the tip meets the casing")
-    friction: FrictionSection | LeftOut = Field(default=None, description="friction at the tip; none without it")
-    rotor: RotorSection | LeftOut = Field(
-        default=None, description="all blades in one casing, on one lining; one blade without it"
-    )
+    lining: LiningSection | LeftOut = left_out("abradable lining; without it the tip meets the casing")
+    friction: FrictionSection | LeftOut = left_out("friction at the tip; none without it")
+    rotor: RotorSection | LeftOut = left_out("all blades in one casing, on one lining; one blade without it")
     damping_ratio: Any = DECLARED
     gap: Any = DECLARED
     divergence_limit_m: Any = DECLARED
-    revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(
-        default=None, description="in place of the fidelity level's"
-    )
+    revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = left_out("in place of the fidelity level's")
     results: list[Result] = Field(
         default=["spectrum", "stress"],
         json_schema_extra={"uniqueItems": True},
@@ -125,12 +119,5 @@ class SceneEntry(Section):
         )
 
 
-class Scenes(RootModel[dict[Name, SceneEntry]]):
+class Scenes(RootModel[ByName[SceneEntry]]):
     """scenes.yaml, contact scenes by name."""
-
-    root: Annotated[dict[Name, SceneEntry], Field(min_length=1)]
-
-    @model_validator(mode="after")
-    def _names(self) -> Scenes:
-        check_names(self.root)
-        return self

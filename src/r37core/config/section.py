@@ -118,6 +118,12 @@ FileName = Annotated[str, StringConstraints(min_length=1, max_length=1000, patte
 LeftOut = SkipJsonSchema[None]
 """What an optional key is when it is not given; null is refused."""
 
+
+def left_out(description: str) -> Any:
+    """The field of an optional key without a default."""
+    return Field(default=None, description=description)
+
+
 Speed = Annotated[float, Field(ge=1e-3, le=1e6)]
 """An angular speed (rad/s)."""
 
@@ -125,10 +131,15 @@ Rpm = Annotated[float, Field(ge=0.01, le=9.5e6)]
 """The same in revolutions per minute."""
 
 
-def check_names(names: Mapping[str, Any]) -> None:
-    """Raise the error of two names that differ in capitals only: their files would be one on some systems."""
+def check_names(names: dict[str, T]) -> dict[str, T]:
+    """The entries by name; raises the error of two names that differ in capitals only: some systems would have one file."""
     seen: dict[str, str] = {}
     for name in names:
         other = seen.setdefault(name.lower(), name)
         if other != name:
             raise refused((name,), f"'{name}' beside '{other}'", "names that differ in more than capitals")
+    return names
+
+
+ByName = Annotated[dict[Name, T], Field(min_length=1), AfterValidator(check_names)]
+"""The content of a file with entries by name."""

@@ -9,17 +9,14 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from r37core.speeds import SpeedPlan, plan_speeds
 
-from .section import LeftOut, Names, Rpm, Section, Speed, plain, refused
+from .section import LeftOut, Names, Rpm, Section, Speed, left_out, plain, refused
 
 UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
 
 
-_STEP = Field(default=None, description="without it the fidelity level's")
-_REFINE_TO = Field(
-    default=None,
-    description="with it the speeds are sampled adaptively, down to intervals of this, a whole part of the step",
-)
+_STEP = left_out("without it the fidelity level's")
+_REFINE_TO = left_out("with it the speeds are sampled adaptively, down to intervals of this, a whole part of the step")
 
 
 class SpeedRange(Section):
@@ -59,10 +56,10 @@ RpmList = Annotated[list[RpmEntry], Field(min_length=1)]
 class SpeedRule(Section):
     """Speeds of some blades or scenes (both, where both are given)."""
 
-    blades: Names | LeftOut = Field(default=None, description="of these blades; of all without it")
-    scenes: Names | LeftOut = Field(default=None, description="in these scenes; in all without it")
-    speeds: SpeedList | LeftOut = Field(default=None, description="their speeds, as those of the top level")
-    speeds_rpm: RpmList | LeftOut = Field(default=None, description="the same in revolutions per minute, in place of speeds")
+    blades: Names | LeftOut = left_out("of these blades; of all without it")
+    scenes: Names | LeftOut = left_out("in these scenes; in all without it")
+    speeds: SpeedList | LeftOut = left_out("their speeds, as those of the top level")
+    speeds_rpm: RpmList | LeftOut = left_out("the same in revolutions per minute, in place of speeds")
 
     @model_validator(mode="after")
     def _one_unit(self) -> SpeedRule:

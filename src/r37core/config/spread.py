@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import scipy
 from pydantic import AfterValidator, Field, model_validator
 
-from .section import LeftOut, Section, Unique, refused
+from .section import LeftOut, Section, Unique, left_out, refused
 
 _DIGITS = 12
 """Of a value: more would tell one machine's arithmetic from another's."""
@@ -78,14 +78,14 @@ MemberCount = Annotated[int, Field(ge=2, le=4096), AfterValidator(_power_of_two)
 class SpreadEntry(Section):
     """How one number spreads: one of these, in the unit of the number's key where it is not in percent of its value."""
 
-    uniform_percent: Percent | LeftOut = Field(default=None, description="half width; 5: from 5% below to 5% above")
-    uniform: Width | LeftOut = Field(default=None, description="half width")
-    normal_percent: Percent | LeftOut = Field(default=None, description="standard deviation")
-    normal: Width | LeftOut = Field(default=None, description="standard deviation")
-    between: Annotated[list[Number], Field(min_length=2, max_length=2)] | LeftOut = Field(
-        default=None, description="lower and upper bound, all between equally likely"
+    uniform_percent: Percent | LeftOut = left_out("half width; 5: from 5% below to 5% above")
+    uniform: Width | LeftOut = left_out("half width")
+    normal_percent: Percent | LeftOut = left_out("standard deviation")
+    normal: Width | LeftOut = left_out("standard deviation")
+    between: Annotated[list[Number], Field(min_length=2, max_length=2)] | LeftOut = left_out(
+        "lower and upper bound, all between equally likely"
     )
-    values: Unique[Number] | LeftOut = Field(default=None, description="a list, each equally likely")
+    values: Unique[Number] | LeftOut = left_out("a list, each equally likely")
 
     @model_validator(mode="after")
     def _one_kind(self) -> SpreadEntry:

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Generic, Literal, TypeVar
 
 from pydantic import Field, model_validator
 
-from .section import AllOrNames, LeftOut, Name, Section, Unique, refused
+from .section import AllOrNames, LeftOut, Name, Section, Unique, left_out, refused
 from .spread import MemberCount, SpreadEntry
 
 Value = TypeVar("Value")
@@ -31,36 +31,26 @@ class Parameters(Section):
     """The parameters whose price is measured; `level` always, because the recommended level is the study's result."""
 
     level: Parameter[Name] = Field(description="fidelity levels")
-    central_difference_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = Field(
-        default=None, description="step of central differences (s)"
+    central_difference_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = left_out(
+        "step of central differences (s)"
     )
-    exact_modal_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = Field(
-        default=None, description="exact modal step (s)"
+    exact_modal_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = left_out("exact modal step (s)")
+    static_above: Parameter[Annotated[float, Field(ge=1e-3, le=1e9)]] | LeftOut = left_out(
+        "modes with omega h above it follow statically, with exact_modal"
     )
-    static_above: Parameter[Annotated[float, Field(ge=1e-3, le=1e9)]] | LeftOut = Field(
-        default=None, description="modes with omega h above it follow statically, with exact_modal"
+    revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = left_out("length of a run")
+    mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = left_out("nodes of the mesh")
+    boundary_nodes: Parameter[Annotated[int, Field(ge=1, le=200)]] | LeftOut = left_out("contact nodes")
+    fixed_interface_modes: Parameter[Annotated[int, Field(ge=0, le=500)]] | LeftOut = left_out(
+        "fixed-interface modes of the reduced model at each of its speeds"
     )
-    revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = Field(default=None, description="length of a run")
-    mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = Field(
-        default=None, description="nodes of the mesh"
+    highest_frequency: Parameter[Annotated[float, Field(ge=1, le=1e12)]] | LeftOut = left_out(
+        "highest frequency that is kept (Hz)"
     )
-    boundary_nodes: Parameter[Annotated[int, Field(ge=1, le=200)]] | LeftOut = Field(default=None, description="contact nodes")
-    fixed_interface_modes: Parameter[Annotated[int, Field(ge=0, le=500)]] | LeftOut = Field(
-        default=None, description="fixed-interface modes of the reduced model at each of its speeds"
-    )
-    highest_frequency: Parameter[Annotated[float, Field(ge=1, le=1e12)]] | LeftOut = Field(
-        default=None, description="highest frequency that is kept (Hz)"
-    )
-    bars: Parameter[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = Field(
-        default=None, description="bars of the lining"
-    )
-    stress_instants: Parameter[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = Field(
-        default=None, description="stress evaluations per revolution"
-    )
-    stress_region: Parameter[Literal["submesh", "whole"]] | LeftOut = Field(
-        default=None, description="submesh, or the whole blade"
-    )
-    friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = Field(default=None, description="form of friction")
+    bars: Parameter[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = left_out("bars of the lining")
+    stress_instants: Parameter[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = left_out("stress evaluations per revolution")
+    stress_region: Parameter[Literal["submesh", "whole"]] | LeftOut = left_out("submesh, or the whole blade")
+    friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = left_out("form of friction")
 
     def varied(self) -> dict[str, Parameter]:
         """The parameters that are varied, by name."""
@@ -92,7 +82,7 @@ class Places(Section):
 class TradeoffSection(Section):
     """What accuracy costs (snakemake tradeoff)."""
 
-    blade: Name | LeftOut = Field(default=None, description="if left out, the first one of the run with profiles")
+    blade: Name | LeftOut = left_out("if left out, the first one of the run with profiles")
     scenes: AllOrNames = Field(default="all", description="of those that are run")
     base: Name = Field(default="standard", description="fidelity level that all parameters but one keep")
     engine_order: int = Field(default=4, ge=1, le=100, description="the speeds lie about this crossing of 1B")
@@ -136,7 +126,7 @@ class ValidationRangesSection(Section):
 class StabilitySection(Section):
     """What happens at extremes (snakemake stability)."""
 
-    blade: Name | LeftOut = Field(default=None, description="if left out, the first one of the run with profiles")
+    blade: Name | LeftOut = left_out("if left out, the first one of the run with profiles")
     base: Name = Field(default="standard", description="fidelity level that the cases change")
     lined_scene: Name = Field(default="abradable", description="scene with a lining")
     direct_scene: Name = Field(default="direct", description="scene without one")
