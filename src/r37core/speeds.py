@@ -53,10 +53,7 @@ class RefinedRange:
 
 @dataclass(frozen=True)
 class SpeedPlan:
-    """What a list of speeds asks for: `certain` speeds (rad/s), ascending, and ranges that are sampled adaptively.
-
-    The coarse speeds of the ranges are among the certain ones.
-    """
+    """What a list of speeds asks for: `certain` ones (rad/s), ascending, with the coarse ones of the `refined` ranges."""
 
     certain: tuple[float, ...]
     refined: tuple[RefinedRange, ...] = ()

@@ -45,10 +45,8 @@ def dense_ranges(campbell: xr.Dataset, windows: Sequence[Window]) -> list[DenseR
     windowed = []
     for window in windows:
         crossings = campbell["crossing_speed"].sel(mode=window.mode)
-        for speed in crossings.sel(engine_order=crossings["engine_order"] <= window.highest_engine_order).dropna(
-            "engine_order"
-        ):
-            crossing = float(speed)
+        in_window = crossings["engine_order"] <= window.highest_engine_order
+        for crossing in crossings.sel(engine_order=in_window).dropna("engine_order").values.tolist():
             windowed.append(DenseRange((1.0 + window.first) * crossing, (1.0 + window.last) * crossing, window.step))
     return windowed
 
@@ -116,12 +114,9 @@ def _worth(curves: np.ndarray, status: np.ndarray, scale: np.ndarray, choice: Re
             seen |= above[:-1] != above[1:]
         seen |= _near_a_peak(curve, choice)
         worth = np.maximum(worth, np.where(seen, np.maximum(change, larger), 0.0))
-    ended = np.isin(status, list(_ENDED))
+    ended = np.isin(status, [RunStatus.COMPLETED, RunStatus.DIVERGED])
     differs = (status[:-1] != status[1:]) & ended[:-1] & ended[1:]
     return np.where(differs, np.inf, worth)
-
-
-_ENDED = (RunStatus.COMPLETED, RunStatus.DIVERGED)
 
 
 def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:

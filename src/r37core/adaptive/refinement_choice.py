@@ -37,13 +37,11 @@ class RefinementChoice:
     windows: tuple[Window, ...]
     prominence: float
     change: Annotated[
-        float,
-        Key("an interval is halved when rms or stress change by more, as a share of the larger", ge=1e-3, le=10),
+        float, Key("an interval is halved when rms or stress change by more, as a share of the larger", ge=1e-3, le=10)
     ] = 0.25
-    peak: Annotated[
-        float,
-        Key("intervals are halved that reach so close to a peak's height, as a share of it", ge=0, lt=1),
-    ] = 0.1
+    peak: Annotated[float, Key("intervals are halved that reach so close to a peak's height, as a share of it", ge=0, lt=1)] = (
+        0.1
+    )
     steep_change: Annotated[
         float,
         Key(

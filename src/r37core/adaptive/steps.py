@@ -14,10 +14,7 @@ from .rounds import first_round, measure_members, read_round, round_after, write
 
 
 def refine(input: Any, output: Any, params: Any) -> None:
-    """Ask for the next speeds. Inputs: campbell of the first round, else before and speeds. Output: round (json).
-
-    Params: plan, choice, yields.
-    """
+    """Ask for the next speeds. Inputs: campbell first, then before and speeds. Output: round. Params: plan, choice, yields."""
     plan, choice = from_plain(SpeedPlan, params.plan), from_plain(RefinementChoice, params.choice)
     if hasattr(input, "campbell"):
         new_round = first_round(plan, read_dataset(input.campbell), choice)

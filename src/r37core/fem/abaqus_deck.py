@@ -12,10 +12,7 @@ from .material import Material
 
 
 def write_abaqus(mesh: BladeMesh, file: Path | str, material: Material, title: str) -> None:
-    """Write a complete deck in SI units: mesh, node sets, material, clamped root, first ten modes.
-
-    Run it with `ccx mesh` (without the suffix).
-    """
+    """Write a complete deck in SI units that asks for the first ten modes; `ccx mesh`, without the suffix, runs it."""
     lines = ["*HEADING", title, "*NODE, NSET=ALL_NODES"]
     lines += [", ".join([str(i), *map(_twenty, point)]) for i, point in enumerate(mesh.points.tolist(), start=1)]
     first = 1

@@ -42,10 +42,7 @@ def wedge_rule(triangle_points: int, line_points: int) -> Rule:
 
 
 def tetrahedron_rule(count: int) -> Rule:
-    """1, 4 or 15 points: degree 1, 2 and 5 (Keast, Comput. Meth. Appl. Mech. Eng. 55, 1986).
-
-    Raises KeyError for another number.
-    """
+    """1, 4 or 15 points: degree 1, 2 and 5 (Keast, Comput. Meth. Appl. Mech. Eng. 55, 1986); KeyError for other numbers."""
     points: list[tuple[float, ...]] = []
     weights: list[float] = []
     for a, b, repeated, weight in _TETRAHEDRON_ORBITS[count]:

@@ -16,10 +16,7 @@ from .mesh_quality import mesh_quality
 
 
 def mesh(input: Any, output: Any, params: Any) -> None:
-    """Mesh a blade. Input: geometry. Params: mesh, of the fidelity level. Outputs: msh, vtu.
-
-    Raises ValueError for a mesh of poor quality.
-    """
+    """Mesh a blade. Input: geometry. Params: mesh, of the fidelity level. Outputs: msh, vtu. ValueError for poor quality."""
     level = params.mesh
     with atomic_write(output.msh) as msh_file:
         made = generate_mesh(read_geometry(input.geometry), level["nodes"], level["layers"], level["tip_elements"], msh_file)

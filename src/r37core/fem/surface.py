@@ -74,10 +74,9 @@ def nodes_of(faces: list[Faces]) -> np.ndarray:
 def patches(faces: list[Faces]) -> int:
     """Number of patches of faces that share no node."""
     edges = np.concatenate([part.edges() for part in faces])
-    _, local = np.unique(edges[:, [0, 2]], return_inverse=True)
-    pairs = local.reshape(-1, 2).T
-    size = int(pairs.max()) + 1
-    graph = sp.coo_array((np.ones(pairs.shape[1]), (pairs[0], pairs[1])), shape=(size, size))
+    nodes, local = np.unique(edges[:, [0, 2]], return_inverse=True)
+    starts, ends = local.reshape(-1, 2).T
+    graph = sp.coo_array((np.ones(len(starts)), (starts, ends)), shape=(len(nodes),) * 2)
     return int(connected_components(graph, directed=False)[0])
 
 
@@ -116,10 +115,7 @@ def area_vectors(faces: list[Faces], points: np.ndarray) -> np.ndarray:
 
 
 def smooth_patches(faces: list[Faces], vectors: np.ndarray, crease: float) -> np.ndarray:
-    """Number of the patch that each face belongs to, shape (faces,): neighbours whose normals differ by less than `crease`.
-
-    `vectors`: of `area_vectors`; `crease`: an angle (rad).
-    """
+    """Patch of each face, shape (faces,), from `area_vectors`: normals of neighbours differ by less than `crease` (rad)."""
     edges = np.sort(np.concatenate([part.edges()[:, [0, 2]] for part in faces]), axis=1)
     owner = np.repeat(np.arange(len(vectors)), np.concatenate([np.full(len(part.nodes), part.corners) for part in faces]))
     _, of_edge = np.unique(edges, axis=0, return_inverse=True)

@@ -47,10 +47,7 @@ class ContactModel:
     coriolis: np.ndarray | None = None
 
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
-        """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed` (rad/s).
-
-        Raises BucklingError when a stiffness is not positive.
-        """
+        """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed`; see BucklingError."""
         stiffness = np.diag(self.squared_frequencies) + speed**2 * self.stiffness_per_square
         squares, modes = np.linalg.eigh(stiffness)
         if not squares[0] > 0.0:
@@ -58,10 +55,7 @@ class ContactModel:
         return np.sqrt(squares), modes
 
     def displaced(self, speeds: np.ndarray) -> np.ndarray:
-        """Displacement of the contact nodes (m) by rotation at `speeds` (rad/s), shape (3, speeds, nodes); see BucklingError.
-
-        Directions as of `displacement_operator`.
-        """
+        """Displacement (m) of the contact nodes by rotation at `speeds` (rad/s), (3, speeds, nodes); see BucklingError."""
         amplitudes = rotation_amplitudes(self.rotation_stiffening, speeds)
         return amplitudes @ self.rotation_shapes.swapaxes(1, 2)
 

@@ -32,8 +32,7 @@ def contact_weights(mesh: BladeMesh, choice: BoundaryChoice) -> sp.csr_array:
     line, tip, chord = mesh.node_set(TIP_LINES[choice.tip_line]), mesh.node_set("tip"), mesh.parameters[:, 0]
     if choice.contact == AREA_PATCHES and len(line):
         check_patches(choice, np.unique(np.round(chord[tip], 6)), "mesh nodes, one behind the other, of the tip")
-        members = np.zeros(len(mesh.points), dtype=bool)
-        members[tip] = True
+        members = np.isin(np.arange(len(mesh.points)), tip)
         return _means(choice, chord, face_traces(mesh.points, mesh.blocks, members))
     check_patches(choice, chord[line], f"mesh nodes of the tip line '{choice.tip_line}'")
     return _means(choice, chord, _line_traces(mesh, line))
@@ -50,10 +49,7 @@ def weights_along(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice)
 
 
 def mean_positions(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
-    """Where the contact nodes are (m), shape (contact nodes, 3): the weighted means of radius, angle and axial position.
-
-    So a patch on a cone lies on that cone.
-    """
+    """Positions (m), shape (contact nodes, 3): weighted means of radius, angle and axial position, so on the tip's cone."""
     alone = np.diff(weights.indptr) == 1
     radius, theta = np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
     radius, theta, axial = weights @ radius, weights @ theta, weights @ points[:, 2]
@@ -65,16 +61,14 @@ def mean_positions(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
 
 def _line_traces(mesh: BladeMesh, line: np.ndarray) -> list[Trace]:
     """Edges of the elements along the line; where the elements have none there, as inside a face, straight pieces."""
-    members = np.zeros(len(mesh.points), dtype=bool)
-    members[line] = True
-    traces = edge_traces(mesh.points, mesh.blocks, members)
+    traces = edge_traces(mesh.points, mesh.blocks, np.isin(np.arange(len(mesh.points)), line))
     covered = sum((trace.values.shape[1] - 1) * len(trace.nodes) for trace in traces)
     return traces if covered == len(line) - 1 else [chain_trace(mesh.points, np.stack([line[:-1], line[1:]], axis=1))]
 
 
 def _means(choice: BoundaryChoice, chord: np.ndarray, traces: list[Trace]) -> sp.csr_array:
     """Weights of hats along the chord, from integrals over edges or faces; `chord`: of every node."""
-    positions = choice.chord_positions
+    positions = choice.chord_positions(choice.nodes)
     total = np.zeros((choice.nodes, len(chord)))
     for trace in traces:
         at = chord[trace.nodes] @ trace.values.T

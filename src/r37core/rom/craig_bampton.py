@@ -35,21 +35,21 @@ def multi_speed_basis(
     mass: sp.csr_array,
     boundary: sp.csr_array,
     choice: ReductionChoice,
-    solve_at_rest: Solve | None = None,
+    solve_at_rest: Solve,
     load: np.ndarray | None = None,
 ) -> tuple[MultiSpeedBasis, np.ndarray]:
     """Constraint modes and fixed-interface modes at each of the choice's speeds, combined into one basis.
 
     `boundary`, shape (boundary coordinates, dofs): each row gives one of them from the displacements, by a 1 or by weights.
-    `stiffness_at` gives the stiffness at a speed (rad/s); `solve_at_rest` solves with that at rest, where the caller has its
-    factors. The first speed's constraint modes stay as they are, so that static responses to boundary loads at that speed
-    are exact. Also, from the same factors, the displacements (m) under a `load` (N), shape (dofs, speeds); none without it.
+    `stiffness_at` gives the stiffness at a speed (rad/s); `solve_at_rest` solves with that at rest. The first speed's
+    constraint modes stay as they are, so that static responses to boundary loads at that speed are exact. Also, from the same
+    factors, the displacements (m) under a `load` (N), shape (dofs, speeds); none without it.
     """
     columns: list[np.ndarray] = []
     displaced = np.empty((mass.shape[0], 0 if load is None else len(choice.speeds)))
     for number, speed in enumerate(choice.speeds):
         stiffness = stiffness_at(speed)
-        solve = solve_at_rest if solve_at_rest and not speed else factorise(stiffness)
+        solve = factorise(stiffness) if speed else solve_at_rest
         columns += constraint_and_fixed_modes(stiffness, mass, boundary, choice.fixed_interface_modes, solve)
         if load is not None:
             displaced[:, number] = solve(load)
@@ -61,10 +61,19 @@ def combine_columns(
 ) -> MultiSpeedBasis:
     """Basis spanning `columns`, shape (dofs, columns): `constraint_modes` as they are, then internal vectors.
 
-    Columns with singular values below `tolerance` times the largest are dropped as numerically dependent. Neither the order
-    nor the scale of the columns matters.
+    Columns with singular values below `tolerance` times the largest are dropped as numerically dependent. Each is scaled to
+    unit length and the rows by the root of the nodal mass, so that neither the scale nor the order of the columns nor the
+    mesh's density matters.
     """
-    internal, singular_values = _internal_vectors(columns, mass, boundary, tolerance)
+    weight = np.sqrt(mass.diagonal())[:, None]
+    weighted = weight * columns
+    weighted /= np.linalg.norm(weighted, axis=0)
+    left, singular_values, _ = la.svd(weighted, full_matrices=False)
+    independent = left[:, singular_values > tolerance * singular_values[0]] / weight
+    free = independent @ la.null_space(boundary @ independent)
+    free[_alone(boundary)] = 0.0
+    factor = la.cholesky(free.T @ (mass @ free), lower=True)
+    internal = la.solve_triangular(factor, free.T, lower=True).T
     return MultiSpeedBasis(np.hstack([constraint_modes, internal]), singular_values)
 
 
@@ -93,22 +102,3 @@ def constraint_and_fixed_modes(
 def _alone(boundary: sp.csr_array) -> np.ndarray:
     """Degrees of freedom that are a boundary coordinate by themselves, which round-off has no part in."""
     return boundary.indices[boundary.indptr[:-1][np.diff(boundary.indptr) == 1]]
-
-
-def _internal_vectors(
-    columns: np.ndarray, mass: sp.csr_array, boundary: sp.csr_array, tolerance: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Mass-orthonormal vectors that vanish on the boundary and, with the constraint modes, span the columns.
-
-    Dependence is judged by a singular value decomposition of the columns, each scaled to unit length and the rows by
-    the root of the nodal mass, so that neither the scale nor the order of the columns nor the mesh's density matters.
-    """
-    weight = np.sqrt(mass.diagonal())[:, None]
-    weighted = weight * columns
-    weighted /= np.linalg.norm(weighted, axis=0)
-    left, singular_values, _ = la.svd(weighted, full_matrices=False)
-    independent = left[:, singular_values > tolerance * singular_values[0]] / weight
-    free = independent @ la.null_space(boundary @ independent)
-    free[_alone(boundary)] = 0.0
-    factor = la.cholesky(free.T @ (mass @ free), lower=True)
-    return la.solve_triangular(factor, free.T, lower=True).T, singular_values

@@ -17,10 +17,7 @@ from .rotation import shapes_of_rotation
 
 
 def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:
-    """Project the blade's matrices on a Craig-Bampton basis over several speeds.
-
-    Raises BoundaryError when the mesh has too few tip nodes.
-    """
+    """Project the blade's matrices on a Craig-Bampton basis over several speeds; BoundaryError for too few tip nodes."""
     stiffness, geometric, mass = matrices.stiffness(), matrices.geometric_stiffness(), matrices.mass()
     softening = matrices.spin_softening() if choice.spin_softening else None
     per_square = geometric if softening is None else geometric + softening

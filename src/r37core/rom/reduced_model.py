@@ -47,10 +47,6 @@ class RecoveryNodes:
         length = axial[-1] - axial[0]
         return float(np.arctan((radius[-1] - radius[0]) / length)) if length != 0.0 else 0.0
 
-    def displacement(self, coordinates: np.ndarray) -> np.ndarray:
-        """Displacement (m), shape (n, 3), for reduced `coordinates`, shape (coordinates,)."""
-        return self.basis @ coordinates
-
     def cylindrical(self, displacement: np.ndarray) -> np.ndarray:
         """Turn displacements (..., n, 3) from x, y, z to radial, tangential (growing theta) and axial parts."""
         theta = np.arctan2(self.points[:, 1], self.points[:, 0])
@@ -149,9 +145,7 @@ def _gyroscopic_modes(
     values, vectors = la.eigh(-1j * system)
     positive = np.flatnonzero(values > 0.0)[:count]
     modal = vectors[:size, positive] / root[:, None]
-    complex_shapes = shapes @ modal
-    norms = np.sqrt(np.sum(np.abs(modal) ** 2, axis=0))
-    return values[positive], complex_shapes / norms
+    return values[positive], shapes @ modal / np.sqrt(np.sum(np.abs(modal) ** 2, axis=0))
 
 
 def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:

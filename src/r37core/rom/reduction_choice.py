@@ -34,26 +34,18 @@ class BoundaryChoice:
     corners: Annotated[bool, Key("whether leading and trailing corner are among them")] = True
     contact: str = field(kw_only=True)
 
-    @property
-    def chord_positions(self) -> np.ndarray:
-        """Wanted fractions of the chord, from the leading to the trailing edge."""
-        return self.positions(self.nodes)
-
-    def positions(self, count: int) -> np.ndarray:
-        """The same of another number of contact nodes."""
+    def chord_positions(self, count: int) -> np.ndarray:
+        """Wanted fractions of the chord of so many contact nodes, from the leading to the trailing edge."""
         if self.corners and count > 1:
             return np.linspace(0.0, 1.0, count)
         return (np.arange(count) + 0.5) / count
 
 
 def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
-    """Numbers of the mesh nodes nearest to the wanted positions, from the leading to the trailing edge.
-
-    Raises BoundaryError when the line has too few nodes for them to be distinct.
-    """
+    """Mesh nodes nearest to the wanted positions, from leading to trailing edge; BoundaryError where two are the same."""
     line = mesh.node_set(TIP_LINES[choice.tip_line])
     chord = mesh.parameters[line, 0]
-    distance = np.abs(chord[None, :] - choice.chord_positions[:, None]) if len(line) else np.empty((choice.nodes, 0))
+    distance = np.abs(chord - choice.chord_positions(choice.nodes)[:, None])
     nearest = distance.argmin(axis=1) if len(line) else np.empty(0, dtype=int)
     if len(np.unique(nearest)) < choice.nodes:
         raise BoundaryError(
@@ -65,10 +57,7 @@ def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
 
 
 def check_patches(choice: BoundaryChoice, chord: np.ndarray, of: str) -> None:
-    """BoundaryError unless a node lies between any two neighbouring patches.
-
-    `chord`: fractions of the chord of the nodes that patches are made `of`, in words.
-    """
+    """BoundaryError unless a node lies between any two patches; `chord`: fractions of the nodes that they are made `of`."""
     if _resolves(choice, choice.nodes, chord):
         return
     most = max((count for count in range(1, choice.nodes) if _resolves(choice, count, chord)), default=0)
@@ -90,7 +79,7 @@ def boundary_located(location: str) -> Iterator[None]:
 
 def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
     """Whether there are two nodes for each patch, one of them between it and the next."""
-    positions = choice.positions(count)
+    positions = choice.chord_positions(count)
     following = np.searchsorted(positions, chord)
     at_one = np.isclose(chord[:, None], positions).any(axis=1)
     between = np.unique(following[~at_one & (following > 0) & (following < count)])
@@ -144,10 +133,7 @@ EVERYWHERE = StressSubmesh()
 
 @dataclass(frozen=True)
 class ReductionChoice:
-    """What the reduced model is made of.
-
-    `boundary`: the contact nodes; `speeds` (rad/s) at which the basis is computed; `stress_submesh`: where stress is recovered.
-    """
+    """What a reduced model is made of: basis at `speeds` (rad/s), contact nodes of `boundary`, stress on `stress_submesh`."""
 
     boundary: BoundaryChoice
     speeds: tuple[float, ...]

@@ -26,11 +26,8 @@ _ELEMENTS = "stress_elements_"
 
 def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
     """Write the model; terms that it lacks are absent from the file."""
-    data: dict = {}
-    for name, (units, long_name) in _MATRICES.items():
-        matrix = getattr(model, name)
-        if matrix is not None:
-            data[name] = (("row", "column"), matrix, {"units": units, "long_name": long_name})
+    matrices = {name: matrix for name in _MATRICES if (matrix := getattr(model, name)) is not None}
+    data: dict = {name: (("row", "column"), matrix, about(*_MATRICES[name])) for name, matrix in matrices.items()}
     node_groups = {f"tip_{line}": nodes for line, nodes in model.tip_lines.items()}
     node_groups |= {"contact": model.contact_nodes, "stress": model.stress_submesh}
     if model.whole_blade is not None:
