@@ -10,8 +10,8 @@ from defaults import BoundaryChoice, IntegrationChoice, MatricesSource
 from integration_cases import ABRADABLE, DIRECT
 
 from r37core.config import ConfigError, command_line_document
-from r37core.config.key_locations import location_of_contact
 from r37core.config.remarks import remarks_on_points
+from r37core.config.settings import location_of_contact
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.orientation import OURS
 from r37core.exports.matrices_out import table_nodes, write_full_matrices, write_reduced_matrices

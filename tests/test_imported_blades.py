@@ -9,7 +9,6 @@ import yaml
 from defaults import Where
 
 from r37core.config import ConfigError
-from r37core.config.key_locations import locations_of_keys
 from r37core.exchange.orientation import OURS
 from r37core.exports.plan import Exports, targets
 from r37core.plain import to_plain
@@ -90,7 +89,7 @@ def test_a_mesh_with_another_material(settings_with):
     settings = settings_with(MESH, {"Heavy": {"base": "Fan", "material": {"density_kg_m3": 4500}}}, blades=("Fan", "Heavy"))
     assert settings.blades["Heavy"].material.density == 4500.0
     assert settings.blades["Heavy"].definition == settings.blades["Fan"].definition
-    assert locations_of_keys(settings, "Heavy")["root"].endswith(": Fan.root")
+    assert settings.designs.locations_of_keys("Heavy")["root"].endswith(": Fan.root")
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, Self
 
 from pydantic import model_validator
 
@@ -24,28 +24,20 @@ class MaterialSection(Section):
     """Isotropic material; what is left out comes from the base."""
 
 
-@declared_by(StressSubmesh, maximum_x_m=0.197, minimum_z_m=0.0165, maximum_z_m=0.0265)
-class Submesh(Section):
-    """Where stress is recovered; nodes with x (radial) below and z (downstream) between these bounds."""
-
+class _Box(Section):
     @model_validator(mode="after")
-    def _has_a_height(self) -> Submesh:
-        check_height(self.minimum_z_m, self.maximum_z_m)
+    def _has_a_height(self) -> Self:
+        lowest, highest = self.minimum_z_m, self.maximum_z_m
+        if None not in (lowest, highest) and not lowest < highest:
+            raise refused(("minimum_z_m",), f"{lowest:g}", f"less than maximum_z_m ({highest:g})")
         return self
+
+
+@declared_by(StressSubmesh, maximum_x_m=0.197, minimum_z_m=0.0165, maximum_z_m=0.0265)
+class Submesh(_Box):
+    """Where stress is recovered; nodes with x (radial) below and z (downstream) between these bounds."""
 
 
 @declared_by(StressSubmesh, excluded_layers=1)
-class ImportedSubmesh(Section):
+class ImportedSubmesh(_Box):
     """Where stress is recovered on a blade of another program: everywhere but near contact nodes and root, or in a box too."""
-
-    @model_validator(mode="after")
-    def _has_a_height(self) -> ImportedSubmesh:
-        if self.minimum_z_m is not None and self.maximum_z_m is not None:
-            check_height(self.minimum_z_m, self.maximum_z_m)
-        return self
-
-
-def check_height(minimum: float, maximum: float) -> None:
-    """Raise the error of bounds with nothing between them."""
-    if not minimum < maximum:
-        raise refused(("minimum_z_m",), f"{minimum:g}", f"less than maximum_z_m ({maximum:g})")

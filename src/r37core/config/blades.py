@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
@@ -29,8 +30,6 @@ from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, Unique, left_out, plain, refused
 from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, section_laws, with_section_laws
 from .si_fields import si_fields
-
-Table = TypeVar("Table")
 
 LARGEST_FAMILY = 10_000
 """Designs of one entry."""
@@ -224,10 +223,10 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
                 place = link, key
                 shift = _shift(link, key, getattr(entries[link], key), root, document)
         shift = _scaled(link, entries[link], shift, document)
-    table = entry.profiles
-    sense_check = all(entries[link].sense_check for link in chain)
-    rows = _table(table, first, (first, "profiles"), document, lambda: _profiles(root / table, sense_check))
-    profiles = tuple(rows)
+    with _readable(entry.profiles, (first, "profiles"), document):
+        profiles = tuple(profile_tables.read_profile_table(root / entry.profiles))
+        if all(entries[link].sense_check for link in chain):
+            check_profile_sense(profiles[-1])
     for link in chain:
         profiles = _changed(link, entries[link], profiles, document)
     try:
@@ -235,13 +234,6 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     except BladeShapeError as error:
         raise document.error(place, f"blade {name}: {error}") from None
     return BladeSettings(BladeDefinition(name, profiles, **shift), material, entries[name].contact)
-
-
-def _profiles(file: Path, sense_check: bool) -> list[ProfileParameters]:
-    profiles = read_profile_table(file)
-    if sense_check:
-        check_profile_sense(profiles[-1])
-    return profiles
 
 
 def _changed(
@@ -293,7 +285,8 @@ def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> 
     if key == "chordwise_sweep_deg":
         return {"chordwise_sweep_angle": si_fields([(key, value)])["chordwise_sweep"], "stacking": None}
     if key == "stacking_table":
-        rows = _table(value, blade, (blade, key), document, lambda: stacking_rows(stacking_table_rows(root / value, blade)))
+        with _readable(value, (blade, key), document):
+            rows = profile_tables.read_stacking_table(root / value, blade)
     else:
         try:
             rows = stacking_rows([row.model_dump() for row in value])
@@ -315,15 +308,16 @@ def _scaled(blade: str, entry: BladeEntry, shift: dict[str, Any], document: Docu
     return {**shift, "stacking": tuple((span, sweep * back, lean * side) for span, back, side in shift["stacking"])}
 
 
-def _table(file: str, blade: str, path: tuple[str, str], document: Document, read: Callable[[], Table]) -> Table:
-    """What `read` makes of the table `file`, that is named at `path`."""
+@contextmanager
+def _readable(file: str, path: tuple[str, str], document: Document) -> Iterator[None]:
+    """Turn the errors of reading a table `file`, that is named at `path`, into ConfigErrors."""
     try:
-        return read()
+        yield
     except FileNotFoundError:
         raise document.error(path, f"there is no file {file}") from None
     except OSError as error:
         raise document.error(path, f"{file} cannot be read: {error.strerror}") from None
     except TextFileError as error:
-        raise ConfigError(f"{file}:{error.line}: blade {blade}: {error.reason}") from None
+        raise ConfigError(f"{file}:{error.line}: blade {path[0]}: {error.reason}") from None
     except BladeShapeError as error:
-        raise ConfigError(f"{file}: blade {blade}: {error}") from None
+        raise ConfigError(f"{file}: blade {path[0]}: {error}") from None

@@ -49,18 +49,14 @@ def of_left_out_modes(casings: Mapping[str, ElasticCasing]) -> list[str]:
     for name, casing in casings.items():
         if casing.ring is not None:
             scenes.setdefault(casing.ring, []).append(name)
-    return [_of_left_out_modes(", ".join(names), ring) for ring, names in scenes.items() if _share(ring) < ENOUGH]
-
-
-def _share(ring: Ring) -> float:
-    return flexibility_of(ring.modes()) / flexibility(ring)
-
-
-def _of_left_out_modes(scenes: str, ring: Ring) -> str:
-    number = nodal_diameters_for(ring, ENOUGH, MOST_NODAL_DIAMETERS)
-    needed = f"{number} have {ENOUGH:.0%}" if number else f"not even {MOST_NODAL_DIAMETERS} have {ENOUGH:.0%}"
-    part, whole = 1e6 * flexibility_of(ring.modes()), 1e6 * flexibility(ring)
-    return (
-        f"scene {scenes}: the modes up to {_KEY} {ring.highest_nodal_diameter} give way {part:.3g} um/N at a force that rests, "
-        f"{_share(ring):.0%} of what the whole ring does, {whole:.3g}; {needed}"
-    )
+    lines = []
+    for ring, names in scenes.items():
+        part, whole = flexibility_of(ring.modes()), flexibility(ring)
+        if part / whole < ENOUGH:
+            needed = nodal_diameters_for(ring, ENOUGH, MOST_NODAL_DIAMETERS) or f"not even {MOST_NODAL_DIAMETERS}"
+            lines.append(
+                f"scene {', '.join(names)}: the modes up to {_KEY} {ring.highest_nodal_diameter} give way {1e6 * part:.3g} "
+                f"um/N at a force that rests, {part / whole:.0%} of what the whole ring does, {1e6 * whole:.3g}; {needed} have "
+                f"{ENOUGH:.0%}"
+            )
+    return lines

@@ -100,14 +100,10 @@ class CasingSection(Section):
     )
 
     @model_validator(mode="after")
-    def _one_clearance(self) -> CasingSection:
+    def _one_clearance_and_ring(self) -> CasingSection:
         if (self.clearance_m is None) == (self.clearance is None):
             value = "neither of clearance_m and clearance" if self.clearance is None else "clearance_m and clearance"
             raise refused((), value, "one of clearance_m and clearance")
-        return self
-
-    @model_validator(mode="after")
-    def _one_ring(self) -> CasingSection:
         if self.ring is not None and self.ring_modes is not None:
             raise refused((), "ring and ring_modes", "one of them")
         return self

@@ -14,7 +14,6 @@ from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep
 from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
-from r37core.fem.material import Material
 from r37core.units import si_name
 
 from .blade_sections import MaterialSection
@@ -23,19 +22,9 @@ from .families import with_value
 from .messages import explain
 from .scenes import SceneEntry
 from .section import Section, plain
-from .section_laws import (
-    SECTION_KEYS,
-    Angle,
-    AngleEnds,
-    Share,
-    ShareEnds,
-    changed_keys,
-    span_law,
-    with_section_laws,
-)
+from .section_laws import SECTION_KEYS, Angle, AngleEnds, Share, ShareEnds, changed_keys, span_law, with_section_laws
 
 _MATERIAL = "material."
-_SHIFTS = ("sweep_cm", "lean_deg")
 
 
 class _Shape(Section):
@@ -51,12 +40,7 @@ class _Shape(Section):
     thickness_percent: Share = 100.0
 
 
-_ENDS: dict[str, type[AngleEnds | ShareEnds]] = {
-    "stagger_deg": AngleEnds,
-    "camber_deg": AngleEnds,
-    "chord_percent": ShareEnds,
-    "thickness_percent": ShareEnds,
-}
+_ENDS = {key: AngleEnds if key.endswith("_deg") else ShareEnds for key in SECTION_KEYS}
 """Changes of profiles that a member may also have linear in the span, by dotted keys."""
 
 
@@ -84,16 +68,13 @@ def scene_numbers(entry: SceneEntry) -> dict[str, float]:
 
 
 def blade_number(blade: BladeSettings, key: str) -> float | None:
-    """Nominal value of one of BLADE_KEYS in its unit; None for one that the blade does not have.
-
-    Raises ValueError for a shift that a blade with a chordwise sweep cannot take.
-    """
+    """Nominal value of one of BLADE_KEYS in its unit, None if a blade has none; ValueError for shifts of a chordwise sweep."""
     if key.startswith(_MATERIAL):
         return None if blade.material is None else getattr(blade.material, si_name(key.removeprefix(_MATERIAL))[0])
     shape = blade.definition
     if not isinstance(shape, BladeDefinition) or (key in SHARES and shape.stacking is None):
         return None
-    if key in _SHIFTS and shape.chordwise_sweep_angle is not None:
+    if key in ("sweep_cm", "lean_deg") and shape.chordwise_sweep_angle is not None:
         raise ValueError(f"{key} with {shape.name}, whose sweep is chordwise")
     return _SHAPE[key]
 
@@ -111,16 +92,12 @@ def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSe
     changed = blade
     material = {key.removeprefix(_MATERIAL): value for key, value in changes.items() if key.startswith(_MATERIAL)}
     if material and blade.material is not None:
-        changed = replace(changed, material=_changed_material(blade.material, material))
+        numbers = plain(_checked(MaterialSection, material, _MATERIAL))
+        changed = replace(changed, material=replace(blade.material, **{si_name(key)[0]: of for key, of in numbers.items()}))
     shape = {key: value for key, value in changes.items() if key in _SHAPE}
     if shape and isinstance(blade.definition, BladeDefinition):
         changed = replace(changed, definition=_changed_shape(blade.definition, shape))
     return changed
-
-
-def _changed_material(nominal: Material, changes: Mapping[str, float]) -> Material:
-    section = _checked(MaterialSection, dict(changes), _MATERIAL)
-    return replace(nominal, **{si_name(key)[0]: value for key, value in plain(section).items()})
 
 
 def _changed_shape(definition: BladeDefinition, changes: Mapping[str, float]) -> BladeDefinition:

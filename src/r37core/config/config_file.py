@@ -11,11 +11,10 @@ from pydantic import AfterValidator, Field, create_model, model_validator
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
 from r37core.contact.scene import Scene
 from r37core.results.interaction_choice import InteractionChoice
-from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, StressSubmesh
+from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, Submesh
-from .declaring import DECLARED, declared_by, in_si
-from .fidelity import Reduction
+from .declaring import DECLARED, declared_by
 from .section import AllOrNames, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 from .study_sections import StudiesSection
@@ -39,23 +38,6 @@ class StructureSection(Section):
     coriolis: Any = DECLARED
     stress_submesh: Submesh = Submesh()
     recover_whole_blade: Any = DECLARED
-
-    def reduction(
-        self, size: Reduction, contact: str, tip_line: str | None = None, stress_submesh: StressSubmesh | None = None
-    ) -> ReductionChoice:
-        """The reduced model of a level's size, with contact nodes on `tip_line` or on that of the section `boundary`.
-
-        `contact`: what contact acts on. Stress is recovered on `stress_submesh`, or where the section of this name says. Its
-        basis is computed at rest, at half the maximum speed and at the maximum speed.
-        """
-        return in_si(
-            ReductionChoice,
-            self,
-            boundary=in_si(BoundaryChoice, self.boundary, tip_line=tip_line or self.boundary.tip_line, contact=contact),
-            speeds=(0.0, 0.5 * self.maximum_speed_rad_s, self.maximum_speed_rad_s),
-            stress_submesh=stress_submesh or in_si(StressSubmesh, self.stress_submesh),
-            **dict(size),
-        )
 
 
 class CampbellSection(Section):
@@ -118,14 +100,9 @@ class RefinementSection(Section):
         return self if scene.lining else self.model_copy(update=dict(self.direct))
 
 
-def _numbers_of_part(part: str) -> tuple[int, int]:
-    number, parts = map(int, part.split("/"))
-    return number, parts
-
-
 def _check_part(part: str) -> str:
     if re.fullmatch(r"[1-9]\d{0,5}/[1-9]\d{0,5}", part):
-        number, parts = _numbers_of_part(part)
+        number, parts = map(int, part.split("/"))
         if number <= parts:
             return part
     raise refused((), repr(part), "a number of a part and how many there are, as in 2/7")
@@ -146,7 +123,7 @@ class Run(Section):
         """The blades of this part, all without one; no two parts share one, and their numbers differ by one at most."""
         if self.part is None:
             return names
-        number, parts = _numbers_of_part(self.part)
+        number, parts = map(int, self.part.split("/"))
         first, last = ((number - 1) * len(names)) // parts, (number * len(names)) // parts
         return names[first:last]
 

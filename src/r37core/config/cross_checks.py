@@ -33,10 +33,7 @@ LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 
 
 def what_is_named_is_there(settings: Settings) -> None:
-    """Level, blades and scenes that are named are in their files, and `auto` has a level within the tolerance.
-
-    What asks for one of them is refused for the same reason, which is told once.
-    """
+    """Level, blades and scenes that are named are in their files, and `auto` has a level within the tolerance."""
     refusals = ConfigRefusals()
     for name in ("fidelity_name", "blade_names", "scene_names"):
         refusals.of(getattr, settings, name)

@@ -24,10 +24,7 @@ _MOST_LINES = 20
 
 
 class ConfigError(ValueError):
-    """The message names the file, the line where there is one, the key, what was found and what is allowed.
-
-    Of several refusals each has a line of its own.
-    """
+    """The message names the file, the line if there is one, the key, what was found and what is allowed; one line a refusal."""
 
 
 class ConfigRefusals:

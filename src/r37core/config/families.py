@@ -29,10 +29,6 @@ from .section_laws import SECTION_KEYS
 AnyEntry = BladeEntry | MeshEntry | MatricesEntry
 """One blade, or one family."""
 
-FAMILY_KEYS = ("vary", "combine", "designs")
-"""Keys of an entry that make it a family; its other keys are those of every design."""
-
-
 VARIED = (
     *("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *(f"{key}.{end}" for key in SECTION_KEYS for end in ("hub", "tip"))),
     *(f"material.{key}" for key in MaterialSection.model_fields),
@@ -68,6 +64,13 @@ class Designs:
         """Each of the blades, and of the families' designs, once."""
         several = [list(self.families[name].designs) if name in self.families else [name] for name in names]
         return list(dict.fromkeys(name for names in several for name in names))
+
+    def locations_of_keys(self, blade: str) -> dict[str, str]:
+        """Key of a blade's entry, or of the entry that its base has it from -> `file:line: blade.key`."""
+        entry = self.entries[blade]
+        if base := getattr(entry, "base", None):
+            return self.locations_of_keys(base)
+        return {key: f"{self.document.location((blade, key))}: {blade}.{key}" for key in type(entry).model_fields}
 
 
 def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document) -> Designs:
@@ -138,7 +141,7 @@ def design_name(family: str, values: Sequence[float]) -> str:
 
 def design_entry(family: str, entry: BladeEntry, values: Mapping[str, float], design: str, document: Document) -> BladeEntry:
     """The entry of one design, checked like one that a user wrote."""
-    content = entry.model_dump(exclude_none=True, exclude_unset=True, exclude=set(FAMILY_KEYS))
+    content = entry.model_dump(exclude_none=True, exclude_unset=True, exclude={"vary", "combine", "designs"})
     for key, value in values.items():
         _check_varies(key, family, design, document)
         try:

@@ -51,21 +51,21 @@ class Measured(Section):
         return self.error_on_points if on_points and self.error_on_points is not None else self.error
 
 
-Step = Annotated[float, Field(ge=1e-12, le=1e-2)]
+TimeStep = Annotated[float, Field(ge=1e-12, le=1e-2)]
 
 
 class Steps(Section):
     """Largest steps of the scenes with a lining and of those without."""
 
-    lined: Step = Field(description="with a lining")
-    direct: Step = Field(description="without")
+    lined: TimeStep = Field(description="with a lining")
+    direct: TimeStep = Field(description="without")
 
 
 @declared_by(IntegrationChoice)
 class TimeIntegration(Section):
     """The time integration and what it keeps."""
 
-    time_step_s: Step | LeftOut = left_out(
+    time_step_s: TimeStep | LeftOut = left_out(
         "largest step of every scene, shortened so that it divides a revolution; refused where it is unstable"
     )
     largest_time_step_s: Steps | LeftOut = left_out(
@@ -121,10 +121,7 @@ class TimeIntegration(Section):
         return f"{self.time_step_s:g} s" if steps is None else f"{steps.lined:g} s with lining, {steps.direct:g} s without"
 
     def choice(self, lined: bool) -> IntegrationChoice:
-        """The time integration of this level in a scene with or without a lining.
-
-        With the stress of the last revolution and the energy balance.
-        """
+        """Time integration in a scene with or without a lining, with stress of the last revolution and energy balance."""
         return in_si(
             IntegrationChoice,
             self,
@@ -156,10 +153,7 @@ class Levels(RootModel[ByName[Level]]):
 
 
 def cheapest_level(levels: Mapping[str, Level], tolerance: float, on_points: bool, documents: Documents) -> str:
-    """The cheapest level whose measured error is within the tolerance; `on_points`: with direct contact on points.
-
-    Raises ConfigError where there is none.
-    """
+    """The cheapest level within the tolerance, for contact `on_points` of a mesh or not; ConfigError where there is none."""
     measured = {name: level.measured for name, level in levels.items() if level.measured}
     errors = {name: error for name, measure in measured.items() if (error := measure.error_of(on_points)) is not None}
     chosen = recommended_level(errors, {name: measure.cpu_s_per_run for name, measure in measured.items()}, tolerance)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Mapping
-from functools import cache
+from functools import cache, reduce
+from operator import getitem
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -31,24 +32,17 @@ def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tup
 
 
 def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) -> list[tuple[KeyPath, KeyPath, str]]:
-    """The same of all errors, one of each value.
-
-    Unknown keys come first: one may be why another is missing, which then is not said.
-    """
+    """The same of all errors, one of each value; unknown keys first: one may be why another is missing, which is not said."""
     errors = sorted(error.errors(include_url=False), key=lambda refusal: refusal["type"] != "extra_forbidden")
     unknown = [refusal["loc"][:-1] for refusal in errors if refusal["type"] == "extra_forbidden"]
     explained: dict[KeyPath, tuple[KeyPath, KeyPath, str]] = {}
     for refusal in errors:
-        path = _path(refusal, content)
+        within = _within(content, refusal["loc"], missing=refusal["type"] == "missing")
+        path = (*within, *refusal.get("ctx", {}).get("at", ()))
         of_another = refusal["type"] == "missing" and refusal["loc"][:-1] in unknown
         if not of_another and not any(path[: len(other)] == other or other[: len(path)] == path for other in explained):
             explained[path] = _explained(refusal, path, content, model)
     return list(explained.values())
-
-
-def _path(error: Mapping[str, Any], content: Any) -> KeyPath:
-    within = _within(content, error["loc"], missing=error["type"] == "missing")
-    return within + tuple(error.get("ctx", {}).get("at", ()))
 
 
 def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: type[BaseModel]) -> tuple[KeyPath, KeyPath, str]:
@@ -62,7 +56,7 @@ def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: typ
             return tuple(parent), tuple(parent), f"missing key {key}; allowed keys: {', '.join(known)}"
         text = f"found unknown key {on_one_line(str(key))}; allowed keys: {', '.join(known)}{did_you_mean(str(key), known)}"
         return path, tuple(parent), text
-    value = _value(content, path)
+    value = reduce(getitem, path, content)
     shown = "nothing" if value is None else on_one_line(repr(value))
     return path, path, f"found {shown}; allowed: {describe(_at(schema, path, schema, variants), schema) or error['msg']}"
 
@@ -98,19 +92,14 @@ def describe(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
     if "enum" in part:
         return f"one of {', '.join(map(str, part['enum']))}"
     words = [str(part["type"])] if "type" in part else []
-    words += [
-        f"{bound} {part[name]:g}" if isinstance(part[name], float) else f"{bound} {part[name]}" for name, bound in _bounds(part)
-    ]
+    bounds = {bound: part[name] for name, bound in _BOUNDS.items() if name in part}
+    words += [f"{bound} {value:g}" if isinstance(value, float) else f"{bound} {value}" for bound, value in bounds.items()]
     if part.get("type") == "array" and "items" in part:
         inner = _resolved(part["items"], schema)
         words[0] = f"list of {describe(inner, schema) if 'properties' in inner else inner.get('type', 'values')}"
     if "properties" in part:
         words[0] = f"mapping with the keys {', '.join(part['properties'])}"
     return ", ".join(words)
-
-
-def _bounds(part: Mapping[str, Any]) -> Iterable[tuple[str, str]]:
-    return [(name, words) for name, words in _BOUNDS.items() if name in part]
 
 
 def _within(content: Any, location: Iterable[str | int], missing: bool) -> KeyPath:
@@ -125,12 +114,6 @@ def _within(content: Any, location: Iterable[str | int], missing: bool) -> KeyPa
             content = content[step]
             path.append(step)
     return (*path, *last)
-
-
-def _value(content: Any, path: KeyPath) -> Any:
-    for step in path:
-        content = content[step]
-    return content
 
 
 def _resolved(part: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -45,29 +45,20 @@ def remarks_on_input(settings: Settings) -> list[str]:
 
 
 def remarks_on_speeds(settings: Settings) -> list[str]:
-    """What is to be said of speeds at which a run takes long, and of those beyond what models are made for."""
-    return [*_remarks_on_slow_runs(settings), *_remarks_on_fast_speeds(settings)]
-
-
-def _remarks_on_slow_runs(settings: Settings) -> list[str]:
-    """What is to be said of a simulation that takes long."""
+    """What is to be said of speeds at which a run takes long, and of those beyond what models are made for: they may be rpm."""
+    lines = []
     run = max((length_of_run(settings, *of_scene) for of_scene in slowest_speeds(settings).items()), key=lambda run: run.steps)
-    if run.cpu_time < LONG_RUN:
-        return []
-    return [f"speeds: at {run.speed:g} rad/s {run.in_words} takes about {run.cpu_time:.2g} s of CPU time"]
-
-
-def _remarks_on_fast_speeds(settings: Settings) -> list[str]:
-    """What is to be said of speeds beyond those that models are made for: they may be rpm."""
+    if run.cpu_time >= LONG_RUN:
+        lines.append(f"speeds: at {run.speed:g} rad/s {run.in_words} takes about {run.cpu_time:.2g} s of CPU time")
     fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
     highest = settings.structure.maximum_speed_rad_s
-    if fastest <= highest:
-        return []
-    in_rpm = "" if settings.config.speeds_rpm else "; speeds in rpm stand under speeds_rpm"
-    return [
-        f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
-        f"Campbell diagrams are made for speeds up to that; raise it to what is run{in_rpm}"
-    ]
+    if fastest > highest:
+        in_rpm = "" if settings.config.speeds_rpm else "; speeds in rpm stand under speeds_rpm"
+        lines.append(
+            f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
+            f"Campbell diagrams are made for speeds up to that; raise it to what is run{in_rpm}"
+        )
+    return lines
 
 
 def remarks_on_materials(settings: Settings) -> list[str]:

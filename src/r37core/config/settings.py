@@ -11,19 +11,20 @@ from typing import Any, TypeVar
 from r37core.contact.scene import Scene
 from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
-from r37core.rom.reduction_choice import POINTS, ReductionChoice
-from r37core.speeds import SpeedError, SpeedPlan
+from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice, StressSubmesh
+from r37core.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.yaml_file import KeyPath
 
 from .blades import BladeSettings, all_blades
 from .config_file import Config, StructureSection
+from .declaring import in_si
 from .document import ConfigRefusals, Document, Documents
 from .families import Designs
 from .fidelity import Level, cheapest_level
 from .scenes import SceneEntry
 from .section import ExtensionSection, plain
-from .speed_section import UNITS, SpeedRule, key_of_speeds, planned
+from .speed_section import UNITS, SpeedRange, SpeedRule, key_of_speeds
 from .study_sections import StudiesSection
 
 T = TypeVar("T")
@@ -186,9 +187,20 @@ class Settings:
         }
 
     def reduction_choice(self, blade: str, tip_line: str | None = None) -> ReductionChoice:
-        """What a blade's reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml."""
-        submesh = self.blades[blade].stress_submesh
-        return self.structure.reduction(self.fidelity.reduction, self.contact_of(blade), tip_line, submesh)
+        """What a blade's reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml.
+
+        Its basis is computed at rest, at half the maximum speed and at the maximum speed.
+        """
+        structure, contact = self.structure, self.contact_of(blade)
+        boundary = structure.boundary
+        return in_si(
+            ReductionChoice,
+            structure,
+            boundary=in_si(BoundaryChoice, boundary, tip_line=tip_line or boundary.tip_line, contact=contact),
+            speeds=(0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s),
+            stress_submesh=self.blades[blade].stress_submesh or in_si(StressSubmesh, structure.stress_submesh),
+            **dict(self.fidelity.reduction),
+        )
 
     def contact_of(self, blade: str) -> str:
         """What a blade's contact acts on: as config.yaml says for all of them, else as its own entry does."""
@@ -221,10 +233,20 @@ class Settings:
 
 def _planned(document: Document, path: KeyPath, section: Config | SpeedRule, step: float) -> SpeedPlan:
     """The speeds of a section at `path`, whose ranges have the `step` (rad/s) where they give none. Raises ConfigError."""
+    key = key_of_speeds(section)
+    entries = [plain(entry) if isinstance(entry, SpeedRange) else entry for entry in getattr(section, key)]
     try:
-        return planned(section, step)
+        return plan_speeds(entries, step, UNITS[key])
     except SpeedError as error:
-        raise document.error((*path, key_of_speeds(section)), str(error)) from None
+        raise document.error((*path, key), str(error)) from None
+
+
+def location_of_contact(settings: Settings, blade: str) -> str:
+    """Where stands what a blade's contact acts on, as `file:line: key`."""
+    if settings.structure.boundary.contact is None:
+        return f"{settings.documents.blades.location((blade, 'contact'))}: {blade}.contact"
+    path = ("structure", "boundary", "contact")
+    return f"{settings.documents.config.location(path)}: {'.'.join(path)}"
 
 
 def checked_scene(entry: Mapping[str, Any]) -> Scene:

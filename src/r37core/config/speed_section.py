@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from r37core.speeds import SpeedPlan, plan_speeds
-
-from .section import LeftOut, Names, Rpm, Section, Speed, left_out, plain, refused
+from .section import LeftOut, Names, Rpm, Section, Speed, left_out, refused
 
 UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
@@ -82,11 +79,3 @@ def refuse_both_units(first: str, second: str) -> None:
 def key_of_speeds(section: Any) -> str:
     """Which key a section gives its speeds with."""
     return "speeds" if section.speeds_rpm is None else "speeds_rpm"
-
-
-def planned(section: Any, default_step: float) -> SpeedPlan:
-    """The plan (rad/s) that a section's speeds ask for; `default_step` in rad/s. Raises SpeedError."""
-    key = key_of_speeds(section)
-    entries: Sequence[float | SpeedRange] = getattr(section, key)
-    ranges = [plain(entry) if isinstance(entry, SpeedRange) else entry for entry in entries]
-    return plan_speeds(ranges, default_step, UNITS[key])

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import scipy
 from pydantic import AfterValidator, Field, model_validator
 
-from .section import LeftOut, Section, Unique, left_out, refused
+from .section import LeftOut, Section, Unique, left_out, plain, refused
 
 _DIGITS = 12
 """Of a value: more would tell one machine's arithmetic from another's."""
@@ -58,7 +58,6 @@ class Spread:
         return ("± " if self.kind == "uniform" else "standard deviation ") + f"{self.numbers[0]:g}{unit}"
 
 
-_KINDS = ("uniform_percent", "uniform", "normal_percent", "normal", "between", "values")
 Width = Annotated[float, Field(ge=1e-12, le=1e15)]
 Percent = Annotated[float, Field(ge=1e-6, le=1000)]
 Number = Annotated[float, Field(ge=-1e15, le=1e15)]
@@ -89,18 +88,17 @@ class SpreadEntry(Section):
 
     @model_validator(mode="after")
     def _one_kind(self) -> SpreadEntry:
-        kinds = [key for key in _KINDS if getattr(self, key) is not None]
+        kinds = list(plain(self))
         if len(kinds) != 1:
-            raise refused((), " and ".join(kinds) or "nothing", f"one of {', '.join(_KINDS)}")
+            raise refused((), " and ".join(kinds) or "nothing", f"one of {', '.join(type(self).model_fields)}")
         if self.between is not None and not self.between[0] < self.between[1]:
             raise refused(("between",), f"{self.between}", "a lower and a higher number")
         return self
 
     def spread(self) -> Spread:
         """As the sample takes it."""
-        key = next(key for key in _KINDS if getattr(self, key) is not None)
-        numbers = getattr(self, key)
-        numbers = tuple(numbers) if isinstance(numbers, list) else (numbers,)
+        ((key, number),) = plain(self).items()
+        numbers = tuple(number) if isinstance(number, list) else (number,)
         return Spread(key.removesuffix("_percent"), numbers, key.endswith("_percent"))  # type: ignore[arg-type]
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Generic, Literal, TypeVar
 
 from pydantic import Field, model_validator
 
+from .fidelity import TimeStep
 from .section import AllOrNames, LeftOut, Name, Section, Unique, left_out, refused
 from .spread import MemberCount, SpreadEntry
 
@@ -31,10 +32,8 @@ class Parameters(Section):
     """The parameters whose price is measured; `level` always, because the recommended level is the study's result."""
 
     level: Parameter[Name] = Field(description="fidelity levels")
-    central_difference_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = left_out(
-        "step of central differences (s)"
-    )
-    exact_modal_step: Parameter[Annotated[float, Field(ge=1e-12, le=1e-2)]] | LeftOut = left_out("exact modal step (s)")
+    central_difference_step: Parameter[TimeStep] | LeftOut = left_out("step of central differences (s)")
+    exact_modal_step: Parameter[TimeStep] | LeftOut = left_out("exact modal step (s)")
     static_above: Parameter[Annotated[float, Field(ge=1e-3, le=1e9)]] | LeftOut = left_out(
         "modes with omega h above it follow statically, with exact_modal"
     )
@@ -54,7 +53,7 @@ class Parameters(Section):
 
     def varied(self) -> dict[str, Parameter]:
         """The parameters that are varied, by name."""
-        return {name: getattr(self, name) for name in type(self).model_fields if getattr(self, name) is not None}
+        return {name: parameter for name, parameter in self if parameter is not None}
 
 
 class PlaceSection(Section):

@@ -11,7 +11,6 @@ from typing import Any
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
-from r37core.config.key_locations import locations_of_keys
 from r37core.exchange.importing.source import MatricesSource, MeshSource, matrix_files, mesh_files
 from r37core.plain import to_plain
 
@@ -64,7 +63,7 @@ class Imported:
 
     def locations(self, wildcards: Any) -> Attributes:
         """Where the keys of a blade stand, as `file:line: blade.key`; a new line re-runs nothing."""
-        return Attributes(locations_of_keys(self.settings, wildcards.blade))
+        return Attributes(self.settings.designs.locations_of_keys(wildcards.blade))
 
     @property
     def folder(self) -> Attributes:

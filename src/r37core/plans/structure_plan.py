@@ -9,7 +9,7 @@ from typing import Any
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
-from r37core.config.key_locations import location_of_contact
+from r37core.config.settings import location_of_contact
 from r37core.plain import to_plain
 
 from .paths import MESH, WHOLE_BLADE_MODEL, fill
