@@ -40,7 +40,7 @@ def ours(mesh, _):
 
 def scikit_fem(mesh, name):
     """The same by scikit-fem, quadrature of equal order."""
-    corners = mesh.blocks[name][:, : len(ELEMENTS[name].shape.corners)]
+    corners = mesh.blocks[name][:, : ELEMENTS[name].corners]
     used, numbers = np.unique(corners, return_inverse=True)
     points, cells = mesh.points[used].T, numbers.reshape(corners.shape)
     if name == "tetra10":

@@ -55,14 +55,19 @@ class Element:
         return np.array([e for e in product(range(3), repeat=3) if self.spans(*e)])
 
     @property
+    def corners(self) -> int:
+        """How many nodes are corners."""
+        return len(self.shape.corners)
+
+    @property
     def quadratic(self) -> bool:
         """Whether the edges have mid-nodes."""
-        return len(self.exponents) > len(self.shape.corners)
+        return len(self.exponents) > self.corners
 
     @cached_property
     def edges(self) -> dict[frozenset[int], int]:
         """Mid-node of every edge, by the edge's two corners; empty for a linear element."""
-        numbered = enumerate(self.shape.edges, start=len(self.shape.corners))
+        numbered = enumerate(self.shape.edges, start=self.corners)
         return {frozenset(edge): node for node, edge in numbered if self.quadratic}
 
     @cached_property

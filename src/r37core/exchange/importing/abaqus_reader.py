@@ -259,7 +259,7 @@ def _face_nodes(surface: str, nodes: list[int], face: str) -> list[int]:
     if not face:
         return nodes
     element = next(e for e in ELEMENTS.values() if len(e.nodes) == len(nodes))
-    faces = {f"S{number}": set(corners) for number, corners in enumerate(_FACE_CORNERS[len(element.shape.corners)], start=1)}
+    faces = {f"S{number}": set(corners) for number, corners in enumerate(_FACE_CORNERS[element.corners], start=1)}
     if face not in faces:
         raise ImportRefused(f"surface {surface}: found the face {face}; allowed: {', '.join(faces)}")
     corners = faces[face]

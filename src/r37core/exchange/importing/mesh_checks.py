@@ -88,7 +88,7 @@ def _check_parts(mesh: RawMesh) -> None:
 
 
 def _check_once(mesh: RawMesh, name: str, nodes: np.ndarray) -> None:
-    corners = np.sort(nodes[:, : len(ELEMENTS[name].shape.corners)], axis=1)
+    corners = np.sort(nodes[:, : ELEMENTS[name].corners], axis=1)
     _, first, of = np.unique(corners, axis=0, return_index=True, return_inverse=True)
     original = first[of.ravel()]
     again = np.flatnonzero(original != np.arange(len(nodes)))
