@@ -224,7 +224,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
                 shift = _shift(link, key, getattr(entries[link], key), root, document)
         shift = _scaled(link, entries[link], shift, document)
     with _readable(entry.profiles, (first, "profiles"), document):
-        profiles = tuple(profile_tables.read_profile_table(root / entry.profiles))
+        profiles = tuple(read_profile_table(root / entry.profiles))
         if all(entries[link].sense_check for link in chain):
             check_profile_sense(profiles[-1])
     for link in chain:
@@ -286,7 +286,7 @@ def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> 
         return {"chordwise_sweep_angle": si_fields([(key, value)])["chordwise_sweep"], "stacking": None}
     if key == "stacking_table":
         with _readable(value, (blade, key), document):
-            rows = profile_tables.read_stacking_table(root / value, blade)
+            rows = stacking_rows(stacking_table_rows(root / value, blade))
     else:
         try:
             rows = stacking_rows([row.model_dump() for row in value])
