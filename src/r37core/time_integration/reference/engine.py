@@ -18,7 +18,7 @@ from r37core.contact.scene import Lining
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
-from .motion import CoupledMotion, MotionWithCasing, RealMotion
+from .motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
 
 _MOST_SWEEPS = 200
 
@@ -48,7 +48,7 @@ class ReferenceEngine:
         """Go on at this one of the speeds."""
         self._speed_index, recursion = speed_index, self._segments.recursion[speed_index]
         blade = (RealMotion if self.problem.blade.complex_modes is None else CoupledMotion)(self.problem, recursion)
-        self.motion: Any = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
+        self.motion: Motion = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
         self.clearance = self._segments.clearance[speed_index]
         # a revolution has as many steps at every speed
         faster = self._segments.speeds[speed_index] / self.problem.speed

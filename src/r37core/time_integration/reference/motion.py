@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -11,6 +12,36 @@ from ..gyroscopic import ComplexRecursion, imaginary_part
 from ..integrators import Recursion
 from ..problem import Problem
 from ..state import SimulationState
+
+
+class Motion(Protocol):
+    """What the reference engine asks of a motion; what that is made of is its own affair."""
+
+    response: np.ndarray
+
+    def read(self, state: SimulationState) -> Any:
+        """From a state."""
+
+    def write(self, motion: Any, state: SimulationState) -> None:
+        """Back into the state."""
+
+    def numbers(self, motion: Any) -> np.ndarray:
+        """Those of a snapshot."""
+
+    def flown(self, motion: Any) -> Any:
+        """A step on, without force."""
+
+    def pushed(self, motion: Any, force: np.ndarray) -> Any:
+        """What a force adds in a step."""
+
+    def displacement(self, motion: Any) -> np.ndarray:
+        """Of the coordinates that the rows of the nodes are of."""
+
+    def slid(self, motion: Any) -> np.ndarray:
+        """Displacement in the last step."""
+
+    def work_and_loss(self, before: Any, after: Any, force: np.ndarray) -> tuple[float, float]:
+        """Of a step under a force."""
 
 
 class RealMotion:
