@@ -13,12 +13,12 @@ from r37core.config.scenes import OF_ONE_BLADE
 from r37core.plans.paths import fill
 from r37core.rotors.plan import ROTOR_OF_RUN
 
-from .arguments import Speeds
+from .arguments import Speeds, speed_keys
 from .call_configuration import Configuration
 from .call_settings import base_of, chosen_blade, chosen_scene
 from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
-from .runs import SweepOptions, named_run
+from .runs import SweepOptions, run_of
 
 
 @checked_call
@@ -74,7 +74,8 @@ def rotor(
     chosen = chosen_blade(blade, options.get("config"))
     rubs_on = _with_rotor(scene, base_of([chosen], options.get("config")), rotor, options.get("results"))
     file = fill(ROTOR_OF_RUN, blade=chosen.name, scene=rubs_on.name).replace("<results>", "results")
-    results = named_run("r37.rotor", chosen, rubs_on, speeds, options, targets=file)
+    keys = speed_keys(speeds, options.get("speeds_rpm"))
+    results = run_of("r37.rotor", [chosen], [rubs_on], keys, options, file)
     return results.rotor(chosen.name, rubs_on.name).assign_attrs(chosen.told | rubs_on.told)
 
 

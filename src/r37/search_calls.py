@@ -9,11 +9,10 @@ from r37core.search.designs import FOLDER
 from r37core.search.plan import BEST, DATASET, TABLE
 
 from .arguments import Speeds, mapping, plain_value
-from .call_settings import chosen_blade
 from .checked import checked_call
 from .choices import BladeChoice
 from .run_results import RunResults
-from .runs import Scenes, SweepOptions, named_run
+from .runs import Scenes, SweepOptions, blades_of, named_run
 
 _BOUNDS = 'dotted keys of blades.yaml and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
 _MAPPINGS = {
@@ -104,7 +103,7 @@ def search(
     own = {name: value for name, value in options.items() if name not in SweepOptions.__annotations__ and value is not None}
     entry = {"objectives": objectives, **own}
     entry |= {name: mapping(entry[name], name, allowed) for name, allowed in _MAPPINGS.items() if name in entry}
-    chosen = chosen_blade(blade, options.get("config"))
+    (chosen,) = blades_of(blade, options)
     section = {"blade": chosen.name, "variables": mapping(variables, "variables", _BOUNDS), **plain_value(entry)}
     files = [file.replace("<results>", "results") for file in (DATASET, TABLE, BEST)]
     return named_run("r37.search", chosen, scenes, speeds, options, {FOLDER: section}, files)

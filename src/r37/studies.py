@@ -7,12 +7,12 @@ from typing import Any, Unpack
 
 import pandas as pd
 
-from .arguments import Speeds, mapping, plain_value
+from .arguments import Speeds, mapping, plain_value, speed_keys
 from .call_settings import chosen_blade
 from .checked import checked_call
 from .choices import BladeChoice
 from .run_results import RunResults
-from .runs import Blades, Scenes, SweepOptions, named_run
+from .runs import Blades, Scenes, SweepOptions, named_run, run_of, scenes_of_run
 
 _SPREAD = 'dotted keys and how each spreads, as in {"friction.coefficient": {"uniform_percent": 5}}'
 
@@ -114,7 +114,8 @@ def designs(
         example = 'keys of blades.yaml and their values, as in {"sweep_percent": [50, 100]}'
         entry = {"vary": mapping(vary, "vary", example), "combine": options.get("combine", "grid")}
     family = chosen_blade(blade, options.get("config")).family(options.get("name", "Design"), entry)
-    return named_run("r37.designs", family, scenes, speeds, options)
+    keys = speed_keys(speeds, options.get("speeds_rpm"))
+    return run_of("r37.designs", [family], scenes_of_run(scenes, [family], options), keys, options)
 
 
 @checked_call

@@ -21,6 +21,9 @@ from .profile import BladeShapeError, ProfileParameters, centreline
 from .profile_tables import check_profile_order
 from .span_law import SpanLaw
 
+_NO_ANGLE, _WHOLE = 0.0, 1.0
+"""What changes nothing: no angle is added, the whole of a length is kept."""
+
 _SMALLER = "; a smaller change near this span may be possible"
 
 
@@ -28,10 +31,10 @@ _SMALLER = "; a smaller change near this span may be possible"
 class SectionChange:
     """Angles added to a profile's stagger and camber (rad), shares of its chord and thickness; the defaults change nothing."""
 
-    stagger: float = 0.0
-    camber: float = 0.0
-    chord: float = 1.0
-    thickness: float = 1.0
+    stagger: float = _NO_ANGLE
+    camber: float = _NO_ANGLE
+    chord: float = _WHOLE
+    thickness: float = _WHOLE
 
     @property
     def names(self) -> list[str]:

@@ -90,9 +90,7 @@ class CasingOfRun:
         depth = np.maximum(-self.clearance, 0.0)
         return (depth if self.rings == len(depth) else depth.max(keepdims=True))[:, None]
 
-    def gaps(
-        self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float = 0.0
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def gaps(self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
 
         `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its normal, tangent and
