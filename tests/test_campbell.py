@@ -9,6 +9,7 @@ import xarray as xr
 
 from r37core.results.campbell import Campbell, campbell_diagram, dynamic_clearance, modal_assurance
 from r37core.results.campbell_dataset import campbell_dataset, gather_blades
+from r37core.rom.rotation import BucklingError
 
 PUBLISHED = {7: 806.0, 6: 965.0, 5: 1213.0, 4: 1672.0}
 
@@ -101,17 +102,42 @@ def test_dynamic_clearance(model, diagram):
             assert row[0] + row[4] == pytest.approx(-np.cos(alpha) * displacement[-1] ** 2 / radius, rel=0.02)
 
 
-def test_dataset_and_gathering(model, tmp_path):
-    from r37core.dataset_file import write_dataset
-
-    dataset = campbell_dataset(
+def dataset_of(model, modes=10):
+    return campbell_dataset(
         model,
         speeds=np.linspace(0.0, 2000.0, 21),
-        modes=10,
+        modes=modes,
         highest_engine_order=16,
         largest_tangential_displacement=0.01,
         tip_line="pressure_edge",
     )
+
+
+def test_the_dataset_is_the_diagram(model):
+    dataset, of_model = dataset_of(model), campbell_diagram(model, np.linspace(0.0, 2000.0, 21), 10)
+    displacement = dataset["tangential_displacement"].values
+    np.testing.assert_array_equal(dataset["engine_order"], range(1, 17))
+    np.testing.assert_allclose(displacement, np.linspace(-0.01, 0.01, 41), atol=1e-15)
+    at_rest = dynamic_clearance(model, of_model.shapes[:, 0].T, "pressure_edge", displacement)
+    np.testing.assert_array_equal(dataset["dynamic_clearance"], at_rest)
+    np.testing.assert_array_equal(dataset["frequency"], of_model.frequencies)
+    np.testing.assert_array_equal(dataset["crossing_speed"], of_model.crossing_speeds(np.arange(1, 17)))
+
+
+def test_what_a_diagram_cannot_have_is_refused(model):
+    assert dataset_of(model, model.size).sizes["mode"] == model.size
+    with pytest.raises(ValueError, match=rf"found {model.size + 1}; allowed: up to {model.size}"):
+        dataset_of(model, model.size + 1)
+    # no stiffness is left at 1450 rad/s, and less at the speeds after it
+    softened = replace(model, geometric_stiffness=-model.stiffness / 1450.0**2)
+    with pytest.raises(BucklingError, match=r" 1500 rad/s"):
+        dataset_of(softened)
+
+
+def test_dataset_and_gathering(model, tmp_path):
+    from r37core.dataset_file import write_dataset
+
+    dataset = dataset_of(model)
     for blade in ("Ref", "Other"):
         write_dataset(dataset, tmp_path / f"{blade}.nc", {"blade": blade, "fidelity": "draft"})
     together = gather_blades(["Ref", "Other"], [tmp_path / "Ref.nc", tmp_path / "Other.nc"])

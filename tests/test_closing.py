@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from r37core.console.closing import closing_lines
+from r37core.results.closing import counted, interaction_title
 
 HEAD = "blade,scene,mode,engine_order,max_von_mises_speed_rad_s,width_above_yield_rad_s,max_von_mises_pa\n"
 ROWS = (
@@ -112,6 +113,12 @@ def test_scenes_that_touch_nothing_are_named(tmp_path):
     _runs([0, 0, 2], forces, ["far", "near", "none"]).to_netcdf(tmp_path / "rms.nc")
     said = closing_lines(written(tmp_path), 0.0, 1.0)
     assert len(said) == 4 and said[1].startswith("Ref in far: the tip touched nothing at any speed, ")
+
+
+def test_counts_and_interactions_in_words():
+    assert [counted(number, "run-up") for number in (0, 1, 2)] == ["0 run-ups", "1 run-up", "2 run-ups"]
+    titles = [interaction_title(*of) for of in (("1B", 4), ("", 4), ("", ""), ("", None))]
+    assert titles == ["1B/4", "engine order 4", "a peak of its own", "a peak of its own"]
 
 
 def test_nothing_found_and_nothing_new(tmp_path):

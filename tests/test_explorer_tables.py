@@ -84,7 +84,16 @@ def test_every_column_has_words(root):
     assert all(glossary.table(words) in text for words in glossary.PARTS.values())
     assert glossary.word("length_certain_rad_s_low", glossary.RANKING).title == "certainly above yield, 5%"
     assert glossary.word("chance_better_than_L50", glossary.RANKING).title == "chance to be better than L50"
+    assert glossary.word("length_certain_rad_s_median", glossary.RANKING).title == "certainly above yield, median"
+    assert glossary.word("length_certain_rad_s_scatter", glossary.RANKING).title == "certainly above yield, scatter"
     assert glossary.word("never_heard_of", glossary.RANKING) is None
+
+
+def test_numbers_are_shown_in_the_units_of_their_columns():
+    names = ("blade", "peak_rms_normal_m", "max_von_mises_pa", "drop")
+    words = [glossary.INTERACTIONS[name] for name in names]
+    assert [(word.unit, word.factor) for word in words] == [("", 1.0), ("mm", 1e3), ("MPa", 1e-6), ("%", 100.0)]
+    assert glossary.word("blade", glossary.INTERACTIONS).title == "blade"
 
 
 def test_the_benchmark_is_told_by_its_physics(root):
