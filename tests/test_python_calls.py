@@ -182,6 +182,28 @@ def test_rpm_taken_for_rad_s_are_told(finished, monkeypatch):
         r37.sweep("Ref", "abradable", speeds_rpm=[30000])
 
 
+@pytest.mark.parametrize(
+    ("call", "stage"),
+    [
+        (lambda blade: r37.campbell(blade), "r37.simulations.in_parallel"),
+        (lambda blade: r37.sweep(blade, "abradable", [1150]), "r37.simulations.Calculation"),
+        (
+            lambda blade: r37.run_up(blade, "abradable", from_rad_s=1100, to_rad_s=1150, revolutions=4),
+            "r37.run_up_calls.Calculation",
+        ),
+        (lambda blade: r37.run(blade, "abradable", [1150]), "r37.runs.write_run"),
+        (lambda blade: r37.compare(blade, "abradable", [1150]), "r37.runs.write_run"),
+        (lambda blade: r37.rotor(blade, "abradable", [1150], rotor={"blades": 3}), "r37.runs.write_run"),
+    ],
+)
+def test_remarks_point_at_the_line_of_the_caller(finished, monkeypatch, call, stage):
+    monkeypatch.setattr(stage, None)
+    light = r37.blade("Ref", name="Light", **{"material.density_kg_m3": 8.0})
+    with pytest.warns(UserWarning, match="density_kg_m3: found 8") as warned, pytest.raises(TypeError):
+        call(light)
+    assert {warning.filename for warning in warned if warning.category is UserWarning} == {__file__}
+
+
 @pytest.mark.slow
 def test_a_design_is_the_changed_blade(finished):
     results = r37.designs("CS100", "abradable", [1150], vary={"sweep_percent": [50]}, name="Less")

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import inspect
+import os
 import warnings
 from collections.abc import Iterable
+from pathlib import Path
 
 from r37core.config import Settings
 from r37core.config.remarks import remarks_on_input, remarks_on_points
+
+_PACKAGE = str(Path(__file__).parent) + os.sep
 
 
 def remarks_of(settings: Settings) -> list[str]:
@@ -15,6 +20,9 @@ def remarks_of(settings: Settings) -> list[str]:
 
 
 def tell(remarks: Iterable[str]) -> None:
-    """Warn the caller of a call of r37, whose function's function calls this."""
+    """Warn whoever has called r37: each remark points at the innermost line outside this package."""
+    level, frame = 1, inspect.currentframe()
+    while frame and frame.f_code.co_filename.startswith(_PACKAGE):
+        level, frame = level + 1, frame.f_back
     for remark in remarks:
-        warnings.warn(remark, stacklevel=5)
+        warnings.warn(remark, stacklevel=level)

@@ -117,7 +117,7 @@ def run_of(
 ) -> RunResults:
     """The `targets` of a run with these `keys` of config.yaml; `options` as of RunOptions, without speeds.
 
-    `whole`: what the configuration says of a run counts, too. Remarks point at the line that called the caller of this.
+    `whole`: what the configuration says of a run counts, too.
     """
     check_cores(cores := options.get("cores", 1))
     wanted = snakemake_targets(targets)
