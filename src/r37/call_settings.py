@@ -93,7 +93,8 @@ def call_of_one(
     options: Mapping[str, Any],
 ) -> Call:
     """The call of one blade, in one scene or none; `options` as of OneOptions. Raises ConfigError."""
-    config, chosen = options.get("config"), chosen_blade(blade, options.get("config"))
+    config = options.get("config")
+    chosen = chosen_blade(blade, config)
     base = base_of([chosen], config)
     rubs_on = [chosen_scene(scene, base, options.get("results")) for scene in scenes]
     return Call(caller, base, [chosen], rubs_on, {**keys, **level(options.get("fidelity"))})

@@ -132,7 +132,7 @@ def run_ups(
     if not isinstance(several, Mapping) or not several:
         raise ConfigError(f"run_ups: found {several!r}; allowed: names and what each run-up is")
     call = _call("r37.run_ups", blade, scene, several, options)
-    results = run_of(call.name, call.blades, call.scenes, call.keys, options, "results/run_ups.nc")
+    results = run_of(call.name, call.blades, call.scenes, call.keys, options, "<results>/run_ups.nc")
     return _labelled(results["run_ups"], call)
 
 

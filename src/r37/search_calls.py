@@ -105,5 +105,4 @@ def search(
     entry |= {name: mapping(entry[name], name, allowed) for name, allowed in _MAPPINGS.items() if name in entry}
     (chosen,) = blades_of(blade, options)
     section = {"blade": chosen.name, "variables": mapping(variables, "variables", _BOUNDS), **plain_value(entry)}
-    files = [file.replace("<results>", "results") for file in (DATASET, TABLE, BEST)]
-    return named_run("r37.search", chosen, scenes, speeds, options, {FOLDER: section}, files)
+    return named_run("r37.search", chosen, scenes, speeds, options, {FOLDER: section}, (DATASET, TABLE, BEST))
