@@ -25,7 +25,6 @@ include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/extensions.smk"
-include: "workflow/rules/studies.smk"
 
 
 # what r37.run makes

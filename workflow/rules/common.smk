@@ -9,7 +9,7 @@ from r37core.console.interpreter import PYTHON
 from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash, with_programs
 from r37core.plans import paths
-from r37core.plans.code import CodeHashes
+from r37core.plans.code import CodeHashes, EngineNumbers
 from r37core.plans.dataset_plan import Datasets
 from r37core.plans.extent import extent_of
 from r37core.plans.import_plan import Imported
@@ -34,8 +34,9 @@ console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
 PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
-# for the parameters of rules: a step, which is a function of r37core, and the hash of its code
-step = code.step
+# for the parameters of rules: a step, which is a function of r37core, and the hash of its code, or what stands for that
+engine = EngineNumbers(Path(settings.config.run.engine)) if settings.config.run.engine else code
+step = engine.step
 # members of samples that extensions have run beside the sweep, and what is made of them
 samples, sampling = beside(settings), sampling_of(settings)
 made = Provenance(settings, samples)

@@ -52,7 +52,7 @@ served = {
     "python": PYTHON,
     "start": SCRIPTS / "start.py",
     "script": SCRIPTS / "simulate.py",
-    "code": code("simulate"),
+    "code": engine("simulate"),
 }
 
 

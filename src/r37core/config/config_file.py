@@ -118,6 +118,9 @@ class Run(Section):
     part: Part | LeftOut = left_out(
         "2/7: only the second of seven parts of the blades, for `snakemake responses` on several machines at once"
     )
+    engine: FileName | LeftOut = left_out(
+        "a file that stands for the code: results are computed again when its content changes, and not when the code does"
+    )
 
     def of_part(self, names: list[str]) -> list[str]:
         """The blades of this part, all without one; no two parts share one, and their numbers differ by one at most."""

@@ -1,0 +1,79 @@
+"""Tables of pages: CSV files of validation/tables, which stand in the pages as Markdown."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from r37core.io import as_list, atomic_write, write_text
+from r37core.text_file import with_part
+
+_MARKER = re.compile(r"^<!-- table (\w+) -->$", re.MULTILINE)
+_LINK = re.compile(r"(?<=/)validation/tables/\w+\.csv|(?<=\()validation/tables/\w+\.csv")
+_PICTURE = re.compile(r"!\[[^\]]*\]\(([\w/]+\.png)\)")
+
+
+def write_table(head: Sequence[str], rows: Iterable[Sequence[str]], file: Path | str) -> None:
+    """Write a table as CSV, its cells as a reader sees them."""
+    with atomic_write(file) as new, open(new, "w", newline="", encoding="utf-8") as stream:
+        csv.writer(stream, lineterminator="\n").writerows([head, *rows])
+
+
+def read_table(file: Path | str) -> list[list[str]]:
+    """Rows of a table, the head first."""
+    with open(file, newline="", encoding="utf-8") as stream:
+        return list(csv.reader(stream))
+
+
+def markdown(rows: Iterable[Sequence[str]]) -> str:
+    """A table as it stands in a page; the first row is the head."""
+    head, *lines = ["| " + " | ".join(cells) + " |\n" for cells in rows]
+    return "".join([head, "|---" * (head.count(" | ") + 1) + "|\n", *lines])
+
+
+class Pages:
+    """The pages of a project: README.md and docs/*.md, and the tables that stand in each."""
+
+    def __init__(self, root: Path):
+        self._root = root
+
+    @property
+    def files(self) -> list[str]:
+        """Pages with a table."""
+        return [name for page in self._pages() for name in [str(page.relative_to(self._root))] if self.tables(name)]
+
+    def _pages(self) -> list[Path]:
+        return [self._root / "README.md", *sorted((self._root / "docs").glob("*.md"))]
+
+    @property
+    def all_tables(self) -> list[str]:
+        """Files of the tables that stand in pages or that pages link."""
+        linked = {name for page in self._pages() for name in _LINK.findall(page.read_text(encoding="utf-8"))}
+        return sorted({*linked, *(file for page in self.files for file in self.tables(page))})
+
+    @property
+    def pictures(self) -> list[str]:
+        """Pictures that stand in pages."""
+        shown = {(page.parent / name) for page in self._pages() for name in _PICTURE.findall(page.read_text(encoding="utf-8"))}
+        return sorted(str(file.relative_to(self._root)) for file in shown)
+
+    def tables(self, page: str) -> list[str]:
+        """Files of the tables of a page, in its order."""
+        names = _MARKER.findall((self._root / page).read_text(encoding="utf-8"))
+        return [f"validation/tables/{name}.csv" for name in names]
+
+
+def renewed(page: str, files: Iterable[Path | str]) -> str:
+    """Text of a page with its tables taken from their files."""
+    for file in files:
+        page = with_part(page, f"table {Path(file).stem}", markdown(read_table(file)))
+    return page
+
+
+def renew(input: Any, output: Any, params: Any) -> None:
+    """Put the tables into a page. Input: their files. Output: the page, which is there."""
+    page = Path(output[0])
+    write_text(renewed(page.read_text(encoding="utf-8"), as_list(input)), page)

@@ -1,0 +1,38 @@
+# What the rules of all subjects use.
+from evidence.configuration import overlay, settings_of
+from evidence.pages import Pages
+
+from r37core.console.interpreter import PYTHON
+from r37core.plans.code import CodeHashes
+
+ROOT = VALIDATION.parent
+TABLES = "validation/tables"
+BLADES = list(settings_of(ROOT).blades)
+pages = Pages(ROOT)
+code = CodeHashes(VALIDATION, VALIDATION, packages=("evidence",))
+
+
+def evidence(function):
+    """Parameters of a rule whose step is this function of validation/evidence, as `coriolis.tables`, with the hash of its code."""
+    name = f"evidence.{function}"
+    return {"step": name, "code": code("step", name)}
+
+
+def behind_engine(*files, **named):
+    """Inputs that are asked for only when the numbers of the engine are known to be the same, or were made again."""
+
+    def inputs(wildcards):
+        checkpoints.engine_numbers.get()
+        return {**named, **({"files": list(files)} if files else {})}
+
+    return inputs
+
+
+# the pattern of the others, never run by itself
+rule evidence:
+    log:
+        "logs/validation/evidence.log",
+    conda:
+        ROOT / "envs/r37.yaml"
+    script:
+        "../step.py"

@@ -1,0 +1,14 @@
+# Tables go into the pages between <!-- table NAME --> and <!-- end -->, each from validation/tables/NAME.csv.
+
+
+use rule evidence as page with:
+    input:
+        lambda wildcards: pages.tables(f"{wildcards.page}.md"),
+    output:
+        update("{page}.md"),
+    log:
+        "logs/validation/{page}.log",
+    wildcard_constraints:
+        page="README|docs/[a-z_]+",
+    params:
+        **evidence("pages.renew"),
