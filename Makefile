@@ -41,7 +41,7 @@ test-slurm: $(VENV)/.ready ## parts of a sweep on a Slurm of one node, which the
 # a sample, and what they missed; MUTANTS='results/stress_recovery.py --each 20' for one module
 mutants: $(VENV)/.ready ## whether the tests notice small changes of the code: about half an hour
 	$(PIP_INSTALL) --editable '.[test,mutants]'
-	$(BIN)/python benchmarks/mutants.py $(MUTANTS)
+	$(BIN)/python validation/benchmarks/mutants.py $(MUTANTS)
 
 lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 	$(BIN)/python -m ruff check .
@@ -52,22 +52,22 @@ lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 
 bench: $(VENV)/.ready ## time of the integration against plainer ways to write it
 	$(BIN)/python -m snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
-	$(BIN)/python benchmarks/integration_speed.py $(BENCH)
+	$(BIN)/python validation/benchmarks/integration_speed.py $(BENCH)
 
 # ONLY='growth.png accuracy.md' makes these, TAKEN=yes takes results that were just made by hand, SAME=yes renews the hashes alone, where
 # code was rearranged and the results are the same
 claims: $(VENV)/.ready ## regenerate outdated tables and pictures of the pages, which may take hours; LIST=yes only lists them
-	PYTHONPATH=benchmarks $(BIN)/python -m claims $(ONLY) --cores $(CORES) $(if $(LIST),--list) $(if $(TAKEN),--taken) $(if $(SAME),--same)
+	PYTHONPATH=validation/benchmarks $(BIN)/python -m claims $(ONLY) --cores $(CORES) $(if $(LIST),--list) $(if $(TAKEN),--taken) $(if $(SAME),--same)
 
 fingerprint: $(VENV)/.ready ## renew the numbers that stand for the engine in the hashes of the claims
-	PYTHONPATH=benchmarks $(BIN)/python -m claims.numbers
+	PYTHONPATH=validation/benchmarks $(BIN)/python -m claims.numbers
 
 # a warning is an error
 site: $(VENV)/.docs ## the documentation as a site that opens from the disk: site/index.html
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --conf-dir docs/site docs site
 
 tutorial: $(VENV)/.docs ## docs/tutorial.ipynb of docs/tutorial.py, run; about a minute
-	$(BIN)/python benchmarks/tutorial.py
+	$(BIN)/python validation/benchmarks/tutorial.py
 
 $(VENV)/.docs: $(VENV)/.ready
 	$(PIP_INSTALL) --editable '.[docs]'

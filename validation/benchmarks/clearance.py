@@ -24,7 +24,7 @@ from r37core.results.datasets import response_of
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 from r37core.time_integration.clearance import growth
 from r37core.time_integration.kept_numbers import with_rotation
 

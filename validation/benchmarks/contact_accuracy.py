@@ -28,12 +28,12 @@ from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.speed_run import run_speed
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 STUDIES = ROOT / "results/studies"
 SCENES = {"direct": 8e-7, "abradable": 8e-7}
 """Scenes, and the finest step (s) of forces at t_n in them."""

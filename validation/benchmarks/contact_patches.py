@@ -1,6 +1,6 @@
 """Whether contact has a limit in mesh and contact nodes: sweeps of seven blades, on points and on patches.
 
-Run: python benchmarks/contact_patches.py [cores] (three hours on two cores; what is made is kept, in
+Run: python validation/benchmarks/contact_patches.py [cores] (three hours on two cores; what is made is kept, in
 results/studies/contact_patches), then contact_patches_tables.py. Each model has a sweep of every scene, so that both the
 settled speeds and the places where branches end are seen.
 """
@@ -20,7 +20,7 @@ from r37core.fem.matrices import assemble
 from r37core.io import atomic_write
 from r37core.mesh.generate import generate_mesh
 from r37core.product.reading import read_settings
-from r37core.published import INTERACTIONS
+from validation.published import INTERACTIONS
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
@@ -29,7 +29,7 @@ from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import UnstableStepError
 from r37core.time_integration.speed_run import run_speed
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "results/studies/contact_patches"
 TIP_ELEMENTS = {5000: 21, 10000: 28, 20000: 42, 40000: 56, 80000: 84}
 BLADES = ("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100")

@@ -12,9 +12,9 @@ from scipy.stats import spearmanr
 
 from r37core.io import write_text
 from r37core.results.table_file import read_table
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 STUDIES, RUN = ROOT / "results/studies", ROOT / "results/runs/designs"
 FAMILIES = """
 Sweep:

@@ -24,14 +24,14 @@ from r37core.contact.ring import Ring
 from r37core.figures.style import PAGE, plt
 from r37core.io import write_text
 from r37core.product.reading import read_settings
-from r37core.published import INTERACTIONS
+from validation.published import INTERACTIONS
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 STUDIES = ROOT / "results/studies"
 LINED, DIRECT = "elastic_abradable", "elastic_direct"
 STIFF, SOFT = 1e9, 1e7

@@ -1,6 +1,6 @@
 """Waves of the rings of elastic_casing.py: how flexible they are, which the rotor meets and overtakes, and why those grow.
 
-Run: snakemake campbell; python benchmarks/elastic_casing_waves.py (some five minutes on two cores), or with names of TABLES
+Run: snakemake campbell; python validation/benchmarks/elastic_casing_waves.py (some five minutes on two cores), or with names of TABLES
 after it for those alone; or make claims ONLY=elastic_casing.
 """
 
@@ -28,7 +28,7 @@ from r37core.contact.elastic_casing import flexibility, flexibility_of, nodal_di
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
 from r37core.results.casing_coincidence import coincidence_table
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 from r37core.time_integration.problem import Problem
 
 RINGS = CASINGS[1:]

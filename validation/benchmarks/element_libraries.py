@@ -1,7 +1,7 @@
 """Stiffness and mass from our element table beside those of scikit-fem and FElupe: time, and the same numbers.
 
 The question was whether a library's shape functions and quadrature would leave less code at equal speed. Needs both:
-pip install scikit-fem felupe; then: python benchmarks/element_libraries.py   (some minutes). The table goes into
+pip install scikit-fem felupe; then: python validation/benchmarks/element_libraries.py   (some minutes). The table goes into
 docs/structure.md.
 """
 
@@ -19,7 +19,7 @@ from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
 from r37core.io import write_text
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
 
 from box_mesh import box_mesh  # noqa: E402

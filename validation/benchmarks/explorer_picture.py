@@ -1,9 +1,9 @@
-"""docs/explorer.png: the explorer of a finished run as Chromium shows it. `python benchmarks/explorer_picture.py [results]`."""
+"""docs/explorer.png: the explorer of a finished run as Chromium shows it. `python validation/benchmarks/explorer_picture.py [results]`."""
 
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
 
 from browser import opened  # noqa: E402

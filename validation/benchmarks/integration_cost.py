@@ -1,6 +1,6 @@
 """CPU of the time integration alone, of this checkout and another one in turns: a table of docs/speed.md.
 
-Run: make all_blades; python benchmarks/integration_cost.py FOLDER, another checkout in which make setup was done; then make
+Run: make all_blades; python validation/benchmarks/integration_cost.py FOLDER, another checkout in which make setup was done; then make
 claims ONLY=integration_cost TAKEN=yes. Both take the reduced models of this checkout, and each the steps of its own level.
 """
 
@@ -16,10 +16,10 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 from r37core.io import write_text
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 from r37core.time_integration.simulate import Simulation
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 CASES = (
     ("Ref", "direct", 1340.0),
     ("S100", "direct", 1600.0),

@@ -24,7 +24,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.simulate import Simulation
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 SPEEDS = (900.0, 1344.0, 1660.0)
 GRID = np.arange(750.0, 2000.0, 62.5)
 STEP = 1e-7

@@ -1,6 +1,6 @@
 """The time integration against SciPy's solve_ivp and against NLstep: tables of docs/validation.md, section "Other programs".
 
-Run: make claims ONLY=other_programs, or python benchmarks/other_programs.py [elastic worn direct histories rms]. The last two
+Run: make claims ONLY=other_programs, or python validation/benchmarks/other_programs.py [elastic worn direct histories rms]. The last two
 need GNU Octave and NLSTEP=/path/to/NLstep: then make claims ONLY=nlstep TAKEN=yes. Ten minutes in all.
 Cases that `rms` has a row of are not run again.
 """
@@ -29,12 +29,12 @@ from massless_boundary import run_nlstep
 from r37core.io import write_text
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 STUDIES = ROOT / "results/studies"
 SPEED, SAMPLES, REVOLUTIONS = 1600.0, 200, 2
 """Speed (rad/s), samples per revolution and revolutions of the comparisons with solve_ivp."""

@@ -1,6 +1,6 @@
 """How long the sentences of README and docs/ are, and which words stand in them that the project does not use.
 
-Run: python benchmarks/prose.py (one line a page), or with the name of a page for its longest sentences.
+Run: python validation/benchmarks/prose.py (one line a page), or with the name of a page for its longest sentences.
 """
 
 import re
@@ -8,7 +8,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 MEAN, LONG, SHARE = 20.0, 30, 0.12
 """Most words of a sentence on average, words of a long sentence, and the largest share of long ones."""
 

@@ -32,13 +32,13 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.stress.of_revolutions import largest_of_revolutions
 from r37core.stress.operator import read_stress_operator
 from r37core.stress.statistic import stress_statistic
-from r37core.studies.refinement.report import replay
-from r37core.studies.tables import markdown_table
+from validation.studies.refinement.report import replay
+from validation.studies.tables import markdown_table
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.tolerances.members import members_of
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "results/studies/ranking"
 BLADES = ("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100")
 SCENES = {"lined": "abradable", "direct": "direct"}

@@ -4,7 +4,7 @@ Each blade goes out as STEP, is meshed by gmsh in tetrahedra and hexahedra with 
 `standard`, comes back as a mesh of another program in mm, and is taken to its frequencies and through a sweep over its
 interaction of 1B with order 4 in the scene `abradable`. The table goes into docs/your_blade.md.
 
-Run: python benchmarks/remeshed_blades.py [blade ...]   (about two minutes for each blade; --frequencies: without the sweeps)
+Run: python validation/benchmarks/remeshed_blades.py [blade ...]   (about two minutes for each blade; --frequencies: without the sweeps)
 What was measured before is kept in results/studies/remeshed.json; delete that to measure again. The peak is looked for every
 2 rad/s on a branch that rises steeply to its drop: one step more or less is some percent of its rms.
 """
@@ -32,7 +32,7 @@ from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.speed_run import run_speed
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 KEPT = ROOT / "results" / "studies" / "remeshed.json"
 OURS = "wedge15"
 ELEMENTS = {"tetra10": (31, 50), "hexahedron20": (42, 68)}

@@ -3,7 +3,7 @@
 Runs one blade at several levels, and samples what its jobs take with their children. What was measured is kept in
 src/r37core/plans/resources.csv, from which the rules say what their jobs need; the table goes into docs/cluster.md.
 
-Run: python benchmarks/resources.py   (about ten minutes; results go to results/runs/resources-<level>)
+Run: python validation/benchmarks/resources.py   (about ten minutes; results go to results/runs/resources-<level>)
 """
 
 import ast
@@ -22,7 +22,7 @@ from r37core.io import write_text
 from r37core.plans.resources import MEASURED, PER_RESPONSE, PER_SWEEP, read_measured
 from r37core.product.reading import read_settings
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
 LEVELS = ("draft", "standard", "fine")
 MANY = 157

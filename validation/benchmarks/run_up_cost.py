@@ -20,11 +20,11 @@ from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.schedule import RunUp
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 from r37core.time_integration import compiled
 from r37core.time_integration.simulate import Simulation
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 SCENES, RATES = ("abradable", "direct"), (30.0, 100.0, 300.0, 1000.0)
 FROM, TO = 1644.0, 1786.0
 """Speeds (rad/s) of config/run_ups.yaml, about 1B/4 of the reference blade."""

@@ -21,7 +21,7 @@ from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.tables import safe_rates
 from r37core.stress.recovery import stress_operator
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 
 RESULTS = Path("results")

@@ -1,7 +1,7 @@
 """How a sweep scales: one core and two, what one Snakemake can feed, what 1,000 blades at 1,251 speeds would ask for.
 
 Measures in temporary copies of the project; keeps results/studies/scaling.json and puts the table into docs/cluster.md.
-Run: python benchmarks/scaling.py [runs] [feeding] [planning]   (about ten minutes for all; ratios inside one run count)
+Run: python validation/benchmarks/scaling.py [runs] [feeding] [planning]   (about ten minutes for all; ratios inside one run count)
 """
 
 import os
@@ -14,7 +14,7 @@ import psutil
 
 from r37core.io import read_json, write_json, write_text
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
 
 from stubbed_runs import copy_stubbed, edit  # noqa: E402

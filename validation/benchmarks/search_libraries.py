@@ -1,8 +1,8 @@
 """Libraries that could propose designs, on functions with known optimum, noise, a constraint and a region that cannot be built.
 
-    python benchmarks/search_libraries.py [SEEDS]
+    python validation/benchmarks/search_libraries.py [SEEDS]
 
-writes benchmarks/search_libraries.md. The candidates are not in envs/lock.txt: pip install egobox smt optuna openturns pymoo.
+writes validation/benchmarks/search_libraries.md. The candidates are not in envs/lock.txt: pip install egobox smt optuna openturns pymoo.
 SMT and scikit-learn are surrogates under the acquisition of r37core.search; egobox and Optuna propose by themselves. OpenTURNS
 and pymoo are weighed only: the first runs the function itself, the second evolves populations over many more evaluations.
 """

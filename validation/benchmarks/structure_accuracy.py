@@ -1,6 +1,6 @@
 """What mesh density, layers and edge form do to the reference blade's frequencies, as a table in Markdown.
 
-Run: python benchmarks/structure_accuracy.py   (about five minutes; --quick leaves out the finest meshes)
+Run: python validation/benchmarks/structure_accuracy.py   (about five minutes; --quick leaves out the finest meshes)
 """
 
 import os
@@ -19,7 +19,7 @@ from r37core.product.reading import read_settings
 from r37core.results.campbell import campbell_diagram
 from r37core.rom.reduce import reduce_blade
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 PUBLISHED = {7: 806.0, 6: 965.0, 5: 1213.0, 4: 1672.0}
 CASES = [
     ("round", 2500, 1, 14),

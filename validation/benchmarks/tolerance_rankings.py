@@ -1,6 +1,6 @@
 """How many members rank the numbers of tolerances, and give a range: parts of a large study beside the whole of it.
 
-Run: python benchmarks/tolerance_rankings.py (a quarter of an hour on one core; what is made is kept, in
+Run: python validation/benchmarks/tolerance_rankings.py (a quarter of an hour on one core; what is made is kept, in
 results/studies/tolerance_rankings). The reference blade at `draft`, lined, with config/tolerances.yaml, about
 1B/4. The outcomes are of several seeds, so that samples beside each other are independent.
 """
@@ -27,7 +27,7 @@ from r37core.results.measures import largest_of_run, motion_of_run, range_above_
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rounding import rounded_to
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 from r37core.time_integration.speed_run import run_speed
 from r37core.tolerances.dataset import INDEXED, QUANTILES
 from r37core.tolerances.members import members_of
@@ -35,7 +35,7 @@ from r37core.tolerances.number_ranks import ranking
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.shares import CONFIDENCE
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "results/studies/tolerance_rankings"
 BLADE, SCENE = "Ref", "abradable"
 SEEDS, MEMBERS = range(4), 64

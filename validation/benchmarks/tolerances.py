@@ -13,7 +13,7 @@ import pandas as pd
 from r37core.io import write_text
 from r37core.results.ranges import ENDS, read_ranges
 from r37core.rounding import rounded_to
-from r37core.studies.tables import markdown_table
+from validation.studies.tables import markdown_table
 
 RESULTS = Path("results")
 MODE, ORDER = "1B", 4

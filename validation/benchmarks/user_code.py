@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 
 from r37core.io import write_text
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / "examples/figures").glob("*.py"))
 
 HEAD = """# Figures and their code

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from .tables import markdown_table
+from validation.studies.tables import markdown_table
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ from r37core.io import InputFileError, Named
 from r37core.plain import from_plain, to_plain
 from r37core.product.reading import load_settings
 from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
-from r37core.studies.refinement.report import above_yield, compare, errors_between, plain_grid, refinement_table, replay
+from validation.studies.refinement.report import above_yield, compare, errors_between, plain_grid, refinement_table, replay
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
 from r37core.yaml_file import load_yaml

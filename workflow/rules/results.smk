@@ -114,5 +114,4 @@ use rule step as explorer with:
         **shown_by_extensions,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         shapes=sweep.runs_with("shapes"),
-        benchmark_scenes=joined.benchmark_scenes,
         parts=parts_hash(with_programs(shown_by_extensions["programs"])),

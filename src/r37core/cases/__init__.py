@@ -1,0 +1,1 @@
+"""Runs of one blade beside the sweep, each with a model, scene or time integration of its own, and what they cost."""

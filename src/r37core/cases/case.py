@@ -1,4 +1,4 @@
-"""A case of a study: what one job runs, as plain data. Light: the workflow imports it."""
+"""A case: what one job runs, as plain data. Light: the workflow imports it."""
 
 from __future__ import annotations
 
@@ -10,10 +10,13 @@ from r37core.contact.scene import Scene
 from r37core.fem.material import Material
 from r37core.time_integration.integration_choice import IntegrationChoice
 
+OWN_MESH = 0
+"""In place of a number of nodes: the mesh of the run, as for a blade of another program."""
+
 
 @dataclass(frozen=True)
 class ModelChoice:
-    """A model of a blade made for a study: nodes of the mesh and of the tip line, fixed-interface modes.
+    """A model of a blade made for some cases: nodes of the mesh (or OWN_MESH) and of the tip line, fixed-interface modes.
 
     `whole_blade_stress`: stress is recovered on the whole blade, else on the submesh of this run.
     """
@@ -44,26 +47,23 @@ def model_of_name(name: str) -> ModelChoice:
 
 
 @dataclass(frozen=True)
-class SweptPeak:
-    """The speed of the largest motion in this run's sweep of a scene, from `first` to `last` rad/s."""
+class Crossing:
+    """Where a mode crosses an engine order in the Campbell diagram of the run; without an order at the highest speed."""
 
-    scene: str
-    first: float
-    last: float
+    mode: str
+    engine_order: int | None
 
 
 @dataclass(frozen=True)
 class Case:
     """A blade's model in one scene at some speeds, and what is kept of them.
 
-    - `model`: of a study, or this run's own on the tip line of this name.
+    - `model`: made for the case, or this run's own on the tip line of this name.
     - `scene`: None where the configuration refuses it; `refused` says why.
-    - `speeds`: rad/s, ascending. Where `crossing` names mode and engine order, they are shares of that Campbell speed. With
-      `swept_peak`, that speed is among them too.
+    - `speeds`: rad/s, ascending. With a `crossing` they are shares of its speed.
     - `results`: as of a scene, and `instants`, the stress at each instant of the last revolution.
     - `kept`: how much of spectrum and wear, as run_speed takes it.
     - `history_speeds`: speeds whose stress is kept for every revolution; None: all.
-    - `follow`: more speeds at the same step while the ends of the range are above yield. The peak's stress history is kept.
     - `share_of_limit`: the time step is this share of the blade's stability limit under central differences.
     - `half_step`: half the step that would be taken otherwise.
     - `what`: words for the result's attributes.
@@ -77,10 +77,8 @@ class Case:
     results: tuple[str, ...]
     material: Material | None
     kept: Mapping[str, int]
-    crossing: tuple[str, int] | None = None
-    swept_peak: SweptPeak | None = None
+    crossing: Crossing | None = None
     history_speeds: tuple[float, ...] | None = ()
-    follow: bool = False
     share_of_limit: float | None = None
     half_step: bool = False
     refused: str = ""

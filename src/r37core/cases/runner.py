@@ -1,4 +1,4 @@
-"""The one runner of studies: a case in, an ordinary response.nc out, with what it cost."""
+"""The runner of cases: a case in, an ordinary response.nc out, with what it cost."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import netCDF4
 import numpy as np
@@ -14,7 +15,6 @@ import xarray as xr
 
 from r37core.dataset_file import SPEED, Variable, read_dataset, write_dataset
 from r37core.io import atomic_write, read_json
-from r37core.results.measures import motion_of_run, peak_of
 from r37core.results.netcdf import create_variable
 from r37core.results.response import write_response
 from r37core.rom.contact_model import ContactModel, read_contact_model
@@ -27,7 +27,7 @@ from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_job import prepared
 from r37core.time_integration.speed_run import run_speed
 
-from .case import Case, SweptPeak
+from .case import Case, Crossing
 from .costs import Stopwatch, peak_memory
 
 BESIDE = {
@@ -38,26 +38,20 @@ BESIDE = {
 }
 """What a case's response holds of every speed beside the results."""
 
-_MOST_EXTRA = 40
-"""Speeds added on each side of a range that ends above yield."""
-
 
 def run_case_of_files(case: Case, files: Mapping[str, str], output: Path | str) -> None:
-    """Run a case from its files: `contact`; `rom` for the stress, `cost` of the model, `campbell` or `response` for speeds.
+    """Run a case from its files: `contact`; `rom` for the stress, `cost` of the model, `campbell` for the speeds.
 
     Raises ValueError for a crossing that the Campbell diagram does not have.
     """
+    model_costs = read_json(files["cost"]) if "cost" in files else {}
+    if "refused" in model_costs:
+        case = replace(case, scene=None, refused=model_costs["refused"])
+    if case.scene is None:
+        write_refusal(case, output)
+        return
     if case.crossing:
-        mode, order = case.crossing
-        crossing = read_dataset(files["campbell"])["crossing_speed"].sel(mode=mode, engine_order=order).item()
-        if not np.isfinite(crossing):
-            raise ValueError(
-                f"config.yaml: studies: {mode} of {case.blade} does not cross engine order {order}; choose another "
-                "engine_order, or a higher structure.maximum_speed_rad_s"
-            )
-        case = replace(case, speeds=tuple(float(share * crossing) for share in case.speeds))
-    if case.swept_peak:
-        case = with_swept_peak(case, case.swept_peak, read_dataset(files["response"]))
+        case = _about_the_crossing(case, case.crossing, read_dataset(files["campbell"]))
     reading, recovering = Stopwatch(), Stopwatch()
     with reading:
         model = read_contact_model(files["contact"])
@@ -65,14 +59,32 @@ def run_case_of_files(case: Case, files: Mapping[str, str], output: Path | str) 
         recovery = None
         if "stress" in case.results and case.material:
             recovery = stress_operator(read_reduced_model(files["rom"]), case.material)
-    costs = {f"model_{name}": value for name, value in (read_json(files["cost"]) if "cost" in files else {}).items()}
+    costs = {f"model_{name}": value for name, value in model_costs.items()}
     run_case(case, model, recovery, output, costs | {"reading_cpu_s": reading.cpu, "recovery_cpu_s": recovering.cpu})
 
 
-def with_swept_peak(case: Case, peak: SweptPeak, response: xr.Dataset) -> Case:
-    """The case with the speed of the sweep's peak among its speeds."""
-    near = response.sel(speed=slice(peak.first, peak.last))
-    return replace(case, speeds=tuple(sorted({*case.speeds, float(peak_of(near)["speed"])})))
+def _about_the_crossing(case: Case, crossing: Crossing, campbell: xr.Dataset) -> Case:
+    """The case with its speeds in rad/s."""
+    speed = crossing_speed(campbell, crossing, case.speeds[-1])
+    if not np.isfinite(speed):
+        order = f"engine order {crossing.engine_order}" if crossing.engine_order else "any engine order"
+        raise ValueError(
+            f"config.yaml: {crossing.mode} of {case.blade} does not cross {order} below structure.maximum_speed_rad_s; choose "
+            "another engine_order, or a higher structure.maximum_speed_rad_s"
+        )
+    return replace(case, speeds=tuple(float(share * speed) for share in case.speeds))
+
+
+def crossing_speed(campbell: xr.Dataset, crossing: Crossing, highest_share: float) -> float:
+    """Speed (rad/s) of a crossing, NaN where there is none; without an engine order the highest one in the diagram.
+
+    As far as there are some, only crossings count whose `highest_share` lies in the diagram, too.
+    """
+    speeds = campbell["crossing_speed"].sel(mode=crossing.mode)
+    if crossing.engine_order:
+        return float(speeds.sel(engine_order=crossing.engine_order))
+    inside = speeds.where(highest_share * speeds <= campbell["speed"].max())
+    return float(inside.max() if inside.notnull().any() else speeds.max())
 
 
 def run_case(
@@ -88,16 +100,19 @@ def run_case(
     """
     attributes = {"blade": case.blade, "case": case.what, **(costs or {})}
     try:
-        if case.scene is None:
-            raise ValueError(case.refused)
         with tempfile.TemporaryDirectory() as folder:
-            _Runs(case, model, recovery, Path(folder)).write(output, attributes)
+            Runs(case, model, recovery, Path(folder)).write(output, attributes)
     except ValueError as error:
-        nothing = xr.Dataset(coords={"speed": ("speed", np.empty(0), SPEED.attributes)})
-        write_dataset(nothing, output, attributes | {"refused": str(error).split(";")[0]})
+        write_refusal(replace(case, refused=str(error)), output, attributes)
 
 
-class _Runs:
+def write_refusal(case: Case, output: Path | str, attributes: Mapping[str, Any] | None = None) -> None:
+    """A response without speeds, whose attribute `refused` says why."""
+    nothing = xr.Dataset(coords={"speed": ("speed", np.empty(0), SPEED.attributes)})
+    write_dataset(nothing, output, {**(attributes or {}), "refused": case.refused.split(";")[0]})
+
+
+class Runs:
     """The runs of one case: files in a folder, and what is kept beside them, by speed (rad/s)."""
 
     def __init__(self, case: Case, model: ContactModel, recovery: StressOperator | None, folder: Path):
@@ -107,11 +122,9 @@ class _Runs:
         self.beside: dict[float, dict[str, float]] = {}
         self.histories = set(case.speeds if case.history_speeds is None else case.history_speeds)
         for number, speed in enumerate(case.speeds, 1):
-            self._run(speed)
+            self.run(speed)
             if number % 100 == 0:
                 print(f"{number} of {len(case.speeds)} speeds", flush=True)
-        if case.follow:
-            self._follow()
 
     def _choice(self, speed: float) -> IntegrationChoice:
         case, choice = self.case, self.case.choice
@@ -129,7 +142,8 @@ class _Runs:
             choice = replace(choice, time_step=0.5 * stable_problem(self.model, speed, self.scene, choice).grid.time_step)
         return choice
 
-    def _run(self, speed: float) -> None:
+    def run(self, speed: float) -> None:
+        """Simulate one speed (rad/s) and note what it costs."""
         case, integration, writing = self.case, Stopwatch(), Stopwatch()
         choice, file = self._choice(speed), self.folder / f"{speed!r}.npz"
         # compiled before it is timed
@@ -145,22 +159,6 @@ class _Runs:
             "file_cpu_s": writing.cpu,
             "bytes_written": file.stat().st_size,
         }
-
-    def _follow(self) -> None:
-        """Add speeds beyond both ends until the stress is below yield there; then keep the history of the peak."""
-        assert self.case.material is not None
-        speeds = sorted(self.files)
-        step = speeds[1] - speeds[0] if len(speeds) > 1 else 1.0
-        for end, towards in ((speeds[0], -step), (speeds[-1], step)):
-            for number in range(_MOST_EXTRA):
-                last = read_speed(self.files[end + number * towards])
-                if not last["max_von_mises"] > self.case.material.yield_stress:
-                    break
-                self._run(end + (number + 1) * towards)
-        peak = max(self.files, key=lambda speed: motion_of_run(read_speed(self.files[speed])))
-        if peak not in self.histories:
-            self.histories.add(peak)
-            self._run(peak)
 
     def write(self, output: Path | str, attributes: Mapping[str, object]) -> None:
         """The response of all runs, ascending, with BESIDE."""
@@ -192,3 +190,10 @@ class _Runs:
             dataset.setncatts({name: value for name, value in attributes.items() if isinstance(value, float)})
         with atomic_write(output) as final:
             final.write_bytes(partial.read_bytes())
+
+
+def energy_share(response: xr.Dataset) -> np.ndarray:
+    """Part of the energy balance that stays open, as a share of all that went in and out, shape (speeds,)."""
+    turned_over = np.abs(response["contact_work"].values) + response["damping_loss"].values
+    residual = response["energy_residual"].values
+    return np.divide(residual, turned_over, out=np.zeros_like(residual), where=turned_over > 0.0)

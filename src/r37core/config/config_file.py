@@ -17,7 +17,6 @@ from .blade_sections import CONTACT_IN_WORDS, Contact, Submesh
 from .declaring import DECLARED, declared_by
 from .section import AllOrNames, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
-from .study_sections import StudiesSection
 
 
 @declared_by(BoundaryChoice)
@@ -160,7 +159,6 @@ class Config(Section):
         "with fidelity auto it picks the level",
     )
     run: Run = Run()
-    studies: StudiesSection = StudiesSection()
     campbell: CampbellSection = CampbellSection()
 
     @model_validator(mode="after")

@@ -6,7 +6,7 @@ refused meets the same refusal in `Settings`, and that is told once.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -22,11 +22,10 @@ from r37core.time_integration.run_length import MOST_STEPS
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
-from .document import ConfigRefusals, Document
+from .document import ConfigRefusals
 from .settings import Settings
 from .speed_choice import RunLength, fastest_of, length_of_run, slowest_speeds
 from .speed_section import key_of_speeds
-from .study_sections import TradeoffSection
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 """Jobs that Snakemake can still plan: about 25 kB of memory and 1 ms for each."""
@@ -38,56 +37,6 @@ def what_is_named_is_there(settings: Settings) -> None:
     for name in ("fidelity_name", "blade_names", "scene_names"):
         refusals.of(getattr, settings, name)
     refusals.tell()
-
-
-def studies_name_what_is_there(settings: Settings) -> None:
-    """Names in the section `studies`, where it is given, are in their files."""
-    refusals = ConfigRefusals()
-    for name in sorted(settings.studies.model_fields_set):
-        refusals.of(_study_names_what_is_there, settings, name)
-    if settings.studies.tradeoff:
-        refusals.of(_tradeoff_asks_for_what_is_there, settings, settings.studies.tradeoff)
-    refusals.tell()
-
-
-def _study_names_what_is_there(settings: Settings, name: str) -> None:
-    study, documents = getattr(settings.studies, name), settings.documents
-    files: dict[str, tuple[Iterable[str], Document]] = {
-        "base": (settings.levels, documents.levels),
-        "quick": (settings.levels, documents.levels),
-        "blade": (settings.designs.entries, documents.blades),
-        "lined_scene": (settings.scene_entries, documents.scenes),
-        "direct_scene": (settings.scene_entries, documents.scenes),
-    }
-    for key, (entries, file) in files.items():
-        if given_name := getattr(study, key, None):
-            documents.known(("studies", name, key), [given_name], entries, file)
-    lined = getattr(study, "lined_scene", None)
-    if lined and settings.scene_entries[lined].lining is None:
-        raise documents.config.refusal(("studies", name, "lined_scene"), f"'{lined}'", "a scene with a lining")
-
-
-def _tradeoff_asks_for_what_is_there(settings: Settings, tradeoff: TradeoffSection) -> None:
-    documents, path, highest = settings.documents, ("studies", "tradeoff"), settings.config.campbell.highest_engine_order
-    if tradeoff.engine_order > highest:
-        allowed = f"at most campbell.highest_engine_order ({highest})"
-        raise documents.config.refusal((*path, "engine_order"), f"{tradeoff.engine_order}", allowed)
-    documents.known((*path, "parameters", "level"), tradeoff.parameters.level.values, settings.levels, documents.levels)
-    if tradeoff.scenes != "all":
-        documents.known((*path, "scenes"), tradeoff.scenes, settings.scene_entries, documents.scenes)
-
-
-def stress_instants_are_samples(settings: Settings) -> None:
-    """Stress instants of the trade-off are among the samples of a revolution."""
-    tradeoff = settings.studies.tradeoff
-    if tradeoff is None or tradeoff.parameters.stress_instants is None or tradeoff.base not in settings.levels:
-        return
-    samples = settings.levels[tradeoff.base].time_integration.samples_per_revolution
-    path = ("studies", "tradeoff", "parameters", "stress_instants", "values")
-    for number, instants in enumerate(tradeoff.parameters.stress_instants.values):
-        if samples % instants:
-            allowed = f"divisors of {samples}, the samples in a revolution of level {tradeoff.base}"
-            raise settings.documents.config.refusal((*path, number), f"{instants}", allowed)
 
 
 def names_are_there(settings: Settings, path: KeyPath, section: Any) -> None:
@@ -260,8 +209,6 @@ def clearances_reach_all_speeds(settings: Settings) -> None:
 
 CHECKS: tuple[Callable[[Settings], None], ...] = (
     what_is_named_is_there,
-    studies_name_what_is_there,
-    stress_instants_are_samples,
     speed_rules_name_what_is_there,
     simulations_can_be_planned,
     windows_have_crossings,

@@ -25,7 +25,6 @@ from .fidelity import Level, cheapest_level
 from .scenes import SceneEntry
 from .section import ExtensionSection, plain
 from .speed_section import UNITS, SpeedRange, SpeedRule, key_of_speeds
-from .study_sections import StudiesSection
 
 T = TypeVar("T")
 
@@ -75,11 +74,6 @@ class Settings:
     def made(self) -> Callable[[Callable[[Settings], Any]], Any]:
         """Gives what a function makes of these settings, made once: for an extension's own part of them that takes long."""
         return cache(lambda make: make(self))
-
-    @property
-    def studies(self) -> StudiesSection:
-        """Studies of the model itself."""
-        return self.config.studies
 
     @cached_property
     def blade_names(self) -> list[str]:

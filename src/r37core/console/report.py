@@ -41,8 +41,6 @@ def configuration_of(results: Path) -> Mapping[str, Any]:
     try:
         config: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))["config"]
         folder = results_folder(config["run"].get("name"))
-        # the defaults of what nobody asked for name blades and scenes that this run need not have
-        config.pop("studies", None)
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         runs = sorted(str(path.parent) for path in Path().glob(f"{results_folder('*')}/{CONFIGURATION}"))
         others = f"; runs with a name: {', '.join(runs)}" if runs else ""

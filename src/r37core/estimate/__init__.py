@@ -1,0 +1,1 @@
+"""What a whole sweep will cost: a sample of its runs, timed."""

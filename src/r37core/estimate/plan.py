@@ -1,17 +1,20 @@
-"""The study `estimate`: a sample of a sweep's runs, timed. `snakemake estimate`"""
+"""The plan of the estimate: some of the speeds of each blade and scene, evenly spread."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from r37core.cases.case import Case
+from r37core.cases.plan import case_of_sweep
 from r37core.config import Settings
+from r37core.plans import paths
 from r37core.plans.extent import extents
-from r37core.product.sampling import beside
+from r37core.plans.samples import Pair, Sample
+from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.speed_run import OF_RUNS
 
-from ..case import Case
-from ..plan import case_of_sweep
+from .section import SECTION
 
 
 def sample(speeds: Sequence[float], every: int) -> list[float]:
@@ -20,32 +23,35 @@ def sample(speeds: Sequence[float], every: int) -> list[float]:
 
 
 def cases(settings: Settings) -> dict[str, Case]:
-    """Some of the speeds of each blade and scene, evenly spread."""
-    cases_of_runs = {}
-    for (blade, scene), plan in settings.speed_plans.items():
-        speeds = tuple(sample(plan.certain, settings.studies.estimate.every))
-        cases_of_runs[f"{blade}__{scene}"] = case_of_sweep(
-            settings,
-            blade,
-            scene,
-            speeds=speeds,
-            results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
-            history_speeds=tuple(speed for speed in speeds if speed in settings.scenes[scene].stress_history_speeds),
-        )
-    return cases_of_runs
-
-
-def outputs(settings: Settings) -> dict[str, str]:
-    """The projection."""
-    return {"json": "<results>/studies/estimate.json", "table": "<results>/studies/estimate.md"}
-
-
-def values(settings: Settings) -> dict[str, Any]:
-    """How many runs each blade and scene has, members included, at most with adaptive speeds; and where they are run."""
-    section = settings.studies.estimate
+    """A case for each blade and scene."""
+    every = settings.section(SECTION).every
     return {
-        "runs": {"__".join(pair): extent.at_most for pair, extent in extents(settings, beside(settings)).items()},
+        "__".join(pair): _case(settings, *pair, tuple(sample(plan.certain, every)))
+        for pair, plan in settings.speed_plans.items()
+    }
+
+
+def _case(settings: Settings, blade: str, scene: str, speeds: tuple[float, ...]) -> Case:
+    return case_of_sweep(
+        settings,
+        blade,
+        scene,
+        speeds=speeds,
+        results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
+        history_speeds=tuple(speed for speed in speeds if speed in settings.scenes[scene].stress_history_speeds),
+    )
+
+
+def values(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> dict[str, Any]:
+    """How many runs each blade and scene has at most, those of samples `beside` the sweep included; and where they are run."""
+    section = settings.section(SECTION)
+    return {
+        "runs": {"__".join(pair): extent.at_most for pair, extent in extents(settings, beside).items()},
         "workflow_s_per_job": section.workflow_s_per_job,
         "cores": section.cores,
-        "fidelity": settings.fidelity_name,
     }
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The table and the figure."""
+    return {"<results>/estimate.csv": [{}], **paths.pictures("estimate", [{}])}

@@ -15,7 +15,7 @@ from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 from r37core.units import shown_unit
 
-from .page_tables import interaction_table, published_peaks, ranking_rows
+from .page_tables import interaction_table, ranking_rows
 
 CURVES = (
     ("rms", "rms_normal"),
@@ -44,14 +44,13 @@ def explorer_contents(
     interactions: pd.DataFrame,
     shapes: Iterable[Sequence[str]] = (),
     shapes_in_report: Mapping[str, str] | None = None,
-    benchmark_scenes: Sequence[str] = (),
     ranking: pd.DataFrame | None = None,
 ) -> dict[str, object]:
     """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress, wear and members.
 
     `shapes`: pairs of blade and scene whose interactions are shown in shapes/<blade>.html beside the page;
-    `shapes_in_report`: where that is in the archive of the report, by blade. `benchmark_scenes`: scenes that the published
-    peaks are of. `ranking`: the blades of each scene compared, as ranking.csv has them.
+    `shapes_in_report`: where that is in the archive of the report, by blade. `ranking`: the blades of each scene compared,
+    as ranking.csv has them.
     Curves have every speed; maps are thinned, each cell the largest value of what it stands for.
     """
     rms, campbell = datasets["rms"], datasets["campbell"]
@@ -67,11 +66,10 @@ def explorer_contents(
         **_stress(datasets.get("stress"), rms),
         "spectrum": _spectrum(datasets["spectrum"], rms) if "spectrum" in datasets else None,
         "wear": _wear(datasets["wear"], rms) if "wear" in datasets else None,
-        **interaction_table(as_ranges_bear(interactions), benchmark_scenes),
+        **interaction_table(as_ranges_bear(interactions)),
         **ranking_rows(ranking),
         "shapes": [list(pair) for pair in shapes],
         "shapes_in_report": dict(shapes_in_report or {}),
-        "published": published_peaks(blades, [scene for scene in scenes if scene in benchmark_scenes]),
         **({"sample": _sample(datasets["members"])} if "members" in datasets else {}),
     }
 

@@ -147,23 +147,6 @@
     });
   }
 
-  // where the paper has the peaks of the blade, in the scene that they are of
-  function markPublished(plan) {
-    const here = data.published.filter((one) => one.blade === state.blade && one.scene === state.scene);
-    here.forEach((one, number) => {
-      const x = one.speed * factor();
-      plan.shapes.push({
-        type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, layer: "below", name: `published peak, ${one.scene}`, showlegend: number === 0,
-        line: { color: theme.colour("muted"), width: 1, dash: "longdash" },
-      });
-      (plan.annotations ||= []).push({
-        x, y: 1, yref: "paper", yanchor: "bottom", showarrow: false, font: { size: 10 }, text: one.interaction,
-      });
-      // above the names
-      plan.legend.y = 1.08;
-    });
-  }
-
   // panels that have nothing to show are hidden, and named in one line below the others
   const missing = new Set();
   const fitted = new ResizeObserver((entries) => entries.forEach(({ target }) => {
@@ -346,7 +329,6 @@
     const top = 1.08 * [...below, ...traces].flatMap(({ y }) => y).filter(Number.isFinite).reduce((most, y) => Math.max(most, y), 0) || 1;
     traces.push(...crosses.map((cross) => ({ ...cross, y: cross.x.map(() => top) })));
     const plan = layout(speedAxis(), axis(broken(labelText(curve)), { automargin: true, title: { text: broken(labelText(curve)), font: { size: 12 } } }));
-    markPublished(plan);
     if (state.quantity === "max_von_mises" && yieldStress) markStress(plan, [...below, ...traces], blades, scene);
     draw("response", [...below, ...traces], plan);
   }

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import asdict
 
 import pandas as pd
 
-from r37core.published import INTERACTIONS
 from r37core.results import glossary
 from r37core.results.closing import interaction_title
 from r37core.results.glossary import Word
 from r37core.results.ranking import as_scatter_bears
 
-MODE = "1B"
-"""Of which the interactions are that the benchmark publishes."""
-
 WORDS = glossary.INTERACTIONS | {
     "interaction": Word(
         "interaction",
         "mode and engine order that meet there, 1B/4: first bending with order 4; without a crossing the strongest order",
-    ),
-    "published_peak_speed_rad_s": Word(
-        "published peak", "peak speed that the benchmark publishes, of its own blades in its lined scene alone", "rad/s"
     ),
 }
 
@@ -37,7 +30,6 @@ COLUMNS = (
     "peak_speed_rad_s_median",
     "peak_speed_rad_s_high",
     "share_of_members",
-    "published_peak_speed_rad_s",
     "shift_rad_s",
     "peak_rms_normal_m",
     "drop",
@@ -55,31 +47,14 @@ COLUMNS = (
 """Columns of the table of interactions, in this order; those that summary.csv does not have are left out."""
 
 
-def published_peaks(blades: Iterable[str], benchmark_scenes: Sequence[str]) -> list[dict[str, object]]:
-    """The published peaks of the blades (rad/s), in the scenes that are the benchmark's."""
-    return [
-        {"blade": row.blade, "scene": scene, "interaction": interaction_title(MODE, row.engine_order), "speed": row.peak}
-        for scene in benchmark_scenes
-        for row in INTERACTIONS
-        if row.blade in blades
-    ]
-
-
-def interaction_table(interactions: pd.DataFrame, benchmark_scenes: Sequence[str]) -> dict[str, object]:
-    """`interactions`, rows as in summary.csv with their title and published peak, and `columns`."""
+def interaction_table(interactions: pd.DataFrame) -> dict[str, object]:
+    """`interactions`, rows as in summary.csv with their title, and `columns`."""
     table = interactions.astype(object).where(interactions.notna(), None)
     titles = [
         interaction_title(mode or "", None if order is None else int(order))
         for mode, order in zip(table["mode"], table["engine_order"], strict=True)
     ]
-    published = {
-        (row["blade"], row["scene"], row["interaction"]): row["speed"]
-        for row in published_peaks(set(table["blade"]), benchmark_scenes)
-    }
-    keys = zip(table["blade"], table["scene"], titles, strict=True)
     table = table.assign(interaction=titles)
-    if published:
-        table["published_peak_speed_rad_s"] = pd.Series([published.get(key) for key in keys], table.index, dtype=object)
     return {"interactions": table.to_dict("records"), "columns": _columns([name for name in COLUMNS if name in table], WORDS)}
 
 

@@ -17,7 +17,7 @@ from .contents import explorer_contents
 def explorer(input: Any, output: Any, params: Any) -> None:
     """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
 
-    Params: title, shapes, benchmark_scenes, address (of a file in the report); panels: extension -> function that gives what
+    Params: title, shapes, address (of a file in the report); panels: extension -> function that gives what
     its panels show of the input that is called like it; programs: files that draw them.
     """
     files = dict(input.items())
@@ -26,5 +26,5 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     file = Path(output.page)
     in_report = {blade: str(params.address(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
-    contents = explorer_contents(datasets, interactions, params.shapes, in_report, params.benchmark_scenes, ranking)
+    contents = explorer_contents(datasets, interactions, params.shapes, in_report, ranking)
     write_page(contents | {"panels": panels}, params.title, file, with_programs(params.programs))

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from r37core.config.casing_remarks import elastic_casings
-from r37core.contact.benchmark import is_lined_benchmark
 from r37core.plain import to_plain
 
 from . import paths
@@ -31,11 +30,6 @@ class Datasets:
     def casings(self) -> dict[str, Any]:
         """The casing of each scene with a flexible one, as plain values."""
         return {name: to_plain(casing) for name, casing in elastic_casings(self.sweep.settings).items()}
-
-    @property
-    def benchmark_scenes(self) -> list[str]:
-        """Names of the scenes that are the benchmark's lined one: of these alone there are published peaks."""
-        return [name for name, chosen in self.sweep.settings.scenes.items() if is_lined_benchmark(chosen.scene)]
 
     def response_pictured(self, wildcards: Any) -> dict[str, str]:
         """Datasets that a blade's response is drawn from."""

@@ -22,8 +22,6 @@ ROUND = "<results>/{member}{blade}/{scene}/round_{round}.json"
 SPEED = "<results>/{member}{blade}/{scene}/speed_{speed}.npz"
 RESPONSE = "<results>/{member}{blade}/{scene}/response.nc"
 WHOLE_BLADE_MODEL = "<results>/{blade}/whole_blade_{tip_line}.nc"
-STUDY_CASE = "<results>/studies/{study}/{case}.nc"
-STUDY_MODEL = "<results>/studies/models/{blade}/{model}/{file}"
 
 
 def fill(pattern: str, **wildcards: Any) -> str:

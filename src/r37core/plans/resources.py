@@ -1,4 +1,4 @@
-"""How much memory and time a rule's jobs need, from what was measured (benchmarks/resources.py)."""
+"""How much memory and time a rule's jobs need, from what was measured (validation/benchmarks/resources.py)."""
 
 from __future__ import annotations
 

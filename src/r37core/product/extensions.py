@@ -15,6 +15,9 @@ _FOLDERS = (
     "designs",
     "tolerances",
     "search",
+    "estimate",
+    "tradeoff",
+    "stability",
 )
 """In the order of their sections in docs/configuration.md."""
 

@@ -12,7 +12,7 @@ from .extensions import EXTENSIONS
 CONFIG: type[Config] = with_sections([extension.section for extension in EXTENSIONS if extension.section])
 """config.yaml with the section of each extension."""
 
-RESERVED = ("figures", "studies", "runs", *(extension.name for extension in EXTENSIONS))
+RESERVED = ("figures", "cases", "runs", *(extension.name for extension in EXTENSIONS))
 """Folders of the results beside those of the blades."""
 
 

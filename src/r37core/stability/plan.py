@@ -1,4 +1,4 @@
-"""The study `stability`: extremes of the configuration, each with its own step and with half of it. `snakemake stability`"""
+"""The plan of the extremes: each with its own step and with half of it, at three neighbouring speeds."""
 
 from __future__ import annotations
 
@@ -6,34 +6,49 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from r37core.cases.case import Case, Crossing, changed
+from r37core.cases.plan import (
+    base_of,
+    blade_of,
+    carries_coriolis,
+    integration_of_level,
+    is_meshed_here,
+    is_of_matrices,
+    kept_of,
+    model_of_level,
+    names_are_known,
+    scenes_of,
+)
 from r37core.config import ConfigError, Settings, checked_scene, plain
+from r37core.plans import paths
+from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
-from ..case import Case, changed
-from ..plan import blade_name_of, integration_of_level, kept_of, level_of, material_of, model_of_level, scene_entry_of
+from .section import SECTION
 
 HALF = "__half_step"
 """End of the name of an extreme's second case."""
 
-_CLEARANCE = "casing.clearance_m"
-
 _NEIGHBOURS = (0.997, 1.0, 1.003)
 """Speeds that are run, as shares of an extreme's."""
+
+_AT_PEAK = 1.02
+"""Speed of most extremes as a share of the Campbell speed: contact stiffens the blade."""
 
 
 @dataclass(frozen=True)
 class Extreme:
     """One case. `changes`: dotted path in the scene's entry of scenes.yaml -> value; the rest: of integration and model.
 
-    `share_of_limit`: time step as a share of the blade's stability limit under central differences, and `integrator`, in place
-    of the level's; `model`: fields of ModelChoice.
+    `speed`: as a share of the Campbell speed; `share_of_limit`: time step as a share of the blade's stability limit under
+    central differences, and `integrator`, in place of the level's; `model`: fields of ModelChoice.
     """
 
     what: str
     value: str
     scene: str
     changes: Mapping[str, Any] = field(default_factory=dict)
-    speed: float = 1344.0
+    speed: float = _AT_PEAK
     revolutions: int = 60
     share_of_limit: float | None = None
     integrator: str | None = None
@@ -42,94 +57,146 @@ class Extreme:
     @property
     def name(self) -> str:
         """Name in file names."""
-        return f"{self.what}_{self.value}_{self.scene}".replace(" ", "_")
+        return f"{self.what}_{self.value}__{self.scene}"
 
 
-def extremes(lined: str, direct: str) -> list[Extreme]:
-    """All cases; `lined` and `direct`: names of a scene with a lining and of one without."""
+Fields = Callable[[Any], dict[str, Any]]
+"""Fields of an Extreme from its value."""
 
-    def several(what: str, values: Sequence[float], fields: Callable[[Any], dict[str, Any]], *scenes: str) -> list[Extreme]:
-        """One of each value in each scene, by default in both; `fields` of Extreme from the value."""
-        return [Extreme(what, f"{value:g}", scene, **fields(value)) for value in values for scene in scenes or (lined, direct)]
 
-    def step(integrator: str) -> Callable[[float], dict[str, Any]]:
-        return lambda share: {"share_of_limit": share, "integrator": integrator, "revolutions": 20}
+def _step(integrator: str) -> Fields:
+    return lambda share: {"share_of_limit": share, "integrator": integrator, "revolutions": 20}
 
-    def friction(direction: str) -> Callable[[float], dict[str, Any]]:
-        return lambda value: {"changes": {"friction.coefficient": value, "friction.direction": direction}}
 
-    def entry(path: str) -> Callable[[float], dict[str, Any]]:
-        return lambda value: {"changes": {path: value}}
+def _friction(direction: str) -> Fields:
+    return lambda value: {"changes": {"friction.coefficient": value, "friction.direction": direction}}
 
-    def model(key: str) -> Callable[[int], dict[str, Any]]:
-        return lambda value: {"model": {key: value}, "share_of_limit": 0.4, "integrator": CENTRAL_DIFFERENCE}
 
-    return [
-        *several(f"{CENTRAL_DIFFERENCE} step over limit", (0.01, 0.1, 0.5, 0.9, 0.99, 1.0, 1.05), step(CENTRAL_DIFFERENCE)),
-        *several(f"{EXACT_MODAL} step over limit", (0.1, 1.0, 3.0, 10.0, 100.0), step(EXACT_MODAL)),
-        *several("speed", (2.0, 10.0), lambda speed: {"speed": speed, "revolutions": 2}),
-        *several("speed", (100.0, 3000.0, 5000.0), lambda speed: {"speed": speed}),
-        *several("clearance", (0.0, 1e-9, 1e-2), entry(_CLEARANCE)),
-        *several("lobes", (1, 5, 20), entry("casing.lobes")),
-        *several("ovalisation in clearances", (0.0, 10.0), entry("casing.amplitude_clearances")),
-        *several("damping ratio", (0.0, 0.1, 0.999, 1.0), entry("damping_ratio")),
-        *several("friction against_rotation", (0.0, 0.5, 1.0), friction("against_rotation")),
-        *several("friction along_rotation", (0.0, 0.5, 1.0), friction("along_rotation")),
-        *several("lining thickness", (1e-6, 1e-4, 5e-2), entry("lining.thickness_m"), lined),
-        *several("elastic modulus", (1e4, 1e6, 1e8, 1e10, 1e12), entry("lining.elastic_modulus_pa"), lined),
-        *several("plastic modulus", (0.0, 1e4, 1e12), entry("lining.plastic_modulus_pa"), lined),
-        *several("yield stress", (0.0, 1e6, 1e9), entry("lining.yield_stress_pa"), lined),
-        *several("bars", (10, 100, 100000, 1000000), entry("lining.bars"), lined),
-        *several("boundary nodes", (1, 2, 20, 40), model("boundary_nodes")),
-        *several("fixed-interface modes", (0, 60, 200), model("fixed_interface_modes")),
-        *several("mesh nodes", (500, 1000, 60000), model("nodes")),
-        *several("revolutions", (1, 2, 5000), lambda number: {"revolutions": number}),
+def _entry(path: str) -> Fields:
+    return lambda value: {"changes": {path: value}}
+
+
+def _model(key: str) -> Fields:
+    return lambda value: {"model": {key: value}, "share_of_limit": 0.4, "integrator": CENTRAL_DIFFERENCE}
+
+
+EXTREMES: Mapping[str, tuple[Sequence[float], Fields]] = {
+    "central_difference_step_over_limit": ((0.01, 0.1, 0.5, 0.9, 0.99, 1.0, 1.05), _step(CENTRAL_DIFFERENCE)),
+    "exact_modal_step_over_limit": ((0.1, 1.0, 3.0, 10.0, 100.0), _step(EXACT_MODAL)),
+    "low_speed_over_crossing": ((0.001, 0.005), lambda share: {"speed": share, "revolutions": 2}),
+    "speed_over_crossing": ((0.05, 2.0, 3.0), lambda share: {"speed": share}),
+    "clearance": ((0.0, 1e-9, 1e-2), _entry("casing.clearance_m")),
+    "lobes": ((1, 5, 20), _entry("casing.lobes")),
+    "ovalisation_in_clearances": ((0.0, 10.0), _entry("casing.amplitude_clearances")),
+    "damping_ratio": ((0.0, 0.1, 0.999, 1.0), _entry("damping_ratio")),
+    "friction_against_rotation": ((0.0, 0.5, 1.0), _friction("against_rotation")),
+    "friction_along_rotation": ((0.0, 0.5, 1.0), _friction("along_rotation")),
+    "lining_thickness": ((1e-6, 1e-4, 5e-2), _entry("lining.thickness_m")),
+    "elastic_modulus": ((1e4, 1e6, 1e8, 1e10, 1e12), _entry("lining.elastic_modulus_pa")),
+    "plastic_modulus": ((0.0, 1e4, 1e12), _entry("lining.plastic_modulus_pa")),
+    "yield_stress": ((0.0, 1e6, 1e9), _entry("lining.yield_stress_pa")),
+    "bars": ((10, 100, 100000, 1000000), _entry("lining.bars")),
+    "boundary_nodes": ((1, 2, 20, 40), _model("boundary_nodes")),
+    "fixed_interface_modes": ((0, 60, 200), _model("fixed_interface_modes")),
+    "mesh_nodes": ((500, 1000, 60000), _model("nodes")),
+    "revolutions": ((1, 2, 5000), lambda number: {"revolutions": number}),
+}
+"""Name -> its values, and what they change."""
+
+
+def extremes(settings: Settings) -> list[Extreme]:
+    """All extremes of this run, in each of its scenes that they can change; none without a blade or a scene."""
+    section = settings.section(SECTION)
+    if blade_of(settings, section) is None:
+        return []
+    chosen = EXTREMES if section.extremes == "all" else section.extremes
+    several = [
+        Extreme(what, f"{value:g}", scene, **EXTREMES[what][1](value))
+        for what in chosen
+        for value in EXTREMES[what][0]
+        for scene in scenes_of(settings, section)
     ]
+    return [extreme for extreme in several if _has_what_changes(plain(settings.scene_entries[extreme.scene]), extreme)]
+
+
+def _has_what_changes(entry: Mapping[str, Any], extreme: Extreme) -> bool:
+    """Whether a scene has the parts that an extreme changes: a lining, friction."""
+    return all("." not in path or path.split(".")[0] in entry for path in extreme.changes)
 
 
 def cases(settings: Settings) -> dict[str, Case]:
     """Each extreme at three neighbouring speeds, and the same with half the step that it takes."""
     planned: dict[str, Case] = {}
-    for extreme in _extremes(settings):
+    for extreme in extremes(settings):
         case = _case(settings, extreme)
         planned |= {extreme.name: case, f"{extreme.name}{HALF}": replace(case, half_step=True)}
     return planned
 
 
-def _extremes(settings: Settings) -> list[Extreme]:
-    section = settings.studies.stability
-    return extremes(section.lined_scene, section.direct_scene)
-
-
 def _case(settings: Settings, extreme: Extreme) -> Case:
-    section, entry = settings.studies.stability, plain(scene_entry_of(settings, extreme.scene))
-    blade = blade_name_of(settings, section)
-    scene, refused = None, ""
+    section, entry = settings.section(SECTION), plain(settings.scene_entries[extreme.scene])
+    blade, base = blade_of(settings, section), base_of(settings, section)
+    assert blade is not None
+    scene, refused = None, _refusal(settings, blade, extreme)
     try:
-        scene = checked_scene(changed(entry, _of_scene(entry, extreme.changes)))
+        scene = None if refused else checked_scene(changed(entry, _of_scene(entry, extreme.changes)))
     except ConfigError as error:
         refused = str(error)
-    choice = replace(integration_of_level(settings, section.base, scene), revolutions=extreme.revolutions)
+    choice = replace(integration_of_level(settings, base, scene), revolutions=extreme.revolutions)
+    model = model_of_level(settings, blade, base)
     return Case(
         blade,
-        replace(model_of_level(settings, section.base), **extreme.model),
+        model if isinstance(model, str) else replace(model, **extreme.model),
         scene,
         choice if extreme.integrator is None else replace(choice, integrator=extreme.integrator),
         speeds=tuple(extreme.speed * share for share in _NEIGHBOURS),
         results=("energy",),
-        material=material_of(settings, blade),
-        kept=kept_of(level_of(settings, section.base)),
+        material=settings.blades[blade].material,
+        kept=kept_of(settings.levels[base]),
+        crossing=Crossing("1B", section.engine_order),
         share_of_limit=extreme.share_of_limit,
         refused=refused,
     )
 
 
+def _refusal(settings: Settings, blade: str, extreme: Extreme) -> str:
+    """Why a blade cannot have an extreme, empty where it can."""
+    if extreme.model and is_of_matrices(settings, blade):
+        return f"{blade} is given by matrices"
+    if "nodes" in extreme.model and not is_meshed_here(settings, blade):
+        return f"{blade} is given by a mesh"
+    choice = integration_of_level(settings, base_of(settings, settings.section(SECTION)), None)
+    if not carries_coriolis(settings, replace(choice, integrator=extreme.integrator or choice.integrator)):
+        return f"{CENTRAL_DIFFERENCE} does not carry the Coriolis force"
+    return ""
+
+
 def _of_scene(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """The changes, of the cold clearance in a scene that has one."""
-    cold = "casing.clearance.cold_m" if "clearance" in entry["casing"] else _CLEARANCE
-    return {cold if path == _CLEARANCE else path: value for path, value in changes.items()}
+    cold = "casing.clearance.cold_m" if "clearance" in entry["casing"] else "casing.clearance_m"
+    return {cold if path == "casing.clearance_m" else path: value for path, value in changes.items()}
 
 
-def values(settings: Settings) -> dict[str, Any]:
-    """What each extreme is."""
-    return {case.name: {"what": case.what, "value": case.value, "scene": case.scene} for case in _extremes(settings)}
+def values(settings: Settings) -> list[dict[str, str]]:
+    """What each extreme is, with the names of its case and of that with half the step."""
+    return [
+        {"what": each.what, "value": each.value, "scene": each.scene, "case": each.name, "half": f"{each.name}{HALF}"}
+        for each in extremes(settings)
+    ]
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The table and the figure."""
+    section, settings = sweep.settings.section(SECTION), sweep.settings
+    made: paths.Wildcards = [{}] if blade_of(settings, section) and scenes_of(settings, section) else []
+    return {"<results>/stability.csv": made, **paths.pictures("stability", made)}
+
+
+def can_be_run(settings: Settings) -> None:
+    """Blade, scenes, level and extremes are there."""
+    section = settings.section(SECTION)
+    names_are_known(settings, "stability", section)
+    for number, name in enumerate([] if section.extremes == "all" else section.extremes):
+        if name not in EXTREMES:
+            path = ("stability", "extremes", number)
+            raise settings.documents.config.refusal(path, f"'{name}'", f"all, or some of {', '.join(EXTREMES)}")

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from r37core.plans.extension import Extension
 
-from .checks import members_can_be_drawn, members_of_the_study_are_possible
+from .checks import members_can_be_drawn
 from .plan import FOLDER, SAMPLING, remarks, simulated, targets
 from .section import SECTION
 
 EXTENSION = Extension(
     name=FOLDER,
     section=SECTION,
-    checks=(members_can_be_drawn, members_of_the_study_are_possible),
+    checks=(members_can_be_drawn,),
     sampling=SAMPLING,
     simulated=simulated,
     targets=targets,

@@ -1,7 +1,4 @@
-"""The study `tradeoff`: one parameter at a time, what accuracy costs and how cost grows. `snakemake tradeoff`
-
-The parameters' types and bounds are those of r37core.config.study_sections; a test holds the names together.
-"""
+"""The plan of the trade-off: one case for each value of each parameter in each scene."""
 
 from __future__ import annotations
 
@@ -11,16 +8,32 @@ from typing import Any
 
 import numpy as np
 
-from r37core.config import ConfigError, Settings
-from r37core.config.study_sections import TradeoffSection
+from r37core.cases.case import Case, Crossing
+from r37core.cases.plan import (
+    base_of,
+    blade_of,
+    carries_coriolis,
+    integration_of_level,
+    is_meshed_here,
+    is_of_matrices,
+    kept_of,
+    model_of_level,
+    names_are_known,
+    scenes_of,
+)
+from r37core.config import Settings
+from r37core.plans import paths
+from r37core.plans.sweep_plan import Sweep
 from r37core.speeds import exact_text
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
-from ..case import Case
-from ..plan import blade_name_of, integration_of_level, kept_of, level_of, material_of, model_of_level, scene_entry_of
+from .section import DEFAULTS, SECTION, Parameter, TradeoffSection
 
 LEVEL = "level"
 """The parameter that changes everything at once: the fidelity level."""
+
+_OF_THE_MESH = ("mesh_nodes",)
+_OF_THE_MODEL = ("boundary_nodes", "fixed_interface_modes", "stress_instants", "stress_region")
 
 Change = Callable[[Case, str], Case]
 
@@ -57,33 +70,34 @@ CHANGES: Mapping[str, Change] = {
 
 
 def cases(settings: Settings) -> dict[str, Case]:
-    """One case for each value of each parameter in each scene; ConfigError without the section."""
-    section = settings.studies.tradeoff
-    if section is None:
-        raise ConfigError("config.yaml: studies.tradeoff: missing; the study needs its parameters, as in the shipped file")
-    scenes = list(settings.scenes) if section.scenes == "all" else list(section.scenes)
+    """One case for each value of each parameter in each scene."""
     return {
-        f"{parameter}/{value}__{scene}": _case(settings, section, parameter, value, scene)
-        for parameter, values in values_of(settings).items()
-        for value in values
-        for scene in scenes
+        f"{name}/{_text(value)}__{scene}": _case(settings, name, _text(value), scene)
+        for name, entry in varied(settings).items()
+        for value in entry.values
+        for scene in scenes_of(settings, settings.section(SECTION))
     }
 
 
-def _case(settings: Settings, section: TradeoffSection, parameter: str, value: str, scene: str) -> Case:
-    level = value if parameter == LEVEL else section.base
-    blade, entry = blade_name_of(settings, section), scene_entry_of(settings, scene)
-    as_the_scene = [result for result in entry.results if result == "static_stress"]
+def _case(settings: Settings, parameter: str, value: str, scene: str) -> Case:
+    section, chosen = settings.section(SECTION), settings.scenes[scene]
+    blade, level = blade_of(settings, section), value if parameter == LEVEL else base_of(settings, section)
+    assert blade is not None
+    stress = () if is_of_matrices(settings, blade) else ("stress", "instants")
     case = Case(
         blade,
-        model_of_level(settings, level),
-        entry.scene(),
-        integration_of_level(settings, level, entry.scene()),
+        model_of_level(settings, blade, level),
+        chosen.scene,
+        integration_of_level(settings, level, chosen.scene),
         speeds=tuple(_every_share(section)),
-        results=("energy", "spectrum", "stress", *as_the_scene, "instants", *(["wear"] if entry.scene().lining else [])),
-        material=material_of(settings, blade),
-        kept=kept_of(level_of(settings, level)),
-        crossing=("1B", section.engine_order),
+        results=(
+            *("energy", "spectrum", *stress),
+            *(result for result in settings.results_of(blade, scene) if result == "static_stress"),
+            *(["wear"] if chosen.scene.lining else []),
+        ),
+        material=settings.blades[blade].material,
+        kept=kept_of(settings.levels[level]),
+        crossing=Crossing("1B", section.engine_order),
     )
     return CHANGES[parameter](case, value)
 
@@ -98,34 +112,102 @@ def _every_share(section: TradeoffSection) -> list[float]:
     return sorted({share for shares in shares_of(section).values() for share in shares})
 
 
-def values_of(settings: Settings) -> dict[str, list[str]]:
-    """Values of each parameter, as texts; none without the section."""
-    section = settings.studies.tradeoff
-    return {name: [_text(value) for value in of.values] for name, of in section.parameters.varied().items()} if section else {}
+def varied(settings: Settings) -> dict[str, Parameter[Any]]:
+    """The parameters that are varied, with the values that can be run; none without a blade or a scene."""
+    section = settings.section(SECTION)
+    blade, scenes = blade_of(settings, section), scenes_of(settings, section)
+    if blade is None or not scenes:
+        return {}
+    entries = {}
+    for name, entry in _wanted(settings).items():
+        values = [] if name in _given(settings, blade) else entry.values
+        possible = [value for value in values if _is_possible(settings, _case(settings, name, _text(value), scenes[0]))]
+        if len(possible) > 1:
+            reference = entry.reference if entry.reference in possible else possible[-1]
+            entries[name] = entry.model_copy(update={"values": possible, "reference": reference})
+    return entries
 
 
-def outputs(settings: Settings) -> dict[str, str]:
-    """All numbers, tables, and figures."""
-    files = {"dataset": "tradeoff.nc", "levels": "levels.md", "table": "tradeoff.md", "growth": "growth.md"}
-    files |= {"growth_figure": "figures/growth.png", "pareto": "figures/tradeoff_pareto.png"}
-    files |= {f"of_{parameter}": f"figures/tradeoff_{parameter}.png" for parameter in values_of(settings)}
-    return {name: f"<results>/studies/{file}" for name, file in files.items()}
+def _wanted(settings: Settings) -> dict[str, Parameter[Any]]:
+    parameters = settings.section(SECTION).parameters
+    if parameters is None:
+        levels = list(settings.levels)
+        return {LEVEL: Parameter(values=levels, reference=levels[-1]), **DEFAULTS.varied()}
+    return parameters.varied()
+
+
+def _given(settings: Settings, blade: str) -> tuple[str, ...]:
+    """Parameters that a blade of another program has as they are."""
+    if is_of_matrices(settings, blade):
+        return (*_OF_THE_MESH, *_OF_THE_MODEL)
+    return () if is_meshed_here(settings, blade) else _OF_THE_MESH
+
+
+def _is_possible(settings: Settings, case: Case) -> bool:
+    """Whether the integrator carries the Coriolis force, and the stress is wanted at samples of the motion."""
+    choice = case.choice
+    samples = choice.samples_per_revolution
+    return carries_coriolis(settings, choice) and samples % (choice.snapshots_per_revolution or samples) == 0
+
+
+def left_out(settings: Settings) -> str:
+    """Which parameters are wanted and not varied, and why; empty where all of them are."""
+    blade = blade_of(settings, settings.section(SECTION))
+    missing = [name for name in _wanted(settings) if name not in varied(settings)]
+    if blade is None or not missing:
+        return ""
+    given = _given(settings, blade)
+    kind = "matrices" if is_of_matrices(settings, blade) else "a mesh"
+    lines = [
+        (f"because {blade} is given by {kind}", [name for name in missing if name in given]),
+        ("because fewer than two of their values can be run", [name for name in missing if name not in given]),
+    ]
+    return "; ".join(f"{', '.join(names)}, {reason}" for reason, names in lines if names)
 
 
 def values(settings: Settings) -> dict[str, Any]:
-    """Which speeds lie at each place, reference values, and what the levels are held against."""
-    section = settings.studies.tradeoff
-    assert section is not None
+    """Which speeds lie at each place, reference values, and what the tables and the dataset say of the run."""
+    section = settings.section(SECTION)
     every = _every_share(section)
     return {
-        "blade": blade_name_of(settings, section),
-        "base_level": section.base,
+        "blade": blade_of(settings, section),
+        "base_level": base_of(settings, section),
         "places": {name: [every.index(share) for share in shares] for name, shares in shares_of(section).items()},
-        "references": {name: _text(entry.reference) for name, entry in section.parameters.varied().items()},
+        "references": {name: _text(entry.reference) for name, entry in varied(settings).items()},
         "tolerance": settings.config.tolerance,
+        "left_out": left_out(settings),
     }
 
 
 def _text(value: float | str) -> str:
     """A parameter's value as it stands in file names."""
     return value if isinstance(value, str) else exact_text(value)
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset, the tables and the figures."""
+    parameters = varied(sweep.settings)
+    made: paths.Wildcards = [{}] if parameters else []
+    files = ("tradeoff.nc", "tradeoff.csv", "tradeoff_levels.csv", "tradeoff_growth.csv")
+    return {
+        **{f"<results>/{name}": made for name in files},
+        **paths.pictures("tradeoff", made),
+        **paths.pictures("tradeoff_growth", made),
+        **paths.pictures("tradeoff_{parameter}", paths.of("parameter", parameters)),
+    }
+
+
+def can_be_run(settings: Settings) -> None:
+    """Blade, scenes and levels are there, and stress instants are among the samples of a revolution."""
+    section = settings.section(SECTION)
+    wanted = section.parameters.varied() if section.parameters else {}
+    names_are_known(settings, "tradeoff", section, wanted[LEVEL].values if LEVEL in wanted else [])
+    if "stress_instants" not in wanted:
+        return
+    level = base_of(settings, section)
+    samples = settings.levels[level].time_integration.samples_per_revolution
+    for number, instants in enumerate(wanted["stress_instants"].values):
+        if samples % instants:
+            path = ("tradeoff", "parameters", "stress_instants", "values", number)
+            allowed = f"divisors of {samples}, the samples in a revolution of level {level}"
+            raise settings.documents.config.refusal(path, f"{instants}", allowed)

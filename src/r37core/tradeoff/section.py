@@ -1,18 +1,15 @@
-"""The section `studies` of config.yaml."""
+"""tradeoff of config.yaml: which approximations are varied, and where."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Annotated, Any, Generic, Literal, TypeVar
 
 from pydantic import Field, model_validator
 
-from .fidelity import TimeStep
-from .section import AllOrNames, LeftOut, Name, Section, Unique, left_out, refused
-from .spread import MemberCount, SpreadEntry
+from r37core.config.fidelity import TimeStep
+from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, Unique, left_out, refused
 
 Value = TypeVar("Value")
-Step = Annotated[float, Field(ge=0.05, le=100)]
 
 
 class Parameter(Section, Generic[Value]):
@@ -29,16 +26,18 @@ class Parameter(Section, Generic[Value]):
 
 
 class Parameters(Section):
-    """The parameters whose price is measured; `level` always, because the recommended level is the study's result."""
+    """The parameters that are varied, one at a time."""
 
-    level: Parameter[Name] = Field(description="fidelity levels")
+    level: Parameter[Name] | LeftOut = left_out("fidelity levels")
     central_difference_step: Parameter[TimeStep] | LeftOut = left_out("step of central differences (s)")
     exact_modal_step: Parameter[TimeStep] | LeftOut = left_out("exact modal step (s)")
     static_above: Parameter[Annotated[float, Field(ge=1e-3, le=1e9)]] | LeftOut = left_out(
         "modes with omega h above it follow statically, with exact_modal"
     )
     revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = left_out("length of a run")
-    mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = left_out("nodes of the mesh")
+    mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = left_out(
+        "nodes of the mesh, of a blade with profiles"
+    )
     boundary_nodes: Parameter[Annotated[int, Field(ge=1, le=200)]] | LeftOut = left_out("contact nodes")
     fixed_interface_modes: Parameter[Annotated[int, Field(ge=0, le=500)]] | LeftOut = left_out(
         "fixed-interface modes of the reduced model at each of its speeds"
@@ -51,9 +50,28 @@ class Parameters(Section):
     stress_region: Parameter[Literal["submesh", "whole"]] | LeftOut = left_out("submesh, or the whole blade")
     friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = left_out("form of friction")
 
-    def varied(self) -> dict[str, Parameter]:
+    def varied(self) -> dict[str, Parameter[Any]]:
         """The parameters that are varied, by name."""
         return {name: parameter for name, parameter in self if parameter is not None}
+
+
+DEFAULTS = Parameters.model_validate(
+    {
+        "central_difference_step": {"values": [2.5e-8, 5.0e-8, 1.0e-7, 2.0e-7, 4.0e-7], "reference": 2.5e-8},
+        "exact_modal_step": {"values": [8.0e-7, 1.6e-6, 2.4e-6, 3.2e-6, 4.8e-6, 6.4e-6, 9.6e-6], "reference": 8.0e-7},
+        "static_above": {"values": [0.25, 0.5, 1.0, 1.5, 2.0], "reference": 1.0},
+        "revolutions": {"values": [25, 50, 100, 200, 400, 800], "reference": 800},
+        "mesh_nodes": {"values": [2500, 5000, 10000, 20000, 40000], "reference": 40000},
+        "boundary_nodes": {"values": [2, 4, 8, 15], "reference": 15},
+        "fixed_interface_modes": {"values": [0, 3, 10, 20, 40], "reference": 40},
+        "highest_frequency": {"values": [2.0e4, 5.0e4, 1.0e5, 2.0e5, 1.0e7], "reference": 1.0e7},
+        "bars": {"values": [300, 1000, 3000, 10000, 30000, 100000], "reference": 100000},
+        "stress_instants": {"values": [8, 31, 62, 248], "reference": 248},
+        "stress_region": {"values": ["submesh", "whole"], "reference": "whole"},
+        "friction_form": {"values": ["constant", "vector"], "reference": "constant"},
+    }
+)
+"""What is varied without a section of one's own, next to all fidelity levels, of which the last is the reference."""
 
 
 class PlaceSection(Section):
@@ -71,7 +89,7 @@ class PlaceSection(Section):
 
 
 class Places(Section):
-    """Where the study looks."""
+    """Where the errors are measured."""
 
     peak: PlaceSection = PlaceSection(first=1.0, last=1.02, speeds=5)
     jump: PlaceSection = PlaceSection(first=1.024, last=1.044, speeds=5)
@@ -79,82 +97,16 @@ class Places(Section):
 
 
 class TradeoffSection(Section):
-    """What accuracy costs (snakemake tradeoff)."""
+    """The price of every approximation (snakemake tradeoff)."""
 
-    blade: Name | LeftOut = left_out("if left out, the first one of the run with profiles")
+    blade: Name | LeftOut = left_out("if left out, the first one of the run")
     scenes: AllOrNames = Field(default="all", description="of those that are run")
-    base: Name = Field(default="standard", description="fidelity level that all parameters but one keep")
-    engine_order: int = Field(default=4, ge=1, le=100, description="the speeds lie about this crossing of 1B")
+    base: Name | LeftOut = left_out("fidelity level that all parameters but one keep; if left out, that of the run")
+    engine_order: Annotated[int, Field(ge=1, le=100)] | LeftOut = left_out(
+        "the speeds lie about this crossing of 1B; if left out, about the fastest one"
+    )
     places: Places = Places()
-    parameters: Parameters
+    parameters: Parameters | LeftOut = left_out("if left out, all of them, with values from coarse to fine")
 
 
-class SpeedSteps(Section):
-    """Grids of speeds (rad/s)."""
-
-    fine: Step = Field(default=2.0, description="about interactions, as shipped")
-    coarse: Step = Field(default=4.0, description="each choice varied once, convergence, and members")
-    survey: Step = Field(default=5.0, description="the whole range in the lined scene; direct contact every other one")
-
-
-class ModellingChoicesSection(Section):
-    """What the benchmark leaves open, and the published numbers beside ours (snakemake modelling_choices)."""
-
-    base: Name = Field(default="paper", description="fidelity level of the published step and mesh")
-    quick: Name = Field(
-        default="standard", description="level whose time integration the varied choices and the whole range take"
-    )
-    lined_scene: Name = Field(default="abradable", description="scene with a lining")
-    direct_scene: Name = Field(default="direct", description="scene without one")
-    speed_steps_rad_s: SpeedSteps = SpeedSteps()
-
-
-class ValidationRangesSection(Section):
-    """The published numbers beside the range of ours where what goes in spreads (snakemake validation_ranges).
-
-    Scenes, mesh, time integration (`quick`) and step of the speeds (`coarse`) are those of modelling_choices.
-    """
-
-    members: MemberCount = Field(default=16, description="a power of two; more of them change none that are there")
-    seed: int = Field(default=0, ge=0, le=2**31, description="another one gives another sample")
-    of_scenes: Annotated[dict[str, SpreadEntry], Field(min_length=1)] = Field(
-        description="by dotted keys of scenes.yaml; direct contact has those that it knows"
-    )
-
-
-class StabilitySection(Section):
-    """What happens at extremes (snakemake stability)."""
-
-    blade: Name | LeftOut = left_out("if left out, the first one of the run with profiles")
-    base: Name = Field(default="standard", description="fidelity level that the cases change")
-    lined_scene: Name = Field(default="abradable", description="scene with a lining")
-    direct_scene: Name = Field(default="direct", description="scene without one")
-
-
-class EstimateSection(Section):
-    """What a whole sweep will cost (snakemake estimate)."""
-
-    every: int = Field(
-        default=50, ge=1, le=1_000_000, description="one of so many speeds is run, in both scenes, for every blade"
-    )
-    cores: int = Field(default=2, ge=1, le=1_000_000, description="cores the projected wall time is for")
-    workflow_s_per_job: float = Field(
-        default=0.045, ge=0, le=1000, description="CPU seconds of Snakemake itself for each job, measured in a sweep of 17,514"
-    )
-
-
-class StudiesSection(Section):
-    """Studies of the model itself; none is part of all_blades."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _without_former_names(cls, data: Any) -> Any:
-        if isinstance(data, Mapping) and "readings" in data:
-            raise refused(("readings",), "the former name of modelling_choices", "modelling_choices, with the same keys")
-        return data
-
-    tradeoff: TradeoffSection | LeftOut = None
-    modelling_choices: ModellingChoicesSection = ModellingChoicesSection()
-    validation_ranges: ValidationRangesSection | LeftOut = None
-    stability: StabilitySection = StabilitySection()
-    estimate: EstimateSection = EstimateSection()
+SECTION = ExtensionSection("tradeoff", TradeoffSection, TradeoffSection())

@@ -60,7 +60,9 @@ def make(claim: Claim, cores: str, root: Path) -> None:
     for command in claim.commands:
         words = command.replace("{snakemake}", f"{{python}} -m snakemake --cores {cores}").replace("{python}", sys.executable)
         print(f"+ {words}", flush=True)
-        subprocess.run(words, shell=True, cwd=root, check=True, env=os.environ | {"PYTHONPATH": str(root / "benchmarks")})
+        subprocess.run(
+            words, shell=True, cwd=root, check=True, env=os.environ | {"PYTHONPATH": str(root / "validation/benchmarks")}
+        )
     for output in claim.outputs:
         made = output.source or output.page
         # Snakemake leaves what is up to date as it is

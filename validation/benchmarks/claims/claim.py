@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .texts import whole
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 STUDIES = "results/studies"
 
 
@@ -45,7 +45,7 @@ class Output:
 class Claim:
     """Outputs that one list of shell commands makes.
 
-    `code`: scripts of benchmarks/ (with what they import there) and files of src/; `configuration`: `file` or
+    `code`: scripts of validation/benchmarks/ (with what they import there) and files of src/; `configuration`: `file` or
     `file:dotted.key`; `numbers`: fixed runs of docs/fingerprint.json that stand for the engine.
     `minutes` on two cores, None where not measured. `by_hand`: what to do, where there is no command. `checked_by`: a test that
     makes the output anew and compares it, so that it needs no hash.

@@ -36,9 +36,9 @@ def present_hash(claim: Claim, output: Output, root: Path) -> str:
 
 
 def code_files(claim: Claim, output: Output, root: Path) -> list[Path]:
-    """Files of code that decide about an output, with those of benchmarks/ that they import."""
+    """Files of code that decide about an output, with those of validation/benchmarks/ that they import."""
     named = [root / name for name in (*claim.code, *output.drawn_by)]
-    folder = root / "benchmarks"
+    folder = root / "validation/benchmarks"
     imports = CodeHashes(root / "src", folder, packages=())
     scripts = [file for file in named if file.parent == folder]
     return sorted({*named, *(file for script in scripts for file in imports.closure(script.stem))})

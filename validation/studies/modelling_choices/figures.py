@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.figures import style
-from r37core.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
+from validation.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
 from r37core.results.measures import history_of, leading_edge, peak_speed
 
 from .cases import CHOICES, DIRECT

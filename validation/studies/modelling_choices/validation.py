@@ -1,4 +1,4 @@
-"""The paper's numbers and statements (r37core.published) checked against the runs of a modelling choice.
+"""The paper's numbers and statements (validation.published) checked against the runs of a modelling choice.
 
 Every function takes responses by the names of the windows, and leaves out what a choice did not run, so that the same checks
 serve what is shipped, its numerical variants and every choice varied.
@@ -12,10 +12,10 @@ import numpy as np
 import xarray as xr
 
 from r37core import published
-from r37core.published import BLADES, DIRECT_PEAK, FIRST_YIELD, INTERACTIONS, OVERTAKES, QUIET, REFERENCE, VARIANTS
+from validation.published import BLADES, DIRECT_PEAK, FIRST_YIELD, INTERACTIONS, OVERTAKES, QUIET, REFERENCE, VARIANTS
 from r37core.results import measures as read
 
-from ..checks import Check, claim
+from validation.studies.checks import Check, claim
 from .cases import CONVERGENCE, DIRECT, FINE_WINDOW, SHIPPED, SURVEY
 
 Runs = Mapping[str, xr.Dataset]

@@ -13,8 +13,8 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.tolerances.members import members_of
 from r37core.tolerances.section import SECTION
 
-from ..case import Case
-from ..plan import case_of_sweep
+from r37core.cases.case import Case
+from validation.studies.plan import case_of_sweep
 
 _STEPS = (5.0, 8.0, 20.0)
 """Plain grids (rad/s) beside: as many runs as a fifth of every 1 rad/s, and those of two fidelity levels."""

@@ -19,8 +19,8 @@ from r37core.results.measures import leading_edge
 from r37core.speeds import SpeedPlan
 from r37core.tolerances.table import ROBUST, shares_of_members
 
-from ..checks import ran
-from ..tables import markdown_table
+from validation.studies.checks import ran
+from validation.studies.tables import markdown_table
 
 TOLERANCE = 2.0
 """Difference (rad/s) of a peak's speed or width above yield up to which it counts as the same."""

@@ -1,4 +1,4 @@
-"""The benchmark's lined scene, the only one that the peaks in r37core.published are of."""
+"""The benchmark's lined scene, the only one that the peaks in validation.published are of."""
 
 from __future__ import annotations
 

@@ -1,0 +1,24 @@
+"""The extremes of the configuration as an extension."""
+
+from __future__ import annotations
+
+from r37core.plans.extension import Extension
+
+from .plan import can_be_run, targets
+from .section import SECTION
+
+EXTENSION = Extension(
+    name="stability",
+    section=SECTION,
+    checks=(can_be_run,),
+    targets=targets,
+    captions={
+        "stability": (
+            "Extremes of the configuration, each run with its own time step and with half of it. Accurate: both give the same "
+            "mean rms within 5%; degraded: they do not; diverged: the run ends, which its status says; refused: not run; "
+            "unsound: a wrong number that nothing flags."
+        )
+    },
+    closing="stability.closing.closing",
+    on_request=True,
+)

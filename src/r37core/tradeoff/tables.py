@@ -1,0 +1,68 @@
+"""The tables of the trade-off: every value of every parameter, and the fidelity levels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.config.fidelity import recommended_level
+
+from .errors import CONVERGING, COSTS, COSTS_OF_MODEL, MAXIMA, QUANTITIES
+from .plan import LEVEL
+
+
+def parameter_table(together: xr.Dataset, references: Mapping[str, str]) -> pd.DataFrame:
+    """One row for each value of each parameter in each scene: errors at the peak and off resonance, and costs.
+
+    Errors are relative differences of means over neighbouring speeds from the reference value of the parameter. A value that
+    was refused has the reason in `refused`, and no numbers.
+    """
+    return pd.DataFrame(list(_rows(together, references)))
+
+
+def _rows(together: xr.Dataset, references: Mapping[str, str]) -> Iterator[dict[str, object]]:
+    for number, (parameter, value) in enumerate(zip(together["parameter"].values, together["value"].values, strict=True)):
+        for scene in together["scene"].values:
+            case = together.isel(case=number).sel(scene=scene)
+            at_peak, off = (case["error"].sel(at=place) for place in ("peak", "off_resonance"))
+            yield {
+                "parameter": parameter,
+                "value": value,
+                "reference": references[parameter],
+                "scene": scene,
+                "refused": str(case["refused"].item()),
+                **{f"error_{name}": float(at_peak.sel(quantity=name)) for name in QUANTITIES},
+                "error_peak_speed": float(case["peak_speed_error"]),
+                "error_rms_normal_off_resonance": float(off.sel(quantity="rms_normal")),
+                **{name: float(case[name]) for name in (*COSTS, *COSTS_OF_MODEL)},
+            }
+
+
+def level_table(table: pd.DataFrame, tolerance: float) -> pd.DataFrame:
+    """The fidelity levels: largest error at the peak over scenes, costs, and which one is the cheapest within the tolerance."""
+    levels = table[table["parameter"] == LEVEL]
+    rows = pd.DataFrame(
+        {
+            "level": name,
+            "reference": level["reference"].iloc[0],
+            "error": level_error(level),
+            "error_of_largest_values": level_error(level, MAXIMA),
+            "cpu_s_per_run": level["cpu_s"].mean(),
+            "model_cpu_s": level["model_cpu_s"].iloc[0],
+            "tolerance": tolerance,
+        }
+        for name, level in levels.groupby("value", sort=False)
+    )
+    if rows.empty:
+        return rows
+    known = rows.dropna(subset=["error"]).set_index("level")
+    chosen = recommended_level(known["error"].to_dict(), known["cpu_s_per_run"].to_dict(), tolerance)
+    return rows.assign(recommended=np.where(rows["level"] == chosen, "yes", "no"))
+
+
+def level_error(level: pd.DataFrame, quantities: Mapping[str, str] = CONVERGING) -> float:
+    """Error of a fidelity level: the largest at the peak, over scenes and `quantities`."""
+    return float(level[[f"error_{name}" for name in quantities]].max(axis=None))

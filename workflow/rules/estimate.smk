@@ -1,0 +1,42 @@
+# What a whole sweep will cost, from a sample of its runs. Not part of all_blades: snakemake estimate
+from r37core.estimate import plan as estimate_plan
+
+estimate_cases = Cases(settings, "estimate", estimate_plan.cases)
+
+
+use rule step as estimate_case with:
+    input:
+        unpack(estimate_cases.inputs),
+    output:
+        response=estimate_cases.file,
+    log:
+        estimate_cases.log,
+    wildcard_constraints:
+        case=CASE_NAME,
+    params:
+        **step("cases.steps.run"),
+        case=estimate_cases.case,
+
+
+use rule step as estimate_table with:
+    input:
+        cases=estimate_cases.files,
+    output:
+        table="<results>/estimate.csv",
+    log:
+        "<logs>/estimate_table.log",
+    params:
+        **step("estimate.steps.report"),
+        cases=estimate_cases.names,
+        values=lambda wildcards: estimate_plan.values(settings, samples),
+
+
+use rule figure as estimate_figure with:
+    input:
+        table=rules.estimate_table.output.table,
+    output:
+        **pictures("estimate", TOGETHER, EVERY_SCENE, "cost of the sweep"),
+    log:
+        "<logs>/figures/estimate.log",
+    params:
+        **drawing(code, "estimate.figures.draw_estimate", "estimate"),
