@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
 from published import INTERACTIONS
+
 from r37core.config import Settings
 from r37core.figures.style import PAGE, plt
 from r37core.results.campbell import campbell_diagram
@@ -103,7 +103,7 @@ def peaks(input: Any, output: Any, params: Any) -> None:
 
 
 def bare_casing(input: Any, output: Any, params: Any) -> None:
-    """Table of the bare casing about the crossing of 1B with engine order 4: means over speeds, since single runs are chaotic."""
+    """Table of the bare casing about the crossing of 1B with engine order 4, as means over speeds."""
     settings, rows = settings_of(Path.cwd()), []
     for blade, pair in models(input.files, settings.structure.boundary.tip_line).items():
         speeds = SHARES * _crossing(pair[0][0], 4)
