@@ -27,7 +27,7 @@ NO_DAMPING, STRONG = 1e-9, 0.05
 GROWS = 1.01
 """Factor per revolution from which on a motion counts as growing."""
 
-STIFFNESSES = (1e4, 1e5, 1e6, 1e7, 1e8)
+STIFFNESSES = (1e4, 1e6, 1e8)
 """Stiffness of one spring between leading edge and casing (N/m)."""
 
 
