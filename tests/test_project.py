@@ -59,7 +59,7 @@ LAYERS = [
     *(extension.name for extension in EXTENSIONS),
     "product",
     "console",
-    "studies",
+
 ]
 
 

@@ -52,8 +52,10 @@ class Cases:
         return to_plain(self._made()[wildcards.case])
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
-        """Files that a case is run from."""
+        """Files that a case is run from; none of one that is refused."""
         case = self._made()[wildcards.case]
+        if case.scene is None:
+            return {}
         if isinstance(case.model, str):
             where = {"blade": case.blade, "tip_line": case.model}
             files = {"rom": paths.fill(paths.REDUCED_MODEL, **where), "contact": paths.fill(paths.CONTACT_MODEL, **where)}

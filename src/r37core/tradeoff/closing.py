@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pandas as pd
+
 from r37core.dataset_file import read_dataset
 from r37core.results.table_file import read_table
 
@@ -17,7 +19,7 @@ def closing(results: Path) -> str:
     return "; ".join(said)
 
 
-def _advice(levels) -> str:
+def _advice(levels: pd.DataFrame) -> str:
     best = levels[levels["recommended"] == "yes"]
     within = f"within the tolerance of {100 * levels['tolerance'].iloc[0]:g}%"
     if best.empty:

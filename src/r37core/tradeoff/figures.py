@@ -36,7 +36,7 @@ def draw_parameter(table: pd.DataFrame, parameter: str) -> Figure:
         costs.plot(labels, cases["cpu_s"], "s-", color="0.3")
         costs.set(yscale="log", xlabel=parameter.replace("_", " "))
         costs.tick_params(axis="x", rotation=30)
-    panels[0, 0].set_ylabel("relative error of the mean at the peak")
+    panels[0, 0].set_ylabel("relative error at the peak")
     panels[1, 0].set_ylabel("CPU s per run")
     figure.legend(*style.legend_entries(panels[0]), loc="outside lower center", ncols=6)
     return figure
