@@ -24,7 +24,6 @@ for library in ("OPENBLAS", "OMP", "MKL"):
 CHECKOUT = Path(__file__).parent.parent
 CONFIGURATION = Path(__file__).parent / "config"
 DELIVERED = (
-    "benchmarks",
     "cluster",
     "docs",
     "envs",
@@ -48,7 +47,7 @@ def edited_configuration():
     return sorted(files.difference(filecmp.cmpfiles(*folders, files, shallow=False)[0]))
 
 
-LONGEST = ("workflow", "coriolis", "studies", "refined_runs", "slurm", "your_blade", "reruns", "clearance", "run_ups")
+LONGEST = ("workflow", "coriolis", "tradeoff", "refined_runs", "slurm", "your_blade", "reruns", "clearance", "run_ups")
 LONGEST += ("time_integration", "contact_steps")
 """Files that take minutes. The first two need different programs, so that no two workers compile the same one at once."""
 

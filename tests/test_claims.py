@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from conftest import CHECKOUT
 from PIL import Image
-
 from r37core.published import REFERENCE
+
 from r37core.text_file import part_of
 
 REMEDY = "make claims ONLY='{}', or an entry with its reason in docs/older.json"

@@ -266,7 +266,7 @@ def files_loaded_by():
         "r37core.results.steps.response",
         "r37core.fem.steps.mesh",
         "r37core.results.steps.summary",
-        "r37core.studies.steps.report",
+        "r37core.tradeoff.steps.report",
         "r37core.run_ups.steps.record",
         "r37core.exports.steps.stress",
     ],
@@ -292,10 +292,10 @@ def test_stages_do_not_share_more_than_they_need(root):
         "mesh": "r37core.fem.steps.mesh",
         "simulate": "simulate",
         "response": "r37core.results.steps.response",
-        "study_case": "r37core.studies.steps.case",
+        "case": "r37core.cases.steps.run",
     }
     used = {stage: {file.parent.name for file in code.closure(name)} for stage, name in names.items()}
-    assert not {"time_integration", "contact", "results", "figures", "studies", "config", "workflow"} & used["mesh"]
-    assert not {"mesh", "fem", "blade", "results", "figures", "studies", "config", "workflow"} & used["simulate"]
-    assert not {"figures", "studies", "config", "workflow"} & used["response"]
-    assert not {"config", "workflow"} & used["study_case"]
+    assert not {"time_integration", "contact", "results", "figures", "cases", "config", "workflow"} & used["mesh"]
+    assert not {"mesh", "fem", "blade", "results", "figures", "cases", "config", "workflow"} & used["simulate"]
+    assert not {"figures", "cases", "config", "workflow"} & used["response"]
+    assert not {"config", "workflow"} & used["case"]

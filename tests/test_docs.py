@@ -1,11 +1,7 @@
 """Numbers in README and configuration are those of the generated pages."""
 
-import ast
-import json
 import re
-import runpy
 import shlex
-from pathlib import Path
 
 import pytest
 from conftest import CHECKOUT
@@ -14,8 +10,6 @@ from yaml import safe_dump, safe_load
 
 from r37core.config import command_line_document
 from r37core.product.reading import read_settings
-from r37core.published import INTERACTIONS
-from r37core.studies.modelling_choices.cases import CHOICES, SHIPPED, VARIED
 from r37core.text_file import part_of
 from r37core.yaml_file import load_yaml
 
@@ -30,12 +24,6 @@ def pages(root):
     tables = ("accuracy_tables", "stability_tables", "validation_tables")
     names = ("accuracy", "stability", "validation", "speed", *tables)
     return {name: (root / "docs" / f"{name}.md").read_text() for name in names}
-
-
-@pytest.fixture
-def claims(root, monkeypatch):
-    """The package of the claims can be imported."""
-    monkeypatch.syspath_prepend(str(root / "benchmarks"))
 
 
 @pytest.fixture(scope="module")
@@ -84,61 +72,6 @@ def test_numbers_of_the_default_sweep_are_those_of_the_gallery(root):
     assert [number for number in numbers if number not in gallery] == []
 
 
-def test_speed_page_has_the_measured_time_integration(root, pages, monkeypatch):
-    monkeypatch.syspath_prepend(root / "benchmarks")
-    tables = runpy.run_path(str(root / "benchmarks/integration_speed.py"))["tables"]
-    measured = json.loads((root / "benchmarks/integration_speed.json").read_text())
-    assert section(pages["speed"], "integration_speed").strip() == tables(measured)
-
-
-def test_mutants_are_of_modules_and_tests_that_are_there(root):
-    text = (root / "benchmarks/mutants.py").read_text()
-    modules = ast.literal_eval(re.search(r"^TESTS = (\{.*?^\})", text, re.MULTILINE | re.DOTALL)[1])
-    assert [name for name in modules if not (root / "src/r37core" / name).exists()] == []
-    here = Path(__file__).parent
-    assert [name for names in modules.values() for name in names.split() if not (here / name).exists()] == []
-
-
-def test_validation_page_has_every_interaction_and_every_modelling_choice(pages):
-    rows = section(pages["validation_tables"], "validation").splitlines()
-    for one in INTERACTIONS:
-        start = f"| {one.blade} 1B/{one.engine_order}: peak | {one.peak:g} rad/s |"
-        assert any(row.startswith(start) for row in rows), start
-    choices = section(pages["validation"], "modelling_choices")
-    assert all(f"| {CHOICES[name].what} |" in choices for name in (SHIPPED, *VARIED))
-
-
-def test_every_extreme_has_an_outcome(pages):
-    table = section(pages["stability_tables"], "stability")
-    counted = re.match(r"(\d+) accurate, (\d+) degraded, (\d+) diverged, (\d+) refused, of (\d+) cases", table.strip())
-    numbers = [int(number) for number in counted.groups()]
-    assert sum(numbers[:4]) == numbers[4] == len(re.findall(r"\| (?:accurate|degraded|diverged|refused) \|", table)) > 90
-
-
-def test_pages_say_what_their_long_tables_do(pages, claims):
-    """What `make claims` writes on the page itself: the text before the table, and the rows that differ."""
-    from claims.texts import summary
-
-    for page, name in (("stability", "stability"), ("validation", "validation"), ("validation", "ranges")):
-        assert section(pages[page], name).strip() == summary(section(pages[f"{page}_tables"], name)), (page, name)
-
-
-def test_a_summary_has_the_rows_that_differ(claims):
-    from claims.texts import summary
-
-    table = "2 of 3 agree.\n\n| what | ours |\n|---|---|\n| a | **2** |\n| b | 3 |\n\nAfter it.\n"
-    assert summary(table) == "2 of 3 agree.\n\n| what | ours |\n|---|---|\n| a | **2** |"
-    assert summary(table.replace("**", "")) == "2 of 3 agree."
-
-
-@pytest.mark.slow
-def test_rule_graph_is_that_of_the_workflow(root, claims):
-    """`make claims ONLY=rules` renews it."""
-    from claims.rule_graph import rule_graph
-
-    assert section((root / "docs/architecture.md").read_text(), "rules").strip() == rule_graph()
-
-
 def test_the_first_run_is_one_that_can_be_made(root):
     """One blade in the shipped scenes about one crossing, in a folder of its own, which the page names."""
     page = (root / "docs/first_run.md").read_text()
@@ -147,8 +80,8 @@ def test_the_first_run_is_one_that_can_be_made(root):
     settings = read_settings(root, command_line_document(given))
     assert (settings.blade_names, settings.scene_names, settings.fidelity_name) == (["Ref"], ["abradable", "direct"], "draft")
     plan = settings.speed_plans["Ref", "abradable"]
-    crossing = next(one.campbell for one in INTERACTIONS if (one.blade, one.engine_order) == ("Ref", 4))
-    assert min(plan.certain) < crossing < max(plan.certain)
+    # the Campbell speed of 1B with engine order 4
+    assert min(plan.certain) < 1672.0 < max(plan.certain)
     assert set(re.findall(r"results/runs/\w+", page)) == {str(settings.results)}
 
 

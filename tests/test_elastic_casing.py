@@ -1,6 +1,5 @@
 """A flexible casing: closed forms of rings, the frame that does not turn, SciPy, energy, limits, files and refusals."""
 
-import runpy
 from dataclasses import replace
 
 import numpy as np
@@ -545,25 +544,6 @@ def test_the_flexibility_of_all_modes_is_the_limit_of_their_sum(ring):
     number = nodal_diameters_for(ring, 0.5, 1000)
     assert flexibility_of(casing_of(ring, number).modes) >= 0.5 * flexibility(ring)
     assert number < 3 or flexibility_of(casing_of(ring, number - 1).modes) < 0.5 * flexibility(ring)
-
-
-def test_peaks_beside_runs_that_diverge_are_no_peaks(root):
-    clear_peak = runpy.run_path(str(root / "benchmarks/elastic_casing.py"))["clear_peak"]
-    speeds = np.arange(0.0, 80.0, 4.0)
-    rms = 1.0 / (1.0 + ((speeds - 40.0) / 20.0) ** 2)
-    assert clear_peak(speeds, rms) == 10
-
-    def beside(*diverged):
-        return np.where(np.isin(speeds, diverged), np.nan, rms)
-
-    assert clear_peak(speeds, beside(0.0, 72.0)) == 10
-    # on the flanks above half the power, on either side
-    assert clear_peak(speeds, beside(52.0)) is None and clear_peak(speeds, beside(28.0)) is None
-    # a single high run between two that diverge
-    lone = np.where(speeds == 40.0, 9.0, 1e-3)
-    assert clear_peak(speeds, lone) == 10
-    assert clear_peak(speeds, np.where(speeds == 48.0, np.nan, lone)) is None
-    assert clear_peak(speeds, np.full(20, np.nan)) is None
 
 
 def test_the_lowest_critical_speed_is_that_of_a_beam_on_a_foundation():

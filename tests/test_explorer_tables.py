@@ -8,9 +8,9 @@ import pytest
 import yaml
 from browser import opened
 from explorer_cases import beside, interaction_rows, sweep
+from r37core.contact.benchmark import LINED, is_lined_benchmark
 
 from r37core.config.scenes import Scenes
-from r37core.contact.benchmark import LINED, is_lined_benchmark
 from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents
 from r37core.plans.dataset_plan import Datasets

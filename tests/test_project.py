@@ -41,7 +41,6 @@ LAYERS = [
     "declared",
     "rounding",
     "speeds",
-    "published",
     "blade",
     "mesh",
     "fem",
@@ -56,10 +55,10 @@ LAYERS = [
     "plans",
     "figures",
     "explorer",
+    "cases",
     *(extension.name for extension in EXTENSIONS),
     "product",
     "console",
-
 ]
 
 
@@ -147,9 +146,9 @@ def test_classes_have_few_members(root):
 
 
 def test_the_calls_from_python_stand_above_all_else(root):
-    """r37 takes nothing of what runs, shows or studies a whole workflow; r37core and the workflow do not know it."""
+    """r37 takes nothing of what runs or shows a whole workflow; r37core and the workflow do not know it."""
     starts_snakemake = root / "src/r37/workflow_process.py"
-    aside = ("r37core.console", "r37core.studies", "r37core.explorer", "snakemake", "workflow")
+    aside = ("r37core.console", "r37core.explorer", "snakemake", "workflow")
     for file in (root / "src/r37").rglob("*.py"):
         assert file == starts_snakemake or not [name for name in imports_of(file) if name.startswith(aside)], file
     for file in [*(root / "src/r37core").rglob("*.py"), *(root / "workflow").rglob("*.py")]:
@@ -201,7 +200,7 @@ def test_one_name_one_thing(root):
     assert len(twice) < 5, twice
     files = [*modules.values(), *(root / "workflow/scripts").glob("*.py")]
     extensions = {extension.name for extension in EXTENSIONS}
-    named_by_folder = [file for file in files if file.parent.parent.name == "studies" or file.parent.name in extensions]
+    named_by_folder = [file for file in files if file.parent.name in extensions]
     of_folders = ("__init__.py", "steps.py")
     stems = Counter(file.stem for file in files if file.name not in of_folders and file not in named_by_folder)
     twice = {stem for stem, number in stems.items() if number > 1}
@@ -236,8 +235,7 @@ def test_an_extension_is_one_place(root):
         for file in [*(root / "src/r37core").rglob("*.py"), *(root / "workflow/rules").glob("*.smk"), root / "Snakefile"]:
             own = file.parent.name == extension.name or file.name in (f"{extension.name}.smk", "extensions.py")
             names = imports_of(file) if file.suffix == ".py" else re.findall(r"^from ([\w.]+) import", file.read_text(), re.M)
-            # studies take what they need of the product
-            if not own and "studies" not in file.parts:
+            if not own:
                 assert not [name for name in names if name.startswith(f"r37core.{extension.name}.")], file
 
 

@@ -71,14 +71,14 @@ def test_mistakes_of_the_pipeline_and_of_extensions(config_copy):
 
 def test_mistakes_in_one_section(config_copy):
     rules = [{"blades": ["Reff"], "scenes": ["wet"], "speeds": [900]}, {"scenes": ["dry"], "speeds": [900]}]
-    studies = {"stability": {"base": "rough"}, "modelling_choices": {"lined_scene": "direct"}}
-    lines = told(config_copy, speeds_for=rules, studies=studies)
+    stability = {"base": "rough", "scenes": ["wet"]}
+    lines = told(config_copy, speeds_for=rules, stability=stability)
     assert sorted(line.split(":")[1].strip() for line in lines) == [
         "speeds_for.0.blades",
         "speeds_for.0.scenes",
         "speeds_for.1.scenes",
-        "studies.modelling_choices.lined_scene",
-        "studies.stability.base",
+        "stability.base",
+        "stability.scenes",
     ]
 
 

@@ -215,7 +215,7 @@ def test_another_trees_package_is_refused(root, tmp_path):
 def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
     changes = command_line_document({"blades": ["Ref"], "scenes": ["direct"], "speeds": [900]})
     settings = read_settings(root, changes)
-    kept = ["Ref/direct/speed_900.npz", "Ref/mesh.vtu", "studies/a.md", "runs/x/L50/a.nc", "figures/response_Ref.png"]
+    kept = ["Ref/direct/speed_900.npz", "Ref/mesh.vtu", "cases/a.nc", "runs/x/L50/a.nc", "figures/response_Ref.png"]
     kept += ["rms.nc", "figures/spectrum_Ref__direct.png", "figures/response.png", "figures/campbell.png"]
     kept += ["exports/Ref/mesh.med"]
     gone = ["L50/mesh.vtu", "Ref/abradable/speed_900.npz", "Ref/direct/speed_901.npz", "figures/response_L50.png"]
@@ -238,7 +238,7 @@ def test_leftovers_of_results_that_are_no_longer_asked_for(config_copy):
     kept = ["rms.nc", "stress.nc", "spectrum.nc", "campbell.nc", "summary.csv", "configuration.json", "explorer.html"]
     kept += ["report.zip", "notes.csv", "mine.nc", "figures/my_plot.png", "figures/campbell_Ref.pdf", "figures/blades.png"]
     kept += ["Ref/contact_pressure_edge.npz", "Ref/rom_pressure_edge.nc", "Ref/direct/response.nc"]
-    kept += ["exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "studies/estimate.md", "runs/x/wear.nc"]
+    kept += ["exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "cases/L50/rom.nc", "runs/x/wear.nc"]
     kept += ["runs/x/signals.nc", "runs/x/rom_camber.nc"]
     gone = ["wear.nc", "designs.csv", "signals.nc", "Ref/direct/signals.nc", "figures/designs_Sweep.png"]
     gone += ["figures/spectrogram_Ref__direct.png", "figures/orders_Ref__direct.pdf", "figures/shapes_Ref.png"]

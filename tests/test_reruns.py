@@ -232,7 +232,7 @@ RULES_OF_MODULES = {
     "results/interactions.py": {"summary"},
     "figures/maps.py": {"map_figure", "waterfall_figure"},
     # together: none of them has a rule
-    "studies/tradeoff/report.py config/settings.py plans/sweep_plan.py": set(),
+    "tradeoff/tables.py config/settings.py plans/sweep_plan.py": set(),
 }
 
 

@@ -35,22 +35,6 @@ def test_the_notebook_is_that_of_the_script(root, notebook):
     assert all(cell.execution_count for cell in notebook.cells if cell.cell_type == "code")
 
 
-@pytest.mark.slow
-def test_the_tutorial_runs_and_finds_what_it_shows(root, notebook):
-    need("jupytext", "nbclient", "ipykernel")
-    again = runpy.run_path(str(root / "benchmarks/tutorial.py"))["executed"]()
-
-    def printed(one):
-        return [output.text for cell in one.cells for output in cell.get("outputs", []) if output.output_type == "stream"]
-
-    def worst(one):
-        return re.search(r"the largest stress at (\d+) rad/s", "".join(printed(one)))[1]
-
-    assert len(printed(again)) == len(printed(notebook))
-    # a run so close to a drop is chaotic: the digits of stress may differ on another machine
-    assert abs(float(worst(again)) - float(worst(notebook))) <= 4.0
-
-
 BUILD = """
 import gc, os, sys
 from importlib import import_module

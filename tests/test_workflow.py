@@ -347,8 +347,6 @@ def test_report_of_a_run_by_its_own_configuration(sweep_copy):
     (sweep_copy / "first").rename(results)
     configuration = json.loads((results / "configuration.json").read_text())
     configuration["config"]["run"]["name"] = "first"
-    # of a run whose files do not have what the studies name by default
-    configuration["config"]["studies"] = {"convergence": {"blade": "Mine", "lined_scene": "mine"}}
     (results / "configuration.json").write_text(json.dumps(configuration))
     overlay(sweep_copy, "config.yaml", "{ blades: [S100], speeds: [1000] }")
 

@@ -12,6 +12,7 @@ from r37core.adaptive.criterion import RefinementChoice
 from r37core.config import ConfigError, command_line_document
 from r37core.config.speed_choice import most_runs
 from r37core.contact.scene import Scene
+from r37core.estimate import plan as estimate
 from r37core.io import InputFileError
 from r37core.plain import from_plain
 from r37core.plans.dataset_plan import Datasets
@@ -26,12 +27,6 @@ from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.plan import RunUps
 from r37core.speeds import SpeedPlan
-from r37core.studies.estimate import cases as estimate
-from r37core.studies.modelling_choices import cases as modelling_choices
-from r37core.studies.plan import STUDIES, Studies
-from r37core.studies.refinement import cases as refinement
-from r37core.studies.stability import cases as stability
-from r37core.studies.tradeoff import cases as tradeoff
 from r37core.tolerances.members import members_of
 from r37core.tolerances.plan import RESPONSE_OF_MEMBER, Tolerances
 
@@ -228,30 +223,8 @@ def test_a_damaged_round_is_named(content, tmp_path):
         speeds_of_round(str(tmp_path / "round_0.json"))
 
 
-def test_plain_grids_beside_are_part_of_the_whole_one(refining):
-    assert refinement.plain_steps(refining.settings) == [5.0, 20.0]
-    whole = refinement.cases(refining.settings)["Ref__abradable"]
-    assert list(whole.speeds) == [900.0 + 5.0 * place for place in range(21)]
-
-
-def test_members_are_run_at_every_speed_too(root):
-    """Beside the nominal runs of the study, as cases of their own, in scenes that have the numbers."""
-    tolerances = {"members": 2, "of_scenes": {"lining.bar_width_m": {"between": [8e-4, 1.25e-3]}}}
-    settings = read_settings(root, command_line_document({**REFINED, "blades": ["Ref"], "tolerances": tolerances}))
-    cases, members = refinement.cases(settings), refinement.values(settings)["members"]
-    assert list(cases) == ["Ref__abradable", "Ref__direct", "Ref__abradable/0", "Ref__abradable/1"]
-    assert members == {"Ref__abradable": {"0": "Ref__abradable/0", "1": "Ref__abradable/1"}}
-    nominal, member = cases["Ref__abradable"], cases["Ref__abradable/1"]
-    assert member.scene == members_of(settings).all["Ref", "abradable"]["1"].scene != nominal.scene
-    assert replace(member, scene=nominal.scene, what=nominal.what) == nominal
-    of_blades = {"of_blades": {"thickness_percent": {"normal": 1}}}
-    settings = read_settings(root, command_line_document({**REFINED, "blades": ["Ref"], "tolerances": of_blades}))
-    with pytest.raises(ConfigError, match="found thickness_percent; allowed: of_scenes alone"):
-        refinement.cases(settings)
-
-
 def test_estimate_of_speeds_that_refine_themselves_is_their_share(refining):
-    assert estimate.values(refining.settings)["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
+    assert estimate.values(refining.settings, {})["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
 
 
 def test_models_of_a_scene(chosen):
@@ -347,71 +320,6 @@ def test_the_input_hash_is_of_all_that_a_file_is_made_of(config_copy, name, old,
     file.write_text(file.read_text().replace(old, new))
     after = hashes()
     assert {kind for kind in before if before[kind] != after[kind]} == changes
-
-
-def test_tradeoff_has_a_case_for_every_value(settings):
-    values = tradeoff.values_of(settings)
-    files = Studies(settings).inputs("tradeoff")(None)["cases"]
-    assert len(files) == len(settings.scenes) * sum(map(len, values.values()))
-    assert tradeoff.values(settings)["references"]["level"] == "reference"
-    assert "<results>/studies/tradeoff/exact_modal_step/8e-07__direct.nc" in files
-
-
-def test_a_parameter_of_the_model_changes_its_own_part_of_the_name(root):
-    level = {"values": ["draft"], "reference": "draft"}
-    changes = {"mesh_nodes": 1234, "boundary_nodes": 5, "stress_region": "whole", "bars": 300}
-    parameters = {name: {"values": [value], "reference": value} for name, value in changes.items()} | {"level": level}
-    cases = tradeoff.cases(read_settings(root, command_line_document({"studies": {"tradeoff": {"parameters": parameters}}})))
-    base = cases["bars/300__direct"]
-    for parameter, value in changes.items():
-        if parameter != "bars":
-            changed = cases[f"{parameter}/{value}__direct"]
-            names, parts = base.model.name.split("_"), changed.model.name.split("_")
-            assert [part for name, part in zip(names, parts, strict=True) if name != part] == [str(value)]
-    assert cases["level/draft__direct"].model.nodes == 5000
-    steps = [read_settings(root).levels[name].time_integration.largest_time_step_s.direct for name in ("draft", "standard")]
-    assert [cases["level/draft__direct"].choice.time_step, base.choice.time_step] == steps
-
-
-def test_a_study_names_what_it_lacks(root):
-    settings = read_settings(root, command_line_document({"blades": ["L50"], "studies": {"tradeoff": {"blade": "Ref"}}}))
-    with pytest.raises(ConfigError, match=r"the study needs the blade 'Ref'; allowed in this run: L50"):
-        tradeoff.cases(settings)
-    # the outputs of every study are known all the same
-    assert all(Studies(settings).outputs(study) for study in STUDIES)
-
-
-def test_a_case_is_run_from_what_it_needs(settings):
-    plan = Studies(settings)
-    stable = plan.case_inputs(of(study="stability", case="lobes_5_direct"))
-    assert set(stable) == {"contact", "cost"}
-    assert set(plan.case_inputs(of(study="tradeoff", case="bars/300__direct"))) == {"contact", "rom", "cost", "campbell"}
-    assert plan.case_inputs(of(study="gallery", case="S50__lined"))["response"] == "<results>/S50/abradable/response.nc"
-    with pytest.raises(ConfigError, match="study stability: found the case 'lobes_6_direct'"):
-        plan.case_inputs(of(study="stability", case="lobes_6_direct"))
-
-
-def test_extremes_that_the_configuration_refuses_say_so(settings):
-    planned = stability.cases(settings)
-    assert len(planned) > 200
-    refused = [case.refused for case in planned.values() if case.scene is None]
-    assert 0 < len(refused) < len(planned)
-    assert all("found" in text and "allowed" in text for text in refused)
-
-
-def test_modelling_choices_use_this_runs_models_where_they_are_the_same(root, settings):
-    shipped = of(study="modelling_choices", case="shipped/Ref_4")
-    assert Studies(settings).case_inputs(shipped)["contact"].startswith("<results>/Ref/contact_")
-    draft = read_settings(root, command_line_document({"fidelity": "draft"}))
-    assert "/studies/models/" in Studies(draft).case_inputs(shipped)["contact"]
-    assert modelling_choices.inputs(settings)["campbells"][0] == "<results>/Ref/campbell.nc"
-
-
-def test_estimate_samples_and_counts(chosen):
-    samples = estimate.cases(chosen)
-    assert len(samples) == 4
-    assert estimate.values(chosen)["runs"]["Ref__abradable"] == 2
-    assert set(samples["Ref__abradable"].speeds) <= {900.0, 1234.5}
 
 
 def test_targets_are_what_the_configuration_asks_for(config_copy):

@@ -28,10 +28,10 @@ from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator
-from validation.studies.tables import markdown_table
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.speed_run import run_speed
+from validation.studies.tables import markdown_table
 
 ROOT = Path(__file__).parents[2]
 STUDIES = ROOT / "results/studies"

@@ -20,7 +20,6 @@ from r37core.fem.matrices import assemble
 from r37core.io import atomic_write
 from r37core.mesh.generate import generate_mesh
 from r37core.product.reading import read_settings
-from validation.published import INTERACTIONS
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
@@ -28,6 +27,7 @@ from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import UnstableStepError
 from r37core.time_integration.speed_run import run_speed
+from validation.published import INTERACTIONS
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "results/studies/contact_patches"

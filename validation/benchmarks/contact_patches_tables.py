@@ -34,11 +34,11 @@ from contact_patches import (
 from r37core.contact.casing import casing_axes
 from r37core.figures import style
 from r37core.io import write_text
-from validation.published import INTERACTIONS
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS
-from validation.studies.tables import markdown_table
 from r37core.time_integration.static_modes import residual_flexibility
+from validation.published import INTERACTIONS
+from validation.studies.tables import markdown_table
 
 STUDIES = ROOT / "results/studies"
 

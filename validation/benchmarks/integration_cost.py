@@ -16,8 +16,8 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 from r37core.io import write_text
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
-from validation.studies.tables import markdown_table
 from r37core.time_integration.simulate import Simulation
+from validation.studies.tables import markdown_table
 
 ROOT = Path(__file__).resolve().parents[2]
 CASES = (

@@ -29,10 +29,10 @@ from massless_boundary import run_nlstep
 from r37core.io import write_text
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
-from validation.studies.tables import markdown_table
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
+from validation.studies.tables import markdown_table
 
 ROOT = Path(__file__).parents[2]
 STUDIES = ROOT / "results/studies"

@@ -32,11 +32,11 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.stress.of_revolutions import largest_of_revolutions
 from r37core.stress.operator import read_stress_operator
 from r37core.stress.statistic import stress_statistic
-from validation.studies.refinement.report import replay
-from validation.studies.tables import markdown_table
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.tolerances.members import members_of
+from validation.studies.refinement.report import replay
+from validation.studies.tables import markdown_table
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "results/studies/ranking"

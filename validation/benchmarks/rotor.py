@@ -26,12 +26,12 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.rotors.dataset import rotor_dataset
 from r37core.rotors.figures import draw_rotor
 from r37core.stress.operator import read_stress_operator
-from validation.studies.tables import markdown_table
 from r37core.time_integration.compiled.passage import Passage
 from r37core.time_integration.rotor_simulation import BladesSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
+from validation.studies.tables import markdown_table
 
 RESULTS = Path("results")
 FOLDER = RESULTS / "studies/rotor"

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
+from r37core.studies.runner import with_swept_peak
 
 from r37core.config import ConfigError, command_line_document
 from r37core.product.captions import CAPTIONS
@@ -13,7 +14,6 @@ from validation.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
 from validation.studies.checks import Check, claim
 from validation.studies.gallery.cases import COARSE, FINE, ITEMS, Item, cases, inputs, outputs, values
 from validation.studies.gallery.report import of_item, verdict
-from r37core.studies.runner import with_swept_peak
 
 
 def test_verdicts_name_what_agrees_and_what_does_not():

@@ -8,21 +8,21 @@ import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
 
-from validation.studies.sections import SpeedSteps
+from r37core.cases import runner
+from r37core.cases.case import Case
+from r37core.cases.runner import run_case
 from r37core.dataset_file import read_dataset
 from r37core.fem.material import Material
 from r37core.figures import style
-from validation.published import BLADES, INTERACTIONS
 from r37core.results import measures
 from r37core.stress.operator import StressOperator
-from r37core.cases import runner
-from r37core.cases.case import Case
+from validation.published import BLADES, INTERACTIONS
 from validation.studies.checks import Check, claim, score, validation_table
 from validation.studies.modelling_choices.cases import CHOICES, DIRECT, HISTORIES, SHIPPED, VARIED, cases, grid, windows
 from validation.studies.modelling_choices.figures import draw_blades, draw_choices, draw_reference, draw_stress
 from validation.studies.modelling_choices.report import choices_table, runs_of
 from validation.studies.modelling_choices.validation import Runs, choice_checks, survey_checks, torsion_speed
-from r37core.cases.runner import run_case
+from validation.studies.sections import SpeedSteps
 
 YIELD = 1.38e9
 STEPS = SpeedSteps(fine=2.0, coarse=4.0, survey=5.0)

@@ -1,4 +1,4 @@
-"""The time integration against SciPy's solve_ivp, and what others get of a blade: benchmarks/other_programs.py, small."""
+"""The time integration against SciPy, and other programs on a small blade: validation/benchmarks/other_programs.py."""
 
 import os
 import sys
@@ -23,9 +23,9 @@ SCENE = Scene(Casing(0.356e-3, amplitude=1.5, rise_fraction=0.0), ELASTIC, Frict
 
 @pytest.fixture(scope="module", autouse=True)
 def benchmarks():
-    sys.path.insert(0, str(CHECKOUT / "benchmarks"))
+    sys.path.insert(0, str(CHECKOUT / "validation/benchmarks"))
     yield
-    sys.path.remove(str(CHECKOUT / "benchmarks"))
+    sys.path.remove(str(CHECKOUT / "validation/benchmarks"))
 
 
 FLEXIBILITY = 2e-7

@@ -5,7 +5,7 @@ import runpy
 import pytest
 from conftest import CHECKOUT
 
-PROSE = runpy.run_path(str(CHECKOUT / "benchmarks/prose.py"))
+PROSE = runpy.run_path(str(CHECKOUT / "validation/benchmarks/prose.py"))
 PAGES = PROSE["pages"](CHECKOUT)
 
 
@@ -14,7 +14,7 @@ def test_sentences_are_short(page):
     """At most 20 words on average, at most 12% of more than 30."""
     one = PROSE["prose"](PAGES[page])
     assert one.is_short, (
-        f"{one.mean:.1f} words, {one.share_of_long:.1%} over {PROSE['LONG']}: python benchmarks/prose.py {page}"
+        f"{one.mean:.1f} words, {one.share_of_long:.1%} over {PROSE['LONG']}: python validation/benchmarks/prose.py {page}"
     )
 
 

@@ -1,348 +1,28 @@
-"""Adaptive speed sampling: what a range asks for, where a round looks next, and what comes of it."""
+"""The study of adaptive speed sampling: what the rounds miss of every speed, on made-up responses."""
 
-import math
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
-import xarray as xr
-from defaults import InteractionChoice
-from hypothesis import given
-from hypothesis import strategies as st
+from refinement_cases import CHOICE, PLAN, campbell, replay, spiked
 
-from r37core.adaptive import criterion
-from r37core.adaptive.criterion import (
-    RefinementChoice,
-    Window,
-    dense_ranges,
-    known_of,
-    next_speeds,
-    window_speeds,
-)
-from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
-from r37core.adaptive.steps import refine as refine_step
-from r37core.config import ConfigError
-from r37core.io import InputFileError, Named
-from r37core.plain import from_plain, to_plain
-from r37core.product.reading import load_settings
-from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
-from validation.studies.refinement.report import above_yield, compare, errors_between, plain_grid, refinement_table, replay
-from r37core.time_integration.speed_file import write_speed
-from r37core.time_integration.status import RunStatus
-from r37core.yaml_file import load_yaml
+from r37core.config import ConfigError, command_line_document
+from r37core.product.reading import read_settings
+from r37core.results.interactions import InteractionChoice
+from r37core.tolerances.members import members_of
+from validation.studies.refinement import cases as refinement
+from validation.studies.refinement.report import above_yield, compare, errors_between, plain_grid, refinement_table
 
-WINDOWS = (Window("1B", 8, 0.0, 0.05, 5.0),)
-CHOICE = RefinementChoice(
-    windows=WINDOWS, change=0.25, peak=0.1, largest_share=0.25, prominence=0.1, steep_change=0.8, steep_prominence=0.01
-)
-PLAN = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}], 8.0)
-GRID = PLAN.refined[0]
+REFINED = {
+    "blades": ["Ref", "L50"],
+    "scenes": ["abradable", "direct"],
+    "speeds": [{"start": 900, "stop": 1000, "step": 50, "refine_to": 5}],
+}
 
 
-def campbell(crossings):
-    """A diagram whose mode 1B crosses order 4, 5, ... at the given speeds, and 1T nowhere."""
-    speeds = np.full((2, 8), np.nan)
-    speeds[0, 3 : 3 + len(crossings)] = crossings
-    return xr.Dataset(
-        {"crossing_speed": (("mode", "engine_order"), speeds)}, coords={"mode": ["1B", "1T"], "engine_order": np.arange(1, 9)}
-    ).reindex(mode=["1B", "1T", "2B"])
-
-
-def spiked(*spikes, yield_stress=1e9, diverged=()):
-    """A response on the whole grid: from each (first, peak, height) a branch rises to the peak, and drops after it."""
-    speeds = np.array(GRID.every_speed())
-    rms = 2e-5 + 1e-6 * np.sin(speeds)
-    for first, peak, height in spikes:
-        branch = (speeds >= first) & (speeds <= peak)
-        rms[branch] += height * (speeds[branch] - first + 1.0) / (peak - first + 1.0)
-    status = np.where(np.isin(speeds, diverged), int(RunStatus.DIVERGED), int(RunStatus.COMPLETED))
-    tips = np.stack([rms, 0.5 * rms], axis=1)
-    return xr.Dataset(
-        {
-            "status": ("speed", status),
-            "rms_normal": (("speed", "tip_point"), tips),
-            "rms_tangential": (("speed", "tip_point"), 3.0 * tips),
-            "max_von_mises": ("speed", np.where(status == 0, 2e12 * rms, np.nan)),
-            "yield_stress": ((), yield_stress),
-        },
-        coords={"speed": speeds, "tip_point": ["leading_edge", "trailing_edge"]},
-    )
-
-
-def asked(response, crossings=(), choice=CHOICE, plan=PLAN):
-    rounds = replay(response, campbell(crossings), plan, choice)
-    return rounds, sorted(speed for new in rounds for speed in new)
-
-
-def test_a_range_has_its_coarse_speeds_and_its_end():
-    plan = plan_speeds([{"start": 900, "stop": 1000.5, "step": 30, "refine_to": 1.5}], 8.0)
-    assert plan.certain == (900.0, 930.0, 960.0, 990.0, 1000.5)
-    assert plan.refined == (RefinedRange(900.0, 1.5, 20, 67),)
-    assert len(plan.every_speed()) == 68
-    assert from_plain(SpeedPlan, to_plain(plan)) == plan
-    assert plan_speeds([{"start": 900, "stop": 1000, "refine_to": 1}], 8.0).refined[0].coarse == 8
-    assert PLAN.at_most(0.2) == 250
-
-
-def test_names_of_speeds_are_exact():
-    """0.1 is no binary number: the speeds of a grid still are what a user would write, and their names tell them apart."""
-    grid = plan_speeds([{"start": 750, "stop": 752, "step": 0.4, "refine_to": 0.1}], 8.0).refined[0]
-    names = [exact_text(speed) for speed in grid.every_speed()]
-    assert names[:5] == ["750", "750.1", "750.2", "750.3", "750.4"]
-    assert len(set(names)) == 21
-    assert [float(name) for name in names] == grid.every_speed()
-
-
-def test_a_number_inside_a_range_is_no_repetition():
-    plan = plan_speeds([{"start": 900, "stop": 1000, "step": 20, "refine_to": 1}, 920, 933, 933.5], 8.0)
-    assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)
-    assert plan.at_most(0.2) == 20 + 2
-
-
-@pytest.mark.parametrize(
-    ("entries", "message"),
-    [
-        (
-            [{"start": 900, "stop": 1000, "step": 20, "refine_to": 3}],
-            "refine_to 3 with steps of 20 rad/s; allowed: the step is",
-        ),
-        ([{"start": 900, "stop": 1000, "refine_to": 3}], "refine_to 3 with steps of 8 rad/s"),
-        ([{"start": 900, "stop": 1000, "step": 1, "refine_to": 20}], "refine_to 20 with steps of 1 rad/s"),
-        ([{"start": 1000, "stop": 900, "step": 20, "refine_to": 1}], "range from 1000 to 900"),
-        (
-            [
-                {"start": 900, "stop": 1000, "step": 20, "refine_to": 1},
-                {"start": 995, "stop": 1100, "step": 20, "refine_to": 1},
-            ],
-            "ranges with refine_to that overlap, from 995 to 1000 rad/s",
-        ),
-        ([{"start": 900, "stop": 1000, "step": 20, "refine_to": 1}, 933, 933], "933 rad/s twice"),
-        ([{"start": 900, "stop": 1e6, "step": 20, "refine_to": 1}], "allowed: at most 100000 speeds together"),
-    ],
-)
-def test_ranges_that_cannot_be_refined(entries, message):
-    with pytest.raises(SpeedError, match=message):
-        plan_speeds(entries, 8.0)
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        (
-            {"speeds": [{"start": 750, "stop": 2000, "step": 20, "refine_to": 7}]},
-            r"config\.yaml: speeds: found refine_to 7 with",
-        ),
-        ({"speeds": [{"start": 750, "stop": 2000, "refine_to": 0}]}, r"speeds\.0\.refine_to: found 0; allowed: .*at least"),
-        (
-            {"refinement": {"windows": [{"mode": "3B"}]}},
-            r"refinement\.windows\.0\.mode: found '3B'; allowed: one of 1B, 1T, 2B",
-        ),
-        (
-            {
-                "speeds": [{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}],
-                "refinement": {
-                    "windows": [{"mode": "1B", "highest_engine_order": 21, "first": 0, "last": 0.1, "step_rad_s": 5}]
-                },
-            },
-            r"windows\.0\.highest_engine_order: found 21; allowed: at most campbell\.highest_engine_order \(20\)",
-        ),
-        (
-            {
-                "refinement": {
-                    "windows": [{"mode": "1B", "highest_engine_order": 4, "first": 0.1, "last": 0.1, "step_rad_s": 5}]
-                }
-            },
-            r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)",
-        ),
-        ({"refinement": {"change": -1}}, r"refinement\.change: found -1; allowed: .*at least 0\.001"),
-        ({"refinement": {"largest_share": 1.5}}, r"refinement\.largest_share: found 1\.5; allowed: .*at most 1"),
-    ],
-)
-def test_refinement_refusals(config_copy, changes, message):
-    with pytest.raises(ConfigError, match=message):
-        load_settings(load_yaml(config_copy / "config/config.yaml") | changes, config_copy)
-
-
-def test_windows_are_looked_at_more_closely():
-    expected = dense_ranges(campbell([1200.0]), WINDOWS)
-    assert [(one.low, one.high, one.step) for one in expected] == [(1200.0, 1260.0, 5.0)]
-    speeds = sorted({*PLAN.certain, *window_speeds(GRID, expected)})
-    for first, last in pairwise(speeds):
-        if first < 1260.0 and last > 1200.0:
-            assert last - first <= 5.0
-        elif last < 1180.0 or first > 1280.0:
-            assert last - first >= 10.0
-    assert window_speeds(GRID, []) == []
-
-
-def test_orders_above_the_window_s_have_none():
-    assert dense_ranges(campbell([1200.0]), (replace(WINDOWS[0], highest_engine_order=3),)) == []
-
-
-def test_the_highest_order_of_a_window_has_one():
-    expected = dense_ranges(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=4),))
-    assert [one.low for one in expected] == [1200.0]
-
-
-def asked_of(values):
-    """Middles of intervals that are asked for next, of a curve over the coarse speeds from 750 to 2000 in steps of 20."""
-    rows = {speed: [0, value, 1e-6, 0.0] for speed, value in zip(PLAN.certain, values, strict=True)}
-    return next_speeds(GRID, known_of(rows), replace(CHOICE, largest_share=1.0))
-
-
-def test_a_change_counts_where_the_larger_value_does():
-    """From 0.06 to 0.13 of the top: more than a quarter of the larger, which is above a tenth of the top."""
-    values = np.minimum(0.13 * 1.1 ** np.maximum(np.arange(len(PLAN.certain)) - 3.0, 0.0), 1.0)
-    values[:3] = 0.06
-    assert min(asked_of(values)) == 800.0
-    values[:3] = 0.1
-    assert min(asked_of(values)) > 1000.0
-
-
-def test_a_steep_change_counts_though_it_is_low():
-    """The foot of an interaction between two speeds: a fall by more than four fifths, from 2% of the top."""
-    values = np.full(len(PLAN.certain), 1e-3)
-    values[40:] = np.linspace(0.5, 1.0, len(values) - 40)
-    values[10:12] = 0.0105, 0.002
-    foot = PLAN.certain[10] + 10.0
-    assert foot in asked_of(values)
-    assert PLAN.certain[10] - 10.0 in asked_of(values)
-    for other in (0.0095, 0.002), (0.0105, 0.0022):
-        values[10:12] = other
-        assert foot not in asked_of(values)
-
-
-def test_both_flanks_of_a_peak_of_one_speed_are_looked_at():
-    values = np.full(len(PLAN.certain), 0.85)
-    values[10] = 1.0
-    peak = PLAN.certain[10]
-    assert asked_of(values) == [peak - 10.0, peak + 10.0]
-
-
-def test_a_branch_its_peak_and_its_drop_are_found_to_one_grid_step():
-    rounds, speeds = asked(spiked((1600.0, 1727.0, 1e-3)))
-    assert {1726.0, 1727.0, 1728.0} <= set(speeds)
-    assert len(speeds) < 0.15 * len(PLAN.every_speed())
-    assert len(rounds) <= 6
-
-
-def test_a_narrow_interaction_in_a_window_is_found():
-    response = spiked((1232.0, 1237.0, 1e-3))
-    assert {1237.0, 1238.0} <= set(asked(response, [1200.0])[1])
-    assert 1237.0 not in asked(response)[1]
-
-
-def test_where_stress_crosses_yield_is_found():
-    """Stress rises with the speed, by too little from speed to speed to be a change."""
-    response = spiked()
-    response["rms_normal"][:] = response["rms_tangential"][:] = 1e-3
-    response["max_von_mises"][:] = np.linspace(0.7e9, 1.1e9, 1251)
-    crossing = 750.0 + 1250.0 * 0.3 / 0.4
-    speeds = np.array(asked(response, choice=replace(CHOICE, prominence=0.5))[1])
-    assert speeds[speeds > crossing][0] - speeds[speeds < crossing][-1] <= 1.0
-
-
-def test_a_change_of_status_is_found():
-    response = spiked(diverged=range(1500, 1571))
-    speeds = asked(response)[1]
-    assert {1499.0, 1500.0, 1570.0, 1571.0} <= set(speeds)
-
-
-def test_a_flat_response_asks_for_no_more():
-    flat = spiked()
-    flat["rms_normal"][:] = flat["rms_tangential"][:] = 1e-5
-    flat["max_von_mises"][:] = 1e7
-    assert asked(flat)[0] == [list(PLAN.certain)]
-    assert asked(spiked())[0] == [list(PLAN.certain)]
-    silent = spiked()
-    for name in ("rms_normal", "rms_tangential", "max_von_mises"):
-        silent[name][:] = 0.0
-    assert asked(silent)[0] == [list(PLAN.certain)]
-
-
-def test_the_share_is_kept_and_the_largest_goes_first():
-    noise = spiked((1600.0, 1727.0, 1e-3))
-    noise["rms_normal"][:] *= 1.0 + 0.9 * np.random.default_rng(1).random((1251, 1))
-    _, speeds = asked(noise, choice=replace(CHOICE, largest_share=0.1))
-    assert len(speeds) <= 125
-    added = set(speeds) - set(PLAN.certain)
-    assert added
-    assert all(1600.0 <= speed <= 1740.0 for speed in added)
-
-
-@pytest.mark.parametrize(("left", "next_round"), [(50, 25), (20, 16), (10, 10), (0, 0), (-5, 0)])
-def test_a_round_takes_half_of_what_is_left_or_the_last_sixteen(left, next_round):
-    """Each round makes Snakemake plan again, so none is asked for a speed or two."""
-    rows = {speed: [0, 1.0 + number % 2, 1.0, 0.1] for number, speed in enumerate(PLAN.certain)}
-    share = (len(PLAN.certain) + left + 0.5) / 1251
-    assert len(next_speeds(GRID, known_of(rows), replace(CHOICE, largest_share=share))) == next_round
-
-
-def test_diverged_and_missing_numbers_are_no_peaks():
-    rows = {speed: [int(RunStatus.DIVERGED), np.nan, np.nan, np.nan] for speed in PLAN.certain}
-    assert next_speeds(GRID, known_of(rows), CHOICE) == []
-
-
-def test_speeds_off_the_grid_are_not_refined_about():
-    plan = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}, 999.5, 2500], 8.0)
-    rows = {speed: [0, 1e-5, 1e-5, 0.1] for speed in plan.certain} | {999.5: [0, 1.0, 1.0, 9.0], 2500.0: [0, 1.0, 1.0, 9.0]}
-    assert next_speeds(plan.refined[0], known_of(rows), CHOICE) == []
-
-
-@given(st.lists(st.floats(0.0, 1.0), min_size=101, max_size=101), st.floats(0.1, 1.0), st.integers(1, 20))
-def test_any_response_ends_in_speeds_of_the_grid_each_once(values, share, coarse):
-    plan = SpeedPlan((), (RefinedRange(100.0, 0.1, coarse, 100),))
-    plan = replace(plan, certain=tuple(plan.refined[0].speed(place) for place in plan.refined[0].coarse_indices()))
-    rows = {speed: [0, value, value**2, 2.0 * value] for speed, value in zip(plan.every_speed(), values, strict=True)}
-    one = first_round(plan, campbell([]), choice := replace(CHOICE, largest_share=share))
-    run = list(one.new)
-    for _ in range(100):
-        one = round_after(one, {speed: rows[speed] for speed in one.new}, plan, choice)
-        if not one.new:
-            break
-        run += one.new
-    assert not one.new
-    assert len(set(run)) == len(run)
-    assert set(run) <= set(plan.every_speed())
-    assert len(run) <= max(len(plan.certain), int(share * 101))
-
-
-@pytest.mark.parametrize("stop", [900, 901])
-def test_one_or_two_speeds_are_a_range_too(stop):
-    plan = plan_speeds([{"start": 900, "stop": stop, "step": 20, "refine_to": 1}], 8.0)
-    one = first_round(plan, campbell([890.0]), CHOICE)
-    assert one.new == plan.certain == (900.0, 901.0)[: stop - 899]
-    assert round_after(one, {speed: [0, 1e-3, 1e-3, 2.0] for speed in one.new}, plan, CHOICE).new == ()
-
-
-def test_rounds_do_not_depend_on_the_order_of_what_is_known():
-    rows = {speed: [0, 1e-4 * np.sin(speed), 1e-4, 0.5] for speed in PLAN.certain}
-    backwards = dict(reversed(rows.items()))
-    assert next_speeds(GRID, known_of(rows), CHOICE) == next_speeds(GRID, known_of(backwards), CHOICE)
-
-
-def test_a_round_s_file_says_what_it_was(tmp_path):
-    one = Round((900.1, 1000.0), {850.0: [0, 1e-5, 0.1 + 0.2, np.nan], 860.0: [1, np.nan, np.nan, np.nan]})
-    write_round(one, tmp_path / "round_3.json")
-    again = read_round(tmp_path / "round_3.json")
-    assert again.new == one.new
-    np.testing.assert_equal(dict(again.measured), dict(one.measured))
-    assert "NaN" not in (tmp_path / "round_3.json").read_text()
-    (tmp_path / "round_3.json").write_text('{"new": [1]}')
-    with pytest.raises(InputFileError, match=r"round_3\.json: cannot be read .*delete it and run again"):
-        read_round(tmp_path / "round_3.json")
-
-
-def test_what_a_run_gives():
-    run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "max_von_mises": np.array(4.0)}
-    assert measure(run, 8.0) == [0, 0.0, 2.0, 0.5]
-    assert np.isnan(measure({name: value for name, value in run.items() if name != "max_von_mises"}, 8.0)[3])
-    assert np.isnan(measure(run | {"status": np.array(1), "max_von_mises": np.array(np.nan)}, 8.0)[3])
-
-
-def test_choice_survives_the_way_to_a_job():
-    assert from_plain(RefinementChoice, to_plain(CHOICE)) == CHOICE
+@pytest.fixture
+def refining(root):
+    return read_settings(root, command_line_document(REFINED))
 
 
 def test_study_names_what_is_missed():
@@ -378,18 +58,6 @@ def test_study_says_what_is_robust():
     assert "| none | 33% |" in table
 
 
-def test_a_round_of_a_blade_without_stress(tmp_path):
-    """A blade given by matrices has no material: its rounds go by rms and status alone."""
-    write_round(Round((900.0,)), tmp_path / "round_0.json")
-    write_speed({"status": np.array(0), "rms": np.full((2, 3), 1e-4)}, tmp_path / "speed_900.npz", {})
-    params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE)}
-    files = Named(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz"))
-    refine_step(files, Named(round=tmp_path / "round_1.json"), Named(**params, yields=[math.inf]))
-    status, normal, _, stress = read_round(tmp_path / "round_1.json").measured[900.0]
-    assert (status, normal) == (0, 1e-4)
-    assert np.isnan(stress)
-
-
 def test_errors_between_the_speeds_that_are_run():
     """Of a response with one spike: a line over it misses the spike, and nothing else."""
     response = spiked()
@@ -405,26 +73,23 @@ def test_errors_between_the_speeds_that_are_run():
     assert np.isnan(errors_between(response.drop_vars("max_von_mises"), [750.0, 2000.0])[1:]).all()
 
 
-def test_the_size_of_a_curve_does_not_matter():
-    """Not of one far below a tenth, either."""
-    rows = {speed: [0, 1e-3 + 1e-2 * np.sin(0.01 * speed) ** 8, 1e-3, 1e-3] for speed in PLAN.certain}
-    rows[PLAN.certain[3]] = [1, np.nan, np.nan, np.nan]
-    small = {speed: [status, 1e-6 * normal, *others] for speed, (status, normal, *others) in rows.items()}
-    asked_for = next_speeds(GRID, known_of(rows), CHOICE)
-    assert asked_for and next_speeds(GRID, known_of(small), CHOICE) == asked_for
+def test_plain_grids_beside_are_part_of_the_whole_one(refining):
+    assert refinement.plain_steps(refining) == [5.0, 20.0]
+    whole = refinement.cases(refining)["Ref__abradable"]
+    assert list(whole.speeds) == [900.0 + 5.0 * place for place in range(21)]
 
 
-def test_without_a_width_a_peak_has_its_two_intervals():
-    """The share `peak` may be 0."""
-    curve = np.array([0.2, 0.4, 1.0, 0.4, 0.2])
-    near = criterion._near_a_peak(curve, replace(CHOICE, peak=0.0))
-    assert near.tolist() == [False, True, True, False]
-
-
-def test_a_window_is_halved_to_the_end_and_not_where_it_only_touches():
-    grid = RefinedRange(1000.0, 1.0, 8, 16)
-    window = criterion.DenseRange(1000.0, 1008.0, 1.0)
-    assert window_speeds(grid, [window]) == [float(speed) for speed in range(1001, 1008)]
-    # as far as the second interval's first speed and no farther; and from the first one's last
-    assert window_speeds(grid, [criterion.DenseRange(990.0, 1000.0, 1.0)]) == []
-    assert window_speeds(grid, [criterion.DenseRange(1016.0, 1030.0, 1.0)]) == []
+def test_members_are_run_at_every_speed_too(root):
+    """Beside the nominal runs of the study, as cases of their own, in scenes that have the numbers."""
+    tolerances = {"members": 2, "of_scenes": {"lining.bar_width_m": {"between": [8e-4, 1.25e-3]}}}
+    settings = read_settings(root, command_line_document({**REFINED, "blades": ["Ref"], "tolerances": tolerances}))
+    cases, members = refinement.cases(settings), refinement.values(settings)["members"]
+    assert list(cases) == ["Ref__abradable", "Ref__direct", "Ref__abradable/0", "Ref__abradable/1"]
+    assert members == {"Ref__abradable": {"0": "Ref__abradable/0", "1": "Ref__abradable/1"}}
+    nominal, member = cases["Ref__abradable"], cases["Ref__abradable/1"]
+    assert member.scene == members_of(settings).all["Ref", "abradable"]["1"].scene != nominal.scene
+    assert replace(member, scene=nominal.scene, what=nominal.what) == nominal
+    of_blades = {"of_blades": {"thickness_percent": {"normal": 1}}}
+    settings = read_settings(root, command_line_document({**REFINED, "blades": ["Ref"], "tolerances": of_blades}))
+    with pytest.raises(ConfigError, match="found thickness_percent; allowed: of_scenes alone"):
+        refinement.cases(settings)

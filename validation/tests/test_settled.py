@@ -5,12 +5,13 @@ import importlib
 import numpy as np
 import pytest
 import xarray as xr
+from conftest import CHECKOUT
 
 
 @pytest.fixture
 def benchmark(root, monkeypatch):
     """The module of a benchmark, by name."""
-    monkeypatch.syspath_prepend(str(root / "benchmarks"))
+    monkeypatch.syspath_prepend(str(CHECKOUT / "validation/benchmarks"))
     return importlib.import_module
 
 

@@ -5,6 +5,7 @@ import runpy
 
 import matplotlib.pyplot as plt
 import pytest
+from conftest import CHECKOUT
 from workflow_runs import copy_finished
 
 PROGRAMS = 10
@@ -12,11 +13,11 @@ PROGRAMS = 10
 
 @pytest.fixture(scope="module")
 def generator(root):
-    return runpy.run_path(str(root / "benchmarks/user_code.py"))
+    return runpy.run_path(str(CHECKOUT / "validation/benchmarks/user_code.py"))
 
 
 def test_the_page_has_the_programs_as_they_are(root, generator):
-    """`python benchmarks/user_code.py` renews it."""
+    """`python validation/benchmarks/user_code.py` renews it."""
     text = (root / "docs/user_code.md").read_text()
     assert text == generator["page"]()
     assert len(generator["FILES"]) == text.count("```python") == PROGRAMS

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from r37core.studies.plan import Studies
 
 from r37core.config import ConfigError, command_line_document
 from r37core.product.reading import read_settings
 from validation.studies.checks import Check, claim
 from validation.studies.modelling_choices.cases import DIRECT
-from r37core.studies.plan import Studies
 from validation.studies.validation_ranges.cases import NOMINAL, cases, values
 from validation.studies.validation_ranges.report import judge, range_report, range_table
 

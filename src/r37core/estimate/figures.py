@@ -14,7 +14,7 @@ def draw_estimate(table: pd.DataFrame) -> Figure:
     figure, axes = plt.subplots(figsize=(style.COLUMN, 1.8))
     bars = axes.barh(table["part"], table["core_hours"])
     axes.bar_label(bars, fmt="%.3g", fontsize=6, padding=2)
+    axes.margins(x=0.2)
     axes.invert_yaxis()
     axes.set(xlabel="core hours", title=f"{table['simulations'].iloc[0]} simulations")
-    axes.margins(x=0.15)
     return figure

@@ -25,9 +25,8 @@ def draw_stability(table: pd.DataFrame) -> Figure:
             axes.scatter(places[rows.index], at, marker="s", s=70, color=colour, label=outcome)
             for x, y, value in zip(places[rows.index], at, rows["value"], strict=True):
                 axes.annotate(f"{value:g}", (x, y), xytext=(7, 0), textcoords="offset points", fontsize=5.5, va="center")
-        axes.set(title=scene, xticks=[], xlim=(-0.5, places.max() + 1.0))
+        axes.set(title=scene, xticks=[], xlim=(-0.5, places.max() + 1.0), ylim=(len(names) - 0.5, -0.5))
         axes.set_yticks(range(len(names)), [name.replace("_", " ") for name in names])
         axes.grid(False)
-    panels[0, 0].invert_yaxis()
     figure.legend(*style.legend_entries(panels[0]), loc="outside lower center", ncols=len(COLOURS))
     return figure

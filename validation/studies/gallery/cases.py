@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
+from r37core.cases.case import Case
 from r37core.config import ConfigError, Settings
 from r37core.exports.plan import EXPORTED_MODES
 from r37core.plans import paths
 from validation.published import BLADES, INTERACTIONS, REFERENCE
-
-from r37core.cases.case import Case
 from validation.studies.modelling_choices.cases import PUBLISHED_SPEEDS, scene_name
-from validation.studies.plan import case_of_sweep
+from validation.studies.plan import SweptPeak, case_of_sweep
 
 FINE, COARSE = 248, 62
 """Instants of a revolution at which the paper recovers stress: for a picture of it, and for its largest value."""

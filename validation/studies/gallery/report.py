@@ -15,13 +15,13 @@ from r37core.dataset_file import read_dataset
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 from r37core.product.captions import caption
-from validation.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE
 from r37core.results.measures import peak_of, strongest_order
 from r37core.rom.reduction_choice import StressSubmesh
-
+from validation.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE
 from validation.studies.checks import Check, number, ran, with_histories
 from validation.studies.modelling_choices.cases import DIRECT
 from validation.studies.modelling_choices.validation import choice_checks, structure_checks, survey_checks
+
 from .cases import COARSE, FINE, ITEMS, REVOLUTION, RUNS_OF_SWEEP, WINDOW, Item
 from .figures import GalleryData, gallery_figures
 from .shapes import draw_mesh, draw_modes, draw_variants

@@ -10,14 +10,21 @@ from dataclasses import dataclass, field, replace
 from math import ceil, floor
 from typing import Any
 
+from r37core.cases.case import Case, ModelChoice, changed
 from r37core.config import Settings, checked_scene, plain
-from validation.studies.sections import SpeedSteps
 from r37core.contact.scene import Scene
 from r37core.plans import paths
 from validation.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE
-
-from r37core.cases.case import Case, ModelChoice, changed
-from validation.studies.plan import campbell_file, integration_of_level, kept_of, level_of, material_of, model_of_level, scene_entry_of
+from validation.studies.plan import (
+    campbell_file,
+    integration_of_level,
+    kept_of,
+    level_of,
+    material_of,
+    model_of_level,
+    scene_entry_of,
+)
+from validation.studies.sections import SpeedSteps
 
 
 @dataclass(frozen=True)

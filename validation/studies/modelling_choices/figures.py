@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.figures import style
-from validation.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
 from r37core.results.measures import history_of, leading_edge, peak_speed
+from validation.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
 
 from .cases import CHOICES, DIRECT
 from .validation import PEAK_WITHIN, Runs

@@ -10,11 +10,11 @@ import xarray as xr
 
 from r37core.dataset_file import read_dataset
 from r37core.figures.maps import draw_spectral_map
-from validation.published import DIRECT_PEAK, INTERACTIONS, REFERENCE
 from r37core.results.measures import peak_speed
-
+from validation.published import DIRECT_PEAK, INTERACTIONS, REFERENCE
 from validation.studies.checks import Check, number, ran, score, validation_table, with_histories
 from validation.studies.tables import markdown_table
+
 from .cases import CHOICES, HISTORIES, SHIPPED, SURVEY, VARIED
 from .figures import draw_blades, draw_choices, draw_histories, draw_reference, draw_stress
 from .validation import Runs, choice_checks, convergence_checks, shipped_checks

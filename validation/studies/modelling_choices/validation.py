@@ -12,10 +12,10 @@ import numpy as np
 import xarray as xr
 
 from r37core import published
-from validation.published import BLADES, DIRECT_PEAK, FIRST_YIELD, INTERACTIONS, OVERTAKES, QUIET, REFERENCE, VARIANTS
 from r37core.results import measures as read
-
+from validation.published import BLADES, DIRECT_PEAK, FIRST_YIELD, INTERACTIONS, OVERTAKES, QUIET, REFERENCE, VARIANTS
 from validation.studies.checks import Check, claim
+
 from .cases import CONVERGENCE, DIRECT, FINE_WINDOW, SHIPPED, SURVEY
 
 Runs = Mapping[str, xr.Dataset]

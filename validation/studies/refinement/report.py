@@ -18,7 +18,6 @@ from r37core.results.interactions import Interaction, InteractionChoice, find_in
 from r37core.results.measures import leading_edge
 from r37core.speeds import SpeedPlan
 from r37core.tolerances.table import ROBUST, shares_of_members
-
 from validation.studies.checks import ran
 from validation.studies.tables import markdown_table
 

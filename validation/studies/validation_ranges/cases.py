@@ -9,19 +9,27 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from r37core.cases.case import Case
 from r37core.config import ConfigError, Settings
 from r37core.config.changed_numbers import ImpossibleValueError, changed_scene, scene_numbers
 from r37core.config.spread import Spread
-from validation.studies.sections import ValidationRangesSection
 from r37core.contact.scene import Scene
 from r37core.plans import paths
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
 from validation.published import REFERENCE
-
-from r37core.cases.case import Case
 from validation.studies.modelling_choices import cases as modelling_choices
-from validation.studies.modelling_choices.cases import CHOICES, LEVEL, SHIPPED, SURVEY, campbell_files, case_in, scene_name, windows
+from validation.studies.modelling_choices.cases import (
+    CHOICES,
+    LEVEL,
+    SHIPPED,
+    SURVEY,
+    campbell_files,
+    case_in,
+    scene_name,
+    windows,
+)
 from validation.studies.plan import scene_entry_of
+from validation.studies.sections import ValidationRangesSection
 
 NOMINAL = "nominal"
 """Name of the run without tolerances among the members, which are 0, 1, ..."""

@@ -10,11 +10,11 @@ import numpy as np
 import xarray as xr
 
 from r37core.dataset_file import read_dataset
-
 from validation.studies.checks import Check, number, score
 from validation.studies.modelling_choices.report import campbells_of, runs_of
 from validation.studies.modelling_choices.validation import choice_checks, shipped_checks
 from validation.studies.tables import markdown_table
+
 from .cases import NOMINAL
 
 
