@@ -1,0 +1,205 @@
+"""Prose of the project: length and words of README and docs/, and docstrings and names that cannot be read alone.
+
+Run: python validation/prose.py (one line a page, then counts), with the name of a page for its longest sentences, or with
+`docstrings` or `names` for a list.
+"""
+
+import ast
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+MEAN, LONG, SHARE = 20.0, 30, 0.12
+"""Most words of a sentence on average, words of a long sentence, and the largest share of long ones."""
+
+FORBIDDEN = {
+    r"\bdear(er|est)?\b": "expensive",
+    r"\bnudged?\b": "perturbed",
+    r"\brefines? (itself|themselves)\b": "adaptive speed sampling",
+    r"\breadings\b|\b(the|a|one|our) reading\b": "modelling choice",
+    r"\bturned (once|alone|one at a time)\b": "varied",
+    r"\bcasings? that gives? way\b": "flexible casing",
+    r"\brotor that stands still\b": "cold clearance, or at rest",
+    r"\bno longer the time\b": "too little time",
+    r"\bthe march\b|\bstretch(es)? of samples\b": "time integration, constant-speed segment",
+    r"\bbeside\b": "next to, in addition to, apart from",
+    r"\b(is|are|was|were|be) told\b|\bsaid once\b": "reported, printed, described",
+    r"\b(certainly|possibly) above yield\b": "in most / in some revolutions",
+    r"\bclaims?\b(?! to)": "table, picture",
+    r"\bmade (anew|again)\b": "regenerated, rerun",
+    r"\bwings?\b|\bspine\b": "extension, pipeline",
+    r"\bis no measure\b|\bis no peak\b": "cannot be used, is not a peak",
+    r"\b(takes whatever|whoever gives|whoever)\b": "users can, users who",
+    r"[,;] for (it|they|there|this|these|its|their|he|we|no|none|others|machines|contact|modes)\b": "because",
+}
+"""Pattern of a word or a phrase -> what to write instead."""
+
+_LEFT_OUT = (
+    re.compile(r"<!-- [\w ]+ -->\n.*?<!-- end -->", re.DOTALL),  # generated
+    re.compile(r"^ *```.*?^ *```", re.DOTALL | re.MULTILINE),
+    re.compile(r"^\$\$.*?^\$\$|\\\[.*?\\\]", re.DOTALL | re.MULTILINE),
+    re.compile(r"^( {4}.*\n)+(?=\n|\Z)", re.MULTILINE),  # indented code
+    re.compile(r"^ *\|.*$", re.MULTILINE),
+    re.compile(r"^#.*$", re.MULTILINE),
+    re.compile(r"!\[[^\]]*\]\([^)]*\)"),
+    re.compile(r"<!--.*?-->", re.DOTALL),
+)
+_LIST_ITEM = re.compile(r"^ *(?:[-*]|\d+\.) +", re.MULTILINE)
+_END = re.compile(r"(?<!\b[A-Z]\.)(?<=[.!?])[)*\"”]*\s+(?=[\"(*_`\[]*[A-Z0-9`])")
+
+
+@dataclass(frozen=True)
+class Prose:
+    """The sentences of a page."""
+
+    sentences: tuple[str, ...]
+
+    @property
+    def lengths(self):
+        """Words of each sentence."""
+        return [len(words(sentence)) for sentence in self.sentences]
+
+    @property
+    def mean(self):
+        """Words of a sentence on average."""
+        return sum(self.lengths) / max(len(self.lengths), 1)
+
+    @property
+    def share_of_long(self):
+        """Share of the sentences of more than LONG words."""
+        return sum(length > LONG for length in self.lengths) / max(len(self.lengths), 1)
+
+    @property
+    def is_short(self):
+        """Whether mean and share keep their bounds."""
+        return self.mean <= MEAN and self.share_of_long <= SHARE
+
+
+def words(sentence):
+    """Words of a sentence: what stands between blanks and has a letter or a digit; code in a line is one word."""
+    return [word for word in re.sub(r"`[^`]*`", "code", sentence).split() if re.search(r"\w", word)]
+
+
+def plain(text):
+    """The page's prose alone: no code, tables, headings, pictures and generated parts, links as their text."""
+    for pattern in _LEFT_OUT:
+        text = pattern.sub("\n\n", text)
+    return re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", text)
+
+
+def prose(text):
+    """The sentences of a page. A paragraph and an item of a list end one; so does a point before a capital, digit or code."""
+    paragraphs = re.split(r"\n\s*\n", _LIST_ITEM.sub("\n\n", plain(text)))
+    sentences = [" ".join(part.split()) for paragraph in paragraphs for part in _END.split(paragraph.strip())]
+    return Prose(tuple(sentence for sentence in sentences if words(sentence)))
+
+
+def forbidden(text):
+    """What stands in a page that the project says otherwise -> what to write."""
+    corrections = {}
+    for pattern, better in FORBIDDEN.items():
+        for match in re.finditer(pattern, plain(text), re.IGNORECASE):
+            corrections[match[0]] = better
+    return corrections
+
+
+def pages(root=ROOT):
+    """README, CONTRIBUTING and the pages of docs/, name -> text."""
+    files = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]
+    return {file.name: file.read_text(encoding="utf-8") for file in files}
+
+
+MOST_WORDS, MOST_OF_A_PAGE, MOST_TABLES = 45_000, 3_000, 15
+"""Words of all pages, and of each but the generated page of the configuration; large tables of all pages."""
+
+MOST_ROWS, MOST_COLUMNS = 12, 7
+"""Rows and columns of a table that is not large."""
+
+
+def large_tables(text):
+    """First lines of the tables of a page that have more than 12 rows or 7 columns."""
+    tables = re.findall(r"(?:^ *\|.*\n)+", text, re.MULTILINE)
+    rows = [table.strip().splitlines() for table in tables]
+    wide = [lines for lines in rows if len(lines) - 2 > MOST_ROWS or len(re.findall(r"(?<!\\)\|", lines[0])) - 1 > MOST_COLUMNS]
+    return [lines[0] for lines in wide]
+
+
+_PREPOSITIONS = ("of", "on", "with", "from", "to", "at", "in", "by", "for")
+_PRONOUNS = ("those", "that", "its", "their", "it", "they", "them", "as", "such", "else", "and", "or", "but")
+_PLACES = ("between", "beside", "before", "after", "among", "without", "within", "under")
+_LEANS = {word.capitalize() for word in (*_PREPOSITIONS, *_PRONOUNS, *_PLACES)}
+"""First words of a docstring that has its subject in the line above."""
+
+CONVENTIONAL = {"from_plain", "to_plain", "from_dict", "to_dict"}
+"""Names of conversions that everybody knows."""
+
+
+def _trees(root):
+    for file in sorted((root / "src").rglob("*.py")):
+        yield file.relative_to(root), ast.parse(file.read_text(encoding="utf-8"))
+
+
+def docstrings(tree: ast.Module) -> Iterator[tuple[int, str]]:
+    """Docstrings of modules, classes and functions, and texts after an assignment: line and text."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            continue
+        first, assigned = node.body[:1], zip(node.body, node.body[1:], strict=False)
+        texts = [*first, *(text for before, text in assigned if isinstance(before, ast.Assign | ast.AnnAssign))]
+        for text in texts:
+            if isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant) and isinstance(text.value.value, str):
+                yield text.lineno, text.value.value
+
+
+def leaning_docstrings(root=ROOT):
+    """Docstrings that cannot be read without the line above, as `file:line: text`."""
+    return [
+        f"{file}:{line}: {text.splitlines()[0]}"
+        for file, tree in _trees(root)
+        for line, text in docstrings(tree)
+        if text.split()[0].rstrip(",;:") in _LEANS
+    ]
+
+
+def preposition_names(root=ROOT):
+    """Names that are defined and begin with a preposition, as `file: name`, each once a file."""
+    found = {}
+    for file, tree in _trees(root):
+        for node in ast.walk(tree):
+            names = []
+            if isinstance(node, ast.FunctionDef | ast.ClassDef):
+                names = [node.name]
+            elif isinstance(node, ast.arg):
+                names = [node.arg]
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                names = [node.id]
+            for name in names:
+                if re.match(rf"_?({'|'.join(_PREPOSITIONS)})(_|$)", name) and name.lstrip("_") not in CONVENTIONAL:
+                    found[f"{file}: {name}"] = None
+    return list(found)
+
+
+def main(names):
+    """Print the figures of all pages, or the longest sentences of those that are named, or a list."""
+    lists = {"docstrings": leaning_docstrings(), "names": preposition_names()}
+    for name in lists.keys() & set(names):
+        print("\n".join(lists[name]))
+        return
+    for name, text in pages().items():
+        page = prose(text)
+        if name in names:
+            print("\n".join(sorted((f"{len(words(s)):3} {s}" for s in page.sentences), reverse=True)[:60]))
+        if not names or name in names:
+            mark = "" if page.is_short else "  too long"
+            length = f"{name:16} {len(page.sentences):4} sentences, {page.mean:5.1f} words,"
+            print(length, f"{page.share_of_long:5.1%} over {LONG}{mark}", *forbidden(text))
+    counted = sum(len(text.split()) for text in pages().values()), sum(len(large_tables(text)) for text in pages().values())
+    print("{} words, {} large tables".format(*counted))
+    print(f"{len(lists['docstrings'])} docstrings begin without their subject, {len(lists['names'])} names with a preposition")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
