@@ -11,7 +11,7 @@ LOCK := envs/lock.txt
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint $(LOCK)
 
 .DEFAULT_GOAL := help
-.PHONY: help all_blades campbell report test test-fast test-slurm mutants lint bench claims fingerprint site tutorial setup lock clean clean-results
+.PHONY: help all_blades campbell report test test-fast test-slurm mutants lint validation test-validation site tutorial setup lock clean clean-results
 
 help: ## this list
 	@awk -F ': .*## ' '/^[a-z][a-z_-]*:.*## / {printf "make %-14s %s\n", $$1, $$2}' Makefile
@@ -41,33 +41,27 @@ test-slurm: $(VENV)/.ready ## parts of a sweep on a Slurm of one node, which the
 # a sample, and what they missed; MUTANTS='results/stress_recovery.py --each 20' for one module
 mutants: $(VENV)/.ready ## whether the tests notice small changes of the code: about half an hour
 	$(PIP_INSTALL) --editable '.[test,mutants]'
-	$(BIN)/python validation/benchmarks/mutants.py $(MUTANTS)
+	$(BIN)/python validation/mutants.py $(MUTANTS)
 
 lint: $(VENV)/.ready ## ruff, snakefmt, mypy, snakemake --lint
 	$(BIN)/python -m ruff check .
 	$(BIN)/python -m ruff format --check .
-	$(BIN)/python -m snakefmt --check Snakefile workflow src/r37/study.smk
+	$(BIN)/python -m snakefmt --check Snakefile workflow src/r37/study.smk validation
 	$(BIN)/python -m mypy
 	$(BIN)/python -m snakemake --lint
 
-bench: $(VENV)/.ready ## time of the integration against plainer ways to write it
-	$(BIN)/python -m snakemake results/Ref/contact_pressure_edge.npz --cores $(CORES) $(if $(FIDELITY),--config fidelity=$(FIDELITY))
-	$(BIN)/python validation/benchmarks/integration_speed.py $(BENCH)
+validation: $(VENV)/.ready ## regenerate outdated tables and pictures of the pages, which takes up to hours (validation/README.md)
+	$(BIN)/python -m snakemake -s validation/Snakefile --cores $(CORES)
 
-# ONLY='growth.png accuracy.md' makes these, TAKEN=yes takes results that were just made by hand, SAME=yes renews the hashes alone, where
-# code was rearranged and the results are the same
-claims: $(VENV)/.ready ## regenerate outdated tables and pictures of the pages, which may take hours; LIST=yes only lists them
-	PYTHONPATH=validation/benchmarks $(BIN)/python -m claims $(ONLY) --cores $(CORES) $(if $(LIST),--list) $(if $(TAKEN),--taken) $(if $(SAME),--same)
-
-fingerprint: $(VENV)/.ready ## renew the numbers that stand for the engine in the hashes of the claims
-	PYTHONPATH=validation/benchmarks $(BIN)/python -m claims.numbers
+test-validation: $(VENV)/.ready ## the tests of what makes the tables and pictures of the pages
+	$(BIN)/python -m pytest validation/tests $(SPREAD)
 
 # a warning is an error
 site: $(VENV)/.docs ## the documentation as a site that opens from the disk: site/index.html
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --conf-dir docs/site docs site
 
 tutorial: $(VENV)/.docs ## docs/tutorial.ipynb of docs/tutorial.py, run; about a minute
-	$(BIN)/python validation/benchmarks/tutorial.py
+	$(BIN)/python validation/tutorial.py
 
 $(VENV)/.docs: $(VENV)/.ready
 	$(PIP_INSTALL) --editable '.[docs]'

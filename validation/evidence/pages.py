@@ -30,8 +30,9 @@ def read_table(file: Path | str) -> list[list[str]]:
 
 def markdown(rows: Iterable[Sequence[str]]) -> str:
     """A table as it stands in a page; the first row is the head."""
-    head, *lines = ["| " + " | ".join(cells) + " |\n" for cells in rows]
-    return "".join([head, "|---" * (head.count(" | ") + 1) + "|\n", *lines])
+    escaped = [[cell.replace("|", r"\|") for cell in cells] for cells in rows]
+    head, *lines = ["| " + " | ".join(cells) + " |\n" for cells in escaped]
+    return "".join([head, "|---" * len(escaped[0]) + "|\n", *lines])
 
 
 class Pages:

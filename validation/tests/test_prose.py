@@ -1,11 +1,11 @@
-"""Sentences of README and docs/ are short, and their words the project's: benchmarks/prose.py measures, and says where."""
+"""Sentences of README and docs/ are short, and their words the project's: validation/prose.py measures, and says where."""
 
 import runpy
 
 import pytest
 from conftest import CHECKOUT
 
-PROSE = runpy.run_path(str(CHECKOUT / "validation/benchmarks/prose.py"))
+PROSE = runpy.run_path(str(CHECKOUT / "validation/prose.py"))
 PAGES = PROSE["pages"](CHECKOUT)
 
 
@@ -14,7 +14,7 @@ def test_sentences_are_short(page):
     """At most 20 words on average, at most 12% of more than 30."""
     one = PROSE["prose"](PAGES[page])
     assert one.is_short, (
-        f"{one.mean:.1f} words, {one.share_of_long:.1%} over {PROSE['LONG']}: python validation/benchmarks/prose.py {page}"
+        f"{one.mean:.1f} words, {one.share_of_long:.1%} over {PROSE['LONG']}: python validation/prose.py {page}"
     )
 
 
@@ -51,3 +51,31 @@ def test_long_pages_and_forbidden_words_are_told():
     assert not PROSE["prose"]("Short. " * 7 + long).is_short
     said = "A dear step; it is slow, for it refines itself. Two readings."
     assert set(PROSE["forbidden"](said).values()) == {"expensive", "adaptive speed sampling", "modelling choice", "because"}
+
+def test_pages_are_short():
+    """45,000 words in all, 3,000 a page but for the generated one, 15 large tables."""
+    lengths = {name: len(text.split()) for name, text in PAGES.items()}
+    assert sum(lengths.values()) <= PROSE["MOST_WORDS"]
+    del lengths["configuration.md"]
+    assert {name: length for name, length in lengths.items() if length > PROSE["MOST_OF_A_PAGE"]} == {}
+    assert sum(len(PROSE["large_tables"](text)) for text in PAGES.values()) <= PROSE["MOST_TABLES"]
+
+
+def test_a_table_is_large_by_its_rows_or_columns():
+    row = "| a | b |\n"
+    large = PROSE["large_tables"]
+    assert large(row + "|---|---|\n" + 12 * row) == [] and large(row + "|---|---|\n" + 13 * row) == [row.strip()]
+    assert large("|a|b|c|d|e|f|g|\n|---|\n") == [] and len(large("|a|b|c|d|e|f|g|h|\n|---|\n")) == 1
+
+
+def test_docstrings_and_names_can_be_read_alone():
+    assert PROSE["leaning_docstrings"]() == []
+    assert len(PROSE["preposition_names"]()) < 60
+
+
+def test_what_leans(tmp_path):
+    (tmp_path / "src").mkdir()
+    text = '"""A module."""\nof_speed = 1\n"""Of the speed."""\n\n\ndef from_plain(at_end):\n    """Those of it."""\n    with_lanes = 1\n'
+    (tmp_path / "src/one.py").write_text(text)
+    assert PROSE["leaning_docstrings"](tmp_path) == ["src/one.py:3: Of the speed.", "src/one.py:7: Those of it."]
+    assert set(PROSE["preposition_names"](tmp_path)) == {f"src/one.py: {name}" for name in ("of_speed", "at_end", "with_lanes")}

@@ -11,7 +11,7 @@ from test_site import need, notebook  # noqa: F401
 @pytest.mark.slow
 def test_the_tutorial_runs_and_finds_what_it_shows(notebook):  # noqa: F811
     need("jupytext", "nbclient", "ipykernel")
-    again = runpy.run_path(str(CHECKOUT / "validation/benchmarks/tutorial.py"))["executed"]()
+    again = runpy.run_path(str(CHECKOUT / "validation/tutorial.py"))["executed"]()
 
     def printed(one):
         return [output.text for cell in one.cells for output in cell.get("outputs", []) if output.output_type == "stream"]

@@ -1,4 +1,4 @@
-"""Runs docs/tutorial.py as a notebook and writes docs/tutorial.ipynb, with its results. Run: make claims ONLY=tutorial."""
+"""Runs docs/tutorial.py as a notebook and writes docs/tutorial.ipynb, with its results. Run: make tutorial."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ import jupytext
 import nbformat
 from nbclient import NotebookClient
 
-FOLDER = Path(__file__).parents[2] / "docs"
+FOLDER = Path(__file__).parents[1] / "docs"
 
 
 def executed():
