@@ -12,8 +12,6 @@ import browser
 import pytest
 from hypothesis import settings
 
-pytest_plugins = ["cpu_of_files"]
-
 # a busy machine is no error
 settings.register_profile("no_deadline", deadline=None)
 settings.load_profile("no_deadline")
@@ -102,23 +100,6 @@ def elsewhere(tmp_path_factory):
     os.chdir(tmp_path_factory.mktemp("elsewhere"))
     yield
     os.chdir(before)
-
-
-@pytest.fixture(scope="session", autouse=True)
-def compiled_apart():
-    """The file that is the first to need a program compiles it for all."""
-    from cpu_of_files import told_apart
-
-    from r37core import native
-
-    kept_bytes = native.kept_bytes
-
-    def kept(name, made_of, build, *more):
-        return kept_bytes(name, made_of, lambda: told_apart("programs of the time integration", build), *more)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(native, "kept_bytes", kept)
-        yield
 
 
 @pytest.fixture(scope="session")

@@ -1,4 +1,4 @@
-"""A sweep in parts, on several machines at once: which blades each has, what it may make, what its jobs ask for."""
+"""A sweep in parts, on several machines at once: which blades each has, and what it may make."""
 
 import os
 import subprocess
@@ -11,8 +11,6 @@ from workflow_runs import SNAKEMAKE, snakemake
 
 from r37core.config import ConfigError
 from r37core.config.document import command_line_document
-from r37core.plans import resources
-from r37core.plans.resources import PER_RESPONSE, PER_SWEEP, Needs, estimated, read_measured
 from r37core.plans.run import check_part
 from r37core.product.reading import read_settings
 
@@ -48,39 +46,6 @@ def test_a_part_makes_nothing_of_all_blades(root):
     for targets in (set(), {"all_blades"}, {"responses", "results/rms.nc"}):
         with pytest.raises(ConfigError, match=r"run\.part: found 1/3 with the target .*; allowed: the target responses, as in"):
             check_part(part, targets)
-
-
-def test_memory_and_time_between_and_beyond_what_was_measured():
-    rows = [[10, 100, 1.0], [20, 200, 3.0]]
-    assert estimated(rows, 15) == (150.0, 2.0)
-    assert estimated(rows, 5) == (100.0, 1.0)
-    assert estimated(rows, 40) == (400.0, 7.0)
-    assert estimated([[10, 200, 3.0], [20, 100, 1.0]], 40) == (100.0, 1.0)
-    assert estimated(rows[:1], 40) == (100.0, 1.0)
-
-
-def test_every_job_of_a_sweep_says_what_it_needs(root):
-    needs = Needs(read_settings(root), 3500)
-    for rule in {"mesh", "reduced_model", "simulate"} | PER_RESPONSE | PER_SWEEP:
-        asked = needs.of(rule)
-        largest = max(memory for _, memory, _ in read_measured()[rule])
-        assert 300 <= asked["mem_mb"] < 10 * largest + 300
-        assert asked["runtime"] >= 5
-
-
-def test_what_a_job_asks_for_has_its_margins(root, monkeypatch):
-    """Half more memory, six times the time, in minutes; of 14 responses each has its share of the 3,500 runs."""
-    measured = {
-        "simulate": [[20000, 1000, 600]],
-        "response": [[0, 0, 0], [1000, 4000, 400]],
-        "explorer": [[0, 0, 0], [7000, 4000, 400]],
-    }
-    monkeypatch.setattr(resources, "read_measured", lambda: measured)
-    needs = Needs(read_settings(root), 3500)
-    assert needs.of("simulate") == {"mem_mb": 1500, "runtime": 60}
-    assert needs.of("response") == {"mem_mb": 1500, "runtime": 10}
-    assert needs.of("explorer") == {"mem_mb": 3000, "runtime": 20}
-    assert needs.of("configuration") == {}
 
 
 def test_the_profile_of_a_node_has_all_that_the_usual_one_has(root):

@@ -11,10 +11,8 @@ from r37core.explorer import parts_hash, with_programs
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes, EngineNumbers
 from r37core.plans.dataset_plan import Datasets
-from r37core.plans.extent import extent_of
 from r37core.plans.import_plan import Imported
 from r37core.plans.provenance import Provenance
-from r37core.plans.resources import Needs
 from r37core.plans.rounds_plan import Rounds
 from r37core.plans.stages import Stage, structure_stages, sweep_stages
 from r37core.plans.simulation_plan import Simulations
@@ -45,7 +43,6 @@ imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
 simulations, rounds, joined = Simulations(sweep), Rounds(sweep), Datasets(sweep)
 stages = {**structure_stages(structure, made), **sweep_stages(sweep, made)}
-needs = Needs(settings, extent_of(settings, samples).most)
 
 
 def stage(made: Stage):

@@ -15,8 +15,6 @@ use rule figure as campbell_figure with:
         **pictures("campbell_{blade}", "{blade}", EVERY_SCENE, "Campbell diagram"),
     log:
         "<logs>/figures/campbell_{blade}.log",
-    resources:
-        **needs.of("campbell_figure"),
     params:
         **drawing(code, "figures.campbell_diagram.draw_campbell", "campbell", casings=joined.casings),
 
@@ -28,8 +26,6 @@ use rule figure as campbell_overview with:
         **pictures("campbell", TOGETHER, EVERY_SCENE, "Campbell diagrams"),
     log:
         "<logs>/figures/campbell_overview.log",
-    resources:
-        **needs.of("campbell_overview"),
     params:
         **drawing(code, "figures.campbell_diagram.draw_campbell_overview", "campbell_overview"),
 
@@ -41,8 +37,6 @@ use rule figure as response_figure with:
         **pictures("response_{blade}", "{blade}", EVERY_SCENE, "response"),
     log:
         "<logs>/figures/response_{blade}.log",
-    resources:
-        **needs.of("response_figure"),
     params:
         **drawing(code, "figures.response_curves.draw_response", "response"),
 
@@ -54,8 +48,6 @@ use rule figure as response_overview with:
         **pictures("response", TOGETHER, EVERY_SCENE, "responses"),
     log:
         "<logs>/figures/response_overview.log",
-    resources:
-        **needs.of("response_overview"),
     params:
         **drawing(code, "figures.response_curves.draw_response_overview", "response_overview"),
 
@@ -70,8 +62,6 @@ use rule figure as map_figure with:
         "<logs>/figures/{kind}_{blade}__{scene}.log",
     wildcard_constraints:
         kind="|".join(MAPS),
-    resources:
-        **needs.of("map_figure"),
     params:
         **drawing(code, "figures.maps.draw_map"),
 
@@ -84,8 +74,6 @@ use rule figure as waterfall_figure with:
         **pictures("waterfall_{blade}__{scene}", "{blade}", "{scene}", "waterfall"),
     log:
         "<logs>/figures/waterfall_{blade}__{scene}.log",
-    resources:
-        **needs.of("map_figure"),
     params:
         **drawing(code, "figures.waterfall.draw_waterfall", "waterfall"),
 
@@ -97,8 +85,6 @@ use rule figure as comparison_figure with:
         **pictures("comparison_{scene}", TOGETHER, "{scene}", "around an interaction"),
     log:
         "<logs>/figures/comparison_{scene}.log",
-    resources:
-        **needs.of("response_overview"),
     params:
         **drawing(
             code,
@@ -127,8 +113,6 @@ use rule figure as clearance_figure with:
         **pictures("clearance_{scene}", TOGETHER, "{scene}", "clearance"),
     log:
         "<logs>/figures/clearance_{scene}.log",
-    resources:
-        **needs.of("response_overview"),
     params:
         **drawing(code, "figures.clearance_curves.draw_clearance", "clearance"),
 
@@ -140,8 +124,6 @@ use rule step as blade_shapes_figure with:
         **pictures("blades", TOGETHER, EVERY_SCENE, "shapes"),
     log:
         "<logs>/figures/blades.log",
-    resources:
-        **needs.of("blade_shapes_figure"),
     params:
         **step("figures.steps.blade_shapes"),
         blades=imported.with_mesh,

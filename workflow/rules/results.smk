@@ -9,8 +9,6 @@ use rule step as configuration with:
     log:
         "<logs>/configuration.log",
     priority: 20
-    resources:
-        **needs.of("configuration"),
     params:
         **step("results.steps.configuration"),
         merged=settings.merged(),
@@ -35,8 +33,6 @@ use rule step as sweep_dataset with:
         "<logs>/dataset_{kind}.log",
     wildcard_constraints:
         kind="|".join(sweep.kinds),
-    resources:
-        **needs.of("sweep_dataset"),
     params:
         **step("results.steps.sweep_dataset"),
         kind="{kind}",
@@ -56,8 +52,6 @@ use rule step as summary with:
         table=shown("<results>/summary.csv", TEXTS / "summary.rst", TOGETHER, "interactions"),
     log:
         "<logs>/summary.log",
-    resources:
-        **needs.of("summary"),
     params:
         **step("results.steps.summary"),
         choice=plain(settings.config.interactions),
@@ -71,8 +65,6 @@ use rule step as ranking with:
         table=shown("<results>/ranking.csv", TEXTS / "ranking.rst", TOGETHER, "ranking"),
     log:
         "<logs>/ranking.log",
-    resources:
-        **needs.of("summary"),
     params:
         **step("results.steps.ranking"),
         runs=sweep.runs_with("rms"),
@@ -85,8 +77,6 @@ use rule step as coincidences with:
         table=shown("<results>/coincidences.csv", TEXTS / "coincidences.rst", TOGETHER, "coincidences"),
     log:
         "<logs>/coincidences.log",
-    resources:
-        **needs.of("summary"),
     params:
         **step("results.steps.coincidences"),
         casings=joined.casings,
@@ -107,8 +97,6 @@ use rule step as explorer with:
         page=shown("<results>/explorer.html", TEXTS / "explorer.rst", TOGETHER, "explorer"),
     log:
         "<logs>/explorer.log",
-    resources:
-        **needs.of("explorer"),
     params:
         **step("explorer.steps.explorer", *panel_modules(sweep)),
         **shown_by_extensions,

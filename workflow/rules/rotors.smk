@@ -9,8 +9,6 @@ use rule step as rotor_of_run with:
         rotor=ROTOR_OF_RUN,
     log:
         "<logs>/{blade}/{scene}/rotor.log",
-    resources:
-        **needs.of("response"),
     params:
         **step("rotors.steps.rotor_of_run"),
         speeds=sweep.speeds,

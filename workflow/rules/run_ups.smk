@@ -13,8 +13,6 @@ use rule step as run_up with:
         "<logs>/{blade}/{scene}/run_up_{run_up}.log",
     wildcard_constraints:
         run_up="|".join(run_ups.names) or "none",
-    resources:
-        **needs.of("run_up"),
     params:
         **stage(run_ups.stage(made)),
 
@@ -26,8 +24,6 @@ use rule step as run_ups_dataset with:
         dataset="<results>/run_ups.nc",
     log:
         "<logs>/run_ups_dataset.log",
-    resources:
-        **needs.of("run_ups_dataset"),
     params:
         **step("run_ups.steps.join"),
         runs=run_ups.runs,

@@ -42,8 +42,6 @@ use rule step as search_shape with:
     log:
         "<logs>/search/{design}/shape.log",
     priority: 3
-    resources:
-        **needs.of("mesh"),
     params:
         **step("search.steps.shape"),
         shape=search.shape,

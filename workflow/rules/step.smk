@@ -8,5 +8,8 @@ rule step:
     # no other than what runs Snakemake; `snakemake --lint` asks for it
     conda:
         ENVIRONMENT
+    # MB; reduced models alone need more. Under a limit (--resources mem_mb=...) only as many jobs run as fit
+    resources:
+        mem_mb=500,
     script:
         "../scripts/step.py"

@@ -10,8 +10,6 @@ use rule step as contact_model with:
     log:
         "<logs>/{member}{blade}/contact_model_{tip_line}.log",
     priority: 2
-    resources:
-        **needs.of("contact_model"),
     params:
         **stage(stages["contact_model"]),
 
@@ -24,8 +22,6 @@ use rule step as stress_operator with:
     log:
         "<logs>/{member}{blade}/stress_operator_{tip_line}.log",
     priority: 2
-    resources:
-        **needs.of("contact_model"),
     params:
         **stage(stages["stress_operator"]),
 
@@ -41,8 +37,6 @@ use rule step as prepare_time_integration with:
     # the sweep's jobs find the time integration compiled; one message before the sweep instead of one from each of its jobs. Nothing here
     # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
-    resources:
-        **needs.of("prepare_time_integration"),
     params:
         **stage(stages["prepare_time_integration"]),
 
@@ -68,7 +62,7 @@ rule simulate:
     conda:
         ENVIRONMENT
     resources:
-        **needs.of("simulate"),
+        mem_mb=300,
     params:
         **served,
         task=simulations.task,
@@ -93,8 +87,6 @@ checkpoint refine:
     priority: 4
     conda:
         ENVIRONMENT
-    resources:
-        **needs.of("response"),
     params:
         **stage(stages["refine"]),
     script:
@@ -109,7 +101,5 @@ use rule step as response with:
     log:
         "<logs>/{member}{blade}/{scene}/response.log",
     priority: 5
-    resources:
-        **needs.of("response"),
     params:
         **stage(stages["response"]),

@@ -13,8 +13,6 @@ use rule step as tolerances_dataset with:
         dataset=DATASET,
     log:
         "<logs>/tolerances_dataset.log",
-    resources:
-        **needs.of("tolerances_dataset"),
     params:
         **step("tolerances.steps.join"),
         members=tolerances.runs,
