@@ -27,7 +27,7 @@ from r37 import structure_files
 from r37core import kept
 from r37core.checksums import checksum_file, checksummed, drop_checksum
 from r37core.config import ConfigError, command_line_document
-from r37core.console import failures, lock, refusals, snakemake_run
+from r37core.console import failures, lock, snakemake_run
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
 from r37core.io import InputFileError, OutputFileError, atomic_write, readable, scratch_folder, write_json
@@ -390,7 +390,7 @@ def test_checksums_are_those_of_a_common_tool(tmp_path):
 
 def test_a_refusal_names_no_files_of_ours():
     """Snakemake lists what it finds in the traceback."""
-    refused = refusals.without_files(WorkflowError)
+    refused = snakemake_run.without_files(WorkflowError)
     with pytest.raises(WorkflowError) as shown, snakemake_run._refused(refused):
         raise ConfigError("config.yaml:3: speeds: found none")
     text = format_exception_to_string(shown.value, {__file__: dict.fromkeys(range(2000), 1)})
@@ -413,7 +413,7 @@ def test_a_file_that_cannot_be_planned_with_is_told_in_one_line(tmp_path, settin
         text = str(InputFunctionException(error, wildcards={"blade": "Ref"}, rule=rule))
         about = {"exception": InputFunctionException.__name__, "event": "error"}
         record = logging.makeLogRecord({"msg": text, **about})
-        assert refusals.MessageAlone().filter(record)
+        assert snakemake_run.MessageAlone().filter(record)
         assert record.getMessage() == (line or text)
 
 

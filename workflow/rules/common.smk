@@ -5,8 +5,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from r37core.config import plain, si_fields
-from r37core.console.interpreter import PYTHON
-from r37core.console.snakemake_run import begin
+from r37core.console.snakemake_run import PYTHON, begin
 from r37core.explorer import parts_hash, with_programs
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes, EngineNumbers

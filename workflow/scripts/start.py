@@ -28,6 +28,8 @@ def ask(address, arguments):
 address, arguments = os.environ.get("R37_JOB_SERVER"), sys.argv[1:]
 status = None
 if address:
+    # steps have a process of their own; Snakemake's copies of step.py are called .../tmp1234.step.py
+    address += "_steps" * arguments[0].endswith(".step.py")
     environment = [f"{name}={value}" for name, value in os.environ.items()]
     status = ask(address, [os.getcwd(), str(len(environment)), *environment, *arguments])
 if status is None:

@@ -1,10 +1,11 @@
 """A server that has imported what jobs need, and forks for each: `python -m r37core.console.job_server SOCKET SCRIPT`.
 
 Importing takes longer than a simulation, and as long as drawing a figure. Jobs reach the server through
-`workflow/scripts/start.py`, which hands over their arguments and its output, waits, and passes the exit status on; where no
-server answers, the job runs by itself. Simulations are forked from the server, which stays light. A process of its own has
-imported what all other jobs need. Only its owner can talk to the server: the socket is in a folder of mode 0700. It ends when
-its standard input does, which Snakemake holds, and before Snakemake does unless that is killed.
+`workflow/scripts/start.py`. That script hands over its arguments and its output, waits, and passes the exit status on; where no
+server answers, the job runs by itself. One process forks the jobs of SCRIPT, the simulations, and stays light: VTK and others
+would make the fork and the end of each job twenty milliseconds longer. A second process, at SOCKET_steps, forks the steps. Only
+the owner can reach them, because the sockets lie in a folder of mode 0700. The server ends when its standard input ends, which
+Snakemake holds.
 """
 
 from __future__ import annotations
@@ -12,7 +13,6 @@ from __future__ import annotations
 import ast
 import atexit
 import contextlib
-import errno
 import gc
 import importlib
 import os
@@ -22,17 +22,15 @@ import select
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
 import threading
-import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, NoReturn
-
-from .job_requests import PATIENCE_S, Client, Job, passed_on
+from typing import NamedTuple, NoReturn
 
 ADDRESS = "R37_JOB_SERVER"
 """Environment variable with the socket's path, for the jobs; relative, because such a path may have a hundred letters."""
@@ -40,22 +38,13 @@ ADDRESS = "R37_JOB_SERVER"
 _PACKAGE = (__package__ or "").partition(".")[0]
 
 _KEPT: list[subprocess.Popen] = []
-"""A server whose handle is gone has no standard input any more."""
+"""Running servers: one whose handle is gone has no standard input any more."""
 
-_FOLDERS = "r37_jobs_"
-"""How the names of the folders of sockets begin."""
-
-_STOPPED_S = 2.0
-"""How long a server may be stopped: who pauses all processes of a machine continues them one after another."""
+_PATIENCE_S = 5
+"""How long (s) a client may take to say what it wants."""
 
 _END_S = 20.0
-"""How long Snakemake waits for the end of its server, which may be importing something."""
-
-_MOST_CLIENTS = 128
-"""That are read at once; others wait in the system's queue."""
-
-_LONGEST_SCRIPT = 2**26
-"""Bytes; the copies that Snakemake makes have a job's parameters in them."""
+"""How long (s) Snakemake waits for the end of its server, which may be importing something."""
 
 
 def start(script: Path, python: Path, say: Callable[[str], object]) -> bool:
@@ -65,8 +54,7 @@ def start(script: Path, python: Path, say: Callable[[str], object]) -> bool:
     """
     os.environ.pop(ADDRESS, None)
     try:
-        _remove_deserted(Path(".snakemake"))
-        folder = Path(tempfile.mkdtemp(prefix=_FOLDERS, dir=".snakemake"))
+        folder = Path(tempfile.mkdtemp(prefix="r37_jobs_", dir=".snakemake"))
         address = Path(os.path.relpath(folder)) / "socket"
         # -P: the user's folder may hold a random.py
         command = [str(python), "-P", "-m", __name__, str(address), str(script)]
@@ -92,204 +80,149 @@ def _end(server: subprocess.Popen, folder: Path) -> None:
     shutil.rmtree(folder, ignore_errors=True)
 
 
-def _remove_deserted(place: Path) -> None:
-    """Remove the folders of servers that were killed: nobody listens at their sockets."""
-    for address in place.glob(f"{_FOLDERS}*/socket"):
-        with socket.socket(socket.AF_UNIX) as client, contextlib.suppress(OSError):
-            client.settimeout(1.0)
-            if client.connect_ex(os.path.relpath(address)) == errno.ECONNREFUSED:
-                shutil.rmtree(address.parent)
-
-
 def _watch(server: subprocess.Popen, folder: Path, say: Callable[[str], object]) -> None:
-    """Wait until a server ends, and say so unless all is well; one that is stopped is killed, as its clients wait for it."""
-    options = os.WSTOPPED | os.WNOWAIT
+    """Wait until a server ends, and report it unless all is well."""
     try:
-        while (end := os.waitid(os.P_PID, server.pid, options | os.WEXITED)) and end.si_code == os.CLD_STOPPED:
-            time.sleep(_STOPPED_S)
-            if os.waitid(os.P_PID, server.pid, options | os.WNOHANG):
-                server.kill()
+        end = os.waitid(os.P_PID, server.pid, os.WNOWAIT | os.WEXITED)
     except ChildProcessError:
         # somebody else has waited for it
         return
     if end and end.si_status and not server.stdin.closed:  # type: ignore[union-attr]
         shutil.rmtree(folder, ignore_errors=True)
         say(
-            f"the job server (process {server.pid}) was stopped or killed; no job is lost, but each starts by itself from now "
-            "on, which takes longer; to have it back, end this run and give the same command again"
+            f"the job server (process {server.pid}) was killed; no job is lost, but each starts by itself from now on, which "
+            "takes longer; to have it back, end this run and give the same command again"
         )
 
 
 def serve(address: Path, script: str) -> None:
-    """Fork for every client until standard input ends, whatever clients do; see _Imported for `script`."""
-    imported, steps = _Imported(script), _Steps(script)
-    clients: list[Client] = []
+    """Fork for every client until standard input ends."""
     try:
-        with socket.socket(socket.AF_UNIX) as listener:
-            # a socket that nobody listens at yet is taken for that of a killed server
-            listener.bind(new := str(address.with_name("new")))
-            listener.listen(256)
-            os.rename(new, address)
+        with _listening(f"{address}_steps") as steps, _listening(str(address)) as jobs:
             signal.signal(signal.SIGCHLD, signal.SIG_IGN)
-            while sys.stdin not in (ready := _ready(listener, clients)):
-                if listener in ready:
-                    # it may be gone already
-                    with contextlib.suppress(OSError):
-                        clients.append(Client(listener.accept()[0]))
-                for client in clients.copy():
-                    others = [listener, *(other for other in clients if other is not client)]
-                    if _served(client, imported, steps, others) if client.connection in ready else client.is_late():
-                        client.close()
-                        clients.remove(client)
+            if not (second := os.fork()):
+                jobs.close()
+                _fork_for_clients(steps, _Steps(Path(script).parent).prepare)
+                os._exit(0)
+            steps.close()
+            _fork_for_clients(jobs, _Simulations(script).prepare)
+        with contextlib.suppress(ChildProcessError):
+            os.waitpid(second, 0)
     finally:
         shutil.rmtree(address.parent, ignore_errors=True)
 
 
-def _ready(listener: socket.socket, clients: list[Client]) -> list[Any]:
-    """Whom there is to listen to: standard input, new clients unless there are many, and those that say something."""
-    new = [listener] if len(clients) < _MOST_CLIENTS else []
-    watched = [sys.stdin, *new, *(client.connection for client in clients)]
-    return select.select(watched, [], [], PATIENCE_S / 10.0 if clients else None)[0]
+def _listening(address: str) -> socket.socket:
+    listener = socket.socket(socket.AF_UNIX)
+    # a socket that is there is one that somebody listens at
+    listener.bind(f"{address}_new")
+    listener.listen(256)
+    os.rename(f"{address}_new", address)
+    return listener
 
 
-def _served(client: Client, imported: _Imported, steps: _Steps, open_here: list[Any]) -> bool:
-    """Listen to a client; whether it is done with: its job is under way, or it has said what no client of ours says.
-
-    `open_here`: what a job has no use for, to be closed in its process.
-    """
-    try:
-        job = client.read()
-        if job is None:
-            return False
-        if os.path.abspath(job.arguments[0]) == os.path.abspath(imported.main):
-            imported.make_ready(job.arguments)
-            if os.fork() == 0:
-                _answer(client.connection, job, [*open_here, steps])
-        elif _is_ours(job.arguments[0], Path(imported.main).parent):
-            steps.take(client, open_here)
-    except Exception:
+def _fork_for_clients(listener: socket.socket, prepare: Callable[[list[str]], object]) -> None:
+    """Run the job of each client in a process of its own until standard input ends; `prepare` takes its arguments before."""
+    while sys.stdin not in select.select([sys.stdin, listener], [], [])[0]:
         # a client that gets no answer runs its job itself
-        return True
-    return True
+        with contextlib.suppress(Exception), listener.accept()[0] as client, contextlib.ExitStack() as files:
+            job = _read_job(client, files)
+            prepare(job.arguments)
+            if os.fork() == 0:
+                listener.close()
+                _answer(client, job)
+
+
+class _Job(NamedTuple):
+    """What a client asks for: its folder, its environment, script and arguments, and the files that its output goes to."""
+
+    folder: str
+    environment: dict[str, str]
+    arguments: list[str]
+    outputs: list[int]
+
+
+def _read_job(client: socket.socket, files: contextlib.ExitStack) -> _Job:
+    """The job of a client; `files` closes its outputs. Raises ValueError and OSError for what start.py does not send."""
+    client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, struct.pack("ll", _PATIENCE_S, 0))
+    size = int.from_bytes(client.recv(8, socket.MSG_WAITALL), "little")
+    first, outputs, _, _ = socket.recv_fds(client, 1, 2)
+    for output in outputs:
+        files.callback(os.close, output)
+    message = first + client.recv(size - 1, socket.MSG_WAITALL)
+    client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, struct.pack("ll", 0, 0))
+    folder, number, *rest = map(os.fsdecode, message.split(b"\0"))
+    entries, arguments = rest[: int(number)], rest[int(number) :]
+    if len(message) != size or len(outputs) != 2 or not arguments:
+        raise ValueError("no message of a job")
+    return _Job(folder, dict(entry.split("=", 1) for entry in entries), arguments, outputs)
+
+
+class _Simulations:
+    """Preparation of the jobs of one `script`: all of it is run once that stands outside its main part.
+
+    A function `make_ready` in the script gets the arguments of each of its jobs, before the job.
+    """
+
+    def __init__(self, script: str):
+        self._script = os.path.abspath(script)
+        self._make_ready: Callable[..., object] | None = None
+
+    def prepare(self, arguments: list[str]) -> None:
+        """Load what the jobs have in common. What fails is the job's own affair; ValueError for another script."""
+        if os.path.abspath(arguments[0]) != self._script:
+            raise ValueError("another script")
+        with contextlib.suppress(Exception, SystemExit):
+            if self._make_ready is None:
+                self._make_ready = lambda *_: None
+                with _importing():
+                    self._make_ready = runpy.run_path(self._script).get("make_ready", self._make_ready)
+            self._make_ready(*arguments[1:])
 
 
 class _Steps:
-    """A process that forks for the jobs of all scripts but the main one, begun with the first of them.
+    """Preparation of jobs of the scripts in a `folder`: what they import is imported once."""
 
-    What these import, of VTK and others, would make the fork and the end of each simulation twenty milliseconds longer.
-    """
+    def __init__(self, folder: Path):
+        self._folder, self._known = os.path.realpath(folder), set[str]()
 
-    def __init__(self, main: str):
-        self._main = main
-        self._connection: socket.socket | None = None
+    def prepare(self, arguments: list[str]) -> None:
+        """Import what a script imports, as far as that is found; what is not is the job's own affair.
 
-    def take(self, client: Client, open_here: list[Any]) -> None:
-        """Pass a client on; `open_here`: what that process has no use for. Raises OSError where it has been killed."""
-        ours = self._connection
-        if ours is None:
-            ours, theirs = socket.socketpair()
-            if os.fork() == 0:
-                for other in (*open_here, client, ours):
-                    other.close()
-                _serve_steps(theirs, self._main)
-            theirs.close()
-            self._connection = ours
-        try:
-            client.pass_on(ours)
-        except OSError:
-            self.close()
-            raise
-
-    def close(self) -> None:
-        """Leave the process, which ends when all have left it; the next client begins another one."""
-        if self._connection is not None:
-            self._connection.close()
-            self._connection = None
+        Raises ValueError for a script of others, which may need Python's own end: it closes what they leave open.
+        """
+        script = arguments[0]
+        text = Path(script).read_text(encoding="utf-8")
+        # a copy that Snakemake makes names our script in a line before it
+        ours = os.path.dirname(os.path.realpath(script)) == self._folder
+        if not (ours or f"__file__ = {self._folder + os.sep!r}"[:-1] in text):
+            raise ValueError("another script")
+        if new := _imports_of(text) - self._known:
+            with _importing():
+                for name in sorted(new):
+                    with contextlib.suppress(Exception, SystemExit):
+                        importlib.import_module(name)
+            self._known |= new
 
 
-def _serve_steps(source: socket.socket, main: str) -> NoReturn:
-    """Fork for every client that the server passes on, until it ends."""
-    imported = _Imported(main)
+@contextlib.contextmanager
+def _importing() -> Iterator[None]:
+    # what is imported may start programs, and asks how they ended
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     try:
-        while passed := passed_on(source):
-            client, job = passed
-            # a client that gets no answer runs its job itself
-            with contextlib.suppress(Exception):
-                imported.add(job.arguments[0])
-                if os.fork() == 0:
-                    _answer(client.connection, job, [source])
-            client.close()
+        yield
     finally:
-        os._exit(0)
-
-
-class _Imported:
-    """What the server has imported. Of `main`, a script, all is run once that stands outside its main part.
-
-    A function `make_ready` there gets the arguments of each of its jobs, before the job.
-    """
-
-    def __init__(self, main: str):
-        self.main, self._known = main, set[str]()
-        self._make_ready: Callable[..., None] | None = None
-
-    def add(self, script: str) -> None:
-        """Import what a script imports, as far as that is found; what is not is the job's own affair."""
-        needed = {script} if script == self.main else _imports_of(script)
-        if not (new := needed - self._known):
-            return
-        # what is imported may start programs, and asks how they ended
-        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-        for name in sorted(new):
-            with contextlib.suppress(Exception, SystemExit):
-                if name == self.main:
-                    self._make_ready = runpy.run_path(name).get("make_ready")
-                else:
-                    importlib.import_module(name)
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)
         # what is imported is no garbage: no job needs to look through it, and its memory stays shared
         gc.freeze()
-        self._known |= new
-
-    def make_ready(self, arguments: list[str]) -> None:
-        """Import `main` and let it load, if it says how, what its jobs have in common; what fails is the job's own affair."""
-        self.add(self.main)
-        if self._make_ready:
-            with contextlib.suppress(Exception):
-                self._make_ready(*arguments[1:])
 
 
-def _is_ours(script: str, folder: Path) -> bool:
-    """Whether a script is one of the `folder`, or Snakemake's copy of one.
-
-    Those of others may need Python's own end, which closes what they leave open: they run by themselves.
-    """
-    ours = os.path.realpath(folder)
-    if os.path.realpath(os.path.dirname(script)) == ours:
-        return True
-    try:
-        # in the line that Snakemake puts before a copy
-        return f"__file__ = {ours + os.sep!r}"[:-1] in _text_of(script)
-    except (OSError, ValueError):
-        return False
-
-
-def _text_of(script: str) -> str:
-    """Raises OSError for what is no file, and ValueError for one that is too long to be a script."""
-    # not waiting for what others write, as a pipe would
-    with open(os.open(script, os.O_RDONLY | os.O_NONBLOCK), encoding="utf-8") as stream:
-        text = stream.read(_LONGEST_SCRIPT)
-    if len(text) == _LONGEST_SCRIPT:
-        raise ValueError("too long to be a script")
-    return text
-
-
-def _imports_of(script: str) -> set[str]:
+def _imports_of(text: str) -> set[str]:
     """Modules that a script imports where it begins, and names out of them that may be modules.
 
-    And those of our package that the job's parameters name, which stand in the line that Snakemake puts before its copy.
+    Modules of our package that the job's parameters name are among them; they stand in the line that Snakemake puts before its
+    copy.
     """
-    text = _text_of(script)
     names = set(re.findall(rf"{_PACKAGE}(?:\.[a-z_]\w*)+", text))
     for node in ast.parse(text).body:
         if isinstance(node, ast.Import):
@@ -299,26 +232,24 @@ def _imports_of(script: str) -> set[str]:
     return names
 
 
-def _answer(connection: socket.socket, job: Job, open_here: list[Any]) -> NoReturn:
-    """Run a job in this process, which ends with it, or when its client is gone. `open_here`: what is closed before."""
+def _answer(client: socket.socket, job: _Job) -> NoReturn:
+    """Run a job in this process, which ends with it, or when its client is gone."""
     status = 1
     try:
-        for other in open_here:
-            other.close()
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         for output, number in zip(job.outputs, (1, 2), strict=True):
             os.dup2(output, number)
-        threading.Thread(target=_end_with, args=(connection,), daemon=True).start()
+        threading.Thread(target=_end_with, args=(client,), daemon=True).start()
         os.chdir(job.folder)
         os.environ.clear()
         os.environ.update(job.environment)
-        # of another TMPDIR
+        # the job may have another TMPDIR
         tempfile.tempdir = None
         sys.argv = job.arguments
         status = _status_of(sys.argv[0])
         sys.stdout.flush()
         sys.stderr.flush()
-        connection.sendall(bytes([status]))
+        client.sendall(bytes([status]))
     finally:
         os._exit(status)
 
@@ -338,9 +269,9 @@ def _status_of(script: str) -> int:
     return 0
 
 
-def _end_with(connection: socket.socket) -> None:
+def _end_with(client: socket.socket) -> None:
     """End this process when its client is gone."""
-    connection.recv(1)
+    client.recv(1)
     os._exit(1)
 
 

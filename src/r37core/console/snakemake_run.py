@@ -10,6 +10,8 @@ import atexit
 import contextlib
 import logging
 import os
+import re
+import shlex
 import socket
 import sys
 import time
@@ -20,6 +22,7 @@ from typing import Any
 
 from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_on_points
+from r37core.io import InputFileError
 from r37core.plans.extent import extent_of
 from r37core.plans.run import check_part, replaced_level, source_folder
 from r37core.product.closing import lines_of_extensions
@@ -27,13 +30,18 @@ from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, remarks
 from r37core.product.sampling import beside
 
-from . import failures, interpreter, job_server, lock, refusals
+from . import failures, job_server, lock
 from .caller import Caller
 from .closing import closing_lines
 from .progress import Progress, quieten
 
 SNAKEMAKE = "9.27.1"
 """The version that this package was written for."""
+
+PYTHON = Path(sys.executable)
+"""The interpreter, before Snakemake is told how to call it."""
+
+_OF_A_FILE = re.compile(rf"^ *{InputFileError.__name__}: (.*)$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -62,8 +70,8 @@ class Console:
         # quarter of a core in the default sweep. The limit is for the queues of clusters
         if self.workflow.local_exec:
             self.workflow.scheduler.job_rate_limiter = None
-            if job_server.start(self.scripts / "simulate.py", interpreter.PYTHON, self.tell):
-                interpreter.through(self.scripts / "start.py")
+            if job_server.start(self.scripts / "simulate.py", PYTHON, self.tell):
+                start_scripts_by(self.scripts / "start.py")
 
     def succeed(self) -> None:
         """After the last job: nothing is said where there is nothing to say."""
@@ -91,14 +99,15 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     `refusal` for a configuration that is not allowed.
     """
     began, config, output = time.time(), workflow.config_settings, workflow.output_settings
-    refusal, caller = refusals.without_files(refusal), Caller.of_this_run()
+    refusal, caller = without_files(refusal), Caller.of_this_run()
     for handler in logger.handlers:
-        handler.addFilter(refusals.MessageAlone())
+        handler.addFilter(MessageAlone())
         if caller:
             handler.addFilter(caller)
     if workflow.is_main_process:
         failures.begin(f"{socket.gethostname()}_{os.getpid()}")
-    interpreter.quote()
+    # Snakemake puts it into the commands of its scripts as it stands: a blank or `$()` in a folder's name would count
+    sys.executable = shlex.quote(str(PYTHON))
     if "CONDA" in {method.name for method in workflow.deployment_settings.deployment_method}:
         raise refusal("--sdm conda: jobs need the Python that runs Snakemake, with r37 in it; leave the option out")
     # of our Snakefile itself they are those of the command line, without lines and with texts for numbers
@@ -117,6 +126,27 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     if not (caller or os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
         quieten(logger.handlers, Progress(extent_of(settings, beside(settings)).at_most))
     return Console(workflow, refusal, logger.warning, settings, root / "workflow/scripts", source, began, caller)
+
+
+def start_scripts_by(start: Path) -> None:
+    """Let Snakemake start the Python scripts of its rules by way of `start`, a script that hands them to the job server."""
+    sys.executable = shlex.join([str(PYTHON), "-S", "-E", str(start)])
+
+
+def without_files(refusal: type[Exception]) -> type[Exception]:
+    """Snakemake's own exception, without the traceback from which it lists the places in our rules."""
+    hidden = property(lambda error: None, lambda error, traceback: None)
+    return type(ConfigError.__name__, (refusal,), {"__traceback__": hidden})
+
+
+class MessageAlone(logging.Filter):
+    """A filter that leaves of an error in an input function the message of the file that could not be read."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Every record passes."""
+        if getattr(record, "exception", None) == "InputFunctionException" and (told := _OF_A_FILE.search(record.getMessage())):
+            record.msg, record.args = told[1], ()
+        return True
 
 
 @contextlib.contextmanager
