@@ -2,9 +2,9 @@
 import os
 import sys
 
-from r37core.console import interruption
+from r37core.console import failures
 
-interruption.in_one_line()
+failures.end_interruptions_in_one_line()
 # one thread per job: Snakemake runs jobs side by side, and results must not depend on the number of cores
 for library in ("OPENBLAS", "OMP", "MKL", "NUMBA"):
     os.environ[f"{library}_NUM_THREADS"] = "1"

@@ -7,8 +7,14 @@ import pytest
 import scipy.linalg as la
 import xarray as xr
 
-from r37core.results.campbell import Campbell, campbell_diagram, dynamic_clearance, modal_assurance
-from r37core.results.campbell_dataset import campbell_dataset, gather_blades
+from r37core.results.campbell import (
+    Campbell,
+    campbell_dataset,
+    campbell_diagram,
+    dynamic_clearance,
+    gather_blades,
+    modal_assurance,
+)
 from r37core.rom.rotation import BucklingError
 
 PUBLISHED = {7: 806.0, 6: 965.0, 5: 1213.0, 4: 1672.0}

@@ -7,8 +7,7 @@ import matplotlib.pyplot as plt
 from PIL import Image
 
 from r37core.figures.style import save
-from r37core.product.captions import CAPTIONS, caption
-from r37core.product.reporting import captioned
+from r37core.product.reporting import CAPTIONS, caption, captioned
 
 NAMES = {"blade": "Ref", "scene": "direct", "family": "Sweep"}
 

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from r37core.designs import closing as designs
+from r37core.designs import table as designs
 from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.closing import line_of_extension
@@ -16,7 +16,7 @@ from r37core.rotors import closing as rotors
 from r37core.run_ups import closing as run_ups
 from r37core.search import closing as search
 from r37core.signals import closing as signals
-from r37core.tolerances import closing as tolerances
+from r37core.tolerances import table as tolerances
 
 
 def extension(*files, **more):

@@ -15,7 +15,7 @@ from snakemake.settings import types
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from r37core.config import ConfigError
-from r37core.console import interruption, progress, snakemake_run
+from r37core.console import failures, progress, snakemake_run
 from r37core.console.lock import _LOCKS
 
 
@@ -101,14 +101,14 @@ def test_an_interruption_while_the_rules_are_read_is_one_line(root, capsys, monk
     """Before anything else is imported, which takes the first second."""
     shown = []
     monkeypatch.setattr(sys, "excepthook", lambda *error: shown.append(error))
-    interruption.in_one_line()
+    failures.end_interruptions_in_one_line()
     sys.excepthook(KeyboardInterrupt, KeyboardInterrupt(), None)
     assert (capsys.readouterr().err, shown) == ("interrupted before the first job\n", [])
     sys.excepthook(ValueError, error := ValueError("x"), None)
     assert shown == [(ValueError, error, None)]
     lines = [line for line in (root / "Snakefile").read_text().splitlines() if line and not line.startswith("#")]
-    assert lines[: lines.index("interruption.in_one_line()")] == [
+    assert lines[: lines.index("failures.end_interruptions_in_one_line()")] == [
         "import os",
         "import sys",
-        "from r37core.console import interruption",
+        "from r37core.console import failures",
     ]

@@ -12,8 +12,7 @@ from scipy.integrate import solve_ivp
 from test_coriolis import SCENES, coupled_model
 
 from r37core.config import ConfigError, checked_scene, command_line_document
-from r37core.config.casing_remarks import of_left_out_modes, of_speeds
-from r37core.config.remarks import remarks_of_pipeline
+from r37core.config.remarks import remark_on_overtaken_waves, remarks_of_pipeline, remarks_on_left_out_modes
 from r37core.contact.elastic_casing import (
     ElasticCasing,
     flexibility,
@@ -489,11 +488,11 @@ def test_a_run_above_a_critical_speed_says_so(root, speed, ending):
 @pytest.mark.parametrize(("ring", "ending"), [(1e-3, "85 have 95%"), (1e-4, "not even 100 have 95%")])
 def test_modes_that_miss_much_of_the_give_are_said(ring, ending):
     whole = casing_of(replace(FLANGED, thickness=ring), 20)
-    (said,) = of_left_out_modes({"one": whole, "two": whole, "given": ElasticCasing(whole.modes)})
+    (said,) = remarks_on_left_out_modes({"one": whole, "two": whole, "given": ElasticCasing(whole.modes)})
     share = flexibility_of(whole.modes) / flexibility(whole.ring)
     assert said.startswith("scene one, two: the modes up to casing.ring.highest_nodal_diameter 20 give way 0.024")
     assert f", {share:.0%} of what the whole ring does, " in said and said.endswith(ending)
-    assert of_left_out_modes({"one": casing_of(FLANGED, 51)}) == []
+    assert remarks_on_left_out_modes({"one": casing_of(FLANGED, 51)}) == []
 
 
 def test_all_modes_of_given_ones_are_simulated():
@@ -501,8 +500,8 @@ def test_all_modes_of_given_ones_are_simulated():
     casing = ElasticCasing(modes)
     assert casing.modes_met(1e6, 1e6) == modes
     assert casing.critical_speed == 500.0
-    assert of_speeds("scene", casing, 500.0) == ""
-    assert of_speeds("scene", casing, 501.0).endswith("grow without bound")
+    assert remark_on_overtaken_waves("scene", casing, 500.0) == ""
+    assert remark_on_overtaken_waves("scene", casing, 501.0).endswith("grow without bound")
 
 
 RINGS = [

@@ -20,8 +20,7 @@ from defaults import MatricesSource, Orientation
 
 from r37core.exchange.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 from r37core.exchange.importing import matrix_file
-from r37core.exchange.importing.first_frequency import in_words
-from r37core.exchange.importing.matrices_in import import_matrices
+from r37core.exchange.importing.matrices_in import import_matrices, in_words
 from r37core.exchange.importing.matrix_file import read_matrix
 from r37core.exchange.importing.source import matrix_files
 from r37core.exchange.refusal import ImportRefused, MeshWarning

@@ -13,8 +13,8 @@ from defaults import Orientation
 from r37core.blade.sense import sense_of_line
 from r37core.exchange.importing import ends, fitting_entry, mesh_checks, meshio_reader, tip, where
 from r37core.exchange.importing.abaqus_reader import read_abaqus
-from r37core.exchange.importing.axes import find_axes
 from r37core.exchange.importing.deck_text import deck_lines
+from r37core.exchange.importing.fitting_entry import find_axes
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.exchange.importing.import_mesh import size_in_words
 from r37core.exchange.importing.raw_mesh import RawMesh

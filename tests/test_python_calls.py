@@ -13,7 +13,7 @@ import xarray as xr
 from workflow_runs import copy_finished
 
 import r37
-from r37.checked import arguments_of
+from r37.stages import arguments_of
 from r37core.dataset_file import write_dataset
 from r37core.results.table_file import write_table
 

@@ -35,7 +35,7 @@ from r37core.plans.run import replaced_level, source_folder
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.reading import read_settings
-from r37core.results.campbell_dataset import campbell_dataset
+from r37core.results.campbell import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.rotation import BucklingError
 from r37core.speeds import plan_speeds

@@ -17,8 +17,8 @@ from r37core.io import Named
 from r37core.plain import to_plain
 from r37core.plans.samples import Samples, folder_and_name
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.extensions import beside
 from r37core.product.reading import read_settings
-from r37core.product.sampling import beside
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.search import checks
 from r37core.search.choice import Constraint, Design, SearchChoice

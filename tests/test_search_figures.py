@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 
 from r37core.search.figures import draw_designs, draw_slices
-from r37core.search.shown import in_lines
+from r37core.search.panel import in_lines
 from r37core.units import shown_unit
 
 KEYS = ("sweep_lean.1.sweep_cm", "stagger_deg.tip")

@@ -11,8 +11,7 @@ import pytest
 from r37core.plain import from_plain, to_plain
 from r37core.search import gaussian_processes
 from r37core.search.gaussian_processes import SearchPackageMissing
-from r37core.search.pareto import best_first, not_dominated
-from r37core.search.problem import Evaluated, SearchVariable, designs_at, shares
+from r37core.search.problem import Evaluated, SearchVariable, best_first, designs_at, not_dominated, shares
 from r37core.search.proposal import NEAR, first_designs, propose
 from r37core.search.surrogate import objective_fits, sensitivity, slices
 

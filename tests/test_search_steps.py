@@ -14,8 +14,8 @@ from r37core.dataset_file import read_dataset, write_dataset
 from r37core.io import Named, read_json, write_json
 from r37core.plain import to_plain
 from r37core.plans.sweep_plan import Sweep
+from r37core.product.extensions import beside
 from r37core.product.reading import read_settings
-from r37core.product.sampling import beside
 from r37core.search import steps
 from r37core.search.dataset import search_dataset
 from r37core.search.plan import Search, designs_of, remarks

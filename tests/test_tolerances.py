@@ -29,9 +29,8 @@ from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
 from r37core.tolerances.figures import draw_tolerances
 from r37core.tolerances.members import members_of
-from r37core.tolerances.number_ranks import ranking
+from r37core.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
 from r37core.tolerances.sensitivity import sobol_indices
-from r37core.tolerances.shares import CONFIDENCE, share_ends
 from r37core.tolerances.table import range_table, ranges, shares_of_members
 
 

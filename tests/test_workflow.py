@@ -23,8 +23,8 @@ from plans_of_snakemake import plan, planned, planned_outputs
 from workflow_runs import LONGEST, copy_odd_project, run_in_odd_project, snakemake
 
 from r37core.config import ConfigError
-from r37core.product.captions import caption
 from r37core.product.reading import read_settings
+from r37core.product.reporting import caption
 from r37core.time_integration.speed_file import read_speed
 from r37core.yaml_file import load_yaml
 

@@ -20,7 +20,7 @@ from r37core.config.section_laws import SECTION_KEYS
 
 from .arguments import plain_value
 from .call_configuration import Configuration, existing_file, read_configuration
-from .checked import checked_call
+from .stages import checked_call
 
 
 @dataclass(frozen=True)

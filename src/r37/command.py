@@ -211,9 +211,9 @@ def _simulate(options: argparse.Namespace) -> None:
 def _check(options: argparse.Namespace) -> None:
     from r37core.config.remarks import remarks_on_points
     from r37core.plans.extent import extent_of
+    from r37core.product.extensions import beside
     from r37core.product.reading import load_settings
     from r37core.product.remarks import remarks
-    from r37core.product.sampling import beside
 
     from .call_configuration import read_configuration
 

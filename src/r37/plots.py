@@ -13,8 +13,8 @@ import xarray as xr
 
 from r37core.config import ConfigError
 
-from .checked import checked_call
 from .run_results import RunResults
+from .stages import checked_call
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

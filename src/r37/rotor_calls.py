@@ -16,9 +16,9 @@ from r37core.rotors.plan import ROTOR_OF_RUN
 from .arguments import Speeds, speed_keys
 from .call_configuration import Configuration
 from .call_settings import base_of, chosen_blade, chosen_scene
-from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
 from .runs import SweepOptions, run_of
+from .stages import checked_call
 
 
 @checked_call

@@ -17,7 +17,7 @@ from r37core.netcdf_access import lazy_dataset
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
-from .checked import checked_call
+from .stages import checked_call
 
 Content = TypeVar("Content")
 

@@ -17,10 +17,10 @@ from r37core.run_ups.plan import RUN_UP, RunUps
 from .arguments import mapping
 from .calculation import Calculation
 from .call_settings import Call, OneOptions, call_of_one
-from .checked import checked_call
 from .choices import BladeChoice, SceneChoice
 from .remarks import remarks_of, tell
 from .runs import RunOptions, run_of
+from .stages import checked_call
 
 
 class RunUpOptions(OneOptions, total=False):

@@ -9,10 +9,10 @@ from r37core.search.designs import FOLDER
 from r37core.search.plan import BEST, DATASET, TABLE
 
 from .arguments import Speeds, mapping, plain_value
-from .checked import checked_call
 from .choices import BladeChoice
 from .run_results import RunResults
 from .runs import Scenes, SweepOptions, blades_of, named_run
+from .stages import checked_call
 
 _BOUNDS = 'dotted keys of blades.yaml and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
 _MAPPINGS = {

@@ -1,4 +1,4 @@
-"""What a call says while it works: a line for each stage, and a bar where there are many simulations.
+"""What a call says while it works: a line for each stage, and a bar where there are many simulations; the check of its arguments.
 
 The lines go to the logger `r37` of the standard library. Where nobody listens to it and a person watches, on a terminal or in a
 notebook, they are written there, and bars beside them. `logging.getLogger("r37").setLevel("WARNING")` silences both.
@@ -6,12 +6,14 @@ notebook, they are written there, and bars beside them. `logging.getLogger("r37"
 
 from __future__ import annotations
 
+import inspect
 import logging
 import sys
 import warnings
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeVar
+from functools import wraps
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, get_args
 
 from r37core.process_wide import ProcessWide
 
@@ -88,3 +90,40 @@ def simulations_in_words(settings: Settings, blade: str, scene: str, number: str
     """The line of a stage that simulates."""
     plural = "" if number == "1" else "s"
     return f"{blade} in {scene}: {number} simulation{plural}, level {settings.fidelity_name}"
+
+
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
+
+
+def arguments_of(call: Callable[..., object]) -> list[str] | None:
+    """Names of what a call takes by name, those of its `**options: Unpack[...]` included; None where it takes any."""
+    names: list[str] = []
+    for name, parameter in inspect.signature(call).parameters.items():
+        if parameter.kind is parameter.VAR_KEYWORD:
+            options = get_args(eval(parameter.annotation, call.__globals__))
+            if not options:
+                return None
+            names += options[0].__annotations__
+        elif parameter.kind is not parameter.POSITIONAL_ONLY:
+            names.append(name)
+    return names
+
+
+def checked_call(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+    """The call, with its stages told, and a TypeError for an unknown keyword argument that says which there are."""
+    named = arguments_of(call) or []
+    takes_any = not named
+
+    @wraps(call)
+    def checked(*arguments: Arguments.args, **keywords: Arguments.kwargs) -> Result:
+        for name in () if takes_any else keywords.keys() - set(named):
+            from r37core.config.messages import did_you_mean
+
+            raise TypeError(
+                f"r37.{call.__name__}: found the argument {name}; allowed: {', '.join(named)}{did_you_mean(name, named)}"
+            )
+        with stages():
+            return call(*arguments, **keywords)
+
+    return checked

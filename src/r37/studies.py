@@ -9,10 +9,10 @@ import pandas as pd
 
 from .arguments import Speeds, mapping, plain_value, speed_keys
 from .call_settings import chosen_blade
-from .checked import checked_call
 from .choices import BladeChoice
 from .run_results import RunResults
 from .runs import Blades, Scenes, SweepOptions, named_run, run_of, scenes_of_run
+from .stages import checked_call
 
 _SPREAD = 'dotted keys and how each spreads, as in {"friction.coefficient": {"uniform_percent": 5}}'
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from r37core.config import ConfigError
 
-from .checked import checked_call
+from .stages import checked_call
 
 _PACKAGE = Path(__file__).parent
 

@@ -19,7 +19,7 @@ from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
 from r37core.product.panels import panel_files, panel_modules, panel_parameters
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing
-from r37core.product.sampling import beside, sampling_of
+from r37core.product.extensions import beside, sampling_of
 from r37core.product.targets import simulated, tables, targets
 
 ROOT = Path(workflow.current_basedir).parent.parent

@@ -114,7 +114,7 @@ use rule figure as clearance_figure with:
     log:
         "<logs>/figures/clearance_{scene}.log",
     params:
-        **drawing(code, "figures.clearance_curves.draw_clearance", "clearance"),
+        **drawing(code, "figures.response_curves.draw_clearance", "clearance"),
 
 
 use rule step as blade_shapes_figure with:

@@ -1,12 +1,11 @@
 """Configuration: YAML files checked by models, and the settings made of them."""
 
 from .blades import BladeSettings
-from .declaring import in_si
+from .declaring import in_si, si_fields
 from .document import ConfigError, Document, command_line_document, read_document
 from .scenes import SceneEntry
 from .section import plain
 from .settings import SceneSettings, Settings, checked_scene
-from .si_fields import si_fields
 
 __all__ = [
     "BladeSettings",

@@ -24,12 +24,11 @@ from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
-from .declaring import in_si
+from .declaring import in_si, si_fields
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, Unique, left_out, plain, refused
 from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, section_laws, with_section_laws
-from .si_fields import si_fields
 
 LARGEST_FAMILY = 10_000
 """Designs of one entry."""

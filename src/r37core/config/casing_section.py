@@ -12,9 +12,8 @@ from r37core.contact.casing import Casing
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 
-from .declaring import DECLARED, declared_by, in_si
+from .declaring import DECLARED, declared_by, in_si, si_fields
 from .section import LeftOut, Section, left_out, refused
-from .si_fields import si_fields
 
 
 class GrowthSection(Section):

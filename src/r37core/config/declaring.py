@@ -6,7 +6,7 @@ A dataclass declares its keys (`r37core.declared`). `declared_by` puts them into
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import MISSING, fields
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
@@ -14,9 +14,9 @@ from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 from pydantic import Field, create_model
 
 from r37core.declared import DeclaredKey, Key, declared_keys
+from r37core.units import si_name
 
 from .section import LeftOut, Section
-from .si_fields import to_si
 
 S = TypeVar("S", bound=Section)
 T = TypeVar("T")
@@ -104,3 +104,25 @@ def _file_type(key: Key, kind: Any) -> Any:
     if kind in (int, float):
         return Annotated[kind, Field(ge=key.ge, gt=key.gt, le=key.le, lt=key.lt)]
     return kind
+
+
+def si_fields(section: Iterable[tuple[str, Any]]) -> dict[str, Any]:
+    """Fields of a section's keys and values: without units in their names, in SI units, lists as tuples.
+
+    A key that is not given has no field, nor has one with a word in place of a number. Of two keys for one field, in two
+    units, the one that is given counts.
+    """
+    fields: dict[str, Any] = {}
+    for key, value in section:
+        field, factor = si_name(key)
+        left_out = value is None or (factor is not None and isinstance(value, str))
+        if not left_out and (value or field not in fields):
+            fields[field] = to_si(value, factor)
+    return fields
+
+
+def to_si(value: Any, factor: float | None) -> Any:
+    """A value of a key whose unit is `factor` in the SI, as fields have it: a list as a tuple."""
+    if isinstance(value, list):
+        return tuple(to_si(entry, factor) for entry in value)
+    return value * factor if factor is not None and isinstance(value, int | float) else value

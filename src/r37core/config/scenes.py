@@ -10,10 +10,9 @@ from r37core.contact.scene import Friction, Lining, Scene
 from r37core.time_integration.rotor_blades import refusal_of
 
 from .casing_section import CasingSection
-from .declaring import DECLARED, declared_by, in_si
+from .declaring import DECLARED, declared_by, in_si, si_fields
 from .rotor_section import RotorSection
 from .section import ByName, LeftOut, Rpm, Section, Speed, left_out, refused
-from .si_fields import si_fields
 from .speed_section import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]

@@ -15,6 +15,7 @@ import traceback
 import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from types import TracebackType
 from typing import TextIO
 
 from r37core.io import JOB_LOG, OutputFileError
@@ -141,3 +142,16 @@ def _explained(error: Exception) -> str:
     if isinstance(error, MemoryError):
         return f"not enough memory ({text}); run fewer jobs at once (--cores), or choose a smaller fidelity level"
     return text
+
+
+def end_interruptions_in_one_line() -> None:
+    """Let an interruption that nothing else takes end in one line; other errors are shown as they were."""
+    before = sys.excepthook
+
+    def show(kind: type[BaseException], error: BaseException, traceback: TracebackType | None) -> None:
+        if issubclass(kind, KeyboardInterrupt):
+            print("interrupted before the first job", file=sys.stderr)
+        else:
+            before(kind, error, traceback)
+
+    sys.excepthook = show

@@ -26,9 +26,9 @@ from r37core.io import InputFileError
 from r37core.plans.extent import extent_of
 from r37core.plans.run import check_part, replaced_level, source_folder
 from r37core.product.closing import lines_of_extensions
+from r37core.product.extensions import beside
 from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, remarks
-from r37core.product.sampling import beside
 
 from . import failures, job_server, lock
 from .caller import Caller

@@ -30,5 +30,5 @@ EXTENSION = Extension(
             "stress."
         ),
     },
-    closing="designs.closing.closing",
+    closing="designs.table.closing",
 )

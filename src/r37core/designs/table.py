@@ -1,16 +1,19 @@
-"""designs.csv: what each design of a family is, and how robust it is against contact, in every scene."""
+"""designs.csv: what each design of a family is, and how robust it is against contact, in every scene; and what a run says of it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.results.closing import counted
 from r37core.results.datasets import response_of
 from r37core.results.glossary import RANKING, Word, word
-from r37core.results.ranking import ROBUSTNESS, robustness
+from r37core.results.ranking import RANKED_BY, ROBUSTNESS, robustness
+from r37core.results.table_file import read_table
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
 
 MEASURES = {
@@ -61,3 +64,13 @@ def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, floa
     bending = of_scene[of_scene["mode"] == FIRST_BENDING]
     strongest = bending["peak_rms_tangential_m"].idxmax() if len(bending) else None
     return {"shift_1b_rad_s": np.nan if strongest is None else float(bending.loc[strongest, "shift_rad_s"])}
+
+
+def closing(results: Path) -> str:
+    """How many designs there are, and the one that is above yield at the fewest speeds of each scene."""
+    table = read_table(results / "designs.csv")
+    text = counted(table["blade"].nunique(), "design")
+    for scene, rows in table.dropna(subset=RANKED_BY[0]).groupby("scene", sort=False):
+        best = rows.sort_values(list(RANKED_BY)).iloc[0]
+        text += f"; {scene}: {best['blade']} is above yield at the fewest speeds ({best[RANKED_BY[0]]:.0f} rad/s)"
+    return text

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -15,8 +15,6 @@ from matplotlib.ticker import MaxNLocator
 from r37core.rom.naming import NAMED_MODES
 
 from . import style
-from .casing_map import draw_casing_map
-from .cells import draw_cells, largest_of_bins
 
 _MOST_BINS = 400
 DIRECTIONS = {"amplitude": "normal", "amplitude_tangential": "tangential"}
@@ -102,4 +100,67 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     axes.set(xlabel="speed (rad/s)", ylabel="angle round the casing (degrees)", title=f"wear: {title}")
     style.rpm_axis(axes)
     axes.grid(False)
+    return figure
+
+
+def draw_cells(axes: Axes, across: np.ndarray, upward: np.ndarray, values: np.ndarray, **look: Any) -> AxesImage:
+    """Cells about ascending middles `across` and `upward`, coloured by `values`, shape (upward, across); NaN stays empty.
+
+    `look`: what Axes.pcolorfast takes for colours.
+    """
+    # of middles that are not evenly spaced an AxesImage, too
+    return cast(AxesImage, axes.pcolorfast(_edges(across), _edges(upward), values, **look))
+
+
+def largest_of_bins(order: np.ndarray, values: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
+    """Middles of at most `most` bins of engine orders, and the largest value in each, shape (speeds, bins)."""
+    width = -(-len(order) // most)
+    whole = len(order) // width * width
+    return order[:whole].reshape(-1, width).mean(axis=1), values[:, :whole].reshape(len(values), -1, width).max(axis=2)
+
+
+def _edges(middles: np.ndarray) -> np.ndarray:
+    """Edges of cells about ascending middles, half-way between them; a single one has a cell of length 1."""
+    middles = np.asarray(middles, dtype=float)
+    if len(middles) == 1:
+        return middles[0] + np.array([-0.5, 0.5])
+    between = 0.5 * (middles[1:] + middles[:-1])
+    return np.concatenate([[2.0 * middles[0] - between[0]], between, [2.0 * middles[-1] - between[-1]]])
+
+
+def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
+    """Level of forward and backward waves over speed and nodal diameter, below it the casing's energy.
+
+    In decibels below the largest level of the whole map.
+    """
+    # neither speeds that diverged, nor modes of other scenes or too fast for the samples
+    maps = maps.dropna("speed", how="all", subset=["casing_energy"])
+    maps = maps.dropna("casing_mode", how="all", subset=["casing_energy"])
+    figure, panels = plt.subplots(2, 2, figsize=(style.PAGE, 4.4), sharex=True, height_ratios=[3.0, 1.0])
+    figure.suptitle(f"waves round the casing: {title}")
+    speed, diameters = maps["speed"].values, maps["casing_nodal_diameter"].values
+    levels = {wave: maps[f"casing_rms_{wave}"].transpose("casing_mode", "speed").values for wave in ("forward", "backward")}
+    largest = max((float(level.max()) for level in levels.values() if level.size), default=0.0)
+    if not largest > 0.0:
+        style.say(panels[0, 0], "the casing is at rest" if len(speed) else style.ALL_DIVERGED)
+        return figure
+    every = np.arange(diameters.min(), diameters.max() + 1.0)
+    for axes, (wave, level) in zip(panels[0], levels.items(), strict=True):
+        # several modes of one nodal diameter add up; without any the row stays empty
+        of_diameter = np.array([np.sqrt(np.sum(level[diameters == diameter] ** 2, axis=0)) for diameter in every])
+        decibels = 20.0 * np.log10(np.maximum(of_diameter / largest, 1e-30))
+        decibels[~np.isin(every, diameters)] = np.nan
+        picture = draw_cells(axes, speed, every, decibels, vmin=-60.0, vmax=0.0, cmap="magma")
+        axes.set_title(f"{wave}: {'with' if wave == 'forward' else 'against'} the rotor")
+        axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+        axes.grid(False)
+    panels[0, 0].set_ylabel("nodal diameters")
+    figure.colorbar(picture, ax=panels[0], label=f"rms (dB below {1e3 * largest:.3g} mm)")
+    energy = maps["casing_energy"].transpose("casing_mode", "speed").values.sum(axis=0)
+    look = "." if len(speed) == 1 else "-"
+    panels[1, 0].semilogy(speed, np.maximum(energy, 1e-15), look)
+    panels[1, 0].set(xlabel="speed (rad/s)", ylabel="energy (J)")
+    total = 1e3 * np.sqrt(sum(np.sum(level**2, axis=0) for level in levels.values()))
+    panels[1, 1].semilogy(speed, np.maximum(total, 1e-12), look)
+    panels[1, 1].set(xlabel="speed (rad/s)", ylabel="rms (mm)")
     return figure

@@ -11,8 +11,7 @@ from matplotlib.figure import Figure
 from r37core.rom.naming import NAMED_MODES
 
 from . import style
-from .cells import largest_of_bins
-from .maps import DIRECTIONS
+from .maps import DIRECTIONS, largest_of_bins
 
 _LINES = 24
 _MOST_BINS = 250

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from r37core.config.casing_remarks import elastic_casings
+from r37core.config.remarks import elastic_casings
 from r37core.plain import to_plain
 
 from . import paths

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from r37core.figures import captions
 from r37core.plans.code import CodeHashes
 
-from .captions import caption
+from .extensions import EXTENSIONS
 
 TOGETHER = "All blades"
 EVERY_SCENE = "every scene"
@@ -31,3 +32,14 @@ def _of(wildcards: Any) -> dict[str, str]:
     """What a figure is of, as its title says it and as datasets have it."""
     values = dict(wildcards.items())
     return {name: values[name] for name in ("family", "blade", "scene") if name in values}
+
+
+CAPTIONS: dict[str, str] = captions.CAPTIONS | {
+    figure: text for extension in EXTENSIONS for figure, text in extension.captions.items()
+}
+"""Kind of figure -> text."""
+
+
+def caption(figure: str, **names: str) -> str:
+    """The caption of a kind of figure, with the names (blade, scene, family) of the one at hand."""
+    return CAPTIONS[figure].format(**names)

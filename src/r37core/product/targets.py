@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from r37core.config.casing_remarks import elastic_casings
+from r37core.config.remarks import elastic_casings
 from r37core.plans.paths import Wildcards, filled, of, of_runs, pictures
 from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
 

@@ -1,15 +1,21 @@
-"""Campbell diagram: frequencies over speed, modes followed and named by shape, crossings with engine orders."""
+"""Campbell diagram: frequencies over speed, modes followed and named by shape, crossings with engine orders; as a dataset."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
+import xarray as xr
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, linear_sum_assignment
 
 from r37core.contact.casing import approach
+from r37core.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.rom.reduced_model import ReducedModel
+from r37core.rom.rotation import BucklingError
 
 _SPARE_MODES = 6
 _NAMED_AMONG = 8
@@ -115,3 +121,68 @@ def dynamic_clearance(
     radius = np.hypot(*leading_edge.points[0, :2])
     swung = np.stack(np.broadcast_arrays(scale * radial, tangential_displacement, scale * axial))
     return -approach(radius, swung, line.cone_angle if cone_angle is None else cone_angle)
+
+
+VARIABLES = {
+    "frequency": Variable(("mode", "speed"), "Hz", "natural frequency"),
+    "crossing_speed": Variable(
+        ("mode", "engine_order"), "rad s-1", "speed at which the frequency is the engine order times the speed"
+    ),
+    "dynamic_clearance": Variable(
+        ("mode", "tangential_displacement"),
+        "m",
+        "change of the leading-edge clearance, normal to the tip's cone, as the blade swings along the mode",
+    ),
+    "smallest_mac": Variable(("mode",), "1", "smallest MAC between neighbouring speeds"),
+}
+
+AXES = {
+    "speed": SPEED,
+    "engine_order": Variable(("engine_order",), "1", "engine order", "i8"),
+    "tangential_displacement": Variable(
+        ("tangential_displacement",), "m", "tangential displacement of the leading edge, positive against the rotation"
+    ),
+}
+
+
+def campbell_dataset(
+    model: ReducedModel,
+    *,
+    speeds: np.ndarray,
+    modes: int,
+    highest_engine_order: int,
+    largest_tangential_displacement: float,
+    tip_line: str,
+) -> xr.Dataset:
+    """Frequencies at ascending `speeds` (rad/s) from 0, crossings with engine orders, dynamic clearance at rest.
+
+    The displacement in m; `tip_line` carries the leading-edge node of the dynamic clearance.
+    Raises ValueError for more modes than the model has coordinates, BucklingError where it has no stable position.
+    """
+    if modes > model.size:
+        raise ValueError(f"campbell.modes in config.yaml: found {modes}; allowed: up to {model.size}, the reduced model's size")
+    diagram = campbell_diagram(model, speeds, modes)
+    unstable = np.flatnonzero((diagram.frequencies <= 0.0).any(axis=0))
+    if len(unstable):
+        raise BucklingError(speeds[unstable[0]])
+    orders = np.arange(1, highest_engine_order + 1)
+    displacement = np.linspace(-1.0, 1.0, 41) * largest_tangential_displacement
+    values = {
+        "frequency": diagram.frequencies,
+        "crossing_speed": diagram.crossing_speeds(orders),
+        "dynamic_clearance": dynamic_clearance(model, diagram.shapes[:, 0].T, tip_line, displacement),
+        "smallest_mac": diagram.continuity,
+        "speed": speeds,
+        "engine_order": orders,
+        "tangential_displacement": displacement,
+    }
+    dataset = dataset_of(VARIABLES, values, AXES, {"mode": list(diagram.mode_names)})
+    return dataset.assign_attrs(
+        dynamic_clearance_tip_line=tip_line, tip_cone_angle_deg=float(np.degrees(model.tip_lines[tip_line].cone_angle))
+    )
+
+
+def gather_blades(blades: Sequence[str], files: Iterable[Path | str]) -> xr.Dataset:
+    """One dataset with the dimension `blade` from one file per blade; the files' coordinates must agree."""
+    datasets = [read_dataset(file).drop_attrs(deep=False) for file in files]
+    return xr.concat(datasets, pd.Index(blades, name="blade"), join="exact", combine_attrs="override")

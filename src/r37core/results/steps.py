@@ -12,7 +12,7 @@ from r37core.io import as_list, write_json
 from r37core.plain import from_plain
 from r37core.rom.rom_file import read_reduced_model
 
-from .campbell_dataset import campbell_dataset, gather_blades
+from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise

@@ -13,7 +13,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from r37core.figures import style
-from r37core.figures.cells import draw_cells
+from r37core.figures.maps import draw_cells
 from r37core.time_integration.status import RunStatus
 
 _MOTION = "rms of the motion (mm)"

@@ -7,7 +7,8 @@ from functools import cached_property
 from itertools import product
 from typing import Any
 
-from r37core.config import Settings, casing_remarks
+from r37core.config import Settings
+from r37core.config.remarks import elastic_casings, remark_on_overtaken_waves
 from r37core.config.speed_choice import fastest_of
 from r37core.plain import to_plain
 from r37core.plans import paths
@@ -133,9 +134,9 @@ def remarks(settings: Settings) -> list[str]:
     """Of elastic casings that only a run-up overtakes, as far as no crossing decides its speeds."""
     lines = []
     choices = RunUps(Sweep(settings)).choices
-    for name, casing in casing_remarks.elastic_casings(settings).items():
+    for name, casing in elastic_casings(settings).items():
         of_scene = [choice for (_, scene), named in choices.items() if scene == name for choice in named.values()]
         fastest = max((max(choice.start, choice.stop) for choice in of_scene if choice.crossing is None), default=0.0)
         if fastest > fastest_of(settings, name):
-            lines.append(casing_remarks.of_speeds(name, casing, fastest))
+            lines.append(remark_on_overtaken_waves(name, casing, fastest))
     return [line for line in lines if line]

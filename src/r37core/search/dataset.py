@@ -11,8 +11,7 @@ import xarray as xr
 from r37core.dataset_file import about
 
 from .choice import START, Design, SearchChoice, number
-from .pareto import best_first, not_dominated
-from .problem import Evaluated
+from .problem import Evaluated, best_first, not_dominated
 from .rounds import SearchRound
 from .surrogate import sensitivity, slices
 

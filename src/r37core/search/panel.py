@@ -9,8 +9,6 @@ import xarray as xr
 
 from r37core.units import shown_unit
 
-from .shown import in_lines, with_unit
-
 
 def search_contents(search: xr.Dataset) -> dict[str, object]:
     """Of each design of `search.nc` its numbers in the units that are shown; None for what is not known."""
@@ -39,3 +37,18 @@ def _quantity(search: xr.Dataset, kind: str, name: str) -> dict[str, object]:
 
 def _numbers(values: np.ndarray) -> list[float | None]:
     return [float(f"{value:.5g}") if math.isfinite(value) else None for value in values.tolist()]
+
+
+_LONGEST = 14
+"""Characters of a name in one line."""
+
+
+def with_unit(name: str, unit: str) -> str:
+    """A quantity's name with the unit it is shown in."""
+    return f"{name} ({unit})" if unit else name
+
+
+def in_lines(key: str) -> str:
+    """A dotted key; a long one with its last part in a second line."""
+    before, dot, last = key.rpartition(".")
+    return key if len(key) <= _LONGEST or not dot else f"{before}.\n{last}"

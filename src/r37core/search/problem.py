@@ -1,4 +1,4 @@
-"""What a search changes, and what is known of a design once its jobs are done. Plain values, which `r37core.plain` carries.
+"""What a search changes, and what is known of a design once its jobs are done, and which designs are the best. Plain values, which `r37core.plain` carries.
 
 Light: the workflow imports it whether there is a search or not.
 """
@@ -80,3 +80,30 @@ def designs_at(variables: Sequence[SearchVariable], points: np.ndarray) -> list[
 def _ranges(variables: Sequence[SearchVariable]) -> tuple[np.ndarray, np.ndarray]:
     lowest = np.array([variable.lowest for variable in variables])
     return lowest, np.array([variable.highest for variable in variables]) - lowest
+
+
+def not_dominated(evaluated: Sequence[Evaluated]) -> list[Evaluated]:
+    """The feasible designs than which no feasible one is better in an objective and as good in all, in the same order."""
+    feasible = [design for design in evaluated if design.is_feasible]
+    values = np.array([design.objectives for design in feasible])
+    return [
+        design
+        for design, own in zip(feasible, values, strict=True)
+        if not np.any((values <= own).all(1) & (values < own).any(1))
+    ]
+
+
+def best_first(evaluated: Sequence[Evaluated], objective: int = 0) -> list[Evaluated]:
+    """The feasible designs by one objective, the lowest first.
+
+    Of equals the one with the larger smallest margin comes first, each margin in multiples of its standard deviation over all
+    designs, since units differ; then the name decides.
+    """
+    done = [design for design in evaluated if design.is_done]
+    deviations = np.std([design.margins for design in done], axis=0) if done else np.array([])
+
+    def rank(design: Evaluated) -> tuple[float, float, str]:
+        scaled = np.array(design.margins) / np.where(deviations > 0, deviations, 1.0)
+        return design.objectives[objective], -float(scaled.min(initial=np.inf)), design.name
+
+    return sorted((design for design in done if design.is_feasible), key=rank)

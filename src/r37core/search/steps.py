@@ -25,9 +25,8 @@ from r37core.stress.operator import read_stress_operator
 from .choice import SearchChoice
 from .dataset import search_dataset, search_table
 from .entries import entries_of, write_entries
-from .progress import progress
 from .quantity import DesignStructure, Quantity, of_contact, of_structure, static_stress
-from .rounds import first_round, read_round, round_after, tried_after, write_round
+from .rounds import first_round, progress, read_round, round_after, tried_after, write_round
 
 
 def propose_round(input: Any, output: Any, params: Any) -> str:

@@ -12,7 +12,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from r37core.figures import style
-from r37core.figures.cells import draw_cells
+from r37core.figures.maps import draw_cells
 from r37core.units import RPM
 
 from .orders import order_tracks, spectrogram, strongest_orders

@@ -20,9 +20,8 @@ from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
 
-from .number_ranks import ranking
+from .number_ranks import CONFIDENCE, ranking, share_ends
 from .sensitivity import ORDERS, sobol_indices
-from .shares import CONFIDENCE, share_ends
 
 QUANTILES = tuple(ENDS.values())
 """Ends and middle of the range that nine tenths of the members lie in."""

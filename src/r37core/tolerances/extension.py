@@ -24,5 +24,5 @@ EXTENSION = Extension(
             "indices. Above the bars stands the place in the ranking; pale ones have none."
         ),
     },
-    closing="tolerances.closing.closing",
+    closing="tolerances.table.closing",
 )

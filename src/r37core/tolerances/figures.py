@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from r37core.figures import style
 from r37core.results.measures import leading_edge
 
-from .shares import CONFIDENCE
+from .number_ranks import CONFIDENCE
 
 _CHANCE = "probability_above_yield"
 _MEASURES = {"peak_speed": "peak speed", "width_above_yield": "width above yield", "largest_stress": "largest stress"}

@@ -9,8 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .shares import CONFIDENCE
-
 _FREE, _ROUND_OFF = 4, 1e-9
 """Members more than coefficients, below which nothing is said of how sure these are; of coefficients that fit exactly."""
 
@@ -81,3 +79,44 @@ def ranking(values: np.ndarray, measure: np.ndarray) -> Ranking:
     spread = np.sqrt(np.maximum(np.diag(signed)[:, None] + np.diag(signed) - 2.0 * signed, 0.0))
     above[np.ix_(varied, varied)] = np.abs(fitted)[:, None] - np.abs(fitted) > np.maximum(sure * spread, _ROUND_OFF)
     return Ranking(coefficient, low, high, above, 1.0 - rest / members, members)
+
+
+NAMES_THE_FIRST, RANKS = 32, 128
+"""Members of which rank coefficients always found the same first number, and those that told most numbers apart."""
+
+SOBOL_RANKS = 32
+"""Members whose Sobol indices have places: of fewer, some that bootstrap samples told apart were the other way round."""
+
+
+def remarks_on_rankings(members: int, numbers: int, sensitivity: bool) -> list[str]:
+    """What a run should say before it starts where its members are too few to rank so many numbers."""
+    lines, where = [], "(docs/tolerances.md#how-many-members)"
+    if numbers < 2:
+        return []
+    if members < NAMES_THE_FIRST:
+        what = f"do not rank the numbers; {NAMES_THE_FIRST} name the first, {RANKS} tell most apart"
+        lines.append(f"tolerances: {members} members {what} {where}")
+    elif members < RANKS:
+        lines.append(f"tolerances: {members} members name the first of the numbers at best; {RANKS} tell most apart {where}")
+    if sensitivity and members < SOBOL_RANKS:
+        what = f"do not rank the numbers; those of {SOBOL_RANKS} do, as far as they are told apart"
+        lines.append(f"tolerances: Sobol indices of {members} members {what} {where}")
+    return lines
+
+
+CONFIDENCE = 0.95
+"""How sure an interval is."""
+
+
+def share_ends(counts: np.ndarray, members: int) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper end of a chance of which `counts` (any shape) of so many `members` are known, with CONFIDENCE.
+
+    Exact (Clopper and Pearson, Biometrika 26 (1934) 404-413): of members that are drawn independently no more than 1 -
+    CONFIDENCE of the intervals miss the chance, whatever it is.
+    """
+    # not wherever members are drawn
+    from scipy import stats
+
+    known = [stats.binomtest(count, members).proportion_ci(CONFIDENCE) for count in range(members + 1)]
+    low, high = np.array([(interval.low, interval.high) for interval in known]).T
+    return low[counts], high[counts]

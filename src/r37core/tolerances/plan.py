@@ -12,8 +12,8 @@ from r37core.plans.member_values import is_of_sample
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, Sampling, path_part
 from r37core.plans.sweep_plan import Sweep
 
-from .fewest import remarks_on_rankings
 from .members import Members, members_of
+from .number_ranks import remarks_on_rankings
 from .section import SECTION
 
 FOLDER = "tolerances"

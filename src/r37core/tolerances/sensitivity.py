@@ -13,9 +13,7 @@ import numpy as np
 
 from r37core.plans.member_values import is_of_sample, together
 
-from .fewest import SOBOL_RANKS
-from .number_ranks import places_of
-from .shares import CONFIDENCE
+from .number_ranks import CONFIDENCE, SOBOL_RANKS, places_of
 
 _FEWEST, _RESAMPLES, _BOOTSTRAP_SEED = 4, 500, 0
 """Members, below which no index is given; bootstrap samples, which are the same every time."""

@@ -1,15 +1,22 @@
-"""tolerances.csv: every interaction with the range of its numbers over the members, and how many of them show it."""
+"""tolerances.csv: every interaction with the range of its numbers over the members, and how many of them show it; and what a run says of it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from r37core.dataset_file import open_dataset
+from r37core.results.closing import counted
 from r37core.results.interactions import Interaction, InteractionChoice
 from r37core.results.ranges import COLUMNS, ENDS, RANGED
+from r37core.results.table_file import read_table
+from r37core.time_integration.status import RunStatus
+
+from .plan import DATASET, TABLE
 
 ROBUST = 0.5
 """Share of the members that show an interaction, below which it is not robust."""
@@ -92,3 +99,20 @@ def range_table(rows: Iterable[tuple[str, str, dict[str, object]]]) -> pd.DataFr
     """The rows of all blades and scenes as a table, columns as in COLUMNS."""
     made = [{"blade": blade, "scene": scene, **row} for blade, scene, row in rows]
     return pd.DataFrame(made, columns=COLUMNS).astype({"engine_order": "Int64"})
+
+
+def closing(results: Path) -> str:
+    """How many interactions the members show, how many runs diverged, and the largest stress of any of them, with its range."""
+    table = read_table(results / TABLE.removeprefix("<results>/"))
+    text = f"{counted(len(table), 'interaction')} in up to {int(table['members'].max()) if len(table) else 0} members"
+    text += f", {int(table['robust'].sum())} of them in at least half of those"
+    with open_dataset(results / DATASET.removeprefix("<results>/")) as dataset:
+        status = dataset["status"].values
+    if diverged := int((status == RunStatus.DIVERGED).sum()):
+        text += f"; {diverged} of {int((status != RunStatus.NOT_RUN).sum())} runs diverged"
+    high = table["max_von_mises_pa_high"]
+    if high.notna().any():
+        row = table.loc[high.idxmax()]
+        low_end, high_end = (1e-9 * row[f"max_von_mises_pa_{end}"] for end in ("low", "high"))
+        text += f"; the largest stress {low_end:.2g} to {high_end:.2g} GPa, {row['blade']} in {row['scene']}"
+    return text

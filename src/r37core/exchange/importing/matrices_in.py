@@ -8,6 +8,7 @@ has the nodes of the tip line, from which the patches are made.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,7 +19,7 @@ import pandas as pd
 import scipy.linalg as la
 import scipy.sparse as sp
 
-from r37core.exchange.refusal import ImportRefused, blamed
+from r37core.exchange.refusal import ImportRefused, MeshWarning, blamed
 from r37core.fem.solver import Solve, factorise
 from r37core.rom.contact_weights import weights_along
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes, multi_speed_basis
@@ -28,7 +29,6 @@ from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, BoundaryError, ReductionChoice
 from r37core.units import MASS_UNITS, STIFFNESS_UNITS
 
-from .first_frequency import check_frequency
 from .matrix_file import read_matrix
 from .source import MatricesSource, matrix_files
 from .tip import arc_length, check_order, check_sense_of_nodes
@@ -282,3 +282,41 @@ def _fractions(points: np.ndarray) -> np.ndarray:
     """Fractions of the length along the nodes, from leading to trailing edge; a half for a single one."""
     length = arc_length(points)
     return length / length[-1] if length[-1] > 0.0 else np.full(len(points), 0.5)
+
+
+_USUAL = (2.0, 500.0)
+"""First frequency times the chord of the tip (m/s).
+
+A cantilever of length L and thickness h has about h c / 6 L**2 (c: speed of sound in a bar, 5000 m/s): from 2 m/s, of a thin
+blade of fifteen chords, to 500 m/s, of a thick one of half a chord.
+"""
+
+_POSSIBLE = (0.02, 50e3)
+"""A hundred times less and more."""
+
+
+def in_words(model: ReducedModel) -> str:
+    """The first frequency, for who imports matrices to see."""
+    return f"the first frequency at rest is {_first_frequency(model):.4g} Hz"
+
+
+def check_frequency(model: ReducedModel, chord: float) -> None:
+    """Raise ImportRefused for a first frequency that no blade with this `chord` of its tip (m) has, warn of an unusual one.
+
+    One contact node has no chord, and is not judged.
+    """
+    frequency = _first_frequency(model)
+    if not chord > 0.0 or _USUAL[0] <= frequency * chord <= _USUAL[1]:
+        return
+    text = (
+        f"{in_words(model)}, with a tip of {1e3 * chord:.3g} mm; blades of that size have {_USUAL[0] / chord:.2g} to "
+        f"{_USUAL[1] / chord:.2g} Hz: look at mass_unit, stiffness_unit and length_unit"
+    )
+    if not _POSSIBLE[0] <= frequency * chord <= _POSSIBLE[1]:
+        raise ImportRefused(text)
+    warnings.warn(text, MeshWarning, stacklevel=2)
+
+
+def _first_frequency(model: ReducedModel) -> float:
+    """In Hz."""
+    return float(model.modes(0.0, 1)[0][0]) / (2.0 * np.pi)

@@ -12,9 +12,8 @@ from r37core.plain import from_plain
 from r37core.rom.reduction_choice import ReductionChoice, boundary_located
 from r37core.rom.rom_file import write_reduced_model
 
-from .first_frequency import in_words
 from .import_mesh import import_mesh, size_in_words
-from .matrices_in import import_matrices
+from .matrices_in import import_matrices, in_words
 from .source import MatricesSource, MeshSource
 
 
