@@ -23,7 +23,8 @@ from r37core.io import atomic_write, write_text
 from r37core.mesh.generate import generate_mesh
 from r37core.plans.member_values import together
 from r37core.product.reading import read_settings
-from r37core.results.measures import largest_of_run, motion_of_run, range_above_yield
+from r37core.results.measures import largest_of_run, range_above_yield
+from validation.studies.measures import motion_of_run
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rounding import rounded_to

@@ -7,7 +7,8 @@ from dataclasses import replace
 import xarray as xr
 
 from r37core.cases.runner import Runs
-from r37core.results.measures import motion_of_run, peak_of
+from r37core.results.measures import peak_of
+from validation.studies.measures import motion_of_run
 from r37core.time_integration.speed_file import read_speed
 
 from .plan import StudyCase, SweptPeak

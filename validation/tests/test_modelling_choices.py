@@ -15,6 +15,7 @@ from r37core.dataset_file import read_dataset
 from r37core.fem.material import Material
 from r37core.figures import style
 from r37core.results import measures
+from validation.studies import measures as own_measures
 from r37core.stress.operator import StressOperator
 from validation.published import BLADES, INTERACTIONS
 from validation.studies.checks import Check, claim, score, validation_table
@@ -154,8 +155,8 @@ def test_width_is_from_the_first_to_the_last_speed_above_yield():
 def test_overtaking_must_last():
     theirs = np.ones(20)
     ours = np.array([2.0, 0.5, 2.0, *np.full(17, 2.0)])
-    assert measures.overtakes(ours, theirs) == 3
-    assert np.isnan(measures.overtakes(theirs, ours))
+    assert own_measures.overtakes(ours, theirs) == 3
+    assert np.isnan(own_measures.overtakes(theirs, ours))
 
 
 def test_torsion_is_a_maximum_of_its_own():
@@ -265,7 +266,7 @@ def test_pictures_show_every_blade_and_both_scenes():
 def test_steepest_fall_is_where_a_noisy_branch_ends():
     level = np.array([1.0, 1.2, 1.1, 1.19, 0.5, 0.4])
     data = {"rms_normal": ("speed", 0.0 * level), "rms_tangential": ("speed", level)}
-    speed, share = measures.steepest_fall(xr.Dataset(data, coords={"speed": 1340.0 + np.arange(6)}))
+    speed, share = own_measures.steepest_fall(xr.Dataset(data, coords={"speed": 1340.0 + np.arange(6)}))
     assert speed == 1343.0
     assert share == pytest.approx(0.69 / 1.19)
 
@@ -318,6 +319,6 @@ def test_a_median_does_not_depend_on_where_speeds_lie_close():
     plain = np.arange(750.0, 2001.0, 5.0)
     refined = np.unique(np.concatenate([plain, np.arange(1700.0, 1730.0, 0.25)]))
     runs = [xr.Dataset({"rms_radial": ("speed", np.abs(speeds - 1715.0))}, {"speed": speeds}) for speeds in (plain, refined)]
-    ours = [measures.median_over_speed(run, "rms_radial") for run in runs]
+    ours = [own_measures.median_over_speed(run, "rms_radial") for run in runs]
     assert ours[0] == float(runs[0]["rms_radial"].median())
     assert ours[1] == pytest.approx(ours[0], abs=5.0)
