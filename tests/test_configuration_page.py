@@ -6,10 +6,10 @@ import subprocess
 
 import pytest
 from conftest import CHECKOUT
+from evidence.key_tables import UNIT_OF_SUFFIX, filled, tables
 
 from r37core.config import ConfigError, read_document
 from r37core.product.reading import read_settings
-from r37core.product.reference import UNIT_OF_SUFFIX, filled, tables
 from r37core.units import SUFFIXES
 
 
@@ -29,7 +29,7 @@ def rows():
 
 
 def test_the_page_is_fresh(page):
-    """`python -m r37core.product.reference` renews it."""
+    """`python validation/evidence/key_tables.py` renews it."""
     assert filled(page) == page
 
 

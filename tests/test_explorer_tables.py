@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 import yaml
 from browser import opened
+from evidence.key_tables import COLUMN_TABLES, column_table
 from explorer_cases import beside, interaction_rows, sweep
 from r37core.contact.benchmark import LINED, is_lined_benchmark
 
@@ -76,12 +77,12 @@ def column(page, name):
 
 
 def test_every_column_has_words(root):
-    """One glossary for the page, its tooltips and docs/results.md: `python -m r37core.results.glossary` renews that."""
+    """One glossary for the page, its tooltips and docs/results.md: `python validation/evidence/key_tables.py` renews that."""
     named = [*COLUMNS, *RANGES, "share_of_members", "robust"]
     assert [name for name in ROBUSTNESS if not glossary.word(name, glossary.RANKING)] == []
     assert [name for name in named if not glossary.word(name, glossary.INTERACTIONS)] == []
     text = (root / "docs/results.md").read_text()
-    assert all(glossary.table(words) in text for words in glossary.PARTS.values())
+    assert all(column_table(words) in text for words in COLUMN_TABLES.values())
     assert glossary.word("length_certain_rad_s_low", glossary.RANKING).title == "certainly above yield, 5%"
     assert glossary.word("chance_better_than_L50", glossary.RANKING).title == "chance to be better than L50"
     assert glossary.word("length_certain_rad_s_median", glossary.RANKING).title == "certainly above yield, median"

@@ -1,16 +1,8 @@
-"""What the columns of the tables are called and mean: the one source of docs/results.md and of the explorer's column heads.
-
-`python -m r37core.results.glossary` renews the table of docs/results.md.
-"""
+"""What the columns of the tables are called and mean: the one source of docs/results.md and of the explorer's column heads."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
-
-from r37core.io import write_text
-from r37core.text_file import with_part
 
 from . import ranges
 from .exceedance import CERTAIN, POSSIBLE
@@ -163,25 +155,3 @@ def word(name: str, words: dict[str, Word]) -> Word | None:
         if name.endswith(end) and nominal:
             return replace(nominal, title=f"{nominal.title}, {title}", meaning=f"{title} of the members: {nominal.meaning}")
     return words.get(name)
-
-
-def table(words: Mapping[str, Word]) -> str:
-    """Columns as a table of Markdown."""
-    lines = [f"| `{name}` | {word.meaning} |" for name, word in words.items()]
-    return "\n".join(["| column | what it is |", "|---|---|", *lines])
-
-
-PARTS = {"columns": INTERACTIONS, "ranking_columns": RANKING}
-"""Parts of docs/results.md, and what stands there."""
-
-
-def main(file: Path = Path("docs/results.md")) -> None:
-    """Renew the page."""
-    text = file.read_text(encoding="utf-8")
-    for part, words in PARTS.items():
-        text = with_part(text, part, table(words))
-    write_text(text, file)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,7 @@
-"""Every key of the configuration files as tables: `python -m r37core.product.reference` renews docs/configuration.md."""
+"""Tables of docs/configuration.md and docs/results.md that follow from the code: every key, and every column in words.
+
+`python validation/evidence/key_tables.py` renews both pages.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +14,10 @@ from r37core.config.messages import describe
 from r37core.config.section import NAME_PATTERN, TEXT_PATTERN
 from r37core.config.speed_section import UNITS
 from r37core.io import write_text
+from r37core.product.schemas import MODELS
+from r37core.results.glossary import INTERACTIONS, RANKING, Word
 from r37core.text_file import with_part
 from r37core.units import SUFFIXES
-
-from .schemas import MODELS
 
 Schema = Mapping[str, Any]
 
@@ -197,9 +200,25 @@ def filled(page: str) -> str:
     return page
 
 
-def main(file: Path = Path("docs/configuration.md")) -> None:
-    """Renew the page."""
-    write_text(filled(file.read_text(encoding="utf-8")), file)
+def column_table(words: Mapping[str, Word]) -> str:
+    """Columns as a table of Markdown."""
+    lines = [f"| `{name}` | {word.meaning} |" for name, word in words.items()]
+    return "\n".join(["| column | what it is |", "|---|---|", *lines])
+
+
+COLUMN_TABLES = {"columns": INTERACTIONS, "ranking_columns": RANKING}
+"""Part of docs/results.md -> columns that stand there."""
+
+
+def main(docs: Path = Path("docs")) -> None:
+    """Renew both pages."""
+    page = docs / "configuration.md"
+    write_text(filled(page.read_text(encoding="utf-8")), page)
+    page = docs / "results.md"
+    text = page.read_text(encoding="utf-8")
+    for name, words in COLUMN_TABLES.items():
+        text = with_part(text, name, column_table(words))
+    write_text(text, page)
 
 
 if __name__ == "__main__":
