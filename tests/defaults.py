@@ -8,7 +8,7 @@ from r37core.contact import scene
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining
 from r37core.exchange.importing import source
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import Where
 from r37core.exchange.orientation import Orientation
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.rom import reduction_choice

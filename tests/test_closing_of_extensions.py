@@ -10,8 +10,8 @@ import xarray as xr
 from r37core.designs import table as designs
 from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.closing import line_of_extension
 from r37core.product.extensions import EXTENSIONS
+from r37core.product.remarks import line_of_extension
 from r37core.rotors import closing as rotors
 from r37core.run_ups import closing as run_ups
 from r37core.search import closing as search

@@ -14,8 +14,7 @@ from r37core.contact.benchmark import LINED, is_lined_benchmark
 from r37core.config.scenes import Scenes
 from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents
-from r37core.plans.dataset_plan import Datasets
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.sweep_plan import Datasets, Sweep
 from r37core.product.reading import read_settings
 from r37core.results import glossary
 from r37core.results.interaction import COLUMNS

@@ -11,7 +11,7 @@ from box_mesh import box_mesh, plate
 from defaults import Orientation
 
 from r37core.blade.sense import sense_of_line
-from r37core.exchange.importing import ends, fitting_entry, mesh_checks, meshio_reader, tip, where
+from r37core.exchange.importing import ends, fitting_entry, mesh_checks, meshio_reader, source, tip
 from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.deck_text import deck_lines
 from r37core.exchange.importing.fitting_entry import find_axes
@@ -201,7 +201,7 @@ def test_thirty_names_of_sets_are_shown():
         sets = {f"s{i:02}": np.arange(3) for i in range(number)}
         mesh = SimpleNamespace(sets=sets, points=np.zeros((5, 3)))
         with pytest.raises(ImportRefused) as refused:
-            where._of_set("root", "none", mesh)
+            source._of_set("root", "none", mesh)
         assert str(refused.value).endswith(f"s29 (3 nodes){more}")
 
 

@@ -7,18 +7,16 @@ import numpy as np
 import pytest
 import yaml
 from defaults import Where
+from r37core.studies.plan import blade_of
 
 from r37core.config import ConfigError
 from r37core.exchange.orientation import OURS
 from r37core.exports.plan import Exports, targets
 from r37core.plain import to_plain
-from r37core.plans.dataset_plan import Datasets
-from r37core.plans.import_plan import Imported
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
-from r37core.plans.simulation_plan import Simulations
-from r37core.plans.structure_plan import Structure
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.structure_plan import Imported, Structure
+from r37core.plans.sweep_plan import Datasets, Simulations, Sweep
 from r37core.product.reading import read_settings
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}

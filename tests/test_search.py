@@ -22,8 +22,7 @@ from r37core.product.reading import read_settings
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.search import checks
 from r37core.search.choice import Constraint, Design, SearchChoice
-from r37core.search.dataset import search_dataset, search_table
-from r37core.search.entries import entries_of, write_entries
+from r37core.search.dataset import entries_of, search_dataset, search_table, write_entries
 from r37core.search.gaussian_processes import SearchPackageMissing
 from r37core.search.plan import Search, choice_of, designs_of, is_asked
 from r37core.search.problem import SearchVariable

@@ -11,7 +11,7 @@ from r37core.config import ConfigError, Document, command_line_document
 from r37core.config.scenes import SceneEntry
 from r37core.exports.plan import Exports
 from r37core.plain import from_plain, to_plain
-from r37core.plans.import_plan import Imported
+from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import load_settings, read_settings
 from r37core.speeds import SpeedError, SpeedPlan, exact_text, plan_speeds

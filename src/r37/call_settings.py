@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
+import os
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
@@ -9,6 +12,7 @@ from pathlib import Path
 from typing import Any, TypedDict
 
 from r37core.config import ConfigError, Document, Settings
+from r37core.config.remarks import remarks_on_input, remarks_on_points
 
 from .arguments import finite
 from .call_configuration import Configuration, read_configuration
@@ -129,3 +133,20 @@ def above(several: Sequence[Choice]) -> Document | None:
     """The changes of some entries as one document."""
     documents = [choice.above for choice in several if choice.above]
     return reduce(Document.overlaid, documents) if documents else None
+
+
+_PACKAGE = str(Path(__file__).parent) + os.sep
+
+
+def remarks_of(settings: Settings) -> list[str]:
+    """What a run would remark on."""
+    return [*remarks_on_input(settings), *remarks_on_points(settings)]
+
+
+def tell(remarks: Iterable[str]) -> None:
+    """Warn whoever has called r37: each remark points at the innermost line outside this package."""
+    level, frame = 1, inspect.currentframe()
+    while frame and frame.f_code.co_filename.startswith(_PACKAGE):
+        level, frame = level + 1, frame.f_back
+    for remark in remarks:
+        warnings.warn(remark, stacklevel=level)

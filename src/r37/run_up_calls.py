@@ -16,9 +16,8 @@ from r37core.run_ups.plan import RUN_UP, RunUps
 
 from .arguments import mapping
 from .calculation import Calculation
-from .call_settings import Call, OneOptions, call_of_one
+from .call_settings import Call, OneOptions, call_of_one, remarks_of, tell
 from .choices import BladeChoice, SceneChoice
-from .remarks import remarks_of, tell
 from .runs import RunOptions, run_of
 from .stages import checked_call
 

@@ -9,10 +9,9 @@ from typing import Any
 from r37core.io import temporary_folder
 
 from .arguments import Speeds, plain_value, sequence_of, speed_keys
-from .call_settings import Call, OneOptions, base_of, chosen_blade, chosen_scene, level, names_of_their_own
+from .call_settings import Call, OneOptions, base_of, chosen_blade, chosen_scene, level, names_of_their_own, remarks_of, tell
 from .choices import BladeChoice, SceneChoice, scenes_named
 from .jobs import check_cores
-from .remarks import remarks_of, tell
 from .run_folder import run_folder, write_run
 from .run_results import RunResults
 from .stages import checked_call

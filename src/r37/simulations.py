@@ -19,10 +19,9 @@ from r37core.time_integration.initial_motion import InitialMotion, InitialMotion
 
 from .arguments import Speeds, speed_key, speed_keys
 from .calculation import Calculation
-from .call_settings import Call, OneOptions, call_of_one
+from .call_settings import Call, OneOptions, call_of_one, remarks_of, tell
 from .choices import BladeChoice, SceneChoice
 from .jobs import check_cores, in_parallel
-from .remarks import remarks_of, tell
 from .stages import checked_call
 from .structure_files import recipe
 

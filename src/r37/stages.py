@@ -1,4 +1,4 @@
-"""What a call says while it works: a line for each stage, and a bar where there are many simulations; the check of its arguments.
+"""What a call writes while it works: a line for each stage, a bar for many simulations; and the check of its arguments.
 
 The lines go to the logger `r37` of the standard library. Where nobody listens to it and a person watches, on a terminal or in a
 notebook, they are written there, and bars beside them. `logging.getLogger("r37").setLevel("WARNING")` silences both.

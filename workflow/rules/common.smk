@@ -9,15 +9,15 @@ from r37core.console.snakemake_run import PYTHON, begin
 from r37core.explorer import parts_hash, with_programs
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes, EngineNumbers
-from r37core.plans.dataset_plan import Datasets
-from r37core.plans.import_plan import Imported
+from r37core.plans.sweep_plan import Datasets
+from r37core.plans.structure_plan import Imported
 from r37core.plans.provenance import Provenance
-from r37core.plans.rounds_plan import Rounds
+from r37core.plans.sweep_plan import Rounds
 from r37core.plans.stages import Stage, structure_stages, sweep_stages
-from r37core.plans.simulation_plan import Simulations
+from r37core.plans.sweep_plan import Simulations
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import MAPS, Sweep
-from r37core.product.panels import panel_files, panel_modules, panel_parameters
+from r37core.product.targets import panel_files, panel_modules, panel_parameters
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing
 from r37core.product.extensions import beside, sampling_of
 from r37core.product.targets import simulated, tables, targets

@@ -7,8 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
-from r37core.exchange.importing.source import MatricesSource, MeshSource, digest_of, matrix_files, mesh_files
-from r37core.exchange.importing.where import Where
+from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, ImportedSubmesh, MaterialSection

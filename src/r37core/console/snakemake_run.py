@@ -25,10 +25,9 @@ from r37core.config.remarks import remarks_on_points
 from r37core.io import InputFileError
 from r37core.plans.extent import extent_of
 from r37core.plans.run import check_part, replaced_level, source_folder
-from r37core.product.closing import lines_of_extensions
 from r37core.product.extensions import beside
 from r37core.product.reading import settings_of_run
-from r37core.product.remarks import check_asked, remarks
+from r37core.product.remarks import check_asked, lines_of_extensions, remarks
 
 from . import failures, job_server, lock
 from .caller import Caller

@@ -1,4 +1,4 @@
-"""designs.csv: what each design of a family is, and how robust it is against contact, in every scene; and what a run says of it."""
+"""designs.csv: what each design of a family is, how robust it is in every scene, and the line that a run ends with."""
 
 from __future__ import annotations
 

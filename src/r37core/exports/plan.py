@@ -12,7 +12,7 @@ from r37core.exchange.importing.source import MeshSource
 from r37core.exchange.orientation import OURS
 from r37core.plain import to_plain
 from r37core.plans import paths
-from r37core.plans.import_plan import Imported
+from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 from r37core.speeds import exact_text
 

@@ -9,12 +9,9 @@ from typing import Any
 
 from r37core.config import plain, si_fields
 
-from .import_plan import Imported
 from .provenance import Provenance
-from .rounds_plan import Rounds
-from .simulation_plan import Simulations
-from .structure_plan import Structure
-from .sweep_plan import Sweep
+from .structure_plan import Imported, Structure
+from .sweep_plan import Rounds, Simulations, Sweep
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,8 @@
-"""The plan of the sweep: which simulations, from which files, and which results are wanted of them."""
+"""The plan of the sweep: simulations, rounds of refinement, and the datasets that are joined of them."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property, partial
@@ -9,9 +10,14 @@ from itertools import chain, count, takewhile
 from pathlib import Path
 from typing import Any
 
-from r37core.config import Settings
+from r37core.adaptive.refinement_choice import RefinementChoice, Window
+from r37core.config import Settings, in_si
+from r37core.config.remarks import elastic_casings
 from r37core.io import as_list, read_json, readable
+from r37core.plain import to_plain
 from r37core.speeds import SpeedPlan
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.speed_run import OF_RUNS
 
 from . import paths
 from .samples import Pair, Sample, Samples, folder_and_name, member_of, path_part
@@ -128,3 +134,115 @@ def _speeds_of_round(file: str, _time: int, plan: SpeedPlan | None) -> list[floa
 @cache
 def _all_of(plan: SpeedPlan) -> frozenset[float]:
     return frozenset(plan.every_speed())
+
+
+@dataclass(frozen=True)
+class Simulations:
+    """Parameters of each simulation of a sweep; methods with `wildcards` as of Sweep."""
+
+    sweep: Sweep
+
+    def task(self, wildcards: Any) -> str:
+        """What one simulation does, as JSON text."""
+        integration = self.sweep.settings.fidelity.time_integration
+        task = {
+            "scene": self.plain_scene(wildcards),
+            "choice": to_plain(self._choice(wildcards, float(wildcards.speed))),
+            "results": [result for result in self.sweep.results(wildcards) if result in OF_RUNS],
+            "kept": {key: getattr(integration, key) for key in ("spectrum_highest_order", "wear_angles")},
+        }
+        return json.dumps(task)
+
+    def _choice(self, wildcards: Any, speed: float) -> IntegrationChoice:
+        """Numbers of the time integration at a speed (rad/s)."""
+        history_speeds = self.sweep.samples.sample(wildcards).history_speeds
+        return self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, speed, history_speeds)
+
+    def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
+        """Numbers of the time integration at the highest speed of the basis."""
+        return to_plain(self._choice(wildcards, self.sweep.settings.structure.maximum_speed_rad_s))
+
+    def plain_scene(self, wildcards: Any) -> dict[str, Any]:
+        """The scene: what the blade meets."""
+        return to_plain(self.sweep.samples.member(wildcards).scene)
+
+    def priority(self, wildcards: Any) -> float:
+        """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
+        blades = list(self.sweep.settings.blades)
+        return 1 - blades.index(wildcards.blade) / len(blades)
+
+
+@dataclass(frozen=True)
+class Rounds:
+    """Plan of the rounds that the adaptive speeds of a sweep ask for; methods with `wildcards` as of Sweep."""
+
+    sweep: Sweep
+
+    def first_rounds(self, wildcards: Any) -> list[str]:
+        """First rounds of the runs in one dataset, of all without a kind.
+
+        They are asked for beside the responses: a response that is there is not planned anew for a round that is not.
+        """
+        pairs = self.sweep.runs_with(getattr(wildcards, "kind", KINDS[0]))
+        adaptive = [(blade, scene) for blade, scene in pairs if self.sweep.settings.speed_plans[blade, scene].refined]
+        return [paths.fill(paths.ROUND, blade=blade, scene=scene, round=0) for blade, scene in adaptive]
+
+    def round_inputs(self, wildcards: Any) -> dict[str, Any]:
+        """What a round looks at: the Campbell diagram, or the runs that the round before it asked for, member by member."""
+        number, (folder, _) = int(wildcards.round), folder_and_name(wildcards)
+        if number == 0:
+            diagram = self.sweep.samples.sample(wildcards).campbell
+            return {"campbell": paths.fill(paths.CAMPBELL, member=diagram, blade=wildcards.blade)}
+        of = {"member": path_part(folder), "blade": wildcards.blade, "scene": wildcards.scene}
+        new, names = self.sweep.new_speeds(wildcards, number - 1), self.sweep.samples.sample(wildcards).deciding
+        files = [file for name in names for file in paths.speed_files(path_part(folder, name), wildcards, new)]
+        return {"before": paths.fill(paths.ROUND, **of, round=number - 1), "speeds": files}
+
+    def yields_of_round(self, wildcards: Any) -> list[float]:
+        """Yield stress (Pa) of the blade of each member whose runs a round looks at."""
+        sample = self.sweep.samples.sample(wildcards)
+        return [sample.members[name].blade.yield_stress for name in sample.deciding]
+
+    def refined_plan(self, wildcards: Any) -> dict[str, Any]:
+        """Speeds of one blade and scene, as plain values."""
+        return to_plain(self.sweep.speed_plan(wildcards))
+
+    def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
+        """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
+        settings = self.sweep.settings
+        refinement = settings.config.refinement.in_scene(settings.scenes[wildcards.scene].scene)
+        windows = tuple(in_si(Window, window) for window in refinement.windows)
+        share, prominence = self.sweep.samples.sample(wildcards).largest_share, settings.config.interactions.prominence
+        return to_plain(in_si(RefinementChoice, refinement, windows=windows, largest_share=share, prominence=prominence))
+
+
+@dataclass(frozen=True)
+class Datasets:
+    """Plan of what is joined of the runs of a sweep; methods with `wildcards` as of Sweep."""
+
+    sweep: Sweep
+
+    def runs(self, wildcards: Any) -> list[tuple[str, str]]:
+        """Pairs of blade and scene in one dataset."""
+        return self.sweep.runs_with(wildcards.kind)
+
+    def responses(self, wildcards: Any) -> list[str]:
+        """What one dataset is joined of."""
+        return [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs(wildcards)]
+
+    @property
+    def casings(self) -> dict[str, Any]:
+        """The casing of each scene with a flexible one, as plain values."""
+        return {name: to_plain(casing) for name, casing in elastic_casings(self.sweep.settings).items()}
+
+    def response_pictured(self, wildcards: Any) -> dict[str, str]:
+        """Datasets that a blade's response is drawn from."""
+        return _drawn(with_stress=any(blade == wildcards.blade for blade, _ in self.sweep.runs_with("stress")))
+
+    def compared(self, wildcards: Any) -> dict[str, str]:
+        """Datasets that the blades of a scene are compared by."""
+        return _drawn(with_stress=any(scene == wildcards.scene for _, scene in self.sweep.runs_with("stress")))
+
+
+def _drawn(with_stress: bool) -> dict[str, str]:
+    return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}

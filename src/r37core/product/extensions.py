@@ -1,4 +1,4 @@
-"""The registry of the extensions: each capability is one folder of this package, one file of rules, and one line here. And the samples they have."""
+"""The registry of the extensions: a capability is one folder of this package, one file of rules, and one line here."""
 
 from __future__ import annotations
 

@@ -1,11 +1,17 @@
-"""What a run says before it starts, and refuses of its targets."""
+"""What a run says of the pipeline and its extensions: remarks before it starts, refused targets, and its last lines."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
+from contextlib import suppress
+from importlib import import_module
+from pathlib import Path
 
 from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_of_pipeline
+from r37core.io import InputFileError
+from r37core.plans.extension import Extension
+from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 
 from .extensions import EXTENSIONS
@@ -29,3 +35,32 @@ def check_asked(settings: Settings, targets: Collection[str]) -> None:
                 allowed += f", or a file that has some, as in: {command}"
             refused = f"the target {name} and none of the blades and scenes that are run"
             raise ConfigError(f"{name}: found {refused}; allowed: {allowed}")
+
+
+def lines_of_extensions(settings: Settings, began: float) -> list[str]:
+    """A line for each extension that has made something since `began` (time in s, as file times are)."""
+    lines = (line_of_extension(extension, Sweep(settings), settings.results, began) for extension in EXTENSIONS)
+    return [line for line in lines if line]
+
+
+def line_of_extension(extension: Extension, sweep: Sweep, results: Path, began: float) -> str:
+    """What an extension has found, in the folder `results`, and where to look; empty where all that it made is older."""
+    files = [results / file.removeprefix("<results>/") for file in filled(extension.all_targets(sweep))]
+    made = [file for file in files if file.exists() and file.stat().st_mtime >= began]
+    if not made:
+        return ""
+    closing = f"{len(made)} file{'s' * (len(made) > 1)} made"
+    if extension.closing:
+        module, name = f"r37core.{extension.closing}".rsplit(".", 1)
+        # a file that cannot be read, or lacks a column, is no failure of the run that has ended: what reads it next refuses it
+        with suppress(InputFileError, KeyError):
+            closing = getattr(import_module(module), name)(results)
+    return f"{extension.name}: {closing}; look at {_look_at(extension, files, results)}"
+
+
+def _look_at(extension: Extension, files: list[Path], results: Path) -> Path:
+    if extension.look_at:
+        return results / extension.look_at.removeprefix("<results>/")
+    # what a person opens, the best first
+    order = {".html": 0, ".png": 1, ".csv": 2}
+    return min((file for file in files if file.exists()), key=lambda file: order.get(file.suffix, len(order)))

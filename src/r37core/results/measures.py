@@ -6,13 +6,11 @@ have the leading edge alone instead of the dimension `tip_point`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
-from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
 from .speed_ranges import ranges_above

@@ -13,9 +13,8 @@ from r37core.config.speed_choice import fastest_of
 from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.provenance import Provenance
-from r37core.plans.simulation_plan import Simulations
 from r37core.plans.stages import Stage
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.sweep_plan import Simulations, Sweep
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import RunUpChoice

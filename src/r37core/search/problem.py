@@ -1,6 +1,6 @@
-"""What a search changes, and what is known of a design once its jobs are done, and which designs are the best. Plain values, which `r37core.plain` carries.
+"""Variables of a search, what is known of a design once its jobs are done, and which designs are the best.
 
-Light: the workflow imports it whether there is a search or not.
+All are plain values, which `r37core.plain` carries. Light: the workflow imports this whether there is a search or not.
 """
 
 from __future__ import annotations

@@ -23,8 +23,7 @@ from r37core.rom.reduction_choice import StressSubmesh
 from r37core.stress.operator import read_stress_operator
 
 from .choice import SearchChoice
-from .dataset import search_dataset, search_table
-from .entries import entries_of, write_entries
+from .dataset import entries_of, search_dataset, search_table, write_entries
 from .quantity import DesignStructure, Quantity, of_contact, of_structure, static_stress
 from .rounds import first_round, progress, read_round, round_after, tried_after, write_round
 

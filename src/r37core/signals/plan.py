@@ -8,7 +8,7 @@ from typing import Any
 from r37core.config import in_si
 from r37core.plain import to_plain
 from r37core.plans import paths
-from r37core.plans.import_plan import Imported
+from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 
 from .gauge import Gauge

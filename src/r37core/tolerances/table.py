@@ -1,4 +1,4 @@
-"""tolerances.csv: every interaction with the range of its numbers over the members, and how many of them show it; and what a run says of it."""
+"""tolerances.csv: interactions with the range of their numbers over the members; and the line that a run ends with."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from r37core.exchange.refusal import ImportRefused
 from r37core.fem.surface import Faces, area_vectors, chosen, mask_within, nodes_of, smooth_patches
 
 from .raw_mesh import RawMesh
-from .where import Where
+from .source import Where
 
 _CREASE = np.radians(40.0)
 _RADIAL = 0.5  # of a unit normal: faces that look along the radius, out or in

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import hashlib
 import os
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
+
 from r37core.declared import Key
 from r37core.exchange.orientation import Orientation
-from r37core.exchange.refusal import ImportRefused
+from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.fem.elements import ELEMENTS
 from r37core.units import MASS_UNITS, STIFFNESS_UNITS
 
 from .deck_text import included_files, is_deck
-from .where import Where
+from .raw_mesh import RawMesh
 
 DECK = ".inp"
 """Ending of a deck of Abaqus or CalculiX; the text tells it too."""
@@ -121,3 +125,100 @@ def digest_of(files: Iterable[Path]) -> str:
         with open(file, "rb") as stream:
             digest.update(hashlib.file_digest(stream, "sha256").digest())
     return digest.hexdigest()[:16]
+
+
+_MOST_NAMES = 30
+
+
+@dataclass(frozen=True)
+class Where:
+    """A part of the mesh: the nodes in the set `set_name`, or those that keep all the limits given.
+
+    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
+    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and
+    cone.
+    """
+
+    set_name: str | None = None
+    limits: tuple[tuple[str, str, float], ...] = ()
+    cone_zr: Annotated[
+        tuple[tuple[float, float], tuple[float, float]] | None,
+        Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
+    ] = None
+    tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", ge=1e-9, le=0.1)] = 1e-4
+
+    def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
+        """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
+        if self.set_name is None:
+            return self.within(mesh.points)
+        return _with_mid_nodes(what, self.set_name, mesh, _of_set(what, self.set_name, mesh))
+
+    def within(self, points: np.ndarray) -> np.ndarray:
+        """Mask over `points` (m), shape (n, 3), that keep limits and cone."""
+        x, y, z = points.T
+        coordinates = {"r": np.hypot(x, y), "x": x, "z": z}
+        members = np.ones(len(points), dtype=bool)
+        for name, bound, value in self.limits:
+            sign = 1.0 if bound == "at_least" else -1.0
+            members &= sign * (coordinates[name] - value) >= -self.tolerance
+        if self.cone_zr is not None:
+            members &= np.abs(self.off_cone(points)) <= self.tolerance
+        return members
+
+    def off_cone(self, points: np.ndarray) -> np.ndarray:
+        """Distance (m) of `points`, shape (n, 3), from the cone, shape (n,)."""
+        assert self.cone_zr is not None
+        (z0, r0), (z1, r1) = self.cone_zr
+        radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+        return ((radius - r0) * (z1 - z0) - (z - z0) * (r1 - r0)) / np.hypot(z1 - z0, r1 - r0)
+
+    def describe(self) -> str:
+        """The rule in words."""
+        if self.set_name is not None:
+            return f"the set '{self.set_name}'"
+        parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
+        if self.cone_zr is not None:
+            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
+        return f"the rule '{' and '.join(parts)}, to {self.tolerance:g} m'"
+
+    def as_yaml(self) -> str:
+        """The rule of a cone as an entry of blades.yaml has it."""
+        assert self.cone_zr is not None
+        points = ", ".join(f"[{_plain(z)}, {_plain(r)}]" for z, r in self.cone_zr)
+        return f"{{ cone_zr_m: [{points}], tolerance_m: {_plain(self.tolerance)} }}"
+
+
+def _plain(number: float) -> str:
+    """Without exponent: to some readers of YAML 1e-05 is a text."""
+    return np.format_float_positional(number, trim="-")
+
+
+def _of_set(what: str, name: str, mesh: RawMesh) -> np.ndarray:
+    """Mask over the nodes of a set, whose name may differ in capitals."""
+    names = {known.upper(): known for known in mesh.sets}
+    if name.upper() not in names:
+        known = [f"{known} ({len(nodes)} nodes)" for known, nodes in sorted(mesh.sets.items()) if len(nodes)]
+        more = f", and {len(known) - _MOST_NAMES} more" if len(known) > _MOST_NAMES else ""
+        raise ImportRefused(f"{what}: found no set '{name}'; the file has: {', '.join(known[:_MOST_NAMES]) or 'none'}{more}")
+    members = np.zeros(len(mesh.points), dtype=bool)
+    members[mesh.sets[names[name.upper()]]] = True
+    return members
+
+
+def _with_mid_nodes(what: str, name: str, mesh: RawMesh, members: np.ndarray) -> np.ndarray:
+    """The nodes of a set; where it has corners of elements alone, with the mid-nodes of edges between them."""
+    middle = np.zeros(len(members), dtype=bool)
+    between = np.zeros(len(members), dtype=bool)
+    for kind, nodes in mesh.blocks.items():
+        for edge, middle_node in ELEMENTS[kind].edges.items():
+            middle[nodes[:, middle_node]] = True
+            between[nodes[members[nodes[:, list(edge)]].all(axis=1), middle_node]] = True
+    if (members & middle).any() or not between.any():
+        return members
+    warnings.warn(
+        f"{what}: the set '{name}' has corners of elements alone ({members.sum()} nodes); the {between.sum()} mid-nodes "
+        "between them are taken too",
+        MeshWarning,
+        stacklevel=2,
+    )
+    return members | between
