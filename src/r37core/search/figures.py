@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from r37core.figures import style
 from r37core.units import shown_unit
@@ -22,9 +22,6 @@ from .panel import in_lines, with_unit
 _START_LOOK: dict[str, Any] = {"color": "0.15", "marker": "s", "markersize": 5, "linestyle": "none", "zorder": 5}
 _BEST_LOOK: dict[str, Any] = {"color": style.COLOURS[1], "marker": "*", "markersize": 8, "linestyle": "none", "zorder": 6}
 _FRONT_LOOK: dict[str, Any] = {"color": style.COLOURS[1], "marker": "o", "markersize": 4.5, "zorder": 4, "clip_on": False}
-
-_SKEWED = 0.1
-"""Values of at least 0, the smallest below this share of the largest, are drawn on a square-root scale."""
 
 _MOST_NAMED = 8
 """Designs that none is better than, with their names beside them."""
@@ -39,15 +36,6 @@ class _Objective(NamedTuple):
     label: str
     values: np.ndarray
     scatter: np.ndarray
-
-    @property
-    def is_skewed(self) -> bool:
-        known = self.values[np.isfinite(self.values)]
-        return bool(known.size) and known.min() >= 0.0 and known.min() < _SKEWED * known.max()
-
-    @property
-    def axis_label(self) -> str:
-        return f"{self.label}\nsquare-root scale" if self.is_skewed else self.label
 
 
 def draw_designs(search: xr.Dataset) -> Figure:
@@ -160,9 +148,8 @@ def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: st
         axes.axvline(first + 0.5, color="0.5", linewidth=0.8, linestyle=":")
     axes.set_xlim(0.0, len(tried) + 1.0)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    shown = objective._replace(values=np.append(best[np.isfinite(best)], level))
-    axes.set_ylabel(f"best {shown.axis_label}")
-    _scale(axes, "y", shown)
+    axes.set_ylabel(f"best {objective.label}")
+    axes.set_ylim(_limits(np.append(best[np.isfinite(best)], level)))
 
 
 def _draw_pair(axes: Axes, search: xr.Dataset, across: _Objective, up: _Objective, joined: bool) -> None:
@@ -180,10 +167,10 @@ def _draw_pair(axes: Axes, search: xr.Dataset, across: _Objective, up: _Objectiv
             at = across.values[index], up.values[index]
             axes.annotate(str(search["design"].values[index]), at, (4, 3), textcoords="offset points", fontsize=6, color="0.2")
     _points(axes, across.values[start], up.values[start], label=START, clip_on=False, **_START_LOOK)
-    axes.set_xlabel(across.axis_label)
-    axes.set_ylabel(up.axis_label)
-    _scale(axes, "x", across)
-    _scale(axes, "y", up)
+    axes.set_xlabel(across.label)
+    axes.set_ylabel(up.label)
+    axes.set_xlim(_limits(across.values))
+    axes.set_ylim(_limits(up.values))
 
 
 def _draw_rounds(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
@@ -197,10 +184,10 @@ def _draw_rounds(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
     _points(axes, rounds[best], objective.values[best], label="best", **_BEST_LOOK)
     _points(axes, rounds[start], objective.values[start], label=START, **_START_LOOK)
     axes.set_xlabel("round, 0 the first designs")
-    axes.set_ylabel(objective.axis_label)
+    axes.set_ylabel(objective.label)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda round, _: START if round == -1 else f"{round:.0f}"))
-    _scale(axes, "y", objective)
+    axes.set_ylim(_limits(objective.values))
 
 
 def _draw_slice(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
@@ -270,42 +257,3 @@ def _limits(values: np.ndarray) -> tuple[float, float]:
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
     room = 0.12 * (high - low) or 0.1 * abs(high) or 1.0
     return low - room, high + room
-
-
-def _scale(axes: Axes, which: str, objective: _Objective) -> None:
-    """Limits of an axis, and the square-root scale of a skewed objective: near 0, where the good designs are, it is wide."""
-    set_limits = axes.set_xlim if which == "x" else axes.set_ylim
-    known = objective.values[np.isfinite(objective.values)]
-    if not known.size:
-        return
-    if not objective.is_skewed:
-        set_limits(*_limits(known))
-        return
-    top = float(known.max()) or 1.0
-    set_scale = axes.set_xscale if which == "x" else axes.set_yscale
-    set_scale("function", functions=(_root, _square))
-    # a little below 0, so that points there are seen whole
-    set_limits(-(0.04**2) * top, 1.12 * top)
-    of_axis = axes.xaxis if which == "x" else axes.yaxis
-    of_axis.set_major_locator(FixedLocator(_ticks(top)))
-    of_axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    of_axis.set_minor_locator(NullLocator())
-
-
-def _root(values: np.ndarray) -> np.ndarray:
-    return np.sign(values) * np.sqrt(np.abs(values))
-
-
-def _square(values: np.ndarray) -> np.ndarray:
-    return np.sign(values) * np.square(values)
-
-
-def _ticks(top: float) -> list[float]:
-    """Round numbers up to `top` that do not touch each other on a square-root scale, and 0."""
-    decade = np.floor(np.log10(top))
-    ticks: list[float] = []
-    for value in (digit * 10.0 ** (decade - down) for down in range(4) for digit in (5.0, 2.0, 1.0)):
-        before = np.sqrt(ticks[-1]) if ticks else np.inf
-        if value <= 1.12 * top and min(before - np.sqrt(value), np.sqrt(value)) > 0.13 * np.sqrt(top):
-            ticks.append(value)
-    return [*ticks, 0.0]
