@@ -37,7 +37,7 @@ def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
 
 
 def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
-    """The same of a call that takes one speed."""
+    """Key of config.yaml with the one speed of a call; see speed_keys."""
     if (speed is None) == (speed_rpm is None):
         which = "neither" if speed is None else "both"
         raise ConfigError(f"speed: found {which}; allowed: speed, in rad/s, or speed_rpm")
@@ -49,7 +49,7 @@ def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
 
 
 def plain_value(value: Any) -> Any:
-    """The same without the types of NumPy, inside of mappings and lists, too; in place of a DataFrame a file with it."""
+    """The value without types of NumPy, inside of mappings and lists, too; a DataFrame becomes a file with it."""
     if hasattr(value, "to_csv"):
         return str(_table_file(value.to_csv(index=False)))
     if isinstance(value, Mapping):

@@ -36,7 +36,7 @@ class Calculation:
 
     @cached_property
     def sweep(self) -> Sweep:
-        """Its plan."""
+        """Plan of the sweep of the one blade and scene."""
         return Sweep(self.settings, lambda **wildcards: self.path(paths.fill(paths.ROUND, **wildcards)))
 
     @property

@@ -18,7 +18,7 @@ from r37core.product.reading import CONFIG, READER
 
 _PACKAGE = Path(__file__).parent
 _FOLDER = "config"
-"""Of the repository and of this package, where it is a link or, once installed, a copy."""
+"""Folder of the repository and of this package, where it is a link or, once installed, a copy."""
 
 _SPEEDS = ("speeds", "speeds_rpm", "speeds_for")
 
@@ -37,7 +37,7 @@ class Configuration:
     root: Path
 
     def with_changes(self, files: Iterable[Path | str]) -> Configuration:
-        """The same with files of changes on top, each on those before it. Raises ConfigError."""
+        """Configuration with files of changes on top, each on those before it. Raises ConfigError."""
         return replace(self, document=together(self.document, [read_document(Path.cwd(), str(file)) for file in files]))
 
     @property
@@ -46,7 +46,7 @@ class Configuration:
         return self.document.check(CONFIG)
 
     def with_file(self, key: str, file: Path | str) -> Configuration:
-        """The same with another file under the key `blades_file` or `scenes_file`; tables of blades lie beside it."""
+        """Configuration with another file under the key `blades_file` or `scenes_file`; tables of blades lie next to it."""
         path = Path(file).absolute()
         document = self.document.overlaid(command_line_document({key: str(path)}, f"{key[:-5]} file"))
         return Configuration(document, _root_of(path) if key == "blades_file" else self.root)

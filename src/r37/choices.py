@@ -160,12 +160,12 @@ class SceneChoice(Choice):
         _ = self.entry
 
     def with_results(self, results: Sequence[str] | None) -> SceneChoice:
-        """The same with other results, where there are any: they are no change of the scene."""
+        """Scene with other results, where there are any: results are no change of the scene."""
         return self if results is None else replace(self, results=tuple(results))
 
     @cached_property
     def above(self) -> Document | None:
-        """As of Choice, with the results."""
+        """Changes as a document that lies on top of the file, the results among them. Raises ConfigError."""
         return self._above(self.changes if self.results is None else {**self.changes, "results": list(self.results)})
 
     @cached_property

@@ -29,7 +29,7 @@ class RunOptions(OneOptions, total=False):
 
 
 class SweepOptions(RunOptions, total=False):
-    """The same of a call that takes speeds."""
+    """What a call of many runs with speeds takes by name."""
 
     speeds_rpm: Speeds | None
 

@@ -28,7 +28,7 @@ _OPTIONS = (
     *("--workflow-profile", "none", "--nocolor", "--rerun-incomplete", "--rerun-triggers"),
     *("mtime", "params", "input", "software-env", "--scheduler", "greedy", "--scheduler-subsample", "100"),
 )
-"""As profiles/default, but without going on after a failure: a call ends with the first."""
+"""Options of profiles/default, but without going on after a failure: a call ends with the first."""
 
 _END_S = 1.5
 """How long an interrupted run may take to end by itself."""

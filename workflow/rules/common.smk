@@ -31,7 +31,7 @@ console = begin(workflow, logger, WorkflowError, ROOT, config)
 settings = console.settings
 PACKAGE = console.source / "r37core"
 code = CodeHashes(console.source, SCRIPTS)
-# for the parameters of rules: a step, which is a function of r37core, and the hash of its code, or what stands for that
+# parameters of rules: a step, which is a function of r37core, and the hash of its code, or what stands for that
 engine = EngineNumbers(Path(settings.config.run.engine)) if settings.config.run.engine else code
 step = engine.step
 # members of samples that extensions have run beside the sweep, and what is made of them

@@ -1,4 +1,4 @@
-# Each extension's rules, and one more that makes all of it and nothing else: snakemake run_ups
+# Rules of each extension, and one more that makes all of it and nothing else: snakemake run_ups
 from r37core.product.extensions import EXTENSIONS
 
 for extension in EXTENSIONS:

@@ -3,7 +3,7 @@
 # is another one has a model of its own, by the same rules.
 
 
-# half more than was measured
+# memory of a reduced model (MB): half more than was measured
 memory_of_model = 200 + round(0.075 * settings.fidelity.mesh.nodes)
 
 
@@ -46,7 +46,7 @@ use rule step as imported_mesh with:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
         blade=imported.meshes,
-    # as of geometry: an unsuitable mesh should stop the run before any long work
+    # an unsuitable mesh, like an impossible shape, should stop the run before any long work
     priority: 10
     params:
         **stage(stages["imported_mesh"]),

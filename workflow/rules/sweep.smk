@@ -41,7 +41,7 @@ use rule step as prepare_time_integration with:
         **stage(stages["prepare_time_integration"]),
 
 
-# of jobs that the server runs; paths and no texts: another place is no reason to run again
+# parameters of jobs that the server runs; paths and no texts: another place is no reason to run again
 served = {
     "python": PYTHON,
     "start": SCRIPTS / "start.py",

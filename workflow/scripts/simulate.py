@@ -12,7 +12,7 @@ from r37core.time_integration.speed_job import make_ready, run_job
 
 __all__ = ["make_ready"]
 
-# for the jobs that a server forks from here
+# done once for the jobs that a server forks from here
 this_processor()
 
 

@@ -66,7 +66,7 @@ class Variation(Section):
         return self
 
     def values(self) -> list[float]:
-        """All of them."""
+        """All values of the range."""
         return spaced(self.start, self.stop, self.step)
 
 
@@ -158,12 +158,12 @@ class BladeSettings:
 
     @property
     def yield_stress(self) -> float:
-        """Of its material (Pa); infinite where that is not known."""
+        """Yield stress of the material (Pa); infinite where that is not known."""
         return math.inf if self.material is None else self.material.yield_stress
 
     @property
     def elastic(self) -> BladeSettings:
-        """The same as if it never yielded: a new yield stress asks for no new model."""
+        """Blade as if its material never yielded: a new yield stress asks for no new model."""
         return self if self.material is None else replace(self, material=replace(self.material, yield_stress=math.inf))
 
 

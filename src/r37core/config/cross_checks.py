@@ -148,7 +148,7 @@ def tips_have_room_for_patches(settings: Settings) -> None:
                 )
             if boundary.contact == POINTS or not isinstance(blade.definition, BladeDefinition):
                 continue
-            # between two layers, or on a face, the edges of elements have nodes in their middle; inside a layer there are none
+            # edges of elements between two layers, or on a face, have nodes in their middle; edges inside a layer have none
             inside = tip_line == "camber" and mesh.layers % 2 and boundary.contact == PATCHES
             nodes = mesh.tip_elements + 1 if inside else 2 * mesh.tip_elements + 1
             try:
@@ -220,4 +220,4 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     rotors_press_a_casing_that_is_carried,
     clearances_reach_all_speeds,
 )
-"""In the order in which refusals are told."""
+"""Checks in the order in which their refusals are reported."""

@@ -22,7 +22,7 @@ S = TypeVar("S", bound=Section)
 T = TypeVar("T")
 
 DECLARED: Any = Field()
-"""In a section it keeps the place of a key that the dataclass declares; those without a place follow at the end."""
+"""Placeholder in a section for a key that the dataclass declares; keys without a placeholder follow at the end."""
 
 
 def declared_by(

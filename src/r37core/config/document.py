@@ -20,7 +20,7 @@ Model = TypeVar("Model", bound=BaseModel)
 Result = TypeVar("Result")
 
 _MOST_LINES = 20
-"""Of a message with several refusals."""
+"""Largest number of lines of a message with several refusals."""
 
 
 class ConfigError(ValueError):
@@ -83,7 +83,7 @@ class Document:
         raise AssertionError("a model refuses for a reason")
 
     def overlaid(self, above: Document) -> Document:
-        """This document with the values of another one on top: mappings are joined, all else is replaced."""
+        """Document with the values of another one on top: mappings are joined, all else is replaced."""
         locations = dict(self.locations)
         content = _overlay(self.content, above.content, (), locations)
         return Document(self.name, content, locations | dict(above.locations))

@@ -61,7 +61,7 @@ class Designs:
         return {design: name for name, family in self.families.items() for design in family.designs}
 
     def named(self, names: Iterable[str]) -> list[str]:
-        """Each of the blades, and of the families' designs, once."""
+        """Blades of these names, and designs of families of these names, each once."""
         several = [list(self.families[name].designs) if name in self.families else [name] for name in names]
         return list(dict.fromkeys(name for names in several for name in names))
 

@@ -45,7 +45,7 @@ class SurfaceRule(Section):
         return tuple((axis, bound, float(value)) for axis, bound, value in limits if value is not None)
 
     def where(self) -> Where:
-        """As the import takes it."""
+        """The rule as the import takes it."""
         return in_si(Where, self, limits=self._limits())
 
 
@@ -94,7 +94,7 @@ class Oriented(Section):
     )
 
     def orientation(self) -> Orientation:
-        """As the import takes it."""
+        """Unit and axes as the import takes them."""
         return in_si(Orientation, self)
 
 

@@ -1,4 +1,4 @@
-"""From pydantic's errors to `key`, what was found and what is allowed."""
+"""Messages from pydantic's errors: the key, what was found and what is allowed."""
 
 from __future__ import annotations
 
@@ -32,7 +32,10 @@ def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tup
 
 
 def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) -> list[tuple[KeyPath, KeyPath, str]]:
-    """The same of all errors, one of each value; unknown keys first: one may be why another is missing, which is not said."""
+    """Place, key and message of all errors, one of each value, unknown keys first.
+
+    A missing key beside an unknown one is not reported, because the unknown one may be meant for it.
+    """
     errors = sorted(error.errors(include_url=False), key=lambda refusal: refusal["type"] != "extra_forbidden")
     unknown = [refusal["loc"][:-1] for refusal in errors if refusal["type"] == "extra_forbidden"]
     explained: dict[KeyPath, tuple[KeyPath, KeyPath, str]] = {}
@@ -65,7 +68,7 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     """A question in brackets for the end of a message: the known name that is most like this one, whatever its capitals."""
     by_letters = {other.lower(): other for other in known}
     close = difflib.get_close_matches(name.lower(), by_letters, 1)
-    # of long names the beginning is enough
+    # the beginning of a long name is enough
     close = close or [other for other in by_letters if len(name) > 2 and other.startswith(name.lower())]
     return f" (did you mean {by_letters[close[0]]}?)" if close else ""
 
@@ -146,6 +149,6 @@ def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], varia
             return match
     step, *rest = path
     inner = part.get("items") if isinstance(step, int) else part.get("properties", {}).get(step)
-    # of a table by numbers a call may have numbers as keys
+    # numbers may be the keys of a table that a call gives
     inner = inner or next(iter(part.get("patternProperties", {}).values()), None) or part.get("additionalProperties")
     return _at(inner, tuple(rest), schema, variants) if isinstance(inner, Mapping) else {}

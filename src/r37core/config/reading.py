@@ -1,4 +1,4 @@
-"""From config.yaml and the files it names to settings that are checked, or to a refusal of all that is wrong."""
+"""Reading of config.yaml and the files it names: checked settings, or one refusal of all that is wrong."""
 
 from __future__ import annotations
 

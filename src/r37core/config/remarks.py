@@ -111,13 +111,13 @@ _KEY = "casing.ring.highest_nodal_diameter"
 
 
 def elastic_casings(settings: Settings) -> dict[str, ElasticCasing]:
-    """Of each scene to run whose casing gives way."""
+    """Elastic casing of each scene to run that has one."""
     entries = {name: settings.scene_entries[name].casing for name in settings.scene_names}
     return {name: casing.elastic_casing() for name, casing in entries.items() if casing.elastic}
 
 
 def remarks_on_casings(settings: Settings) -> list[str]:
-    """Of casings whose waves a blade of the sweep overtakes."""
+    """Remarks on casings whose waves a blade of the sweep overtakes."""
     lines = (
         remark_on_overtaken_waves(name, casing, fastest_of(settings, name))
         for name, casing in elastic_casings(settings).items()
@@ -126,7 +126,7 @@ def remarks_on_casings(settings: Settings) -> list[str]:
 
 
 def remark_on_overtaken_waves(scene: str, casing: ElasticCasing, fastest: float) -> str:
-    """Of a scene with speeds up to `fastest` (rad/s) above the casing's lowest critical speed; nothing below it."""
+    """Remark on a scene with speeds up to `fastest` (rad/s), empty below the casing's lowest critical speed."""
     if fastest <= casing.critical_speed:
         return ""
     remark = (
@@ -141,7 +141,7 @@ def remark_on_overtaken_waves(scene: str, casing: ElasticCasing, fastest: float)
 
 
 def remarks_on_left_out_modes(casings: Mapping[str, ElasticCasing]) -> list[str]:
-    """Of rings that give way less under a force than they would with all modes, those that scenes share once."""
+    """Remarks on rings that give way less under a force than with all modes; a ring that scenes share has one."""
     scenes: dict[Ring, list[str]] = {}
     for name, casing in casings.items():
         if casing.ring is not None:

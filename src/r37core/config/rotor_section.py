@@ -46,7 +46,7 @@ BladeTable = Annotated[dict[_Number, T], WrapValidator(_by_number)]
 """Values by numbers of blades, which are the texts "1", "2", ... of a checked table."""
 
 LEAST_APART = 0.1
-"""Between blades (deg): less than a tip is thick, and than MOST_BLADES at equal angles are apart."""
+"""Smallest angle between blades (deg): less than a tip is thick, and less than between MOST_BLADES at equal angles."""
 
 _CHANGES, _LENGTHS = (-95.0, 1000.0), (-0.1, 0.1)
 """Least and largest, of the keys mistuning_percent and longer_m, given or drawn."""
@@ -138,7 +138,7 @@ class RotorSection(Section):
 
     @property
     def _angles(self) -> list[float]:
-        """Of all places (deg)."""
+        """Angles of all places (deg)."""
         return self.angles_deg or [360.0 / self.blades * place for place in range(self.blades)]
 
     @property
@@ -150,7 +150,7 @@ class RotorSection(Section):
         return self._values(self.longer_m, self.longer_spread_m, 1)
 
     def _values(self, table: dict[str, float], spread: SpreadEntry | None, stream: int) -> list[float]:
-        """Of the blades that are there: those of the table, else drawn; a blade keeps its draw where others are missing."""
+        """Values of the blades that are there, of the table or else drawn; a blade keeps its draw where others are missing."""
         shares = np.random.default_rng((self.seed, stream)).random(self.blades)
         drawn = spread and spread.spread()
         nominal = [drawn.value(0.0, float(share)) if drawn else 0.0 for share in shares]

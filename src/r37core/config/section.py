@@ -37,7 +37,7 @@ class ExtensionSection(Generic[T]):
 
 
 class Without(Enum):
-    """In place of a value, in a document that lies on top of another: the key is left out, which it may be already."""
+    """Mark in place of a value, in a document that lies on top of another: the key is left out, if it is there."""
 
     KEY = "left out"
 
@@ -96,7 +96,7 @@ def check_name(name: str) -> str:
 
 
 Name = Annotated[str, AfterValidator(check_name), WithJsonSchema({"type": "string", "pattern": NAME_PATTERN, "maxLength": 60})]
-"""Of a blade, scene, level or run. They are parts of file names, where two underscores separate them."""
+"""Name of a blade, scene, level or run: part of file names, where two underscores separate names."""
 
 Unique = Annotated[list[T], Field(min_length=1), AfterValidator(_unique)]
 """A list with at least one value and none twice."""
@@ -128,7 +128,7 @@ Speed = Annotated[float, Field(ge=1e-3, le=1e6)]
 """An angular speed (rad/s)."""
 
 Rpm = Annotated[float, Field(ge=0.01, le=9.5e6)]
-"""The same in revolutions per minute."""
+"""An angular speed in revolutions per minute."""
 
 
 def check_names(names: dict[str, T]) -> dict[str, T]:

@@ -22,12 +22,12 @@ class RunLength:
 
     @property
     def steps_per_revolution(self) -> float:
-        """Of one blade."""
+        """Steps in a revolution of one blade."""
         return 2.0 * math.pi / (self.speed * self.time_step)
 
     @property
     def steps(self) -> float:
-        """Of all blades together."""
+        """Steps of all blades together."""
         return self.revolutions * self.blades * self.steps_per_revolution
 
     @property
@@ -43,7 +43,7 @@ class RunLength:
 
 
 def length_of_run(settings: Settings, scene: str, speed: float, revolutions: float | None = None) -> RunLength:
-    """Of a run in a scene at a speed (rad/s), of the level's revolutions unless they are given."""
+    """Length of a run in a scene at a speed (rad/s), with the level's revolutions unless they are given."""
     steps, chosen = settings.fidelity.time_integration, settings.scenes[scene].scene
     blades = 1 if chosen.rotor is None else len(chosen.rotor.numbers)
     step = steps.largest_step(chosen.lining is not None)

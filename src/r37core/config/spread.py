@@ -11,7 +11,7 @@ from pydantic import AfterValidator, Field, model_validator
 from .section import LeftOut, Section, Unique, left_out, plain, refused
 
 _DIGITS = 12
-"""Of a value: more would tell one machine's arithmetic from another's."""
+"""Digits of a value: with more, the arithmetic of two machines would differ."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Spread:
 
     @property
     def words(self) -> str:
-        """For a page: how far it goes, in the unit of the number or in percent of it."""
+        """Width of the spread as a page shows it, in the unit of the number or in percent of it."""
         unit = "%" if self.percent else ""
         if self.kind == "between":
             return " to ".join(f"{number:g}" for number in self.numbers)
@@ -96,7 +96,7 @@ class SpreadEntry(Section):
         return self
 
     def spread(self) -> Spread:
-        """As the sample takes it."""
+        """The spread as samples take it."""
         ((key, number),) = plain(self).items()
         numbers = tuple(number) if isinstance(number, list) else (number,)
         return Spread(key.removesuffix("_percent"), numbers, key.endswith("_percent"))  # type: ignore[arg-type]

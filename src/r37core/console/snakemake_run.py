@@ -109,7 +109,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     sys.executable = shlex.quote(str(PYTHON))
     if "CONDA" in {method.name for method in workflow.deployment_settings.deployment_method}:
         raise refusal("--sdm conda: jobs need the Python that runs Snakemake, with r37 in it; leave the option out")
-    # of our Snakefile itself they are those of the command line, without lines and with texts for numbers
+    # where our Snakefile is the main one, values are those of the command line, without lines and with texts for numbers
     above = {} if workflow.modifier.is_main_snakefile() else values
     # read here instead of by a `configfile:`, so that messages have lines and numbers are numbers in every file
     with _refused(refusal):

@@ -1,4 +1,4 @@
-"""From a file's unit and axes to the blade's frame."""
+"""Unit and axes of a file, and the way to the blade's frame and back."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _SPAN_BETWEEN = (1e-3, 5.0)
 _USUAL_SPAN = 0.1
 _TIP_RADIUS_BETWEEN = (5e-3, 10.0)
 _USUAL_TIP_RADIUS = (0.01, 3.0)
-"""From the smallest turbochargers to the last stages of steam turbines (m)."""
+"""Radii of a tip (m), from the smallest turbochargers to the last stages of steam turbines."""
 _RADIAL_WITHIN = np.cos(np.radians(45.0))
 
 

@@ -183,7 +183,7 @@ def packed(values: np.ndarray, bits: int = 32) -> dict[str, object]:
 
 
 def rounded(values: np.ndarray) -> np.ndarray:
-    """To 14 binary digits, a relative error of at most 6e-5: what a map shows, and half as much to carry."""
+    """Values with 14 binary digits, a relative error of at most 6e-5: enough for a map, and half as much to carry."""
     whole = np.ascontiguousarray(values, dtype=np.float32).view(np.uint32)
     near = ((whole + np.uint32(1 << 9)) & np.uint32(~((1 << 10) - 1) & 0xFFFFFFFF)).view(np.float32)
     return np.where(np.isfinite(values), near, np.float32(np.nan))

@@ -42,7 +42,7 @@ class ExportSection(Section):
 
     @model_validator(mode="after")
     def _one_unit(self) -> ExportSection:
-        # beside the default, which is also what config.yaml says
+        # the shipped config.yaml gives the default of stress_speeds_rad_s
         if self.stress_speeds_rpm is not None and self.stress_speeds_rad_s != "worst":
             refuse_both_units("stress_speeds_rad_s", "stress_speeds_rpm")
         return self

@@ -17,9 +17,9 @@ from .offscreen import look, new_plotter, save_picture
 from .style import blade_styles
 
 _BESIDE = 0.09
-"""Of the blade's height: how far a name stands from what it names."""
+"""Distance of a name from what it names, as a share of the blade's height."""
 _LETTERS = str(Path(matplotlib.get_data_path(), "fonts/ttf/DejaVuSans.ttf"))
-"""Those of all other figures."""
+"""Font of all other figures."""
 
 
 def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> None:
@@ -33,7 +33,7 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
         with readable(mesh_file):
             grid = pyvista.read(mesh_file)
             surface = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
-        # half way to white: black letters stand on it
+        # colours half way to white, because black letters stand on them
         light = [0.5 + 0.5 * part for part in to_rgb(styles[name]["color"])]
         plotter.add_mesh(surface, color=light, ambient=0.35, diffuse=0.65, smooth_shading=True, split_sharp_edges=True)
         plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
@@ -55,7 +55,7 @@ def _mark_sense(plotter: pyvista.Plotter, grid: Any) -> None:
     # the camera looks from negative y
     side = "pressure side" if pressure[1] < suction[1] else "suction side"
     middle = grid.points.mean(axis=0)
-    # beside the edges, where nothing lies under them
+    # names stand next to the edges, where nothing lies under them
     ends = [edge + _BESIDE * height * (edge - middle) / np.linalg.norm(edge - middle) for edge in (leading, trailing)]
     above = start + height * np.array([_BESIDE, -0.25, 0.0])
     plotter.add_point_labels(

@@ -108,7 +108,7 @@ def draw_cells(axes: Axes, across: np.ndarray, upward: np.ndarray, values: np.nd
 
     `look`: what Axes.pcolorfast takes for colours.
     """
-    # of middles that are not evenly spaced an AxesImage, too
+    # middles that are not evenly spaced give an AxesImage, too
     return cast(AxesImage, axes.pcolorfast(_edges(across), _edges(upward), values, **look))
 
 

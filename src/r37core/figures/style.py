@@ -97,7 +97,7 @@ def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False) ->
     if blades_of:
         lowest, label = min(blades_of), OUTSIDE if named else "_"
         tint: dict[str, Any] = {"facecolor": "#B00020", "alpha": 0.08, "linewidth": 0.0, "zorder": 0.0, "label": label}
-        # as an artist it does not stretch the axis; no stress reaches 1e6 GPa
+        # an artist does not stretch the axis; no stress reaches 1e6 GPa
         axes.add_artist(Rectangle((0.0, lowest), 1.0, 1e6 - lowest, transform=axes.get_yaxis_transform(), **tint))
 
 
@@ -131,7 +131,7 @@ def rpm_axis(axes: Axes, most_ticks: int = 9) -> None:
 
 
 def rpm_axis_beside(axes: Axes) -> None:
-    """The same to the right of an axis of speeds that runs upward."""
+    """A second axis in revolutions per minute, to the right of an upward axis of speeds in rad/s."""
     axes.secondary_yaxis("right", functions=_RPM).set_ylabel("rpm", fontsize=7)
 
 

@@ -17,7 +17,7 @@ _LINES = 24
 _MOST_BINS = 250
 _DECIBELS = 60.0
 _HEIGHT = 2.5
-"""Of the largest amplitude, in distances between lines."""
+"""Height of the largest amplitude, in distances between lines."""
 
 
 def draw_waterfall(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:

@@ -24,7 +24,7 @@ class Extent:
 
     @property
     def at_most(self) -> int:
-        """All of them."""
+        """Simulations of the sweep and of its members, at most."""
         return self.most + self.members
 
     @property

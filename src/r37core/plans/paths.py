@@ -35,13 +35,13 @@ def nominal(pattern: str) -> str:
 
 
 def speed_files(member: str, wildcards: Any, speeds: Sequence[float]) -> list[str]:
-    """Of the simulations of a member's blade and scene at some speeds (rad/s)."""
+    """Files of the simulations of a member's blade and scene at some speeds (rad/s)."""
     of = {"member": member, "blade": wildcards.blade, "scene": wildcards.scene}
     return [fill(SPEED, **of, speed=exact_text(speed)) for speed in speeds]
 
 
 Wildcards = list[dict[str, str]]
-"""Of several files with one pattern."""
+"""Wildcards of several files with one pattern."""
 
 
 def of(name: str, values: Iterable[str]) -> Wildcards:

@@ -43,17 +43,17 @@ class Provenance:
         self._sweep = cache(self._sweep_of)
 
     def shape(self, wildcards: Any) -> Attributes:
-        """Of a blade's geometry."""
+        """Attributes of a blade's geometry."""
         return Attributes(
             blade=wildcards.blade, input_hash=shape_hash(self._settings, wildcards.blade), **_member(member_of(wildcards))
         )
 
     def structure(self, wildcards: Any) -> Attributes:
-        """Of a blade's mesh, reduced model and Campbell diagram."""
+        """Attributes of a blade's mesh, reduced model and Campbell diagram."""
         return self._structure(member_of(wildcards), wildcards.blade)
 
     def sweep(self, wildcards: Any) -> Attributes:
-        """Of the simulations of one blade and scene."""
+        """Attributes of the simulations of one blade and scene."""
         return self._sweep(member_of(wildcards), wildcards.blade, wildcards.scene)
 
     def _structure_of(self, member: str, blade: str) -> Attributes:
@@ -76,7 +76,7 @@ class Provenance:
             scene_parameters=json.dumps(to_plain(of_member.scene)),
             revolutions=chosen.revolutions,
             largest_time_step=step,
-            # of all scenes: datasets of one level may be joined
+            # steps of all kinds of scenes, because datasets of one level may be joined
             numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.in_words}",
         )
 

@@ -10,7 +10,7 @@ import r37core
 from r37core.config import ConfigError, Settings
 
 CONFIGURATION = "configuration.json"
-"""In the folder of the results."""
+"""File in the folder of the results with what the run was made with."""
 
 RESPONSES = "responses"
 """The rule that makes what lies in the folders of the blades, and nothing of all blades together."""

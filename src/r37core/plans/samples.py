@@ -94,12 +94,12 @@ class Samples:
         return rf"(?:(?:{'|'.join([*self.beside, *later])})/(?:\d[^/]*/)?)?"
 
     def sample(self, wildcards: Any) -> Sample:
-        """Of a blade and scene, with the member."""
+        """Sample of a blade and scene that has the member."""
         (folder, _), pair = folder_and_name(wildcards), (wildcards.blade, wildcards.scene)
         return self.beside[folder][pair] if folder else self._nominal(pair)
 
     def member(self, wildcards: Any) -> Member:
-        """Of a blade and scene."""
+        """Member of a blade and scene."""
         return self.sample(wildcards).members[folder_and_name(wildcards)[1]]
 
     def blade(self, wildcards: Any) -> BladeSettings:

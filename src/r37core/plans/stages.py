@@ -36,7 +36,7 @@ class Stage:
 
 
 def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]:
-    """From blade shape to Campbell diagram, by the names of their rules."""
+    """Stages from blade shape to Campbell diagram, by the names of their rules."""
     settings, imported = structure.settings, Imported(structure.settings)
     source = {"source": imported.source, "folder": imported.folder, "locations": imported.locations}
     reduction = {"reduction": structure.reduction, "contact": structure.location_of_contact, "provenance": made.structure}
@@ -81,7 +81,7 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
 
 
 def sweep_stages(sweep: Sweep, made: Provenance) -> dict[str, Stage]:
-    """From a reduced model to the response over speed, by the names of their rules."""
+    """Stages from a reduced model to the response over speed, by the names of their rules."""
     simulations, rounds = Simulations(sweep), Rounds(sweep)
     return {
         "prepare_time_integration": Stage(

@@ -136,7 +136,7 @@ class Imported:
 
 
 def _pattern(names: Iterable[str]) -> str:
-    """One of these names; never anything where there are none."""
+    """Pattern of any one of these names; it fits nothing where there are none."""
     return "|".join(map(re.escape, names)) or "(?!)"
 
 

@@ -82,7 +82,7 @@ class Sweep:
         return speeds_of_round(file, self.speed_plan(wildcards))
 
     def yield_stress(self, wildcards: Any) -> float:
-        """Of a blade (Pa)."""
+        """Yield stress of a blade (Pa)."""
         return self.samples.member(wildcards).blade.yield_stress
 
     def speed_plan(self, wildcards: Any) -> SpeedPlan:
@@ -167,7 +167,7 @@ class Simulations:
         return to_plain(self.sweep.samples.member(wildcards).scene)
 
     def priority(self, wildcards: Any) -> float:
-        """Of a blade's simulations, above 0 and up to 1: results should be complete one blade after another."""
+        """Priority of a blade's simulations, above 0 and up to 1: results are to be complete one blade after another."""
         blades = list(self.sweep.settings.blades)
         return 1 - blades.index(wildcards.blade) / len(blades)
 

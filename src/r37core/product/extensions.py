@@ -22,10 +22,10 @@ _FOLDERS = (
     "tradeoff",
     "stability",
 )
-"""In the order of their sections in docs/configuration.md."""
+"""Folders of the extensions, in the order of their sections in docs/configuration.md."""
 
 EXTENSIONS: tuple[Extension, ...] = tuple(import_module(f"r37core.{folder}.extension").EXTENSION for folder in _FOLDERS)
-"""All of them."""
+"""All extensions."""
 
 
 def beside(settings: Settings, results: Path | None = None) -> Beside:
@@ -41,7 +41,7 @@ def beside(settings: Settings, results: Path | None = None) -> Beside:
 
 
 def sampling_of(settings: Settings) -> Sampling | None:
-    """That of the extension of which this run has members; none where it has none. Tables have ranges of one sample."""
+    """Sampling of the extension whose members this run has, if any. Tables have ranges of one sample."""
     return next(
         (extension.sampling for extension in EXTENSIONS if extension.sampling and extension.sampling.samples(settings)), None
     )

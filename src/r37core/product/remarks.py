@@ -18,7 +18,7 @@ from .extensions import EXTENSIONS
 
 
 def remarks(settings: Settings) -> list[str]:
-    """Of the pipeline and of all extensions."""
+    """Remarks of the pipeline and of all extensions."""
     return [*remarks_of_pipeline(settings), *(line for extension in EXTENSIONS for line in extension.remarks(settings))]
 
 

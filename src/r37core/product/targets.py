@@ -28,7 +28,7 @@ def tables(sweep: Sweep) -> list[str]:
 
 
 def everything(sweep: Sweep) -> dict[str, Wildcards]:
-    """The same with what is made on request alone."""
+    """All of `targets`, and what is made on request alone."""
     return targets(sweep) | {
         pattern: files for extension in EXTENSIONS for pattern, files in extension.all_targets(sweep).items()
     }

@@ -38,7 +38,7 @@ def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) 
 
 
 def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> list[Interaction]:
-    """Of a lined scene: rows of the ranges above yield that no interaction among the `rows` reaches into."""
+    """Rows of ranges above yield that no interaction among the `rows` of a lined scene reaches into."""
     if "share_of_revolutions_above_yield" not in response:
         return []
     exceedance, possible = exceedance_of(response), [row.all_revolutions for row in rows]
@@ -71,7 +71,7 @@ def _row(
     order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
     columns = range_columns(exceedance, within) if exceedance else {}
     if exceedance and not peak_alone:
-        # those of the row itself, which may be single speeds
+        # ends of the row itself, which may be single speeds
         columns |= {"possible_from_rad_s": within.begin, "possible_to_rad_s": within.end}
     if ended:
         columns["peak_motion_scatter_m"] = _scatter(speeds, level, index)

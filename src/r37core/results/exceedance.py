@@ -26,7 +26,7 @@ HALF_WIDTH = 10.0
 """Distance (rad/s) at which a neighbour's share has no weight any more; its weight falls in a straight line to there."""
 
 _INTERVALS = 1.5
-"""The same, in intervals between speeds, where these are farther apart."""
+"""Least reach of a neighbour's weight, in intervals between speeds, where these are farther apart."""
 
 _BY_CHANCE = 0.2
 """Difference of two shares that chance may make: three standard deviations where half of a hundred revolutions are above."""
@@ -75,7 +75,7 @@ class Exceedance:
         return ranges_above(self.speeds, self.smoothed, share)
 
     def length(self, share: float) -> float:
-        """Of all these ranges together (rad/s)."""
+        """Length (rad/s) of all ranges above `share` together."""
         return float(sum(part.length for part in self.ranges(share)))
 
     @cached_property
@@ -117,7 +117,7 @@ class Exceedance:
 
 
 def exceedance_of(response: xr.Dataset) -> Exceedance:
-    """That of a response with its stress; a run that diverged is above yield in all revolutions."""
+    """Exceedance of a response with its stress; a run that diverged is above yield in all revolutions."""
     share = response["share_of_revolutions_above_yield"].where(response["status"] != RunStatus.DIVERGED, 1.0).dropna("speed")
     return Exceedance(share["speed"].values, share.values, not is_lined(response))
 

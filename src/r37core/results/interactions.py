@@ -66,7 +66,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
 
 
 def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: InteractionChoice) -> list[Interaction]:
-    """Those of the peaks alone; without a Campbell diagram none is matched with a mode."""
+    """Interactions by the peaks alone; without a Campbell diagram none is matched with a mode."""
     speed, level = response["speed"].values, motion(response)
     peaks = [peak for direction in SPECTRA for peak in _peaks(response, campbell, direction, choice)]
     groups = sorted(_groups(peaks, speed, level, choice), key=lambda group: _strongest(group, level))

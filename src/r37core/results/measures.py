@@ -78,7 +78,7 @@ class YieldRange:
 
     @property
     def width(self) -> float:
-        """From the first to the last (rad/s); 0 where none is above."""
+        """Width (rad/s) from the first to the last speed above yield; 0 where none is above."""
         return 0.0 if np.isnan(self.first) else self.last - self.first
 
     @property

@@ -105,7 +105,7 @@ def ranking_table(
     table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in measures.items()])
     keys = table[list(RANKED_BY)].fillna(np.inf).apply(tuple, axis=1)
     ranks = [1 + sum(other < key for other in keys[table["scene"] == of]) for key, of in zip(keys, table["scene"], strict=True)]
-    # without stress there is nothing to rank by
+    # blades without stress have nothing to be ranked by
     table.insert(2, "rank", pd.Series(ranks, dtype="Int64").where(table[RANKED_BY[0]].notna()))
     if members:
         table = pd.concat([table, pd.DataFrame([_of_members(pair, members) for pair in measures])], axis=1)

@@ -75,7 +75,7 @@ def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.nda
     if "revolution_von_mises" in run:
         revolutions = len(values["revolution_maximum"])
         values |= stress_statistic(run["revolution_von_mises"][revolutions // 2 - revolutions :], yield_stress)
-        # those of all revolutions are in single precision
+        # histories of all revolutions are in single precision
         values["max_von_mises_ever"] = np.maximum(values["max_von_mises_ever"], run["max_von_mises"])
     return values
 

@@ -18,7 +18,7 @@ class SpeedRange:
 
     @property
     def length(self) -> float:
-        """Of the range (rad/s)."""
+        """Length of the range (rad/s)."""
         return self.end - self.begin
 
 

@@ -73,7 +73,7 @@ _WAVES = {
 }
 
 VARIABLES = _STATUS | _MOTION | _GIVEN_MOTION | _SPECTRUM | _STRESS | _WEAR | _WAVES
-"""Those over the speeds of a response."""
+"""Variables over the speeds of a response."""
 
 OF_CASING = {
     "casing_nodal_diameter": Variable(("casing_mode",), "1", "nodal diameters of the casing's mode"),
@@ -92,7 +92,7 @@ OF_ALL_SPEEDS = {
     **OF_CASING,
     **OF_STRESS,
 }
-"""The same at every speed."""
+"""Variables of a response that are the same at every speed."""
 
 HISTORIES = {
     "max_von_mises_history": Variable(
@@ -100,7 +100,7 @@ HISTORIES = {
     ),
     "first_yield_revolution": Variable(("history_speed",), "1", "first revolution whose largest stress exceeds yield"),
 }
-"""Of the speeds with a stress history."""
+"""Variables of the speeds with a stress history."""
 
 AXES = {
     "speed": SPEED,

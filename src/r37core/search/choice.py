@@ -16,7 +16,7 @@ START = "start"
 """Name of the design that the search starts at."""
 
 Value = tuple[float | None, float | None]
-"""Of a quantity, and its standard deviation; None for what is not known."""
+"""Value of a quantity, and its standard deviation; None for what is not known."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +51,11 @@ class SearchChoice:
 
     @property
     def quantities(self) -> dict[str, Quantity]:
-        """Of objectives and constraints, by name."""
+        """Quantities of objectives and constraints, by name."""
         return {**self.objectives, **{name: constraint.quantity for name, constraint in self.constraints.items()}}
 
     def margins(self, values: Mapping[str, Value], start: Mapping[str, Value]) -> list[float]:
-        """By how much each bound is kept, in its quantity's unit, below 0 where it is not: constraint by constraint."""
+        """Margins by which each bound is kept, in its quantity's unit, below 0 where it is not: constraint by constraint."""
         margins = []
         for name, constraint in self.constraints.items():
             value, reference = (number(of[name][0]) for of in (values, start))
@@ -80,7 +80,7 @@ class Design:
     quantities: Mapping[str, Value]
 
     def evaluated(self, name: str, choice: SearchChoice, start: Mapping[str, Value]) -> Evaluated:
-        """As proposals take it."""
+        """The design as proposals take it."""
         if self.refused is not None:
             missing = (math.nan,) * len(choice.objectives)
             bounds = len(choice.margins(start, start))

@@ -21,7 +21,7 @@ from .rounds import SearchRound
 from .surrogate import sensitivity, slices
 
 POINTS = 41
-"""Of a slice."""
+"""Number of points of a slice."""
 
 
 def search_dataset(last: SearchRound, choice: SearchChoice, start_values: Sequence[float | None]) -> xr.Dataset:

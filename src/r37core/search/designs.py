@@ -19,7 +19,7 @@ from .problem import SearchVariable
 from .section import SECTION, SearchSection
 
 FOLDER = SECTION.name
-"""Of the designs' files: the extension's name."""
+"""Folder of the designs' files: the extension's name."""
 
 _KEPT = ("stress", "static_stress")
 """Results of a scene that designs have, too: what they are judged by."""
@@ -77,7 +77,7 @@ class SearchDesigns:
         if values is None:
             return self.settings.blades[blade]
         changed = self.with_values(name, dict(zip(self.entry.variables, values, strict=True)))
-        # under the name of the start, by which tables of sweep and lean know it
+        # the name is that of the start, by which tables of sweep and lean know it
         return blade_settings(blade, {**designs.entries, blade: changed}, self.settings.root, designs.document)
 
     def samples(self, name: str, values: Sequence[float] | None) -> dict[Pair, Sample]:

@@ -252,7 +252,7 @@ def _quality(search: xr.Dataset, name: str) -> str:
 
 
 def _limits(values: np.ndarray) -> tuple[float, float]:
-    """Of an axis on which all designs are seen, however wide the band is."""
+    """Limits of an axis on which all designs are seen, however wide the band is."""
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
     room = 0.12 * (high - low) or 0.1 * abs(high) or 1.0

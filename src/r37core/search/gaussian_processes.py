@@ -68,7 +68,7 @@ class Fit:
         return self.mean + self.scale * mean, self.scale * latent
 
     def believing(self, point: np.ndarray) -> Fit:
-        """The same process, had `point` turned out as expected: what a batch knows of its earlier designs."""
+        """Process as if `point` had turned out as expected: what a batch knows of its earlier designs."""
         if self.process is None:
             return self
         expected = self.at(point[None])[0]

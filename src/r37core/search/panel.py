@@ -11,7 +11,7 @@ from r37core.units import shown_unit
 
 
 def search_contents(search: xr.Dataset) -> dict[str, object]:
-    """Of each design of `search.nc` its numbers in the units that are shown; None for what is not known."""
+    """Numbers of each design of `search.nc` in the units that are shown; None for what is not known."""
     return {
         "designs": [str(name) for name in search["design"].values],
         "objectives": [_quantity(search, "objective", name) for name in search["objective"].values],

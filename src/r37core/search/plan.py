@@ -131,7 +131,7 @@ class Search:
         return self.sweep.samples.beside[f"{FOLDER}/{design}"]
 
     def density(self, wildcards: Any) -> float:
-        """Of a design (kg/m3)."""
+        """Density of a design (kg/m3)."""
         material = next(iter(self._samples(wildcards.design).values())).members[NOMINAL].blade.material
         assert material is not None
         return material.density
@@ -214,7 +214,7 @@ def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the table, the best designs and the figures."""
     wildcards: paths.Wildcards = [{}] if is_asked(sweep.settings) else []
-    # without a search: what an earlier one has left
+    # files that an earlier search has left
     left = () if wildcards else (ROUND, BUILT, SHAPE, MEASURES)
     together = dict.fromkeys((DATASET, TABLE, BEST, *left), wildcards)
     return together | {file: of for name in FIGURES for file, of in paths.pictures(name, wildcards).items()}

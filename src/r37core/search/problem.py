@@ -14,7 +14,7 @@ import numpy as np
 DONE, REFUSED = "done", "refused"
 
 FEWEST_DONE = 3
-"""With fewer designs that could be built nothing is fitted: proposals stay away from all that was tried."""
+"""Fewest built designs for a fit; with fewer, proposals stay away from all that was tried."""
 
 
 @dataclass(frozen=True)

@@ -62,7 +62,7 @@ class Models:
     feasible: np.ndarray
 
     def believing(self, point: np.ndarray) -> Models:
-        """The same after a design of the batch, which turns out as expected."""
+        """Models after a design of the batch, which turns out as expected."""
         return replace(
             self,
             objectives=tuple(each.believing(point) for each in self.objectives),

@@ -74,7 +74,7 @@ class Quantity:
 
     @property
     def unit(self) -> str:
-        """Of its values, as the name of the measure ends."""
+        """Unit of the values, as the name of the measure ends."""
         ends = {"_rad_s": "rad s-1", "_pa": "Pa", "_kg": "kg", "_hz": "Hz", "_m": "m", "_percent": "percent"}
         return next((unit for end, unit in ends.items() if self.measure.endswith(end)), "1")
 

@@ -12,7 +12,7 @@ from r37core.config.spread import MemberCount, Spreads
 from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
 
 COLUMNS = ("design", "round", "feasible", "not_dominated", "order", "refused")
-"""Of search.csv, beside those of variables, objectives and constraints."""
+"""Columns of search.csv next to those of variables, objectives and constraints."""
 
 Bound = Annotated[float, Field(ge=-1e15, le=1e15)]
 
@@ -51,7 +51,7 @@ class QuantitySection(Section):
         return self
 
     def quantity(self) -> Quantity:
-        """What it is computed by."""
+        """The quantity that is computed."""
         return Quantity(
             measure=self.measure,
             scenes=tuple(self.scenes or ()),

@@ -56,7 +56,7 @@ class MemberRun:
 
 
 def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.Dataset:
-    """All of it, over (blade, scene, member, speed, number); one response is in memory at a time.
+    """Dataset of all members, over (blade, scene, member, speed, number); one response is in memory at a time.
 
     Of members beside the sample, which are there for the sensitivity indices, only these are kept. Where nothing was run
     numbers are NaN. Raises InputFileError for a response that cannot be read.
@@ -168,7 +168,7 @@ def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequenc
 
 
 def _places(name: str, ends: Sequence[tuple[np.ndarray, np.ndarray]], of: str) -> dict[str, xr.DataArray]:
-    """Between which places each number is."""
+    """First and last place that each number may have."""
     low, high = zip(*ends, strict=True)
     return {
         f"{name}_place_low": _index(low, f"first place that the number may have by {of}"),

@@ -58,7 +58,7 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
 def _band(axes: Axes, tolerances: xr.Dataset, nominal: xr.Dataset, name: str) -> None:
     label, scale = style.CURVES[name]
     spread = scale * tolerances[f"{name}_quantile"].dropna("speed", how="all")
-    # of a run that diverged there is no number; the band leaves the panel
+    # a run that diverged has no number; the band leaves the panel
     shown = spread.where(np.isfinite(spread))
     low, median, high = (shown.isel(quantile=quantile) for quantile in range(3))
     speed, top = shown["speed"], float(shown.max()) * 1.5

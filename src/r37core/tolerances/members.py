@@ -27,7 +27,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Member:
-    """One of a sample. `values`: of each number in its key's unit; None for one that this blade or scene does not have."""
+    """Member of a sample. `values`: of each number in its key's unit; None for one that the blade or scene does not have."""
 
     blade: BladeSettings
     scene: Scene
@@ -65,7 +65,7 @@ class Members:
 
     @cached_property
     def _nominals(self) -> dict[tuple[str, str], list[float | None]]:
-        """Of each of the chosen blades and scenes that are run, the value of each number without tolerance."""
+        """Value without tolerance of each number, for each of the chosen blades and scenes that are run."""
         if not self.numbers:
             return {}
         blades, scenes = self._chosen
@@ -157,5 +157,5 @@ class Members:
 
 
 def members_of(settings: Settings) -> Members:
-    """Those that the settings ask for, drawn once."""
+    """Members that the settings ask for, drawn once."""
     return settings.made(Members)

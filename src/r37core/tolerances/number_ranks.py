@@ -37,7 +37,7 @@ class Ranking:
 
     @property
     def places(self) -> tuple[np.ndarray, np.ndarray]:
-        """Between which places of the ranking by size each number is; NaN for those that are not known."""
+        """First and last place of each number in the ranking by size; NaN for those that are not known."""
         low, high = places_of(self.above, np.isfinite(self.coefficient))
         return np.where(self.known, low, np.nan), np.where(self.known, high, np.nan)
 
@@ -49,7 +49,7 @@ def places_of(above: np.ndarray, varied: np.ndarray) -> tuple[np.ndarray, np.nda
 
 
 def ranking(values: np.ndarray, measure: np.ndarray) -> Ranking:
-    """Of the numbers' `values`, shape (members, numbers), NaN where there is none, and a `measure`, shape (members,).
+    """Ranking of numbers by their `values`, shape (members, numbers), NaN for none, and a `measure`, shape (members,).
 
     Ranks of the measure are fitted by least squares to those of all numbers at once, so that what one brings does not blur
     another, as it does in a correlation. Two numbers are told apart where the interval of the difference of their sizes does
@@ -74,7 +74,7 @@ def ranking(values: np.ndarray, measure: np.ndarray) -> Ranking:
     covariance, sure = rest / free * inverse, stats.t.ppf(0.5 + 0.5 * CONFIDENCE, free)
     half = sure * np.sqrt(np.diag(covariance))
     coefficient[varied], low[varied], high[varied] = fitted, fitted - half, fitted + half
-    # of the difference of two sizes
+    # standard deviation of the difference of two sizes
     signed = covariance * np.outer(np.sign(fitted), np.sign(fitted))
     spread = np.sqrt(np.maximum(np.diag(signed)[:, None] + np.diag(signed) - 2.0 * signed, 0.0))
     above[np.ix_(varied, varied)] = np.abs(fitted)[:, None] - np.abs(fitted) > np.maximum(sure * spread, _ROUND_OFF)

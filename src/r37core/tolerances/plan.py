@@ -17,7 +17,7 @@ from .number_ranks import remarks_on_rankings
 from .section import SECTION
 
 FOLDER = "tolerances"
-"""Of the members' files: the extension's name."""
+"""Folder of the members' files: the extension's name."""
 
 DATASET, TABLE = "<results>/tolerances.nc", "<results>/tolerances.csv"
 RESPONSE_OF_MEMBER = paths.RESPONSE.replace("{member}", path_part(FOLDER, "{member}"))
@@ -71,7 +71,7 @@ class Tolerances:
 
     @property
     def runs_of_sample(self) -> list[dict[str, str]]:
-        """Those of the samples, without members for sensitivity indices alone."""
+        """Runs of the samples, without members for sensitivity indices alone."""
         return [run for run in self.runs if is_of_sample(run["member"])]
 
     @property
@@ -108,7 +108,7 @@ class Tolerances:
 
     @property
     def values(self) -> list[list[float | None]]:
-        """Of each of the runs, in the units of the keys."""
+        """Values of each of the runs, in the units of the keys."""
         every = self._members.all
         return [list(every[run["blade"], run["scene"]][run["member"]].values) for run in self.runs]
 
@@ -144,7 +144,7 @@ def remarks(settings: Settings) -> list[str]:
 
 
 def _without_width(members: Members) -> list[str]:
-    """Of numbers that have one value in all members, and so no index."""
+    """Remarks on numbers that have one value in all members, and so no index."""
     values: dict[tuple[str, str], set[float]] = {number: set() for number in members.numbers}
     for member in (member for of in members.all.values() for member in of.values()):
         for number, value in zip(members.numbers, member.values, strict=True):

@@ -42,7 +42,7 @@ class Sensitivity:
 
     @property
     def places(self) -> tuple[np.ndarray, np.ndarray]:
-        """Between which places of the ranking by total index each number is; NaN without an index, and of few members."""
+        """First and last place of each number in the ranking by total index; NaN without an index, and of few members."""
         low, high = places_of(self.above, np.isfinite(self.index[list(ORDERS).index("total")]))
         return (low, high) if self.members >= SOBOL_RANKS else (np.full_like(low, np.nan), np.full_like(high, np.nan))
 
@@ -83,7 +83,7 @@ def sobol_indices(measure: Mapping[str, float], numbers: Sequence[int], count: i
     )
     ends, totals = drawn.confidence_interval, drawn.bootstrap_distribution[list(ORDERS).index("total")]
     above = np.zeros((count, count), dtype=bool)
-    # both ends of an interval of the difference
+    # a share beyond this lies outside the interval of the difference
     above[np.ix_(numbers, numbers)] = (totals[:, None] > totals).mean(axis=-1) >= 0.5 + 0.5 * CONFIDENCE
 
     def placed(values: np.ndarray) -> np.ndarray:

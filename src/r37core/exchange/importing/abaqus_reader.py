@@ -27,7 +27,7 @@ CLAMPED = "BOUNDARY"
 """Name of the set of the nodes that *BOUNDARY clamps."""
 
 _TYPES = {element.abaqus: name for name, element in ELEMENTS.items()}
-# they make or move nodes and elements
+# keywords that make or move nodes and elements
 _GENERATORS = ("SYSTEM", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY")
 # faces of Abaqus by the corners that they join: *SURFACE, TYPE=ELEMENT
 _FACE_CORNERS = {

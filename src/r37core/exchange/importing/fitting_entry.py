@@ -28,7 +28,7 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
     """
     orientation = source.orientation
     entry: dict[str, str] = {}
-    # of a turbine both the side and the axes may be meant otherwise
+    # the side and the axes of a turbine may both be meant otherwise
     fitted = find_axes(raw, orientation) if source.sense_check and source.pressure_side_forward else None
     if fitted is not None and not _alike(fitted, orientation):
         entry = {"rotor_axis": _direction(fitted.rotor_axis), "radial": _direction(fitted.radial), "rotation": fitted.rotation}

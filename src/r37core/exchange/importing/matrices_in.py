@@ -318,5 +318,5 @@ def check_frequency(model: ReducedModel, chord: float) -> None:
 
 
 def _first_frequency(model: ReducedModel) -> float:
-    """In Hz."""
+    """First natural frequency at rest (Hz)."""
     return float(model.modes(0.0, 1)[0][0]) / (2.0 * np.pi)

@@ -17,7 +17,7 @@ _SHORTEST = {"coordinate": 6, "array": 2}
 """Bytes that an entry of a Matrix Market file has at least: `1 1 1` and a line's end, `1` and one."""
 
 _MOST_NUMBERS = 2**27
-"""In one array: a gigabyte."""
+"""Largest number of entries of one array: a gigabyte."""
 
 
 def read_matrix(file: Path) -> sp.csr_array:

@@ -25,7 +25,7 @@ DECK = ".inp"
 """Ending of a deck of Abaqus or CalculiX; the text tells it too."""
 
 SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
-"""Of mesh files that can be read."""
+"""Endings of mesh files that can be read."""
 
 
 @dataclass(frozen=True)
@@ -189,7 +189,7 @@ class Where:
 
 
 def _plain(number: float) -> str:
-    """Without exponent: to some readers of YAML 1e-05 is a text."""
+    """Number without an exponent: some readers of YAML take 1e-05 for a text."""
     return np.format_float_positional(number, trim="-")
 
 

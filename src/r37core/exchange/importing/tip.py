@@ -37,7 +37,7 @@ def check_revolution(points: np.ndarray, tolerance: float) -> None:
 
 
 def off_revolution(points: np.ndarray) -> np.ndarray:
-    """By how much (m) the radius of `points`, shape (n, 3), differs from the meridian through all of them, shape (n,).
+    """Difference (m) of the radius of `points`, shape (n, 3), from the meridian through all of them, shape (n,).
 
     The meridian is fitted: radius as a parabola of z, a constant where the points have no axial length.
     """
