@@ -14,7 +14,7 @@ from r37core.product.extensions import EXTENSIONS
 from r37core.product.remarks import line_of_extension
 from r37core.rotors import closing as rotors
 from r37core.run_ups import closing as run_ups
-from r37core.search import closing as search
+from r37core.search import dataset as search
 from r37core.signals import closing as signals
 from r37core.tolerances import table as tolerances
 

@@ -7,10 +7,9 @@ import xarray as xr
 
 from r37core.figures.ranking_bars import draw_ranking
 from r37core.results.contact_ranges import with_ranges_above_yield
-from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, exceedance_of
+from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from r37core.results.interactions import InteractionChoice, find_interactions
 from r37core.results.ranking import ROBUSTNESS, as_scatter_bears, chance_to_be_better, ranking_table, robustness
-from r37core.results.speed_ranges import SpeedRange, joined, ranges_above
 from r37core.time_integration.status import RunStatus
 
 CHOICE = InteractionChoice(prominence=0.1, below=0.02, above=0.06)

@@ -24,10 +24,7 @@ def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
 
     One of both is given; their bounds are the configuration's.
     """
-    if (speeds is None) == (speeds_rpm is None):
-        which = "neither" if speeds is None else "both"
-        raise ConfigError(f"speeds: found {which}; allowed: speeds, in rad/s, or speeds_rpm")
-    key, unit, several = ("speeds", "rad/s", speeds) if speeds_rpm is None else ("speeds_rpm", "rpm", speeds_rpm)
+    key, unit, several = _single_unit("speeds", speeds, speeds_rpm)
     if isinstance(several, Mapping):
         several = [several]
     if isinstance(several, str | bytes) or not isinstance(several, Iterable):
@@ -38,14 +35,18 @@ def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
 
 def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
     """Key of config.yaml with the one speed of a call; see speed_keys."""
-    if (speed is None) == (speed_rpm is None):
-        which = "neither" if speed is None else "both"
-        raise ConfigError(f"speed: found {which}; allowed: speed, in rad/s, or speed_rpm")
-    key, unit, value = ("speed", "rad/s", speed) if speed_rpm is None else ("speed_rpm", "rpm", speed_rpm)
+    key, unit, value = _single_unit("speed", speed, speed_rpm)
     if isinstance(value, Iterable) and not isinstance(value, str) and getattr(value, "ndim", True):
         told = on_one_line(repr(value))
         raise ConfigError(f"{key}: found {told}; allowed: one number, in {unit}; several are for r37.sweep")
     return {key.replace("speed", "speeds"): [number(value, key, unit)]}
+
+
+def _single_unit(name: str, rad_s: Any, rpm: Any) -> tuple[str, str, Any]:
+    """Key, unit and value of an argument that is given in rad/s or in rpm. Raises ConfigError for both and for neither."""
+    if (rad_s is None) == (rpm is None):
+        raise ConfigError(f"{name}: found {'neither' if rpm is None else 'both'}; allowed: {name}, in rad/s, or {name}_rpm")
+    return (name, "rad/s", rad_s) if rpm is None else (f"{name}_rpm", "rpm", rpm)
 
 
 def plain_value(value: Any) -> Any:

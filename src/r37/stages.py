@@ -60,25 +60,12 @@ def bar(items: Collection[T], what: str, unit: str) -> Iterable[T]:
     return items if len(items) < 2 or not _watched() else _tqdm(items, desc=what, unit=unit)
 
 
-class BarOfJobs:
-    """A bar of the jobs of a workflow, of which more become known while it runs, where it is watched."""
-
-    def __init__(self) -> None:
-        self._bar = _tqdm(desc="jobs", unit="job") if _watched() else None
-
-    def reach(self, done: int, total: int) -> None:
-        """So many of those that are known are done."""
-        if self._bar is not None:
-            self._bar.total = total
-            self._bar.update(done - self._bar.n)
-
-    def close(self) -> None:
-        """Take it away."""
-        if self._bar is not None:
-            self._bar.close()
+def job_bar() -> Any:
+    """A bar of the jobs of a workflow, of which more become known while it runs, shown where it is watched."""
+    return _tqdm(desc="jobs", unit="job", disable=not _watched())
 
 
-def _tqdm(items: Iterable[Any] | None = None, **more: str) -> Any:
+def _tqdm(items: Iterable[Any] | None = None, **more: Any) -> Any:
     with warnings.catch_warnings():
         # a notebook without ipywidgets has a bar of characters, which is as good
         warnings.simplefilter("ignore")

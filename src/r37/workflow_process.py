@@ -22,7 +22,7 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.stages import structure_stages
 from r37core.plans.structure_plan import Structure
 
-from .stages import LOGGER, BarOfJobs, simulations_in_words
+from .stages import LOGGER, job_bar, simulations_in_words
 
 _OPTIONS = (
     *("--workflow-profile", "none", "--nocolor", "--rerun-incomplete", "--rerun-triggers"),
@@ -112,7 +112,7 @@ class _Report:
         self._failures: list[dict[str, str]] = []
         self._messages: list[str] = []
         self._texts: list[str] = []
-        self._bar = BarOfJobs()
+        self._bar = job_bar()
 
     def take(self, kind: str, line: str) -> None:
         """Take a line of the process."""
@@ -126,7 +126,8 @@ class _Report:
             case "job":
                 self._begun(**event)
             case "progress":
-                self._bar.reach(event["done"], event["total"])
+                self._bar.total = event["total"]
+                self._bar.update(event["done"] - self._bar.n)
             case "message":
                 self._messages.append(event["text"])
             case "failure":

@@ -1,6 +1,7 @@
 """Sections of the configuration from the dataclasses of the computations, and back.
 
-A dataclass declares its keys (`r37core.declared`). `declared_by` puts them into a section; `in_si` makes the dataclass of it.
+A dataclass declares its keys (`r37core.declared`). `declared_by` puts them into a section; `in_si` makes the
+dataclass of a section.
 """
 
 from __future__ import annotations

@@ -153,7 +153,7 @@ class Levels(RootModel[ByName[Level]]):
 
 
 def cheapest_level(levels: Mapping[str, Level], tolerance: float, on_points: bool, documents: Documents) -> str:
-    """The cheapest level within the tolerance, for contact `on_points` of a mesh or not; ConfigError where there is none."""
+    """The cheapest level within the tolerance, for contact `on_points` or not; ConfigError where there is none."""
     measured = {name: level.measured for name, level in levels.items() if level.measured}
     errors = {name: error for name, measure in measured.items() if (error := measure.error_of(on_points)) is not None}
     chosen = recommended_level(errors, {name: measure.cpu_s_per_run for name, measure in measured.items()}, tolerance)

@@ -8,10 +8,9 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from .exceedance import HALF_WIDTH, POSSIBLE, Exceedance, exceedance_of
+from .exceedance import HALF_WIDTH, POSSIBLE, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from .interaction import Crossing, Interaction, interaction_row, range_columns
 from .measures import DROP_WITHIN, motion, ratio_to_yield, strongest_order
-from .speed_ranges import SpeedRange, joined, ranges_above
 
 NOTE = "direct contact: matches with modes and the stress of one revolution are chance"
 NO_PEAK = "above yield without a peak of the motion: nothing to match with a mode"

@@ -12,9 +12,8 @@ import xarray as xr
 from r37core.time_integration.status import RunStatus
 
 from .closing import interaction_title
-from .exceedance import CERTAIN, POSSIBLE, Exceedance
+from .exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange
 from .measures import drop_after
-from .speed_ranges import SpeedRange
 
 
 @dataclass(frozen=True)

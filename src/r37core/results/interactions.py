@@ -16,11 +16,10 @@ from r37core.time_integration.status import RunStatus
 
 from .contact_ranges import ranges_without_peak, with_ranges_above_yield
 from .datasets import response_of
-from .exceedance import exceedance_of, is_lined
+from .exceedance import SpeedRange, exceedance_of, is_lined
 from .interaction import COLUMNS, Crossing, Interaction, interaction_row, range_columns
 from .interaction_choice import InteractionChoice
 from .measures import DROP_WITHIN, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
-from .speed_ranges import SpeedRange
 
 QUIET = 0.1
 """Share of an interaction's peak below which the motion counts as outside, if it stays there."""

@@ -13,7 +13,7 @@ import xarray as xr
 
 from r37core.time_integration.status import RunStatus
 
-from .speed_ranges import ranges_above
+from .exceedance import ranges_above
 
 DROP_WITHIN = 24.0
 """Speeds (rad/s) above a peak over which its motion counts as dropped."""

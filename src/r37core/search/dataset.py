@@ -11,11 +11,15 @@ import pandas as pd
 import xarray as xr
 
 from r37core.config.families import with_value
-from r37core.dataset_file import about
+from r37core.dataset_file import about, read_dataset
 from r37core.io import write_text
+from r37core.results.closing import counted
+from r37core.rounding import rounded_to
+from r37core.units import shown_unit
 from r37core.yaml_file import yaml_text
 
 from .choice import START, Design, SearchChoice, number
+from .plan import BEST, DATASET
 from .problem import Evaluated, best_first, not_dominated
 from .rounds import SearchRound
 from .surrogate import sensitivity, slices
@@ -165,3 +169,27 @@ def _objectives(search: xr.Dataset, design: str) -> str:
     of = search.sel(design=design)
     values = zip(of["objective"].values, of["objective_value"].values, of["objective_unit"].values, strict=True)
     return ", ".join(f"{name} {float(value):.4g} {unit}" for name, value, unit in values)
+
+
+def closing(results: Path) -> str:
+    """How many designs there are, how many keep the constraints, and what the best one has in place of the start's."""
+    search = read_dataset(results / DATASET.removeprefix("<results>/"))
+    start, designs = search.isel(design=0), search.isel(design=slice(1, None))
+    text = f"{counted(designs.sizes['design'], 'design')}, {int(designs['feasible'].sum())} of them keep all constraints"
+    best = designs.isel(design=designs["order"].values == 1)
+    if not best.sizes["design"]:
+        return text
+    (name,) = best["design"].values
+    numbers = ", ".join(_against(best.isel(design=0), start, objective) for objective in search["objective"].values)
+    return f"{text}; the best, {name}: {numbers}; entries and STEP files in {results / BEST.removeprefix('<results>/')}"
+
+
+def _against(best: xr.Dataset, start: xr.Dataset, objective: str) -> str:
+    """An objective of two designs, with the digits that the scatter of both bears."""
+    unit, factor = shown_unit(best["objective_unit"].sel(objective=objective).item())
+    values, scatters = (
+        [factor * float(design[f"objective_{kind}"].sel(objective=objective)) for design in (best, start)]
+        for kind in ("value", "scatter")
+    )
+    here, there = (rounded_to(value, 2.0 * max(scatters)) for value in values)
+    return f"{objective} {here}{f' {unit}' if unit else ''} (the start {there})"

@@ -31,6 +31,6 @@ EXTENSION = Extension(
             "variance that the surrogate predicts at designs left out."
         ),
     },
-    closing="search.closing.closing",
+    closing="search.dataset.closing",
     panel=Panel(joined_dataset, "search.panel.search_contents", "search/panel.js"),
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from r37core.plans.extension import Extension
 
-from .checks import members_can_be_drawn
+from .members import members_can_be_drawn
 from .plan import FOLDER, SAMPLING, remarks, simulated, targets
 from .section import SECTION
 

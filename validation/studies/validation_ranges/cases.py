@@ -69,7 +69,7 @@ def _scenes(settings: Settings, kind: str) -> dict[str, Scene]:
 
 
 def _tolerances(settings: Settings) -> Mapping[str, Spread]:
-    """Key of each number -> how it spreads; tolerances/checks.py has seen that the scenes have them."""
+    """Key of each number -> how it spreads; tolerances/members.py has seen that the scenes have them."""
     return {key: entry.spread() for key, entry in _section(settings).of_scenes.items()}
 
 
