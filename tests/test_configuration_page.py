@@ -29,7 +29,7 @@ def rows():
 
 
 def test_the_page_is_fresh(page):
-    """`python validation/evidence/key_tables.py` renews it."""
+    """`PYTHONPATH=validation python -m evidence.key_tables` renews it."""
     assert filled(page) == page
 
 

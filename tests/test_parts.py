@@ -11,8 +11,8 @@ from workflow_runs import SNAKEMAKE, snakemake
 
 from r37core.config import ConfigError
 from r37core.config.document import command_line_document
-from r37core.plans.run import check_part
 from r37core.product.reading import read_settings
+from r37core.product.remarks import check_part
 
 
 def settings_of(root, part, **changes):

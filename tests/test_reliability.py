@@ -31,10 +31,10 @@ from r37core.console import failures, lock, snakemake_run
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
 from r37core.io import InputFileError, OutputFileError, atomic_write, readable, scratch_folder, write_json
-from r37core.plans.run import replaced_level, source_folder
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.reading import read_settings
+from r37core.product.remarks import replaced_level, source_folder
 from r37core.results.campbell import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.rotation import BucklingError

@@ -21,11 +21,10 @@ from r37core.product.extensions import beside
 from r37core.product.reading import read_settings
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.search import checks
-from r37core.search.choice import Constraint, Design, SearchChoice
 from r37core.search.dataset import entries_of, search_dataset, search_table, write_entries
 from r37core.search.gaussian_processes import SearchPackageMissing
 from r37core.search.plan import Search, choice_of, designs_of, is_asked
-from r37core.search.problem import SearchVariable
+from r37core.search.problem import Constraint, Design, SearchChoice, SearchVariable
 from r37core.search.proposal import first_designs
 from r37core.search.quantity import DesignStructure, Quantity, of_contact, of_structure
 from r37core.search.rounds import SearchRound, first_round, read_round, round_after, tried_after, write_round

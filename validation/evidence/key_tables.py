@@ -1,6 +1,6 @@
 """Tables of docs/configuration.md and docs/results.md that follow from the code: every key, and every column in words.
 
-`python validation/evidence/key_tables.py` renews both pages.
+`PYTHONPATH=validation python -m evidence.key_tables` renews both pages.
 """
 
 from __future__ import annotations
@@ -10,11 +10,11 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from evidence.schemas import MODELS
 from r37core.config.messages import describe
 from r37core.config.section import NAME_PATTERN, TEXT_PATTERN
 from r37core.config.speed_section import UNITS
 from r37core.io import write_text
-from r37core.product.schemas import MODELS
 from r37core.results.glossary import INTERACTIONS, RANKING, Word
 from r37core.text_file import with_part
 from r37core.units import SUFFIXES

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.config.settings import results_folder
-from r37core.plans.run import CONFIGURATION
+from r37core.product.remarks import CONFIGURATION
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -24,10 +24,9 @@ from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_on_points
 from r37core.io import InputFileError
 from r37core.plans.extent import extent_of
-from r37core.plans.run import check_part, replaced_level, source_folder
 from r37core.product.extensions import beside
 from r37core.product.reading import settings_of_run
-from r37core.product.remarks import check_asked, lines_of_extensions, remarks
+from r37core.product.remarks import check_asked, check_part, lines_of_extensions, remarks, replaced_level, source_folder
 
 from . import failures, job_server, lock
 from .caller import Caller

@@ -18,9 +18,8 @@ from r37core.rounding import rounded_to
 from r37core.units import shown_unit
 from r37core.yaml_file import yaml_text
 
-from .choice import START, Design, SearchChoice, number
 from .plan import BEST, DATASET
-from .problem import Evaluated, best_first, not_dominated
+from .problem import START, Design, Evaluated, SearchChoice, best_first, not_dominated, number
 from .rounds import SearchRound
 from .surrogate import sensitivity, slices
 

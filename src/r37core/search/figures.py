@@ -16,8 +16,8 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from r37core.figures import style
 from r37core.units import shown_unit
 
-from .choice import START
 from .panel import in_lines, with_unit
+from .problem import START
 
 _START_LOOK: dict[str, Any] = {"color": "0.15", "marker": "s", "markersize": 5, "linestyle": "none", "zorder": 5}
 _BEST_LOOK: dict[str, Any] = {"color": style.COLOURS[1], "marker": "*", "markersize": 8, "linestyle": "none", "zorder": 6}

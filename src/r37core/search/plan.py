@@ -19,8 +19,8 @@ from r37core.plans import paths
 from r37core.plans.samples import NOMINAL, Pair, Sample, path_part
 from r37core.plans.sweep_plan import Sweep
 
-from .choice import START, Constraint, SearchChoice
 from .designs import FOLDER, SearchDesigns, member_part
+from .problem import START, Constraint, SearchChoice
 from .rounds import SearchRound, read_round
 from .section import SECTION
 

@@ -10,8 +10,7 @@ from r37core.io import read_json, readable, write_json
 from r37core.plain import from_plain, to_plain
 from r37core.results.closing import counted
 
-from .choice import QUASI_RANDOM, Design, SearchChoice, Value
-from .problem import best_first, not_dominated
+from .problem import QUASI_RANDOM, Design, SearchChoice, Value, best_first, not_dominated
 from .proposal import first_designs, propose
 
 

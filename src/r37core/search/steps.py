@@ -22,8 +22,8 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.stress.operator import read_stress_operator
 
-from .choice import SearchChoice
 from .dataset import entries_of, search_dataset, search_table, write_entries
+from .problem import SearchChoice
 from .quantity import DesignStructure, Quantity, of_contact, of_structure, static_stress
 from .rounds import first_round, progress, read_round, round_after, tried_after, write_round
 
