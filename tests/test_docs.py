@@ -6,8 +6,6 @@ import shlex
 import pytest
 from conftest import CHECKOUT
 from overlays import overlay
-from r37core.published import INTERACTIONS
-from r37core.studies.modelling_choices.cases import CHOICES, SHIPPED, VARIED
 from yaml import safe_dump, safe_load
 
 from r37core.config import command_line_document

@@ -10,8 +10,8 @@ from r37core.estimate import plan
 from r37core.estimate.closing import closing
 from r37core.estimate.projection import projected_costs
 from r37core.plans.extent import extent_of, extents
+from r37core.product.extensions import beside
 from r37core.product.reading import read_settings
-from r37core.product.sampling import beside
 
 
 def test_sample_stands_for_the_whole_range():

@@ -76,7 +76,7 @@ def column(page, name):
 
 
 def test_every_column_has_words(root):
-    """One glossary for the page, its tooltips and docs/results.md: `PYTHONPATH=validation python -m evidence.key_tables` renews that."""
+    """One glossary for the page, its tooltips and docs/results.md, which `python -m evidence.key_tables` renews."""
     named = [*COLUMNS, *RANGES, "share_of_members", "robust"]
     assert [name for name in ROBUSTNESS if not glossary.word(name, glossary.RANKING)] == []
     assert [name for name in named if not glossary.word(name, glossary.INTERACTIONS)] == []

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 import yaml
 from defaults import Where
-from r37core.studies.plan import blade_of
 
 from r37core.config import ConfigError
 from r37core.exchange.orientation import OURS

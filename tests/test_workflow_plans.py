@@ -15,13 +15,10 @@ from r37core.contact.scene import Scene
 from r37core.estimate import plan as estimate
 from r37core.io import InputFileError
 from r37core.plain import from_plain
-from r37core.plans.dataset_plan import Datasets
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
-from r37core.plans.rounds_plan import Rounds
-from r37core.plans.simulation_plan import Simulations
 from r37core.plans.structure_plan import Structure
-from r37core.plans.sweep_plan import Sweep, speeds_of_round
+from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep, speeds_of_round
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice

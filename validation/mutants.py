@@ -38,7 +38,6 @@ TESTS = {
     "results/netcdf.py": "test_results.py test_reliability.py",
     "results/ranking.py": "test_exceedance.py",
     "results/response.py": "test_results.py",
-    "results/exceedance.py": "test_exceedance.py",
     "rom/reduced_model.py": "test_rom.py test_time_integration.py",
     "rom/craig_bampton.py": "test_rom.py",
     "config/rotor_section.py": "test_rotor_section.py",

@@ -17,7 +17,7 @@ import xarray as xr
 from r37core.dataset_file import read_dataset
 from r37core.io import write_text
 from r37core.results.ranking import read_ranking
-from r37core.search.entries import entries_of, write_entries
+from r37core.search.dataset import entries_of, write_entries
 from r37core.yaml_file import load_yaml
 from validation.studies.tables import markdown_table
 

@@ -24,16 +24,15 @@ from r37core.mesh.generate import generate_mesh
 from r37core.plans.member_values import together
 from r37core.product.reading import read_settings
 from r37core.results.measures import largest_of_run, range_above_yield
-from validation.studies.measures import motion_of_run
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rounding import rounded_to
 from r37core.time_integration.speed_run import run_speed
 from r37core.tolerances.dataset import INDEXED, QUANTILES
 from r37core.tolerances.members import members_of
-from r37core.tolerances.number_ranks import ranking
+from r37core.tolerances.number_ranks import CONFIDENCE, ranking
 from r37core.tolerances.sensitivity import sobol_indices
-from r37core.tolerances.shares import CONFIDENCE
+from validation.studies.measures import motion_of_run
 from validation.studies.tables import markdown_table
 
 ROOT = Path(__file__).parents[2]

@@ -8,8 +8,8 @@ import xarray as xr
 
 from r37core.cases.runner import Runs
 from r37core.results.measures import peak_of
-from validation.studies.measures import motion_of_run
 from r37core.time_integration.speed_file import read_speed
+from validation.studies.measures import motion_of_run
 
 from .plan import StudyCase, SweptPeak
 

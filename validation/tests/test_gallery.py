@@ -10,9 +10,9 @@ from r37core.studies.runner import with_swept_peak
 from r37core.config import ConfigError, command_line_document
 from r37core.product.reading import read_settings
 from r37core.product.reporting import CAPTIONS
-from validation.studies.gallery.captions import CAPTIONS as OWN_CAPTIONS
 from validation.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
 from validation.studies.checks import Check, claim
+from validation.studies.gallery.captions import CAPTIONS as OWN_CAPTIONS
 from validation.studies.gallery.cases import COARSE, FINE, ITEMS, Item, cases, inputs, outputs, values
 from validation.studies.gallery.report import of_item, verdict
 

@@ -15,9 +15,9 @@ from r37core.dataset_file import read_dataset
 from r37core.fem.material import Material
 from r37core.figures import style
 from r37core.results import measures
-from validation.studies import measures as own_measures
 from r37core.stress.operator import StressOperator
 from validation.published import BLADES, INTERACTIONS
+from validation.studies import measures as own_measures
 from validation.studies.checks import Check, claim, score, validation_table
 from validation.studies.modelling_choices.cases import CHOICES, DIRECT, HISTORIES, SHIPPED, VARIED, cases, grid, windows
 from validation.studies.modelling_choices.figures import draw_blades, draw_choices, draw_reference, draw_stress

@@ -14,10 +14,10 @@ from matplotlib.figure import Figure
 
 from r37core.figures import style
 from r37core.figures.campbell_diagram import draw_campbell
-from r37core.figures.cells import draw_cells
-from r37core.figures.maps import draw_spectral_map
-from r37core.results.measures import history_of, peak_of, width_above_yield
+from r37core.figures.maps import draw_cells, draw_spectral_map
+from r37core.results.measures import peak_of, width_above_yield
 from validation.published import BLADES, INTERACTIONS, REFERENCE, VARIANTS, WIDTH_ABOVE_YIELD
+from validation.studies.measures import history_of
 from validation.studies.modelling_choices.figures import SCENES, draw_blades, draw_histories, draw_reference
 from validation.studies.modelling_choices.validation import Runs
 

@@ -14,7 +14,7 @@ import xarray as xr
 from r37core.dataset_file import read_dataset
 from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
-from r37core.product.captions import caption
+from r37core.product.reporting import CAPTIONS
 from r37core.results.measures import peak_of, strongest_order
 from r37core.rom.reduction_choice import StressSubmesh
 from validation.published import BLADES, INTERACTIONS, MESH_NODES, REFERENCE
@@ -22,6 +22,7 @@ from validation.studies.checks import Check, number, ran, with_histories
 from validation.studies.modelling_choices.cases import DIRECT
 from validation.studies.modelling_choices.validation import choice_checks, structure_checks, survey_checks
 
+from .captions import CAPTIONS as OWN_CAPTIONS
 from .cases import COARSE, FINE, ITEMS, REVOLUTION, RUNS_OF_SWEEP, WINDOW, Item
 from .figures import GalleryData, gallery_figures
 from .shapes import draw_mesh, draw_modes, draw_variants
@@ -159,5 +160,5 @@ def gallery_page(data: GalleryData, geometry: xr.Dataset, nodes: int, fidelity: 
 def _caption(item: Item, data: GalleryData) -> str:
     kind, _, scene = item.name.partition("_")
     if kind == "spectrum":
-        return caption(kind, blade=REFERENCE, scene=data.scenes[scene])
-    return caption(item.name, blade=REFERENCE)
+        return CAPTIONS[kind].format(blade=REFERENCE, scene=data.scenes[scene])
+    return (OWN_CAPTIONS | CAPTIONS)[item.name].format(blade=REFERENCE)

@@ -11,8 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.figures import style
-from r37core.results.measures import history_of, leading_edge, peak_speed
+from r37core.results.measures import leading_edge, peak_speed
 from validation.published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET
+from validation.studies.measures import history_of
 
 from .cases import CHOICES, DIRECT
 from .validation import PEAK_WITHIN, Runs

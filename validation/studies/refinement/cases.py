@@ -9,8 +9,7 @@ from typing import Any
 from r37core.cases.case import Case
 from r37core.config import ConfigError, Settings, plain
 from r37core.plans.member_values import is_of_sample
-from r37core.plans.sweep_plan import Rounds
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.sweep_plan import Rounds, Sweep
 from r37core.tolerances.members import members_of
 from r37core.tolerances.section import SECTION
 from validation.studies.plan import case_of_sweep
