@@ -203,16 +203,6 @@ def test_designs_have_few_digits_and_lie_in_the_ranges():
     variables = (SearchVariable("small", -1e-3 / 3, 1e-3 / 3), SearchVariable("large", 10_000.0, 10_020.0))
     values = designs_at(variables, np.array([[0.0, 0.123456789], [1.0, 1.0]]))
     assert values == [(-0.00033333, 10_002.469), (0.00033333, 10_020.0)]
-    with pytest.raises(ValueError, match="sweep: found 2"):
-        SearchVariable("sweep", 2.0, 2.0)
-
-
-def test_designs_of_another_search_are_refused():
-    with pytest.raises(ValueError, match="d00: found 2 values; needed: 1"):
-        propose(SQUARE[:1], KNOWLEDGE["one design"], 1, 0)
-    mixed = KNOWLEDGE["one design"] + with_objectives(DESIGNS[1:2], lambda values: (1.0, 2.0))
-    with pytest.raises(ValueError, match="different numbers of objectives"):
-        propose(SQUARE, mixed, 1, 0)
 
 
 def test_the_front_and_the_order():

@@ -89,10 +89,10 @@ def _parser() -> argparse.ArgumentParser:
     response.add_argument("scene")
     response.add_argument("speeds", nargs="+", type=float, metavar="speed", help="rad/s, or rpm with --rpm")
     response.add_argument("--rpm", action="store_true", help="the speeds are revolutions per minute")
-    for word, names in (("blades", _blades), ("scenes", _scenes)):
+    for word in ("blades", "scenes"):
         listed = commands.add_parser(word, parents=[level], help=f"names of the {word}")
         listed.add_argument("file", nargs="?", help=f"a {word}.yaml in place of the configuration's")
-        listed.set_defaults(run=names)
+        listed.set_defaults(run=_names, listed=word)
     check = commands.add_parser("check", help="validate a configuration, and count its simulations")
     check.set_defaults(run=_check)
     check.add_argument("config", nargs="*", help="a config.yaml and files of changes on top; without any the shipped one")
@@ -120,16 +120,10 @@ class _Completion(argparse.Action):
         parser.exit()
 
 
-def _blades(options: argparse.Namespace) -> None:
-    from .choices import blades
+def _names(options: argparse.Namespace) -> None:
+    from . import choices
 
-    print("\n".join(blades(file=options.file, config=options.config)))
-
-
-def _scenes(options: argparse.Namespace) -> None:
-    from .choices import scenes
-
-    print("\n".join(scenes(file=options.file, config=options.config)))
+    print("\n".join(getattr(choices, options.listed)(file=options.file, config=options.config)))
 
 
 def _init(options: argparse.Namespace) -> None:

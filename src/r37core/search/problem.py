@@ -21,15 +21,11 @@ FEWEST_DONE = 3
 
 @dataclass(frozen=True)
 class SearchVariable:
-    """A number of the blade and the range that is searched; any unit. Raises ValueError for a range without a width."""
+    """A number of the blade and the range that is searched; any unit."""
 
     key: str
     lowest: float
     highest: float
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.lowest) and math.isfinite(self.highest) and self.lowest < self.highest):
-            raise ValueError(f"{self.key}: found {self.lowest} to {self.highest}; needed: two numbers, the lower first")
 
 
 @dataclass(frozen=True)

@@ -36,10 +36,8 @@ def propose(
 ) -> list[tuple[float, ...]]:
     """The next `batch` designs, values in the order of `variables`.
 
-    They depend neither on the order of `evaluated` nor on the number of cores. Raises ValueError where the evaluated designs do
-    not have equally many values, objectives and margins, and SearchPackageMissing without the library.
+    They depend neither on the order of `evaluated` nor on the number of cores. Raises SearchPackageMissing without the library.
     """
-    _check(variables, evaluated)
     known = sorted(evaluated, key=lambda design: (design.values, design.name))
     generator = np.random.default_rng([seed, len(known)])
     tried = shares(variables, [design.values for design in known])
@@ -193,12 +191,3 @@ def _sobol(variables: int, number: int, seed: int) -> np.ndarray:
     """The first `number` points of a scrambled Sobol sequence, [point, variable]."""
     doublings = max(0, math.ceil(math.log2(max(number, 1))))
     return scipy.stats.qmc.Sobol(variables, rng=seed).random_base2(doublings)[:number]
-
-
-def _check(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated]) -> None:
-    lengths = {(len(design.objectives), len(design.margins)) for design in evaluated if design.is_done}
-    if len(lengths) > 1:
-        raise ValueError(f"designs with different numbers of objectives and margins: {sorted(lengths)}")
-    for design in evaluated:
-        if len(design.values) != len(variables):
-            raise ValueError(f"{design.name}: found {len(design.values)} values; needed: {len(variables)}")
