@@ -40,20 +40,51 @@ def test_every_key_says_what_it_is(rows):
 @pytest.mark.parametrize(
     ("file", "key", "cells"),
     [
-        ("config", "structure.boundary.nodes", ["`8`", "", "integer, at least 1, at most 200"]),
-        ("config", "speeds[].start", ["needed", "rad/s", "number, at least 0.001, at most 1e+06"]),
-        ("config", "speeds_for[].speeds_rpm", ["left out", "rpm"]),
-        ("config", "structure.coriolis", ["`false`", "", "true or false"]),
-        ("config", "signals.gauges.NAME.angle_deg", ["`0`", "degrees"]),
-        ("config", "tradeoff.places.jump", ["`{ first: 1.024, last: 1.044, speeds: 5 }`", "", "section"]),
-        ("blades", "material.density_kg_m3", ["left out", "kg/m³"]),
-        ("blades", "vary.NAME.step", ["needed"]),
-        ("scenes", "casing.cone_angle_deg", ["`tip`", "degrees", "tip; or number, at least -80, at most 80"]),
-        ("fidelity", "time_integration.largest_time_step_s.lined", ["needed", "s"]),
+        ("config", "structure.boundary.nodes", ["`8`", "integer 1 to 200"]),
+        ("config", "speeds[].start", ["required", "0.001 to 1e+06 rad/s"]),
+        ("config", "speeds_rpm", ["optional", "list: 0.01 to 9.5e+06 rpm; or section of 0.01 to 9.5e+06 rpm"]),
+        ("config", "structure.coriolis", ["`false`", "true, false"]),
+        ("config", "signals.gauges.NAME.angle_deg", ["`0`", "-180 to 180 degrees"]),
+        ("config", "signals.probes_deg", ["`[]`", "list or []: at least 0, below 360 degrees"]),
+        ("config", "blades", ["required", "all; or list: name"]),
+        ("config", "run_ups", ["", "sections by name"]),
+        ("blades", "material.density_kg_m3", ["optional", "1 to 100000 kg/m³"]),
+        ("blades", "vary.NAME.step", ["required"]),
+        ("blades", "mesh", ["required", "path"]),
+        ("blades", "rotor_axis", ["required", "list of 3: -1e+09 to 1e+09"]),
+        ("scenes", "casing.cone_angle_deg", ["`tip`", "tip; or -80 to 80 degrees"]),
+        ("scenes", "rotor.mistuning_percent", ["`{}`", "values by name (%)"]),
+        ("fidelity", "time_integration.largest_time_step_s.lined", ["required", "1e-12 to 0.01 s"]),
     ],
 )
-def test_rows_have_default_unit_and_what_is_allowed(rows, file, key, cells):
+def test_rows_have_default_and_allowed_values_with_their_unit(rows, file, key, cells):
     assert rows[file][key][: len(cells)] == cells
+
+
+@pytest.mark.parametrize(
+    ("file", "key", "words"),
+    [
+        ("config", "speeds_for[].speeds", "keys of `speeds`"),
+        ("config", "speeds_rpm", "keys of `speeds`"),
+        (
+            "config",
+            "search.constraints",
+            "keys `measure`, `scenes`, `mode`, `engine_order`, `speed_rad_s` of `search.objectives.NAME`",
+        ),
+        ("blades", "camber_deg", "keys of `stagger_deg`"),
+        ("blades", "chord_percent", "keys of `stagger_deg`"),
+        ("blades", "thickness_percent", "keys of `chord_percent`"),
+        ("scenes", "rotor.longer_spread_m", ".NAME` of config.yaml"),
+    ],
+)
+def test_rows_that_come_again_are_named_where_they_are(rows, file, key, words):
+    assert rows[file][key][-1].endswith(words)
+
+
+def test_a_kind_of_blade_names_the_keys_of_another_kind():
+    _, _, matrices = tables()["blades"].partition("### A blade by matrices")
+    assert matrices.startswith("\n\nIt has the keys `length_unit`, `rotor_axis`, `radial`, ")
+    assert "| `length_unit`" not in matrices
 
 
 def test_every_key_of_the_shipped_files_is_there(root, rows):
@@ -64,7 +95,10 @@ def test_every_key_of_the_shipped_files_is_there(root, rows):
             if "of_scenes" in steps or not steps:
                 continue
             shown = ".".join("[]" if isinstance(step, int) else step for step in steps).replace(".[]", "[]")
-            assert shown.removesuffix("[]") in keys or f"{shown}." in "\n".join(keys), (name, shown)
+            steps_up = shown.split(".")[:-1]
+            above = keys.get(".".join(steps_up), [""])[-1]
+            referred = "keys of `" in above  # rows of models that come again are elsewhere
+            assert shown.removesuffix("[]") in keys or referred or f"{shown}." in "\n".join(keys), (name, shown)
 
 
 def test_every_unit_has_a_name():

@@ -78,9 +78,9 @@ def test_and_what_a_message_says(change, message):
 def test_and_what_the_page_says(monkeypatch):
     monkeypatch.setitem(schemas.MODELS, "seal", SealSection)
     rows = reference.tables()["seal"].splitlines()
-    assert "| `clearance_m` | needed | m | number, at least 1e-06, at most 0.1 | at rest |" in rows
-    assert "| `slope_deg` | `tip` | degrees | tip; or number, more than -90, less than 90 | of its face |" in rows
-    assert "| `teeth` | `5` |  | integer, at least 1 | how many |" in rows
+    assert "| `clearance_m` | required | 1e-06 to 0.1 m | at rest |" in rows
+    assert "| `slope_deg` | `tip` | tip; or above -90, below 90 degrees | of its face |" in rows
+    assert "| `teeth` | `5` | integer at least 1 | how many |" in rows
 
 
 def test_and_the_section_becomes_the_dataclass_again():

@@ -7,19 +7,19 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from evidence.schemas import MODELS
-from r37core.config.messages import describe
-from r37core.config.section import NAME_PATTERN, TEXT_PATTERN
 from r37core.config.speed_section import UNITS
 from r37core.io import write_text
 from r37core.results.glossary import INTERACTIONS, RANKING, Word
 from r37core.text_file import with_part
 from r37core.units import SUFFIXES
 
-Schema = Mapping[str, Any]
+from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
+from .keys_again import Shown, ShownModels
 
 UNIT_OF_SUFFIX = {
     "_m": "m",
@@ -48,32 +48,33 @@ KINDS = {
 }
 """Model of an entry -> heading of its keys, where a file has several kinds of entries."""
 
-_HEAD = "| key | default | unit | allowed | what it is |\n|---|---|---|---|---|"
-_WORDS = {NAME_PATTERN: "name", TEXT_PATTERN: "name of a file or folder"}
+_HEAD = "| key | default | allowed | meaning |\n|---|---|---|---|"
 
 
 def tables() -> dict[str, str]:
     """Name of a configuration file without its ending -> Markdown, its keys under headings of the third level."""
-    return {name: _file(model.model_json_schema()) for name, model in MODELS.items()}
+    shown = ShownModels()
+    return {name: _file(_FileKeys(name, model.model_json_schema(), shown)) for name, model in MODELS.items()}
 
 
-def _file(schema: Schema) -> str:
+def _file(keys: _FileKeys) -> str:
     """All keys of a file; of one with entries by name, those of an entry."""
+    schema = keys.schema
     if "properties" in schema:
-        return _FileKeys(schema).by_section(schema)
-    entry = next(_entries(schema))
+        return keys.by_section(schema)
+    entry = next(entries_of(schema))
     if "oneOf" not in entry:
-        return _FileKeys(schema).by_section(_resolved(entry, schema))
-    kinds = [_resolved(kind, schema) for kind in entry["oneOf"]]
-    return "\n\n".join(_FileKeys(schema).in_one(kind, KINDS[kind["title"]]) for kind in kinds)
+        return keys.by_section(resolved(entry, schema))
+    return "\n\n".join(keys.of_kind(resolved(kind, schema)) for kind in entry["oneOf"])
 
 
 class _FileKeys:
-    """Rows of the keys of one file. A model that comes again refers to where its keys stand."""
+    """Rows of the keys of one file. Of keys that have rows already, the place of these is named. `shown`: models with rows."""
 
-    def __init__(self, schema: Schema) -> None:
-        self._schema = schema
-        self._shown: dict[str, str] = {}
+    def __init__(self, file: str, schema: Schema, shown: ShownModels) -> None:
+        self.schema = schema
+        self._file = file
+        self._shown = shown
 
     def by_section(self, model: Schema) -> str:
         """Plain keys first, then a heading for each key that holds others."""
@@ -86,47 +87,45 @@ class _FileKeys:
                 sections.append("\n".join([f"### {key}\n\n{_HEAD}", *rows]))
         return "\n\n".join([*(["\n".join([_HEAD, *plain])] if plain else []), *sections])
 
-    def in_one(self, model: Schema, heading: str) -> str:
-        """One table under a heading."""
-        rows = [row for key, part in model["properties"].items() for row in self._rows(key, part, model)]
-        return "\n".join([f"### {heading}\n\n{_HEAD}", *rows])
+    def of_kind(self, model: Schema) -> str:
+        """One table of an entry's keys, under the heading of its kind."""
+        name = model["title"]
+        again = self._shown.again(name, model, self._file, AllowedValues(self.schema))
+        self._shown.add(name, Shown(self._file, f"{KINDS[name][0].lower()}{KINDS[name][1:]}", model))
+        rows = [row for key in again.own for row in self._rows(key, model["properties"][key], model)]
+        text = f"It has the {again.text}, and:\n\n" if again.text else ""
+        return "\n".join([f"### {KINDS[name]}\n\n{text}{_HEAD}", *rows])
 
     def _rows(self, path: str, part: Schema, parent: Schema, inherited: str = "") -> Iterator[str]:
         """The row of a key, and those of the keys in it."""
         key = path.rsplit(".", 1)[-1].removesuffix("[]")
         unit = _unit(key, part) or inherited
-        inner = list(_models(part, path, self._schema))
-        again = [self._shown[name] for name, _, _ in inner if name in self._shown]
+        inner = list(_models(part, path, self.schema))
+        values = AllowedValues(self.schema, unit)
+        again = {name: self._shown.again(name, model, self._file, values) for name, _, model in inner}
         meaning = part.get("description") or next((model.get("description", "") for _, _, model in inner), "")
-        meanings = [_text(meaning), *(f"keys as of `{where}`" for where in again)]
+        places = (keys.text.replace(f"of `{path}`", "as above") for keys in again.values())
+        meanings = "; ".join(filter(None, dict.fromkeys([_text(meaning), *places])))
         default = _default(path, part, parent, [model for _, _, model in inner])
-        cells = [f"`{path}`", default, unit, _allowed(part, self._schema), "; ".join(filter(None, meanings))]
+        values = replace(values, sections={name: keys.section for name, keys in again.items()})
+        cells = [f"`{path}`", default, values.of(part), meanings]
         yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
         for name, where, model in inner:
-            if name in self._shown:
-                continue
-            self._shown[name] = where
-            for inside, entry in model["properties"].items():
-                yield from self._rows(f"{where}.{inside}", entry, model, unit)
+            self._shown.add(name, Shown(self._file, f"`{where.removesuffix('[]')}`", model))
+            for inside in again[name].own:
+                yield from self._rows(f"{where}.{inside}", model["properties"][inside], model, unit)
 
 
 def _models(part: Schema, path: str, schema: Schema) -> Iterator[tuple[str, str, Schema]]:
     """Models in a key's value: name, path of an entry, schema. `[]` is an entry of a list, NAME one of a mapping."""
     if "$ref" in part:
-        name = part["$ref"].rsplit("/", 1)[1]
-        yield name, path, schema["$defs"][name]
+        yield name_of(part), path, resolved(part, schema)
     for choice in (*part.get("anyOf", ()), *part.get("oneOf", ())):
         yield from _models(choice, path, schema)
     if isinstance(part.get("items"), Mapping):
         yield from _models(part["items"], f"{path}[]", schema)
-    for entry in _entries(part):
+    for entry in entries_of(part):
         yield from _models(entry, f"{path}.NAME", schema)
-
-
-def _entries(part: Schema) -> Iterator[Schema]:
-    """What the entries of a mapping with names of one's own may be."""
-    inner = (part.get("additionalProperties"), *part.get("patternProperties", {}).values())
-    yield from (schema for schema in inner if isinstance(schema, Mapping))
 
 
 def _unit(key: str, part: Schema) -> str:
@@ -138,13 +137,13 @@ def _unit(key: str, part: Schema) -> str:
 
 
 def _default(path: str, part: Schema, parent: Schema, models: list[Schema]) -> str:
-    """What counts where the key is not given; that of a section stands beside its keys, unless these have none of their own."""
+    """Value of a key that is left out; that of a section is given with its keys, unless these have none."""
     key = path.rsplit(".", 1)[-1]
     if "default" not in part:
-        return "needed" if key in parent.get("required", ()) else ""
+        return "required" if key in parent.get("required", ()) else ""
     value = part["default"]
     if value is None:
-        return "left out"
+        return "optional"
     in_keys = isinstance(value, Mapping) and models and not any(model.get("required") for model in models)
     return "" if in_keys else f"`{_flow(value)}`"
 
@@ -159,33 +158,6 @@ def _flow(value: Any) -> str:
     if isinstance(value, bool):
         return json.dumps(value)
     return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-def _allowed(part: Schema, schema: Schema) -> str:
-    """What a key may be, in the words of the messages."""
-    choices = part.get("anyOf") or part.get("oneOf")
-    if choices:
-        return "; or ".join(_allowed(choice, schema) for choice in choices)
-    resolved = _resolved(part, schema)
-    if "properties" in resolved:
-        return "section"
-    if resolved.get("type") == "array":
-        return _list(resolved, schema)
-    if resolved.get("type") == "object":
-        return "sections by name" if any(_models(resolved, "", schema)) else "values by name"
-    if resolved.get("pattern") in _WORDS:
-        return _WORDS[resolved["pattern"]]
-    return "true or false" if resolved.get("type") == "boolean" else describe(resolved, schema)
-
-
-def _list(part: Schema, schema: Schema) -> str:
-    least, most = part.get("minItems", 0), part.get("maxItems")
-    number = f" of {least}" if least == most else f" of at least {least}" if least else ""
-    return f"list{number}: {_allowed(part['items'], schema)}"
-
-
-def _resolved(part: Schema, schema: Schema) -> Schema:
-    return schema["$defs"][part["$ref"].rsplit("/", 1)[1]] if "$ref" in part else part
 
 
 def _text(description: str) -> str:

@@ -16,11 +16,11 @@ class Window:
     Its intervals are halved until none is longer than `step` (rad/s), before anything is known.
     """
 
-    mode: Annotated[str, Key("whose crossings", one_of=NAMED_MODES)]
-    highest_engine_order: Annotated[int, Key("from order 1 up to this one", ge=1, le=100)]
-    first: Annotated[float, Key("where it begins, as a share of the crossing's speed above it", ge=-0.5, le=1)]
-    last: Annotated[float, Key("where it ends", ge=-0.5, le=1)]
-    step: Annotated[float, Key("its intervals are halved until none is longer", "_rad_s", ge=1e-3, le=1e6)]
+    mode: Annotated[str, Key("Mode whose crossings have a window", one_of=NAMED_MODES)]
+    highest_engine_order: Annotated[int, Key("Highest engine order with a window", ge=1, le=100)]
+    first: Annotated[float, Key("Start of a window, as a share of the crossing's speed above it", ge=-0.5, le=1)]
+    last: Annotated[float, Key("End of a window, as first", ge=-0.5, le=1)]
+    step: Annotated[float, Key("Longest interval in a window", "_rad_s", ge=1e-3, le=1e6)]
 
 
 @dataclass(frozen=True)
@@ -36,24 +36,19 @@ class RefinementChoice:
 
     windows: tuple[Window, ...]
     prominence: float
-    change: Annotated[
-        float, Key("an interval is halved when rms or stress change by more, as a share of the larger", ge=1e-3, le=10)
-    ] = 0.25
-    peak: Annotated[float, Key("intervals are halved that reach so close to a peak's height, as a share of it", ge=0, lt=1)] = (
-        0.1
-    )
+    change: Annotated[float, Key("Relative change of rms or stress above which an interval is halved", ge=1e-3, le=10)] = 0.25
+    peak: Annotated[float, Key("Share of a peak's height within which intervals are halved", ge=0, lt=1)] = 0.1
     steep_change: Annotated[
         float,
         Key(
-            "a change by more is the foot of an interaction narrower than the interval: it is halved down to "
-            "steep_prominence; 1: never",
+            "Relative change that marks an interaction narrower than the interval; 1 switches this off",
             ge=1e-3,
             le=1,
         ),
     ] = 0.8
     steep_prominence: Annotated[
-        float, Key("height from which a steep change counts, as a share of the largest", ge=1e-6, le=1)
+        float, Key("Smallest height of a steep change, as a share of the largest response", ge=1e-6, le=1)
     ] = 0.01
     largest_share: Annotated[
-        float, Key("of the finest grid that is run at most; where the response is largest goes first", ge=1e-3, le=1)
+        float, Key("Largest share of the finest grid that is run; large responses come first", ge=1e-3, le=1)
     ] = 0.2

@@ -14,14 +14,13 @@ from .section import Section, refused
 
 Contact = Literal["points", "patches", "area_patches"]
 CONTACT_IN_WORDS = (
-    "what contact acts on: points (mesh nodes, as published; direct contact then has no limit in the mesh), patches of the tip "
-    "line, or area_patches of the tip's whole face"
+    "Contact acts on mesh nodes (points, as published), on patches of the tip line, or on area_patches of the whole tip face"
 )
 
 
 @declared_by(Material, optional=True)
 class MaterialSection(Section):
-    """Isotropic material; what is left out comes from the base."""
+    """Isotropic material; the base gives what is left out."""
 
 
 class _Box(Section):
@@ -35,9 +34,9 @@ class _Box(Section):
 
 @declared_by(StressSubmesh, maximum_x_m=0.197, minimum_z_m=0.0165, maximum_z_m=0.0265)
 class Submesh(_Box):
-    """Where stress is recovered; nodes with x (radial) below and z (downstream) between these bounds."""
+    """Region of the recovered stress: all nodes within these bounds."""
 
 
 @declared_by(StressSubmesh, excluded_layers=1)
 class ImportedSubmesh(_Box):
-    """Where stress is recovered on a blade of another program: everywhere but near contact nodes and root, or in a box too."""
+    """Region of the recovered stress: nodes away from contact nodes and root, and within these bounds."""

@@ -43,17 +43,17 @@ SHARES = ("sweep_percent", "lean_percent")
 class SweepLean(Section):
     """One row of sweep and lean."""
 
-    span_percent: float = Field(ge=0, le=100, description="from the hub (0) to the tip (100)")
-    sweep_cm: float = Field(ge=-100, le=100, description="positive downstream")
-    lean_deg: float = Field(gt=-90, lt=90, description="positive in the direction of rotation")
+    span_percent: float = Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")
+    sweep_cm: float = Field(ge=-100, le=100, description="Sweep, positive downstream")
+    lean_deg: float = Field(gt=-90, lt=90, description="Lean, positive in the direction of rotation")
 
 
 class Variation(Section):
     """Values from `start` to `stop`, both included, as far as the step goes."""
 
-    start: float = Field(ge=-1e12, le=1e12, description="first value, in the unit of the key that varies")
-    stop: float = Field(ge=-1e12, le=1e12, description="last value, if the step reaches it")
-    step: float = Field(ge=1e-12, le=1e12, description="from value to value")
+    start: float = Field(ge=-1e12, le=1e12, description="First value, in the unit of the varied key")
+    stop: float = Field(ge=-1e12, le=1e12, description="Last value, if the step reaches it")
+    step: float = Field(ge=1e-12, le=1e12, description="Distance between values")
 
     @model_validator(mode="after")
     def _forward(self) -> Variation:
@@ -82,35 +82,36 @@ class BladeEntry(Section):
     With `vary` or `designs` it is a family, many blades that differ in some numbers.
     """
 
-    profiles: FileName | LeftOut = left_out("profile table (CSV)")
-    base: Name | LeftOut = left_out("blade to inherit profiles, sweep and lean, and material from")
-    stacking_table: FileName | LeftOut = left_out("sweep and lean table (CSV) with a column `blade`")
-    sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = left_out("the table written here, one entry a row")
+    profiles: FileName | LeftOut = left_out("Profile table (CSV)")
+    base: Name | LeftOut = left_out("Blade that gives profiles, sweep, lean and material")
+    stacking_table: FileName | LeftOut = left_out("Table (CSV) of sweep and lean with a column `blade`")
+    sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = left_out(
+        "Sweep and lean in this file, one entry per row"
+    )
     chordwise_sweep_deg: Annotated[float, Field(gt=-60, lt=60)] | LeftOut = left_out(
-        "one angle of sweep along the chord in place of a table, positive forward"
+        "Constant chordwise sweep in place of a table, positive forward"
     )
     sweep_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = left_out(
-        "share of the table's sweep that is kept, its own or that of its base"
+        "Share of the sweep in the table that is kept"
     )
-    lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = left_out("share of the lean")
+    lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = left_out("Share of the lean in the table that is kept")
     stagger_deg: Angles | LeftOut = left_out(
-        "added to the stagger of the profiles, on top of the base: a number, values at hub and tip (linear between "
-        "them), or a table over the span"
+        "Angle added to the stagger: a number, values at hub and tip, or a table over the span"
     )
-    camber_deg: Angles | LeftOut = left_out("added to the camber kappa_ic - kappa_oc of the profiles, as stagger_deg")
-    chord_percent: Shares | LeftOut = left_out("share of the profiles' chord that is kept, on the same cones, as stagger_deg")
-    thickness_percent: Shares | LeftOut = left_out("share of all thicknesses of the profiles that is kept, as stagger_deg")
+    camber_deg: Angles | LeftOut = left_out("Angle added to the camber kappa_ic - kappa_oc")
+    chord_percent: Shares | LeftOut = left_out("Share of the chord that is kept, on the same cones")
+    thickness_percent: Shares | LeftOut = left_out("Share of all thicknesses that is kept")
     contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
-    sense_check: bool = Field(default=True, description="refuse a table of which the trailing edge would lead in the rotation")
+    sense_check: bool = Field(default=True, description="Whether a blade whose trailing edge leads is refused")
     material: MaterialSection = MaterialSection()
     vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = left_out(
-        "a family: values of numeric keys, such as sweep_percent or material.density_kg_m3"
+        "Family: values of numeric keys, such as sweep_percent or material.density_kg_m3"
     )
     combine: Literal["grid", "pairs"] = Field(
-        default="grid", description="every value with every other, or the first with the first"
+        default="grid", description="grid combines every value with every other, pairs the first with the first"
     )
     designs: FileName | LeftOut = left_out(
-        "a family as a table (CSV), one design a row: its name in the column `blade`, then numeric keys"
+        "Family as a table (CSV): a design per row, its name in the column `blade`, then numeric keys"
     )
 
     @model_validator(mode="after")

@@ -17,16 +17,16 @@ from .section import LeftOut, Section, left_out, refused
 
 
 class GrowthSection(Section):
-    """Growth of the casing over speed, from a model or a measurement of it; linear between the speeds."""
+    """Growth of the casing over speed, linear between the speeds."""
 
     speeds_rad_s: list[Annotated[float, Field(ge=0, le=1e6)]] | LeftOut = Field(
-        default=None, min_length=2, description="ascending, from 0 on, and as far as structure.maximum_speed_rad_s"
+        default=None, min_length=2, description="Ascending speeds, from 0 to at least structure.maximum_speed_rad_s"
     )
     speeds_rpm: list[Annotated[float, Field(ge=0, le=9.5e6)]] | LeftOut = Field(
-        default=None, min_length=2, description="the same in revolutions per minute"
+        default=None, min_length=2, description="The same speeds in revolutions per minute"
     )
     growth_m: list[Annotated[float, Field(ge=-0.01, le=0.01)]] = Field(
-        min_length=2, description="away from the blade, along the casing's normal; at each of the speeds, 0 at the first"
+        min_length=2, description="Growth away from the blade at each speed, normal to the casing; 0 at the first"
     )
 
     @model_validator(mode="after")
@@ -45,10 +45,12 @@ class GrowthSection(Section):
 
 
 class ClearanceSection(Section):
-    """A clearance that changes with the speed, in place of clearance_m."""
+    """Clearance that changes with the speed, in place of clearance_m."""
 
-    cold_m: float = Field(ge=1e-6, le=0.1, description="at rest, normal to the casing; lobes are given in shares of it")
-    centrifugal: bool = Field(default=True, description="whether the blade grows and untwists under its centrifugal load")
+    cold_m: float = Field(
+        ge=1e-6, le=0.1, description="Clearance at rest, normal to the casing; lobes are given in shares of it"
+    )
+    centrifugal: bool = Field(default=True, description="Whether the centrifugal load lengthens and untwists the blade")
     casing_growth: GrowthSection | LeftOut = None
 
 
@@ -72,7 +74,7 @@ class RingModeSection(Section):
     modal_mass_kg: Any = DECLARED
     damping_ratio: Any = DECLARED
     tangential_ratio: Annotated[float, Field(ge=-10, le=10)] | LeftOut = left_out(
-        "tangential over radial displacement; default: 1/nodal_diameter, bending alone; 0 without any"
+        "Tangential over radial displacement; by default 1/nodal_diameter (bending alone), or 0"
     )
 
     def mode(self) -> RingMode:
@@ -84,7 +86,7 @@ class RingModeSection(Section):
 
 @declared_by(Casing)
 class CasingSection(Section):
-    """Shape of the casing, and whether it is flexible."""
+    """Shape and elasticity of the casing."""
 
     clearance_m: Any = DECLARED
     clearance: ClearanceSection | LeftOut = None
@@ -93,9 +95,9 @@ class CasingSection(Section):
     width: Any = DECLARED
     amplitude_clearances: Any = DECLARED
     rise_fraction: Any = DECLARED
-    ring: RingSection | LeftOut = left_out("an elastic casing; rigid without it")
+    ring: RingSection | LeftOut = left_out("Elastic casing as a ring; the casing is rigid without it")
     ring_modes: Annotated[list[RingModeSection], Field(min_length=1, max_length=200)] | LeftOut = left_out(
-        "the same by its modes, in place of ring"
+        "Elastic casing by its modes, in place of ring"
     )
 
     @model_validator(mode="after")

@@ -13,7 +13,7 @@ from r37core.contact.scene import Scene
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice
 
-from .blade_sections import CONTACT_IN_WORDS, Contact, Submesh
+from .blade_sections import Contact, Submesh
 from .declaring import DECLARED, declared_by
 from .section import AllOrNames, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
@@ -23,16 +23,16 @@ from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_bot
 class Boundary(Section):
     """The contact nodes, kept as physical coordinates of the reduced model."""
 
-    contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}, for all blades; left out: as each blade says")
+    contact: Contact | LeftOut = left_out("Contact of all blades, in place of `contact` in blades.yaml")
 
 
 @declared_by(ReductionChoice, only_listed=True)
 class StructureSection(Section):
     """Geometry and reduced model."""
 
-    edges: Literal["round", "blunt"] = Field(default="round", description="how leading and trailing edge are closed")
+    edges: Literal["round", "blunt"] = Field(default="round", description="Shape of the leading and trailing edges")
     boundary: Boundary = Boundary()
-    maximum_speed_rad_s: Speed = Field(default=2000.0, description="highest speed of the basis and of the Campbell diagram")
+    maximum_speed_rad_s: Speed = Field(default=2000.0, description="Highest speed of the basis and the Campbell diagram")
     spin_softening: Any = DECLARED
     coriolis: Any = DECLARED
     stress_submesh: Submesh = Submesh()
@@ -42,22 +42,22 @@ class StructureSection(Section):
 class CampbellSection(Section):
     """The Campbell diagram."""
 
-    speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6, description="from speed to speed of the diagram")
-    modes: int = Field(default=10, ge=3, le=30, description="how many are drawn and kept")
-    highest_engine_order: int = Field(default=20, ge=1, le=100, description="crossings are looked for up to this order")
+    speed_step_rad_s: float = Field(default=50.0, ge=0.1, le=1e6, description="Step between the speeds of the diagram")
+    modes: int = Field(default=10, ge=3, le=30, description="Number of modes drawn and kept")
+    highest_engine_order: int = Field(default=20, ge=1, le=100, description="Highest engine order of the crossings")
     largest_tangential_displacement_m: float = Field(
-        default=0.01, ge=1e-9, le=1, description="how far the leading edge swings in the dynamic clearance"
+        default=0.01, ge=1e-9, le=1, description="Displacement of the leading edge in the dynamic clearance"
     )
 
 
 @declared_by(InteractionChoice)
 class Interactions(Section):
-    """What counts as an interaction, in summary.csv."""
+    """Peaks that count as interactions in summary.csv."""
 
 
 @declared_by(Window)
 class WindowSection(Section):
-    """Speeds above the crossings of a mode with engine orders, which are looked at more closely before anything is known."""
+    """Speeds above the crossings of a mode, sampled first."""
 
     @model_validator(mode="after")
     def _has_a_length(self) -> WindowSection:
@@ -67,15 +67,17 @@ class WindowSection(Section):
 
 
 class DirectRefinementSection(Section):
-    """What is else in scenes without lining, whose response scatters from speed to speed."""
+    """Settings for scenes with bare casing, whose response scatters from speed to speed."""
 
-    windows: list[WindowSection] = Field(default=[], description="the same in scenes without lining")
-    largest_share: float = Field(default=0.125, ge=1e-3, le=1, description="the same in scenes without lining")
+    windows: list[WindowSection] = Field(default=[], description="Windows in scenes with bare casing")
+    largest_share: float = Field(
+        default=0.125, ge=1e-3, le=1, description="Largest share of the finest grid in scenes with bare casing"
+    )
 
 
 @declared_by(RefinementChoice)
 class RefinementSection(Section):
-    """Where ranges with `refine_to` get more speeds."""
+    """Adaptive sampling of ranges with `refine_to`."""
 
     windows: list[WindowSection] = Field(
         default=[
@@ -85,7 +87,7 @@ class RefinementSection(Section):
                 {"mode": "1T", "highest_engine_order": 20, "first": 0.0, "last": 0.02, "step_rad_s": 5.0},
             )
         ],
-        description="where interactions are expected, because contact stiffens a blade",
+        description="Speed windows in which interactions are expected",
     )
     change: Any = DECLARED
     peak: Any = DECLARED
@@ -111,15 +113,11 @@ Part = Annotated[str, AfterValidator(_check_part)]
 
 
 class Run(Section):
-    """Where the results go, and which share of them is made."""
+    """Folder of the results, and part of the blades."""
 
-    name: Name | LeftOut = left_out("a run with a name has its results in results/runs/<name>, beside those of others")
-    part: Part | LeftOut = left_out(
-        "2/7: only the second of seven parts of the blades, for `snakemake responses` on several machines at once"
-    )
-    engine: FileName | LeftOut = left_out(
-        "a file that stands for the code: results are computed again when its content changes, and not when the code does"
-    )
+    name: Name | LeftOut = left_out("Name of the run, whose results go to results/runs/<name>")
+    part: Part | LeftOut = left_out("Part of the blades for `snakemake responses` on several machines, such as 2/7")
+    engine: FileName | LeftOut = left_out("File in place of the code: its changes alone make results out of date")
 
     def of_part(self, names: list[str]) -> list[str]:
         """The blades of this part, all without one; no two parts share one, and their numbers differ by one at most."""
@@ -133,20 +131,20 @@ class Run(Section):
 class Config(Section):
     """config.yaml, what to run."""
 
-    blades_file: FileName = Field(default="config/blades.yaml", description="file with the blade shapes")
-    fidelity_file: FileName = Field(default="config/fidelity.yaml", description="file with the accuracy levels")
-    scenes_file: FileName = Field(default="config/scenes.yaml", description="file with the contact scenes")
-    blades: AllOrNames = Field(description="`all`, or the names of the blades to run")
-    scenes: AllOrNames = Field(description="`all`, or the names of the scenes to run")
-    fidelity: Name = Field(description="an accuracy level of the fidelity file, or auto: the cheapest one within the tolerance")
+    blades_file: FileName = Field(default="config/blades.yaml", description="File with the blades")
+    fidelity_file: FileName = Field(default="config/fidelity.yaml", description="File with the accuracy levels")
+    scenes_file: FileName = Field(default="config/scenes.yaml", description="File with the scenes")
+    blades: AllOrNames = Field(description="Blades to run")
+    scenes: AllOrNames = Field(description="Scenes to run")
+    fidelity: Name = Field(description="Accuracy level, or auto: the cheapest level within the tolerance")
     speeds: SpeedList = Field(
         default=[SpeedRange(start=750.0, stop=2000.0)],
-        description="speeds to simulate, as numbers and ranges; a range without a step takes the fidelity level's",
+        description="Speeds to simulate, as numbers and ranges",
     )
-    speeds_rpm: RpmList | LeftOut = left_out("the same in revolutions per minute, in place of speeds; results stay in rad/s")
+    speeds_rpm: RpmList | LeftOut = left_out("The same speeds in revolutions per minute; results stay in rad/s")
     speeds_for: list[SpeedRule] = Field(
         default=[],
-        description="other speeds for some blades or scenes (both, where both are given); the first entry that fits counts",
+        description="Other speeds for some blades or scenes; the first entry that fits counts",
     )
     structure: StructureSection = StructureSection()
     interactions: Interactions = Interactions()
@@ -155,8 +153,7 @@ class Config(Section):
         default=0.05,
         ge=1e-6,
         le=1,
-        description="accepted relative error of rms, largest displacement and stress at an interaction; "
-        "with fidelity auto it picks the level",
+        description="Accepted relative error of rms, displacement and stress at an interaction; fidelity auto uses it",
     )
     run: Run = Run()
     campbell: CampbellSection = CampbellSection()

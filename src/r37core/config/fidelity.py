@@ -21,10 +21,12 @@ _LARGEST_SIGNAL = 2**31
 class Mesh(Section):
     """Size and quality of the mesh."""
 
-    nodes: int = Field(ge=500, le=500_000, description="wanted number of nodes")
-    layers: int = Field(default=1, ge=1, le=8, description="wedges through the thickness")
-    tip_elements: int = Field(ge=2, le=500, description="wedges along the tip")
-    minimum_scaled_jacobian: float = Field(default=0.1, ge=1e-6, le=1, description="meshes below are refused")
+    nodes: int = Field(ge=500, le=500_000, description="Target number of nodes")
+    layers: int = Field(default=1, ge=1, le=8, description="Wedges through the thickness")
+    tip_elements: int = Field(ge=2, le=500, description="Wedges along the tip")
+    minimum_scaled_jacobian: float = Field(
+        default=0.1, ge=1e-6, le=1, description="Smallest scaled Jacobian of an accepted mesh"
+    )
 
 
 @declared_by(ReductionChoice, only_listed=True)
@@ -36,15 +38,15 @@ class Reduction(Section):
 
 
 class Measured(Section):
-    """What was found on the worst of seven blades (docs/accuracy.md); for `fidelity: auto`."""
+    """Error and cost on the worst of seven blades (docs/accuracy.md), for `fidelity: auto`."""
 
     error: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = left_out(
-        "mean relative error of rms, with lining and in direct contact on patches; left out: auto never takes it"
+        "Mean relative error of rms, except with bare casing on points; auto needs it"
     )
     error_on_points: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = left_out(
-        "the same in direct contact on points, where a run has that"
+        "Mean relative error of rms with bare casing on points"
     )
-    cpu_s_per_run: float = Field(ge=1e-6, le=1e9, description="CPU seconds of a run")
+    cpu_s_per_run: float = Field(ge=1e-6, le=1e9, description="CPU seconds per run")
 
     def error_of(self, on_points: bool) -> float | None:
         """The error of runs with direct contact on points, or of others; None where that was not measured."""
@@ -55,33 +57,31 @@ TimeStep = Annotated[float, Field(ge=1e-12, le=1e-2)]
 
 
 class Steps(Section):
-    """Largest steps of the scenes with a lining and of those without."""
+    """Largest steps of the scenes with an abradable lining and of those with bare casing."""
 
-    lined: TimeStep = Field(description="with a lining")
-    direct: TimeStep = Field(description="without")
+    lined: TimeStep = Field(description="Step with an abradable lining")
+    direct: TimeStep = Field(description="Step with bare casing")
 
 
 @declared_by(IntegrationChoice)
 class TimeIntegration(Section):
-    """The time integration and what it keeps."""
+    """Time integration and kept results."""
 
-    time_step_s: TimeStep | LeftOut = left_out(
-        "largest step of every scene, shortened so that it divides a revolution; refused where it is unstable"
-    )
+    time_step_s: TimeStep | LeftOut = left_out("Largest step, shortened to divide a revolution; an unstable one is refused")
     largest_time_step_s: Steps | LeftOut = left_out(
-        "in place of time_step_s: of each kind of scene; shortened also where it is unstable"
+        "Largest steps by kind of scene, in place of time_step_s; an unstable one is shortened"
     )
     revolutions: Any = DECLARED
-    speed_step_rad_s: Speed = Field(description="step of the speed ranges that give none")
+    speed_step_rad_s: Speed = Field(description="Step of speed ranges without one")
     integrator: Any = DECLARED
     engine: Any = DECLARED
     highest_frequency_hz: Any = DECLARED
-    stress_instants: int = Field(default=62, ge=1, le=10000, description="stress evaluations per revolution")
-    samples_per_stress_instant: int = Field(default=8, ge=1, le=10000, description="samples of the tip motion between them")
-    spectrum_highest_order: int = Field(
-        default=20, ge=1, le=10000, description="highest engine order of the spectrum that is kept"
+    stress_instants: int = Field(default=62, ge=1, le=10000, description="Stress evaluations per revolution")
+    samples_per_stress_instant: int = Field(
+        default=8, ge=1, le=10000, description="Samples of the tip motion per stress evaluation"
     )
-    wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="angles of the wear profile that are kept")
+    spectrum_highest_order: int = Field(default=20, ge=1, le=10000, description="Highest engine order of the kept spectrum")
+    wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="Angles of the kept wear profile")
 
     @model_validator(mode="after")
     def _one_step(self) -> TimeIntegration:

@@ -22,12 +22,12 @@ Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
 class SurfaceRule(Section):
     """All outer faces within limits; r is the distance from the rotor axis, x radial, z along the axis downstream."""
 
-    r_at_least_m: Radius = left_out("lower bound of the distance from the rotor axis")
-    r_at_most_m: Radius = left_out("upper bound of the distance from the rotor axis")
-    x_at_least_m: Length = left_out("lower bound of the radial coordinate")
-    x_at_most_m: Length = left_out("upper bound of the radial coordinate")
-    z_at_least_m: Length = left_out("lower bound of the axial coordinate")
-    z_at_most_m: Length = left_out("upper bound of the axial coordinate")
+    r_at_least_m: Radius = left_out("Lower bound of the distance from the rotor axis")
+    r_at_most_m: Radius = left_out("Upper bound of the distance from the rotor axis")
+    x_at_least_m: Length = left_out("Lower bound of the radial coordinate")
+    x_at_most_m: Length = left_out("Upper bound of the radial coordinate")
+    z_at_least_m: Length = left_out("Lower bound of the axial coordinate")
+    z_at_most_m: Length = left_out("Upper bound of the axial coordinate")
 
     @model_validator(mode="after")
     def _says_something(self) -> SurfaceRule:
@@ -82,15 +82,13 @@ LengthUnit = Annotated[
 class Oriented(Section):
     """How a file of another program describes space."""
 
-    length_unit: LengthUnit = Field(
-        description="of the file's coordinates, or how many metres their unit is, also as a quotient: 1/2540"
-    )
+    length_unit: LengthUnit = Field(description="Unit of the coordinates, or its length in metres, also as a quotient: 1/2540")
     rotor_axis: Any = DECLARED
     radial: Any = DECLARED
     rotation: Any = DECLARED
     axis_point: Any = DECLARED
     sense_check: bool = Field(
-        default=True, description="refuse a blade whose trailing edge would lead, or whose pressure side is convex"
+        default=True, description="Whether a blade whose trailing edge leads, or whose pressure side is convex, is refused"
     )
 
     def orientation(self) -> Orientation:
@@ -102,10 +100,10 @@ class Oriented(Section):
 class MeshEntry(Oriented):
     """A blade given by a mesh of solid elements."""
 
-    mesh: FileName = Field(description="mesh file: .inp, .msh, .vtu, .med, .bdf, .nas, or .cdb with the extra package meshlane")
+    mesh: FileName = Field(description="Mesh file: .inp, .msh, .vtu, .med, .bdf, .nas, or .cdb with the package meshlane")
     material: MaterialSection
-    root: SetOrRule = Field(description="what is clamped: name of a set of the file (BOUNDARY: nodes of *BOUNDARY), or a rule")
-    tip: SetOrRule = Field(description="faces towards the casing: name of a set of the file, or a rule")
+    root: SetOrRule = Field(description="Clamped nodes: a set of the file (BOUNDARY: those of *BOUNDARY) or a rule")
+    tip: SetOrRule = Field(description="Faces towards the casing: a set of the file or a rule")
     pressure_side: Any = DECLARED
     revolution_tolerance_m: Any = DECLARED
     drop_free_nodes: Any = DECLARED
@@ -131,12 +129,12 @@ class MeshEntry(Oriented):
 class MatricesEntry(Oriented):
     """A blade given by matrices, full or reduced; there is no stress without a mesh."""
 
-    matrices: FileName = Field(description="folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
+    matrices: FileName = Field(description="Folder with M and K_<speed> at three speeds (.mtx or .npz), and boundary.csv")
     mass_unit: Any = DECLARED
     stiffness_unit: Any = DECLARED
     contact: Literal["points", "patches"] = Field(
         default="points",
-        description="points: the nodes of boundary.csv; patches: made of them, when it has all of the tip line",
+        description="Contact acts on the nodes of boundary.csv (points) or on patches of its complete tip line",
     )
 
     def source(self, root: Path) -> MatricesSource:

@@ -59,27 +59,27 @@ Length = Annotated[float, Field(ge=_LENGTHS[0], le=_LENGTHS[1])]
 class RotorSection(Section):
     """Blades that run on one casing and wear one lining; their roots stand still, and nothing else couples them."""
 
-    blades: Number = Field(description="how many places for blades there are")
-    missing: Unique[Number] | LeftOut = left_out("numbers of the places without a blade, from 1")
+    blades: Number = Field(description="Number of places for blades")
+    missing: Unique[Number] | LeftOut = left_out("Places without a blade, from 1")
     mistuning_percent: BladeTable[Change] = Field(
-        default={}, description="number of a blade -> change of all its frequencies, -95 to 1000; in place of what is drawn"
+        default={}, description="Frequency change by blade number, -95 to 1000, in place of a drawn one"
     )
     mistuning_spread_percent: SpreadEntry | LeftOut = left_out(
-        "drawn changes of the other blades, within the same bounds: {normal: 1} has a standard deviation of 1%"
+        "Drawn frequency changes of the other blades: {normal: 1} has a standard deviation of 1%"
     )
     longer_m: BladeTable[Length] = Field(
         default={},
-        description="number of a blade -> by how much it is longer than the model, -0.1 to 0.1; in place of what is drawn",
+        description="Extra length by blade number, -0.1 to 0.1, in place of a drawn one",
     )
     longer_spread_m: SpreadEntry | LeftOut = left_out(
-        "drawn lengths of the other blades, within the same bounds: {uniform: 2.0e-5} is plus or minus 20 um"
+        "Drawn extra lengths of the other blades: {uniform: 2.0e-5} is plus or minus 20 um"
     )
-    seed: int = Field(default=0, ge=0, le=2**31, description="of what is drawn; another one gives another rotor")
+    seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the drawn values")
     angles_deg: list[Annotated[float, Field(ge=-360, le=720)]] | LeftOut = left_out(
-        "angles of all places, in the sense of growing theta, blades at least 0.1 apart; equal without them"
+        "Angles of all places towards growing theta, at least 0.1 apart; equal spacing without them"
     )
     lining: Literal["shared", "separate"] = Field(
-        default="shared", description="separate: each blade has a lining of its own, as a single blade does"
+        default="shared", description="One abradable lining for all blades (shared), or one for each"
     )
 
     @model_validator(mode="after")

@@ -38,25 +38,26 @@ class FrictionSection(Section):
 class SceneEntry(Section):
     """One scene of scenes.yaml."""
 
-    tip_line: TipLine | LeftOut = left_out("line of the contact nodes; default: structure.boundary.tip_line")
+    tip_line: TipLine | LeftOut = left_out("Line of the contact nodes; by default structure.boundary.tip_line")
     casing: CasingSection
-    lining: LiningSection | LeftOut = left_out("abradable lining; without it the tip meets the casing")
-    friction: FrictionSection | LeftOut = left_out("friction at the tip; none without it")
-    rotor: RotorSection | LeftOut = left_out("all blades in one casing, on one lining; one blade without it")
+    lining: LiningSection | LeftOut = left_out("Abradable lining; the casing is bare without it")
+    friction: FrictionSection | LeftOut = left_out("Friction at the tip")
+    rotor: RotorSection | LeftOut = left_out("All blades in one casing; a single blade without it")
     damping_ratio: Any = DECLARED
     gap: Any = DECLARED
     divergence_limit_m: Any = DECLARED
-    revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = left_out("in place of the fidelity level's")
+    revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = left_out(
+        "Revolutions of a run, in place of the fidelity level's"
+    )
     results: list[Result] = Field(
         default=["spectrum", "stress"],
         json_schema_extra={"uniqueItems": True},
-        description="what is computed and kept; with static_stress, that of rotation is part of the stress; casing: waves that "
-        "run round an elastic casing",
+        description="Kept results; static_stress adds the stress of rotation, casing keeps the waves of an elastic casing",
     )
     stress_history_speeds_rad_s: list[Speed] = Field(
-        default=[], description="speeds at which the largest stress of every revolution is kept"
+        default=[], description="Speeds at which the largest stress of every revolution is kept"
     )
-    stress_history_speeds_rpm: list[Rpm] = Field(default=[], description="the same in revolutions per minute")
+    stress_history_speeds_rpm: list[Rpm] = Field(default=[], description="The same speeds in revolutions per minute")
 
     @model_validator(mode="after")
     def _results_fit(self) -> SceneEntry:

@@ -18,7 +18,7 @@ from .section import Section
 SECTION_KEYS = ("stagger_deg", "camber_deg", "chord_percent", "thickness_percent")
 """Keys of the changes of a blade's profiles."""
 
-_Span = Annotated[float, Field(ge=0, le=100, description="from the hub (0) to the tip (100)")]
+_Span = Annotated[float, Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")]
 Angle = Annotated[float, Field(ge=-90, le=90)]
 Share = Annotated[float, Field(ge=10, le=1000)]
 
@@ -26,29 +26,29 @@ Share = Annotated[float, Field(ge=10, le=1000)]
 class AngleEnds(Section):
     """An added angle, linear from hub to tip."""
 
-    hub: Angle = Field(default=0.0, description="at the hub, in the unit of the key")
-    tip: Angle = Field(default=0.0, description="at the tip")
+    hub: Angle = Field(default=0.0, description="Value at the hub")
+    tip: Angle = Field(default=0.0, description="Value at the tip")
 
 
 class ShareEnds(Section):
     """A share that is kept, linear from hub to tip."""
 
-    hub: Share = Field(default=100.0, description="at the hub, in the unit of the key")
-    tip: Share = Field(default=100.0, description="at the tip")
+    hub: Share = Field(default=100.0, description="Value at the hub")
+    tip: Share = Field(default=100.0, description="Value at the tip")
 
 
 class AngleRow(Section):
     """An added angle at one span."""
 
     span_percent: _Span
-    value: Angle = Field(description="there, in the unit of the key")
+    value: Angle = Field(description="Value at this position")
 
 
 class ShareRow(Section):
     """A share that is kept at one span."""
 
     span_percent: _Span
-    value: Share = Field(description="there, in the unit of the key")
+    value: Share = Field(description="Value at this position")
 
 
 def _form(law: Any) -> str:

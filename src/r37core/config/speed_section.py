@@ -12,15 +12,15 @@ UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
 
 
-_STEP = left_out("without it the fidelity level's")
-_REFINE_TO = left_out("with it the speeds are sampled adaptively, down to intervals of this, a whole part of the step")
+_STEP = left_out("Step between the speeds; by default the fidelity level's")
+_REFINE_TO = left_out("Smallest interval of adaptive sampling, a whole part of the step")
 
 
 class SpeedRange(Section):
     """Speeds from `start` to `stop`, both included."""
 
-    start: Speed = Field(description="first speed")
-    stop: Speed = Field(description="last speed, if the step reaches it")
+    start: Speed = Field(description="First speed")
+    stop: Speed = Field(description="Last speed, if the step reaches it")
     step: Speed | LeftOut = _STEP
     refine_to: Speed | LeftOut = _REFINE_TO
 
@@ -34,8 +34,8 @@ class SpeedRange(Section):
 class RpmRange(SpeedRange):
     """Speeds in rpm from `start` to `stop`, both included."""
 
-    start: Rpm = Field(description="first speed")
-    stop: Rpm = Field(description="last speed, if the step reaches it")
+    start: Rpm = Field(description="First speed")
+    stop: Rpm = Field(description="Last speed, if the step reaches it")
     step: Rpm | LeftOut = _STEP
     refine_to: Rpm | LeftOut = _REFINE_TO
 
@@ -53,10 +53,10 @@ RpmList = Annotated[list[RpmEntry], Field(min_length=1)]
 class SpeedRule(Section):
     """Speeds of some blades or scenes (both, where both are given)."""
 
-    blades: Names | LeftOut = left_out("of these blades; of all without it")
-    scenes: Names | LeftOut = left_out("in these scenes; in all without it")
-    speeds: SpeedList | LeftOut = left_out("their speeds, as those of the top level")
-    speeds_rpm: RpmList | LeftOut = left_out("the same in revolutions per minute, in place of speeds")
+    blades: Names | LeftOut = left_out("Blades with these speeds; all without it")
+    scenes: Names | LeftOut = left_out("Scenes with these speeds; all without it")
+    speeds: SpeedList | LeftOut = left_out("Speeds of these blades and scenes")
+    speeds_rpm: RpmList | LeftOut = left_out("The same speeds in revolutions per minute")
 
     @model_validator(mode="after")
     def _one_unit(self) -> SpeedRule:

@@ -77,14 +77,12 @@ MemberCount = Annotated[int, Field(ge=2, le=4096), AfterValidator(_power_of_two)
 class SpreadEntry(Section):
     """How one number spreads: one of these, in the unit of the number's key where it is not in percent of its value."""
 
-    uniform_percent: Percent | LeftOut = left_out("half width; 5: from 5% below to 5% above")
-    uniform: Width | LeftOut = left_out("half width")
-    normal_percent: Percent | LeftOut = left_out("standard deviation")
-    normal: Width | LeftOut = left_out("standard deviation")
-    between: Annotated[list[Number], Field(min_length=2, max_length=2)] | LeftOut = left_out(
-        "lower and upper bound, all between equally likely"
-    )
-    values: Unique[Number] | LeftOut = left_out("a list, each equally likely")
+    uniform_percent: Percent | LeftOut = left_out("Half width of a uniform distribution, of the value")
+    uniform: Width | LeftOut = left_out("Half width of a uniform distribution")
+    normal_percent: Percent | LeftOut = left_out("Standard deviation of a normal distribution, of the value")
+    normal: Width | LeftOut = left_out("Standard deviation of a normal distribution")
+    between: Annotated[list[Number], Field(min_length=2, max_length=2)] | LeftOut = left_out("Bounds of a uniform distribution")
+    values: Unique[Number] | LeftOut = left_out("Equally likely values")
 
     @model_validator(mode="after")
     def _one_kind(self) -> SpreadEntry:
@@ -106,12 +104,12 @@ class Spreads(Section):
     """Numbers that spread, of scenes and of blades."""
 
     of_scenes: dict[str, SpreadEntry] = Field(
-        default={}, description="by dotted keys of scenes.yaml, such as lining.elastic_modulus_pa"
+        default={}, description="Distributions of scene keys by dotted name, such as lining.elastic_modulus_pa"
     )
     of_blades: dict[str, SpreadEntry] = Field(
         default={},
-        description="by material.<key>, sweep_percent and lean_percent of the table, sweep_cm and lean_deg added at the tip "
-        "(in proportion to the span), stagger_deg, camber_deg, chord_percent and thickness_percent of all profiles, also with "
+        description="Distributions of blade numbers: material.<key>; sweep_percent and lean_percent of the table; sweep_cm and "
+        "lean_deg, added in proportion to the span; stagger_deg, camber_deg, chord_percent and thickness_percent, also with "
         ".hub or .tip",
     )
 

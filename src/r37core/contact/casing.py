@@ -37,22 +37,21 @@ class Casing:
     clearance: Annotated[
         float,
         Key(
-            "normal to the casing, at every speed; or clearance, which changes with the speed",
+            "Clearance at every speed, normal to the casing; or clearance, which depends on speed",
             "_m",
             ge=1e-6,
             le=0.1,
             optional=True,
         ),
     ]
-    lobes: Annotated[int, Key("0 is a circular casing", ge=0, le=100)] = 2
-    width: Annotated[float, Key("width of a lobe in shares of its period", ge=1e-3, le=100)] = 0.15
-    amplitude: Annotated[float, Key("height of the lobes", "_clearances", ge=0, le=1000)] = 2.0
-    rise_fraction: Annotated[float, Key("share of the run at which 99% is reached", ge=0, le=1)] = 0.2
+    lobes: Annotated[int, Key("Number of lobes; 0 is a circular casing", ge=0, le=100)] = 2
+    width: Annotated[float, Key("Width of a lobe in shares of its period", ge=1e-3, le=100)] = 0.15
+    amplitude: Annotated[float, Key("Height of the lobes", "_clearances", ge=0, le=1000)] = 2.0
+    rise_fraction: Annotated[float, Key("Share of the run in which the lobes grow to 99% of their height", ge=0, le=1)] = 0.2
     cone_angle: Annotated[
         float | None,
         Key(
-            "half angle of the casing's cone, negative where it narrows downstream, 0 for a cylinder; "
-            "tip: that of each blade's tip",
+            "Half angle of the casing's cone, negative if it narrows downstream; tip: that of each blade's tip",
             "_deg",
             ge=-80,
             le=80,

@@ -29,10 +29,10 @@ class RingMode:
     Angular `frequency` (rad/s); `modal_mass` of q_c and of q_s; `radial` and `tangential`: its shape.
     """
 
-    nodal_diameter: Annotated[int, Key("waves round the circumference", ge=0, le=200)]
-    frequency: Annotated[float, Key("natural frequency, of a casing that does not turn", "_hz", ge=1e-3, le=1e7)]
-    modal_mass: Annotated[float, Key("for a radial displacement of 1 at the antinode", "_kg", ge=1e-9, le=1e9)]
-    damping_ratio: Annotated[float, Key("of this mode", ge=0, lt=1)] = 0.005
+    nodal_diameter: Annotated[int, Key("Number of waves round the circumference", ge=0, le=200)]
+    frequency: Annotated[float, Key("Natural frequency of the standing casing", "_hz", ge=1e-3, le=1e7)]
+    modal_mass: Annotated[float, Key("Modal mass for a radial displacement of 1 at the antinode", "_kg", ge=1e-9, le=1e9)]
+    damping_ratio: Annotated[float, Key("Damping ratio of the mode", ge=0, lt=1)] = 0.005
     radial: float = 1.0
     tangential: float = 0.0
 
@@ -44,25 +44,22 @@ class Ring:
     `radial_foundation` and `tangential_foundation`: stiffness per length of its circumference.
     """
 
-    radius: Annotated[
-        float, Key("of the ring's middle line; at least the tip's, at most a quarter more", "_m", ge=1e-3, le=100)
-    ]
-    thickness: Annotated[float, Key("radial; at most a fifth of the radius", "_m", ge=1e-6, le=10)]
-    width: Annotated[float, Key("axial", "_m", ge=1e-6, le=100)]
-    elastic_modulus: Annotated[float, Key("of the ring's material", "_pa", ge=1e3, le=1e15)]
-    density: Annotated[float, Key("of the ring's material", "_kg_m3", ge=1e-3, le=1e6)]
-    damping_ratio: Annotated[float, Key("of every mode of the ring", ge=0, lt=1)] = 0.005
+    radius: Annotated[float, Key("Radius of the middle line, from the tip's to a quarter more", "_m", ge=1e-3, le=100)]
+    thickness: Annotated[float, Key("Radial thickness, at most a fifth of the radius", "_m", ge=1e-6, le=10)]
+    width: Annotated[float, Key("Axial width", "_m", ge=1e-6, le=100)]
+    elastic_modulus: Annotated[float, Key("Young's modulus", "_pa", ge=1e3, le=1e15)]
+    density: Annotated[float, Key("Density", "_kg_m3", ge=1e-3, le=1e6)]
+    damping_ratio: Annotated[float, Key("Damping ratio of every mode", ge=0, lt=1)] = 0.005
     radial_foundation: Annotated[
-        float, Key("radial stiffness per length of circumference; 0: a free ring", "_n_m2", ge=0, le=1e15)
+        float, Key("Radial foundation stiffness per length of circumference; 0: a free ring", "_n_m2", ge=0, le=1e15)
     ] = 0.0
     tangential_foundation: Annotated[
-        float, Key("tangential stiffness per length of circumference; without it no ring turns", "_n_m2", ge=0, le=1e15)
+        float, Key("Tangential foundation stiffness per length of circumference; 0: no rotation mode", "_n_m2", ge=0, le=1e15)
     ] = 0.0
     highest_nodal_diameter: Annotated[
         int,
         Key(
-            "modes of more nodal diameters are left out; `r37 check` says what that leaves out: of the give under a force, and "
-            "of waves that the rotor overtakes",
+            "Highest nodal diameter of a mode; `r37 check` reports the effect of those left out",
             ge=2,
             le=MOST_NODAL_DIAMETERS,
         ),

@@ -21,22 +21,22 @@ class Lining:
     the plastic shortening is the wear. `shared_ring`: all tip nodes wear one ring, else each has its own.
     """
 
-    thickness: Annotated[float, Key("from its surface to the casing behind it", "_m", ge=1e-6, le=1)]
-    elastic_modulus: Annotated[float, Key("of a bar that is not worn further", "_pa", ge=1e3, le=1e15)]
-    plastic_modulus: Annotated[float, Key("hardening of a bar as it wears", "_pa", ge=0, le=1e15)]
-    yield_stress: Annotated[float, Key("stress from which on a bar wears", "_pa", ge=0, le=1e15)]
-    bars: Annotated[int, Key("bars round the circumference", ge=10, le=10_000_000)] = 10000
+    thickness: Annotated[float, Key("Distance from its surface to the casing behind it", "_m", ge=1e-6, le=1)]
+    elastic_modulus: Annotated[float, Key("Elastic modulus of a bar", "_pa", ge=1e3, le=1e15)]
+    plastic_modulus: Annotated[float, Key("Hardening modulus of a bar as it wears", "_pa", ge=0, le=1e15)]
+    yield_stress: Annotated[float, Key("Stress at which a bar starts to wear", "_pa", ge=0, le=1e15)]
+    bars: Annotated[int, Key("Number of bars round the circumference", ge=10, le=10_000_000)] = 10000
     shared_ring: Annotated[
         bool,
         Key(
-            "shared, one ring worn by all nodes, is kept for the study modelling_choices",
+            "One ring of bars per contact node, or one for all (for the study modelling_choices)",
             name="rings",
             words={"per_node": False, "shared": True},
         ),
     ] = False
-    bar_width: Annotated[float, Key("width of a bar, along the casing's meridian", "_m", ge=1e-6, le=1)] = 0.001
+    bar_width: Annotated[float, Key("Width of a bar along the casing's meridian", "_m", ge=1e-6, le=1)] = 0.001
     bar_area: Annotated[
-        float | None, Key("area of a bar, in place of its width times its arc length at the tip", "_m2", ge=1e-12, le=1)
+        float | None, Key("Area of a bar, in place of width times arc length at the tip", "_m2", ge=1e-12, le=1)
     ] = None
 
     def area(self, radius: float) -> float:
@@ -57,7 +57,7 @@ class Friction:
     vector: Annotated[
         bool,
         Key(
-            "vector: against the sliding velocity of rotation and vibration; constant: of the rotation alone",
+            "Friction against the full sliding velocity (vector) or the rotation alone (constant)",
             name="form",
             words={"constant": False, "vector": True},
         ),
@@ -65,7 +65,7 @@ class Friction:
     against_rotation: Annotated[
         bool,
         Key(
-            "along_rotation, against physics, is kept for the study modelling_choices",
+            "Direction of friction; along_rotation is unphysical, for the study modelling_choices",
             name="direction",
             words={"against_rotation": True, "along_rotation": False},
         ),
@@ -73,7 +73,7 @@ class Friction:
     coupled: Annotated[
         bool,
         Key(
-            "friction inside the normal solve of direct contact or added after it",
+            "Friction in the normal solve with bare casing (coupled), or added after it",
             name="coupling",
             words={"coupled": True, "after": False},
         ),
@@ -91,19 +91,17 @@ class Scene:
     casing: Casing
     lining: Lining | None
     friction: Friction | None
-    damping_ratio: Annotated[float, Key("of every mode of the reduced model", ge=0, lt=1)] = 0.0005
+    damping_ratio: Annotated[float, Key("Damping ratio of every mode of the reduced model", ge=0, lt=1)] = 0.0005
     exact_gap: Annotated[
         bool,
         Key(
-            "clearance less the normal displacement, or distance of the displaced node from the casing",
+            "Clearance less the normal displacement (linear), or distance of the displaced node from the casing",
             name="gap",
             words={"linear": False, "exact": True},
         ),
     ] = False
     divergence_limit: Annotated[
         float,
-        Key(
-            "a tip displacement beyond it ends the run as diverged; farther no linear model can be asked", "_m", ge=1e-6, le=100
-        ),
+        Key("Tip displacement above which a run ends as diverged", "_m", ge=1e-6, le=100),
     ] = 0.1
     rotor: Rotor | None = None

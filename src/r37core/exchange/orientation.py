@@ -45,16 +45,16 @@ class Orientation:
     """
 
     length_unit: str | float
-    rotor_axis: Annotated[Vector, Key("direction of the rotor's axis in the file's axes, downstream", ge=-1e9, le=1e9)]
-    radial: Annotated[Vector, Key("direction from the axis to the blade, in the file's axes", ge=-1e9, le=1e9)]
+    rotor_axis: Annotated[Vector, Key("Downstream direction of the rotor axis, in the file's axes", ge=-1e9, le=1e9)]
+    radial: Annotated[Vector, Key("Direction from the axis to the blade, in the file's axes", ge=-1e9, le=1e9)]
     rotation: Annotated[
         str,
         Key(
-            "positive: the rotor turns by the right hand about rotor_axis, negative: the other way",
+            "Sense of the rotation about rotor_axis, by the right-hand rule",
             one_of=("positive", "negative"),
         ),
     ]
-    axis_point: Annotated[Vector, Key("a point of the axis, in the file's unit", ge=-1e9, le=1e9)] = (0.0, 0.0, 0.0)
+    axis_point: Annotated[Vector, Key("A point of the axis, in the file's unit", ge=-1e9, le=1e9)] = (0.0, 0.0, 0.0)
 
     @property
     def metres_per_unit(self) -> float:

@@ -18,26 +18,23 @@ ChosenSpeeds = Annotated[
 
 
 class ExportSection(Section):
-    """What `snakemake exports` writes."""
+    """Files of `snakemake exports`."""
 
     mesh_formats: Unique[Literal["msh", "vtu", "med", "bdf", "inp"]] = Field(
-        default=["msh", "vtu", "med", "bdf", "inp"], description="inp: a complete CalculiX/Abaqus deck"
+        default=["msh", "vtu", "med", "bdf", "inp"], description="Mesh formats; inp is a complete CalculiX/Abaqus deck"
     )
-    result_formats: Unique[Literal["vtu", "med"]] = Field(default=["vtu"], description="of modes and stress")
-    modes: int = Field(default=10, ge=1, le=30, description="how many modes at each speed")
+    result_formats: Unique[Literal["vtu", "med"]] = Field(default=["vtu"], description="Formats of modes and stress")
+    modes: int = Field(default=10, ge=1, le=30, description="Number of modes at each speed")
     mode_speeds_rad_s: Annotated[Unique[ModeSpeed], Field()] | LeftOut = Field(
-        default=None, description="without it at rest and at structure.maximum_speed_rad_s"
+        default=None, description="Speeds of the modes; by default rest and structure.maximum_speed_rad_s"
     )
     stress_speeds_rad_s: ChosenSpeeds = Field(
         default="worst",
-        description="speeds whose worst instant is written: worst, the one with the largest stress of a blade and scene; all; "
-        "or some of those that are run",
+        description="Speeds whose worst instant is written; worst: that of the largest stress of each blade and scene",
     )
-    stress_speeds_rpm: Unique[Rpm] | LeftOut = Field(
-        default=None, description="some of those that are run, in revolutions per minute, in place of stress_speeds_rad_s"
-    )
+    stress_speeds_rpm: Unique[Rpm] | LeftOut = Field(default=None, description="The same speeds in revolutions per minute")
     full_matrices: bool = Field(
-        default=False, description="matrices of all nodes (hundreds of MB) in place of the reduced ones"
+        default=False, description="Whether matrices of all nodes (hundreds of MB) replace the reduced ones"
     )
 
     @model_validator(mode="after")

@@ -17,11 +17,11 @@ class Material:
     """Isotropic linear elastic material. Without a yield stress it never yields."""
 
     youngs_modulus: Annotated[float, Key("Young's modulus", "_pa", ge=1e6, le=1e13)]
-    density: Annotated[float, Key("density", "_kg_m3", ge=1, le=1e5)]
+    density: Annotated[float, Key("Density", "_kg_m3", ge=1, le=1e5)]
     poissons_ratio: Annotated[float, Key("Poisson's ratio", gt=-1, lt=0.5)]
-    yield_stress: Annotated[float, Key("results say where the stress is above it; nothing yields", "_pa", ge=1, le=1e12)] = (
-        float("inf")
-    )
+    yield_stress: Annotated[
+        float, Key("Stress above which results mark a speed; the model stays linear", "_pa", ge=1, le=1e12)
+    ] = float("inf")
 
     @property
     def lame_constants(self) -> tuple[float, float]:

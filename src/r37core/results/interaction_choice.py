@@ -18,9 +18,9 @@ class InteractionChoice:
     with the nearest crossing of any order.
     """
 
-    prominence: Annotated[float, Key("rise of a peak above its surroundings, as a share of the largest", ge=1e-6, le=1)] = 0.1
-    below: Annotated[float, Key("how far below a Campbell speed its peak may lie, as a share", ge=0, le=0.5)] = 0.02
-    above: Annotated[float, Key("how far above", ge=0, le=1)] = 0.06
+    prominence: Annotated[float, Key("Rise of a peak above its surroundings, as a share of the largest", ge=1e-6, le=1)] = 0.1
+    below: Annotated[float, Key("Largest distance of a peak below its Campbell speed, as a share", ge=0, le=0.5)] = 0.02
+    above: Annotated[float, Key("Largest distance of a peak above its Campbell speed, as a share", ge=0, le=1)] = 0.06
 
     @property
     def span(self) -> float:

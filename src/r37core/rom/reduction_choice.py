@@ -29,9 +29,9 @@ class BoundaryChoice:
     AREA_PATCHES; see r37core.rom.contact_weights.
     """
 
-    tip_line: Annotated[str, Key("line of the tip on which they lie", one_of=TIP_LINES)] = "pressure_edge"
-    nodes: Annotated[int, Key("how many, evenly spaced", ge=1, le=200)] = 8
-    corners: Annotated[bool, Key("whether leading and trailing corner are among them")] = True
+    tip_line: Annotated[str, Key("Tip line of the contact nodes", one_of=TIP_LINES)] = "pressure_edge"
+    nodes: Annotated[int, Key("Number of nodes, evenly spaced", ge=1, le=200)] = 8
+    corners: Annotated[bool, Key("Whether the leading and trailing corners are among them")] = True
     contact: str = field(kw_only=True)
 
     def chord_positions(self, count: int) -> np.ndarray:
@@ -94,12 +94,12 @@ class StressSubmesh:
     as this number exceeds one: there a force on a single node and the clamping give stresses that grow with a finer mesh.
     """
 
-    maximum_x: Annotated[float, Key("upper bound of x", "_m", ge=1e-6, le=100)] = np.inf
-    minimum_z: Annotated[float, Key("lower bound of z", "_m", ge=-100, le=100)] = -np.inf
-    maximum_z: Annotated[float, Key("upper bound of z", "_m", ge=-100, le=100)] = np.inf
+    maximum_x: Annotated[float, Key("Upper bound of x (radial)", "_m", ge=1e-6, le=100)] = np.inf
+    minimum_z: Annotated[float, Key("Lower bound of z (downstream)", "_m", ge=-100, le=100)] = -np.inf
+    maximum_z: Annotated[float, Key("Upper bound of z", "_m", ge=-100, le=100)] = np.inf
     excluded_layers: Annotated[
         int,
-        Key("layers of elements left out round contact nodes and root, where stress grows with every finer mesh", ge=0, le=20),
+        Key("Element layers left out round contact nodes and root, where stress grows with every finer mesh", ge=0, le=20),
     ] = 0
 
     def in_words(self) -> str:
@@ -138,8 +138,10 @@ class ReductionChoice:
     boundary: BoundaryChoice
     speeds: tuple[float, ...]
     stress_submesh: StressSubmesh
-    fixed_interface_modes: Annotated[int, Key("at each of three speeds: rest, half the maximum and the maximum", ge=0, le=500)]
-    basis_tolerance: Annotated[float, Key("columns with smaller relative singular values are dropped", ge=0, lt=1)] = 1e-8
-    spin_softening: Annotated[bool, Key("loss of stiffness because centrifugal forces follow the motion")] = False
-    coriolis: Annotated[bool, Key("in the Campbell diagram and in all simulations; needs exact_modal")] = False
-    recover_whole_blade: Annotated[bool, Key("keep the basis on every node (a large file)")] = False
+    fixed_interface_modes: Annotated[
+        int, Key("Number of modes at each of three speeds: rest, half the maximum and the maximum", ge=0, le=500)
+    ]
+    basis_tolerance: Annotated[float, Key("Relative singular value below which a column is removed", ge=0, lt=1)] = 1e-8
+    spin_softening: Annotated[bool, Key("Whether centrifugal forces follow the motion, which lowers the stiffness")] = False
+    coriolis: Annotated[bool, Key("Whether Coriolis forces act; simulations then need exact_modal")] = False
+    recover_whole_blade: Annotated[bool, Key("Whether the basis is kept on every node (a large file)")] = False

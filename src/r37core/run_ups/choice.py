@@ -31,8 +31,8 @@ class RunUpError(ValueError):
 class Crossing:
     """Where a `mode` has the frequency of an `engine_order`."""
 
-    mode: Annotated[str, Key("whose crossing", one_of=NAMED_MODES)]
-    engine_order: Annotated[int, Key("with which engine order", ge=1, le=100)]
+    mode: Annotated[str, Key("Mode of the crossing", one_of=NAMED_MODES)]
+    engine_order: Annotated[int, Key("Engine order of the crossing", ge=1, le=100)]
 
 
 @dataclass(frozen=True)
@@ -44,42 +44,45 @@ class RunUpChoice:
 
     start: Annotated[
         float,
-        Key("first speed, at which the casing becomes lobed", "_rad_s", "from", ge=1e-3, le=1e6, optional=True),
-        Key("the same in revolutions per minute", "_rpm", "from", ge=0.01, le=9.5e6, optional=True),
+        Key("First speed, at which the lobes grow", "_rad_s", "from", ge=1e-3, le=1e6, optional=True),
+        Key("The same speed in revolutions per minute", "_rpm", "from", ge=0.01, le=9.5e6, optional=True),
     ]
     stop: Annotated[
         float,
-        Key("last speed; a lower one makes a run-down", "_rad_s", "to", ge=1e-3, le=1e6, optional=True),
-        Key("the same in revolutions per minute", "_rpm", "to", ge=0.01, le=9.5e6, optional=True),
+        Key("Last speed; a lower one makes a run-down", "_rad_s", "to", ge=1e-3, le=1e6, optional=True),
+        Key("The same speed in revolutions per minute", "_rpm", "to", ge=0.01, le=9.5e6, optional=True),
     ]
     crossing: Crossing | None
     rate: Annotated[
         float | None,
         Key(
-            "change of the speed per second, of a run-down too; or rate_rpm_s; or revolutions",
+            "Change of the speed per second, without sign",
             "_rad_s2",
             ge=1e-3,
             le=1e9,
             optional=True,
         ),
-        Key("the rate in revolutions per minute per second", "_rpm_s", ge=1e-2, le=1e10, optional=True),
+        Key("The same rate in revolutions per minute per second", "_rpm_s", ge=1e-2, le=1e10, optional=True),
     ]
     revolutions: Annotated[
-        float | None, Key("revolutions that the change takes, in place of a rate", ge=SHORTEST, le=LONGEST, optional=True)
+        float | None, Key("Revolutions of the change, in place of a rate", ge=SHORTEST, le=LONGEST, optional=True)
     ]
     before: Annotated[
         int,
         Key(
-            "at the first speed, in which the casing becomes lobed; without it those of the scene",
+            "Revolutions at the first speed, while the lobes grow; by default the scene's",
             name="revolutions_before",
             ge=1,
             le=20000,
             optional=True,
         ),
     ]
-    after: Annotated[int, Key("at the last speed", name="revolutions_after", ge=0, le=20000)] = 0
+    after: Annotated[int, Key("Revolutions at the last speed", name="revolutions_after", ge=0, le=20000)] = 0
     worn: Annotated[
-        bool, Key("worn: by the same run-up, done once before", name="lining", words={"new": False, "worn": True})
+        bool,
+        Key(
+            "Abradable lining at the start; worn: by the same run-up before", name="lining", words={"new": False, "worn": True}
+        ),
     ] = False
 
     def run_up(self, samples_per_revolution: int, crossing_speed: float | None = None) -> RunUp:

@@ -22,21 +22,21 @@ class CrossingSection(Section):
 
     mode: Any = DECLARED
     engine_order: Any = DECLARED
-    first: Share = Field(description="where the run-up begins, as a share of the crossing's speed above it")
-    last: Share = Field(description="where it ends; below first it is a run-down")
+    first: Share = Field(description="Start, as a share of the crossing's speed above it")
+    last: Share = Field(description="End, as first; below first it is a run-down")
 
 
 @declared_by(RunUpChoice)
 class RunUpEntry(Section):
     """One run-up, or run-down where it ends at the lower speed, of every chosen blade in every chosen scene."""
 
-    blades: AllOrNames = Field(default="all", description="of those that are run")
-    scenes: AllOrNames = Field(default="all", description="of those that are run")
+    blades: AllOrNames = Field(default="all", description="Blades of the run-up")
+    scenes: AllOrNames = Field(default="all", description="Scenes of the run-up")
     from_rad_s: Any = DECLARED
     from_rpm: Any = DECLARED
     to_rad_s: Any = DECLARED
     to_rpm: Any = DECLARED
-    crossing: CrossingSection | LeftOut = Field(default=None, description="in place of the speeds")
+    crossing: CrossingSection | LeftOut = Field(default=None, description="Speeds about a crossing, in place of numbers")
 
     @model_validator(mode="after")
     def _complete(self) -> RunUpEntry:
@@ -71,5 +71,5 @@ def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:
 SECTION: ExtensionSection[dict[str, RunUpEntry]] = ExtensionSection(
     "run_ups",
     Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)],  # type: ignore[arg-type]
-    Field(default={}, description="run-ups and run-downs by name"),
+    Field(default={}, description="Run-ups and run-downs by name"),
 )

@@ -31,13 +31,13 @@ class QuantitySection(Section):
 
     measure: Literal[tuple(MEASURES)] = Field(  # type: ignore[valid-type]
         default="length_certain_rad_s",
-        description="what is read off: " + "; ".join(f"{name}, {words}" for name, words in MEASURES.items()),
+        description="Number of a design: " + "; ".join(f"{name}, {words}" for name, words in MEASURES.items()),
     )
-    scenes: Names | LeftOut = Field(default=None, description="of a measure of contact: the worst of these scenes counts")
-    mode: str | LeftOut = Field(default=None, description="of a measure of a mode, such as 1B")
-    engine_order: Annotated[int, Field(ge=1, le=1000)] | LeftOut = Field(default=None, description="of a margin")
+    scenes: Names | LeftOut = Field(default=None, description="Scenes of a contact measure; the worst counts")
+    mode: str | LeftOut = Field(default=None, description="Mode of a modal measure, such as 1B")
+    engine_order: Annotated[int, Field(ge=1, le=1000)] | LeftOut = Field(default=None, description="Engine order of a margin")
     speed_rad_s: Speed | LeftOut = Field(
-        default=None, description="of a margin; of a static stress, in place of the highest speed of the model"
+        default=None, description="Speed of a margin or static stress (by default the highest of the model)"
     )
 
     @model_validator(mode="after")
@@ -66,7 +66,7 @@ class ObjectiveSection(QuantitySection):
     """What should be small."""
 
     quantile: Annotated[float, Field(ge=1e-3, le=0.999)] | LeftOut = Field(
-        default=None, description="of the members under tolerances, such as 0.9; without it the nominal value counts"
+        default=None, description="Quantile under tolerances, such as 0.9; the nominal value without it"
     )
 
     @model_validator(mode="after")
@@ -79,10 +79,10 @@ class ObjectiveSection(QuantitySection):
 class ConstraintSection(QuantitySection):
     """What has to be kept; with percent of the value that the start has."""
 
-    at_least: Bound | LeftOut = Field(default=None, description="in the unit of the measure")
-    at_most: Bound | LeftOut = Field(default=None, description="in the unit of the measure")
-    at_least_percent: Bound | LeftOut = Field(default=None, description="of the value of the blade that the search starts at")
-    at_most_percent: Bound | LeftOut = Field(default=None, description="of the value of the blade that the search starts at")
+    at_least: Bound | LeftOut = Field(default=None, description="Lower bound, in the unit of the measure")
+    at_most: Bound | LeftOut = Field(default=None, description="Upper bound, in the unit of the measure")
+    at_least_percent: Bound | LeftOut = Field(default=None, description="Lower bound, of the starting blade's value")
+    at_most_percent: Bound | LeftOut = Field(default=None, description="Upper bound, of the starting blade's value")
 
     @model_validator(mode="after")
     def _is_bounded(self) -> ConstraintSection:
@@ -101,7 +101,7 @@ class ConstraintSection(QuantitySection):
 class SearchTolerances(Spreads):
     """Numbers that spread about those of every design, for objectives that are a quantile."""
 
-    members: MemberCount = Field(default=16, description="of every design, a power of two")
+    members: MemberCount = Field(default=16, description="Members of every design, a power of two")
 
 
 def _names_differ(entries: dict[str, object]) -> dict[str, object]:
@@ -112,30 +112,30 @@ def _names_differ(entries: dict[str, object]) -> dict[str, object]:
 class SearchSection(Section):
     """A search for better designs of one blade, in rounds: each asks for some more, by what all before them gave."""
 
-    blade: Name = Field(
-        description="of those that are run: its entry is where the search starts, and what every design has in common"
-    )
+    blade: Name = Field(description="Blade of the run at which the search starts")
     variables: Annotated[dict[str, Bounds], Field(min_length=1)] = Field(
-        description="lowest and highest value of numeric keys of the entry, dotted as in vary: stagger_deg.tip: [-3, 3]"
+        description="Lowest and highest value of numeric keys of the entry, such as stagger_deg.tip: [-3, 3]"
     )
     objectives: Annotated[dict[Name, ObjectiveSection], Field(min_length=1), AfterValidator(_names_differ)] = Field(
-        description="what should be small, by name; with several, designs are sought that none is better than in all of them"
+        description="Numbers to minimise, by name; several give a Pareto front"
     )
     constraints: Annotated[dict[Name, ConstraintSection], AfterValidator(_names_differ)] = Field(
-        default={}, description="what has to be kept, by name"
+        default={}, description="Limits, by name"
     )
-    designs: Annotated[int, Field(ge=2, le=2000)] = Field(default=60, description="how many are tried")
+    designs: Annotated[int, Field(ge=2, le=2000)] = Field(default=60, description="Number of designs to run")
     first: Annotated[int, Field(ge=2, le=2000)] = Field(
-        default=16, description="of these by a quasi-random sequence, before there is anything to go by"
+        default=16, description="Number of first designs, from a quasi-random sequence"
     )
-    batch: Annotated[int, Field(ge=1, le=500)] = Field(default=4, description="designs of a round, which are run side by side")
+    batch: Annotated[int, Field(ge=1, le=500)] = Field(default=4, description="Number of designs per round, run in parallel")
     method: Literal["surrogate", "quasi_random"] = Field(
         default="surrogate",
-        description="how designs are proposed; quasi_random: all of them evenly over the bounds, as a yardstick",
+        description="Way to propose designs; quasi_random spreads them evenly, for comparison",
     )
-    seed: int = Field(default=0, ge=0, le=2**31, description="another one gives another search")
-    best: Annotated[int, Field(ge=1, le=50)] = Field(default=3, description="designs that are written as entries and as STEP")
-    tolerances: SearchTolerances | LeftOut = Field(default=None, description="for objectives with a quantile")
+    seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the search")
+    best: Annotated[int, Field(ge=1, le=50)] = Field(
+        default=3, description="Number of best designs written as entries and STEP files"
+    )
+    tolerances: SearchTolerances | LeftOut = Field(default=None, description="Tolerances of objectives with a quantile")
 
     @model_validator(mode="after")
     def _goes_together(self) -> SearchSection:
@@ -169,5 +169,5 @@ class SearchSection(Section):
 SECTION: ExtensionSection[SearchSection | None] = ExtensionSection(
     "search",
     SearchSection | LeftOut,  # type: ignore[arg-type]
-    Field(default=None, description="designs of one blade that are better than it is (docs/better_blade.md)"),
+    Field(default=None, description="Search for better designs of one blade (docs/better_blade.md)"),
 )

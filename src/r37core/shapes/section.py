@@ -8,9 +8,9 @@ from r37core.config.section import ExtensionSection, Section
 
 
 class ShapeSection(Section):
-    """Modes and worst instants as files that move."""
+    """Animated files of modes and worst instants."""
 
-    modes: int = Field(default=6, ge=1, le=30, description="how many modes of each blade, at rest")
+    modes: int = Field(default=6, ge=1, le=30, description="Number of modes of each blade, at rest")
 
 
 SECTION = ExtensionSection("shapes", ShapeSection, ShapeSection())

@@ -33,23 +33,20 @@ class GaugeEntry(Section):
 
 
 class SignalSection(Section):
-    """Which signals of which runs are kept; none without speeds."""
+    """Kept signals; none without speeds."""
 
-    blades: AllOrNames = Field(default="all", description="of those that are run")
+    blades: AllOrNames = Field(default="all", description="Blades with signals")
     speeds_rad_s: SignalSpeeds | LeftOut = Field(
         default=None,
-        description="interactions: the peak speeds of each blade and scene that summary.csv has; or any speeds, each a run of "
-        "its own",
+        description="Speeds with signals; interactions: the peak speeds in summary.csv; each other speed is a run",
     )
-    speeds_rpm: Unique[Rpm] | LeftOut = Field(
-        default=None, description="speeds in revolutions per minute, in place of speeds_rad_s"
-    )
+    speeds_rpm: Unique[Rpm] | LeftOut = Field(default=None, description="The same speeds in revolutions per minute")
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(
-        default=None, description="how many at the end are kept; all without it"
+        default=None, description="Revolutions kept at the end; all without it"
     )
-    gauges: dict[Name, GaugeEntry] = Field(default={}, description="strain gauges by name")
+    gauges: dict[Name, GaugeEntry] = Field(default={}, description="Strain gauges by name")
     probes_deg: Annotated[list[Degrees], AfterValidator(_each_probe_once)] = Field(
-        default=[], description="angles round the casing at which tip timing takes arrivals, towards growing theta"
+        default=[], description="Casing angles of tip-timing probes, towards growing theta"
     )
 
     @model_validator(mode="after")

@@ -24,23 +24,25 @@ class IntegrationChoice:
     """
 
     time_step: float
-    revolutions: Annotated[int, Key("length of a run", ge=2, le=20000)]
+    revolutions: Annotated[int, Key("Length of a run", ge=2, le=20000)]
     samples_per_revolution: int
     integrator: Annotated[
         str,
         Key(
-            "exact_modal follows modes without error between contacts, fast ones statically, with forces at t_n",
+            "Scheme; exact_modal is exact between contacts, with fast modes static and forces at t_n",
             one_of=INTEGRATORS,
         ),
     ] = CENTRAL_DIFFERENCE
-    engine: Annotated[str, Key("reference: plain NumPy, for short runs", one_of=("compiled", "reference"))] = "compiled"
+    engine: Annotated[
+        str, Key("Implementation; reference is plain NumPy, for short runs", one_of=("compiled", "reference"))
+    ] = "compiled"
     snapshots_per_revolution: int = 0
     snapshot_revolutions: int = 0
     jumps: bool = True
     highest_frequency: Annotated[
         float,
         Key(
-            "faster modes are not stepped: with exact_modal they follow statically, else they are left out",
+            "Highest stepped frequency; faster modes are static with exact_modal, else left out",
             "_hz",
             ge=100,
             le=1e12,

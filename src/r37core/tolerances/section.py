@@ -9,17 +9,19 @@ from r37core.config.spread import MemberCount, Spreads
 
 
 class ToleranceSection(Spreads):
-    """Numbers that spread, and how many members are drawn of them; without any there are none."""
+    """Distributions of numbers, and the sample drawn from them; both may be empty."""
 
-    members: MemberCount = Field(default=32, description="a power of two; more of them change none that are there")
-    seed: int = Field(default=0, ge=0, le=2**31, description="another one gives another sample")
-    sensitivity: bool = Field(
-        default=False, description="Sobol indices, which take as many members again for each number, and once more"
+    members: MemberCount = Field(
+        default=32, description="Number of members, a power of two; a larger sample contains the smaller ones"
     )
-    blades: AllOrNames = Field(default="all", description="of those that are run")
-    scenes: AllOrNames = Field(default="all", description="of those that are run")
+    seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the sample")
+    sensitivity: bool = Field(
+        default=False, description="Whether Sobol indices are computed; for n numbers this runs n + 2 times the members"
+    )
+    blades: AllOrNames = Field(default="all", description="Blades with tolerances")
+    scenes: AllOrNames = Field(default="all", description="Scenes with tolerances")
     largest_share: float = Field(
-        default=0.2, ge=1e-3, le=1, description="of the finest grid of adaptive speeds that is run at most, by every member"
+        default=0.2, ge=1e-3, le=1, description="Largest share of the finest grid of adaptive speeds that a member runs"
     )
 
 

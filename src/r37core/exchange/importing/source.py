@@ -42,19 +42,19 @@ class MeshSource:
     pressure_side_forward: Annotated[
         bool,
         Key(
-            "forward: the pressure side looks towards the rotation, as in a compressor",
+            "forward: the pressure side faces the rotation, as in a compressor",
             name="pressure_side",
             words={"forward": True, "backward": False},
         ),
     ] = True
     revolution_tolerance: Annotated[
-        float, Key("how far the tip may be from a surface of revolution", "_m", ge=1e-9, le=0.1)
+        float, Key("Largest distance of the tip from a surface of revolution", "_m", ge=1e-9, le=0.1)
     ] = 1e-4
-    drop_free_nodes: Annotated[bool, Key("leave out nodes of no solid element instead of refusing them")] = False
+    drop_free_nodes: Annotated[bool, Key("Whether nodes without a solid element are left out instead of refused")] = False
     minimum_scaled_jacobian: Annotated[
-        float, Key("meshes with elements below are refused; 1 is ideal, 0 folded", ge=1e-6, le=1)
+        float, Key("Smallest scaled Jacobian of an accepted mesh; 1 is ideal, 0 folded", ge=1e-6, le=1)
     ] = 0.02
-    end_check: Annotated[bool, Key("refuse a root or tip with side faces, or without a part of the blade's end")] = True
+    end_check: Annotated[bool, Key("Whether a root or tip that is incomplete or has side faces is refused")] = True
     sense_check: bool = field(kw_only=True)
     digest: str = ""
 
@@ -68,8 +68,8 @@ class MatricesSource:
 
     folder: str
     orientation: Orientation
-    mass_unit: Annotated[str, Key("of M", one_of=MASS_UNITS)]
-    stiffness_unit: Annotated[str, Key("of the K_<speed>", one_of=STIFFNESS_UNITS)]
+    mass_unit: Annotated[str, Key("Unit of M", one_of=MASS_UNITS)]
+    stiffness_unit: Annotated[str, Key("Unit of the K_<speed>", one_of=STIFFNESS_UNITS)]
     sense_check: bool
     digest: str = ""
 
