@@ -391,13 +391,43 @@ def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(page, d
     contents = explorer_contents(datasets | {"campbell": campbell}, interactions)
     with beside(page, contents, tmp_path / "explorer.html") as other:
         drawn = other.evaluate(
-            "() => document.getElementById('campbell').data.slice(1)"
+            "() => document.getElementById('campbell').data.slice(1, -1)"
             ".map(one => [one.name, (one.line || one.marker).color ?? one.marker.color])"
         )
         # 3200 Hz of the sixth mode at the highest speed and a little are the top of the axis; the seventh begins above
         assert [name for name, _ in drawn[::2]] == ["1B", "1T", "2B", "mode 4", "mode 5", "mode 6"]
         assert drawn[::2] == drawn[1::2]
         assert len({colour for _, colour in drawn}) == 6
+
+
+@pytest.mark.slow
+def test_engine_orders_end_at_the_border_with_their_numbers(page, datasets, interactions, tmp_path):
+    """Also where the diagram is zoomed: each line from border to border, its number where it leaves."""
+    campbell = datasets["campbell"].copy(deep=True)
+    campbell["frequency"][:] = 600.0
+    contents = explorer_contents(datasets | {"campbell": campbell}, interactions)
+    drawn = (
+        "() => { const { data } = document.getElementById('campbell');"
+        " return [data[0], data.at(-1)].map(({ x, y, text }) => [x, y, text]); }"
+    )
+    numbers = "() => [...document.querySelectorAll('#campbell .textpoint')].map(one => one.textContent)"
+    zoom = "Plotly.relayout('campbell', { 'xaxis.range': [1000, 1500], 'yaxis.range': [200, 400] })"
+    with beside(page, contents, tmp_path / "explorer.html") as other:
+        # 630 Hz are the top; order 2 is below it at 2000 rad/s, order 3 above
+        (x, y, _), (at, height, text) = other.evaluate(drawn)
+        assert x[1::3] == pytest.approx([2000.0, 630.0 * np.pi, 420.0 * np.pi])
+        assert [x[2], y[2]] == [None, None]
+        assert (y[1::3], at, height) == (pytest.approx([1000.0 / np.pi, 630.0, 630.0]), x[1::3], y[1::3])
+        assert text == other.evaluate(numbers) == ["1", "2", "3"]
+        other.evaluate(zoom)
+        other.wait_for_function("document.querySelectorAll('#campbell .textpoint').length === 2")
+        (x, y, said), (at, _, text) = other.evaluate(drawn)
+        assert [x[0], x[1], y[0], y[1]] == pytest.approx([400.0 * np.pi, 1500.0, 200.0, 750.0 / np.pi])
+        assert (text, said[0]) == (["1", "2"], "engine order 1")
+        assert at == pytest.approx([1500.0, 400.0 * np.pi])
+        # another speed leaves it zoomed
+        choose(other, speed="1100")
+        assert other.evaluate(drawn)[1][2] == other.evaluate(numbers) == ["1", "2"]
 
 
 @pytest.mark.slow

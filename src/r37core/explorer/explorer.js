@@ -19,6 +19,8 @@
   const DRAG = window.matchMedia("(pointer: coarse)").matches ? false : "zoom";
   const OUTSIDE = "above yield: outside the linear model";
   const SPECTRUM_DECIBELS = 60;
+  // width and height that the number of an engine order takes (pixels)
+  const NUMBER_SIZE = [16, 12];
   // the archive of Snakemake's report has each page in a folder of its own
   const IN_REPORT = /\/data\/raw\/[0-9a-f]+\/[^/]+$/.test(window.location.pathname);
 
@@ -189,18 +191,63 @@
     const blade = bladeIndex();
     const top = Math.max(...frequency.row(blade, Math.min(5, campbell.modes.length - 1)).filter(Number.isFinite)) * 1.05;
     const last = campbellSpeeds[campbellSpeeds.length - 1];
-    const orders = {
-      x: [], y: [], text: [], mode: "lines", line: { color: theme.colour("lines"), width: 1 }, hoverinfo: "text", showlegend: false,
-    };
-    campbell.orders.forEach((order) => {
-      orders.x.push(...shown([0, last]), null);
-      orders.y.push(0, order * last / 2 / Math.PI, null);
-      orders.text.push(`engine order ${order}`, `engine order ${order}`, null);
-    });
     const modes = campbell.modes.map((_, number) => number).filter((number) => Math.min(...frequency.row(blade, number)) < top);
     const traces = modes.flatMap((number) => modeTraces(blade, number));
-    const x = axis(`speed (${state.unit})`, { range: shown([campbellSpeeds[0], last]) });
-    draw("campbell", [orders, ...traces], layout(x, axis("frequency (Hz)", { range: [0, top] })));
+    const ranges = [shown([campbellSpeeds[0], last]), [0, top]];
+    const [x, y] = [axis(`speed (${state.unit})`, { range: [...ranges[0]] }), axis("frequency (Hz)", { range: [...ranges[1]] })];
+    const plan = layout(x, y, { margin: { l: 60, r: 30, t: 10, b: 45 } });
+    // above the numbers of the engine orders
+    plan.legend.y = 1.06;
+    const [lines, numbers] = orderTraces(...ranges);
+    draw("campbell", [lines, ...traces, numbers], plan);
+    followView();
+  }
+
+  // lines of the engine orders from border to border of a panel, and their numbers where they leave it, as far as these have room
+  function orderTraces([left, right], [bottom, top]) {
+    const { clientWidth, clientHeight } = document.getElementById("campbell");
+    const lines = {
+      x: [], y: [], text: [], mode: "lines", line: { color: theme.colour("lines"), width: 1 }, hoverinfo: "text", name: "engine orders",
+    };
+    const numbers = {
+      x: [], y: [], text: [], textposition: [], mode: "text", textfont: { size: 10, color: theme.colour("muted") }, hoverinfo: "skip",
+      cliponaxis: false, showlegend: false, name: "numbers of engine orders",
+    };
+    let before = [Infinity, Infinity];
+    campbell.orders.forEach((order) => {
+      const slope = order / 2 / Math.PI / factor();
+      const [start, end] = [Math.max(left, bottom / slope), Math.min(right, top / slope)];
+      if (end <= start) return;
+      const height = Math.min(slope * end, top);
+      lines.x.push(start, end, null);
+      lines.y.push(slope * start, height, null);
+      lines.text.push(`engine order ${order}`, `engine order ${order}`, null);
+      const place = [(end - left) / (right - left) * clientWidth / NUMBER_SIZE[0], (height - bottom) / (top - bottom) * clientHeight / NUMBER_SIZE[1]];
+      if (Math.hypot(place[0] - before[0], place[1] - before[1]) < 1) return;
+      before = place;
+      numbers.x.push(end);
+      numbers.y.push(height);
+      numbers.text.push(String(order));
+      numbers.textposition.push(end < right ? "top center" : "middle right");
+    });
+    return [lines, numbers];
+  }
+
+  // the engine orders fit the part of the diagram that is shown
+  function fitOrders() {
+    const place = document.getElementById("campbell");
+    const [lines, numbers] = orderTraces(place.layout.xaxis.range, place.layout.yaxis.range);
+    const both = (name) => [lines[name], numbers[name]];
+    const changes = { x: both("x"), y: both("y"), text: both("text"), textposition: ["middle center", numbers.textposition] };
+    Plotly.restyle(place, changes, [0, place.data.length - 1]);
+  }
+
+  // what is drawn again stays zoomed
+  function followView() {
+    const place = document.getElementById("campbell");
+    if (place.dataset.follows) fitOrders();
+    else place.on("plotly_relayout", fitOrders);
+    place.dataset.follows = "yes";
   }
 
   // a mode's frequency and its crossings with engine orders, in its colour
