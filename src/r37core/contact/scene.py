@@ -29,7 +29,7 @@ class Lining:
     shared_ring: Annotated[
         bool,
         Key(
-            "One ring of bars per contact node, or one for all (for the study modelling_choices)",
+            "One ring of bars per contact node, or one for all (shared, for validation)",
             name="rings",
             words={"per_node": False, "shared": True},
         ),
@@ -65,7 +65,7 @@ class Friction:
     against_rotation: Annotated[
         bool,
         Key(
-            "Direction of friction; along_rotation is unphysical, for the study modelling_choices",
+            "Direction of friction; along_rotation is unphysical, for validation",
             name="direction",
             words={"against_rotation": True, "along_rotation": False},
         ),

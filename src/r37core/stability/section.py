@@ -10,15 +10,15 @@ from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, 
 
 
 class StabilitySection(Section):
-    """What happens at extremes (snakemake stability)."""
+    """Runs at extremes of the parameters (snakemake stability)."""
 
-    blade: Name | LeftOut = left_out("if left out, the first one of the run")
-    scenes: AllOrNames = Field(default="all", description="of those that are run")
-    base: Name | LeftOut = left_out("fidelity level that the extremes change; if left out, that of the run")
+    blade: Name | LeftOut = left_out("Blade; by default the first one of the run")
+    scenes: AllOrNames = Field(default="all", description="Scenes of the run")
+    base: Name | LeftOut = left_out("Fidelity level that the extremes change; by default that of the run")
     engine_order: Annotated[int, Field(ge=1, le=100)] | LeftOut = left_out(
-        "the speeds lie about this crossing of 1B; if left out, about the fastest one"
+        "Crossing of 1B that the speeds lie about; by default the fastest one"
     )
-    extremes: AllOrNames = Field(default="all", description="what is changed, such as lobes, bars or mesh_nodes")
+    extremes: AllOrNames = Field(default="all", description="Extremes, such as lobes, bars or mesh_nodes")
 
 
 SECTION = ExtensionSection("stability", StabilitySection, StabilitySection())

@@ -15,8 +15,8 @@ Value = TypeVar("Value")
 class Parameter(Section, Generic[Value]):
     """Values of one parameter, and the one that the others are compared with."""
 
-    values: Unique[Value] = Field(description="those that are tried")
-    reference: Value = Field(description="the one that the others are compared with")
+    values: Unique[Value] = Field(description="Values that are run")
+    reference: Value = Field(description="Value that the others are compared with")
 
     @model_validator(mode="after")
     def _reference_is_a_value(self) -> Parameter[Value]:
@@ -28,27 +28,27 @@ class Parameter(Section, Generic[Value]):
 class Parameters(Section):
     """The parameters that are varied, one at a time."""
 
-    level: Parameter[Name] | LeftOut = left_out("fidelity levels")
-    central_difference_step: Parameter[TimeStep] | LeftOut = left_out("step of central differences (s)")
-    exact_modal_step: Parameter[TimeStep] | LeftOut = left_out("exact modal step (s)")
+    level: Parameter[Name] | LeftOut = left_out("Fidelity levels")
+    central_difference_step: Parameter[TimeStep] | LeftOut = left_out("Step of central differences (s)")
+    exact_modal_step: Parameter[TimeStep] | LeftOut = left_out("Step of exact_modal (s)")
     static_above: Parameter[Annotated[float, Field(ge=1e-3, le=1e9)]] | LeftOut = left_out(
-        "modes with omega h above it follow statically, with exact_modal"
+        "Limit of omega h above which modes are static, with exact_modal"
     )
-    revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = left_out("length of a run")
+    revolutions: Parameter[Annotated[int, Field(ge=2, le=20000)]] | LeftOut = left_out("Length of a run")
     mesh_nodes: Parameter[Annotated[int, Field(ge=500, le=500_000)]] | LeftOut = left_out(
-        "nodes of the mesh, of a blade with profiles"
+        "Nodes of the mesh, of a blade with profiles"
     )
-    boundary_nodes: Parameter[Annotated[int, Field(ge=1, le=200)]] | LeftOut = left_out("contact nodes")
+    boundary_nodes: Parameter[Annotated[int, Field(ge=1, le=200)]] | LeftOut = left_out("Contact nodes")
     fixed_interface_modes: Parameter[Annotated[int, Field(ge=0, le=500)]] | LeftOut = left_out(
-        "fixed-interface modes of the reduced model at each of its speeds"
+        "Fixed-interface modes at each speed of the reduced model"
     )
     highest_frequency: Parameter[Annotated[float, Field(ge=1, le=1e12)]] | LeftOut = left_out(
-        "highest frequency that is kept (Hz)"
+        "Highest frequency that is kept (Hz)"
     )
-    bars: Parameter[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = left_out("bars of the lining")
-    stress_instants: Parameter[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = left_out("stress evaluations per revolution")
-    stress_region: Parameter[Literal["submesh", "whole"]] | LeftOut = left_out("submesh, or the whole blade")
-    friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = left_out("form of friction")
+    bars: Parameter[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = left_out("Bars of the abradable lining")
+    stress_instants: Parameter[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = left_out("Stress evaluations per revolution")
+    stress_region: Parameter[Literal["submesh", "whole"]] | LeftOut = left_out("Region of the recovered stress")
+    friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = left_out("Form of friction")
 
     def varied(self) -> dict[str, Parameter[Any]]:
         """The parameters that are varied, by name."""
@@ -77,9 +77,9 @@ DEFAULTS = Parameters.model_validate(
 class PlaceSection(Section):
     """Neighbouring speeds, as shares of the Campbell speed."""
 
-    first: float = Field(ge=0.01, le=100, description="lowest")
-    last: float = Field(ge=0.01, le=100, description="highest")
-    speeds: int = Field(ge=1, le=1000, description="how many, evenly spaced")
+    first: float = Field(ge=0.01, le=100, description="Lowest share")
+    last: float = Field(ge=0.01, le=100, description="Highest share")
+    speeds: int = Field(ge=1, le=1000, description="Number of speeds, evenly spaced")
 
     @model_validator(mode="after")
     def _forward(self) -> PlaceSection:
@@ -97,16 +97,16 @@ class Places(Section):
 
 
 class TradeoffSection(Section):
-    """The price of every approximation (snakemake tradeoff)."""
+    """Error and cost of every approximation (snakemake tradeoff)."""
 
-    blade: Name | LeftOut = left_out("if left out, the first one of the run")
-    scenes: AllOrNames = Field(default="all", description="of those that are run")
-    base: Name | LeftOut = left_out("fidelity level that all parameters but one keep; if left out, that of the run")
+    blade: Name | LeftOut = left_out("Blade; by default the first one of the run")
+    scenes: AllOrNames = Field(default="all", description="Scenes of the run")
+    base: Name | LeftOut = left_out("Fidelity level of all parameters but one; by default that of the run")
     engine_order: Annotated[int, Field(ge=1, le=100)] | LeftOut = left_out(
-        "the speeds lie about this crossing of 1B; if left out, about the fastest one"
+        "Crossing of 1B that the speeds lie about; by default the fastest one"
     )
     places: Places = Places()
-    parameters: Parameters | LeftOut = left_out("if left out, all of them, with values from coarse to fine")
+    parameters: Parameters | LeftOut = left_out("Parameters that are varied; by default all, with values from coarse to fine")
 
 
 SECTION = ExtensionSection("tradeoff", TradeoffSection, TradeoffSection())
