@@ -1,7 +1,10 @@
-"""Pages of the API, docs/api/*.rst: r37 call by call, and one page per package or module of r37core with all modules in it."""
+"""Pages of the API, docs/api/*.rst: one for each public name of r37, and one for each package or module of r37core."""
 
+import inspect
 import re
 from pathlib import Path
+
+from sphinx.pycode import ModuleAnalyzer
 
 CORE = Path(__file__).parent.parent.parent / "src" / "r37core"
 
@@ -33,18 +36,65 @@ def described(module, *options):
     return "\n".join([f".. automodule:: {module}", "   :members:", *(f"   :{option}:" for option in options), ""])
 
 
-def calls_page():
-    """What `import r37` gives: each call under a heading of its own, which the side bar and the search show."""
+def public_names():
+    """Title of a group -> names of r37 in it, with the value of each."""
     import r37
 
-    objects = {name: getattr(r37, name) for name in r37.__all__ if callable(getattr(r37, name))}
-    classes = [name for name, value in objects.items() if isinstance(value, type)]
+    groups = {"Functions": {}, "Figures": {}, "Classes": {}, "Errors": {}, "Constants": {}}
+    for name in r37.__all__:
+        value = getattr(r37, name)
+        groups[group_of(name, value)][name] = value
+    return groups
+
+
+def group_of(name, value):
+    """Title of the group that a public name belongs to."""
+    if isinstance(value, type):
+        return "Errors" if issubclass(value, Exception) else "Classes"
+    if not callable(value):
+        return "Constants"
+    return "Figures" if name.startswith("plot_") else "Functions"
+
+
+def constant_docs():
+    """Name of a constant of r37 -> the docstring below it, from the module that it is defined in."""
+    import r37
+
+    docs = {"__version__": "Version of r37, which every result carries."}
+    for module, names in r37._NAMES_OF.items():
+        full_name = f"r37{module}" if module.startswith(".") else module
+        comments = ModuleAnalyzer.for_module(full_name).find_attr_docs()
+        docs |= {name: " ".join(comments["", name]).strip() for name in names if ("", name) in comments}
+    return docs
+
+
+def overview_page():
+    """All public names of r37 in tables, with the first sentence of each, and links to their pages."""
     parts = [heading("r37", "="), ".. automodule:: r37", ""]
-    for name in (*(name for name in objects if name not in classes), *classes):
-        made = [f".. autoclass:: r37.{name}", "   :members:", f"   :exclude-members: {INSIDE}"]
-        call = [f".. autofunction:: r37.{name}"]
-        parts += [heading(f"r37.{name}", "-"), *(made if name in classes else call), ""]
-    return "\n".join(parts)
+    constants = constant_docs()
+    for title, members in public_names().items():
+        rows = []
+        for name, value in members.items():
+            text = constants[name] if title == "Constants" else inspect.getdoc(value).split("\n\n")[0]
+            shown_name = f"`r37.{name}`" if title == "Constants" else f":doc:`{name} <r37.{name}>`"
+            rows += [f"   * - {shown_name}", f"     - {escaped(' '.join(text.split()))}"]
+        parts += [heading(title, "-"), ".. list-table::", "   :widths: 25 75", "", *rows, ""]
+    return "\n".join([*parts, ".. toctree::", "   :hidden:", "", *(f"   r37.{name}" for name in documented()), ""])
+
+
+def documented():
+    """Public names of r37 with a page of their own, and their values."""
+    return {name: value for title, members in public_names().items() if title != "Constants" for name, value in members.items()}
+
+
+def name_page(name, value):
+    """A function, class or error of r37."""
+    if isinstance(value, type):
+        body = [f".. autoclass:: r37.{name}", "   :members:", "   :inherited-members: dict, Mapping, Exception"]
+        body.append(f"   :exclude-members: {INSIDE}")
+    else:
+        body = [f".. autofunction:: r37.{name}"]
+    return "\n".join([heading(f"r37.{name}", "="), *body, ""])
 
 
 def core_page(package):
@@ -58,7 +108,8 @@ def core_page(package):
 
 def write_pages(app):
     """Write the pages that differ from what is there, so that a second build reads only what is new."""
-    pages = {"r37": calls_page()}
+    pages = {"r37": overview_page()}
+    pages |= {f"r37.{name}": name_page(name, value) for name, value in documented().items()}
     pages |= {f"r37core.{name}": core_page(name) for name in packages()}
     folder = Path(app.srcdir) / "api"
     folder.mkdir(exist_ok=True)
@@ -69,6 +120,18 @@ def write_pages(app):
         file = folder / f"{name}.rst"
         if not file.exists() or file.read_text(encoding="utf-8") != text:
             file.write_text(text, encoding="utf-8")
+
+
+def with_options(app, what, name, obj, options, signature, returned):
+    """A signature with the arguments of its `**options` by name, as a caller writes them."""
+    call = inspect.unwrap(obj)
+    if what != "function" or not signature or "**options" not in signature or not name.startswith("r37."):
+        return None
+    kind = re.search(r"Unpack\[(\w+)\]", call.__annotations__["options"])[1]
+    arguments = call.__globals__[kind].__annotations__
+    named = ", ".join(f"{key}: {annotation.__forward_arg__} = ..." for key, annotation in arguments.items())
+    keyword_only = "" if "*, " in signature else "*, "
+    return re.sub(r"\*\*options(: [^,)]*\])?", keyword_only + named, signature), returned
 
 
 def as_plain_text(app, what, name, obj, options, lines):
@@ -89,13 +152,19 @@ def shown(paragraph):
 
 
 def escaped(text):
-    """Text without markup but `code`."""
+    """Text without markup but `code`, which is a link where it is a name of r37."""
     parts = re.split(r"(`[^`]+`)", text)
-    return "".join(part if part.startswith("`") else re.sub(r"[|*_\\]", r"\\\g<0>", part) for part in parts)
+    return "".join(linked(part) if part.startswith("`") else re.sub(r"[|*_\\]", r"\\\g<0>", part) for part in parts)
+
+
+def linked(code):
+    """Code in a text, as a link to the page of a public name that it is."""
+    return f":py:obj:{code}" if re.fullmatch(r"`r37\.\w+`", code) else code
 
 
 def setup(app):
     """Register it with Sphinx."""
     app.connect("builder-inited", write_pages)
     app.connect("autodoc-process-docstring", as_plain_text)
+    app.connect("autodoc-process-signature", with_options)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

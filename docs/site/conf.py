@@ -9,7 +9,10 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent.parent / "src")]
 
+from r37core import __version__  # noqa: E402
+
 project = "r37"
+version = release = __version__
 extensions = ["myst_nb", "sphinx.ext.autodoc", "api_pages", "equations", "repository_links"]
 exclude_patterns = ["site/*", "tutorial.py"]
 
@@ -30,7 +33,7 @@ python_maximum_signature_line_length = 100
 toc_object_entries = False
 
 html_theme = "furo"
-html_title = "r37"
+html_title = f"r37 {version}"
 html_static_path = ["style"]
 html_css_files = ["r37.css"]
 # excerpts would be fetched, which browsers refuse to a page on the disk

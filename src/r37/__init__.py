@@ -1,12 +1,12 @@
-"""r37 from Python: what a blade does while it rubs against the casing, from its Campbell diagram to ranges of tolerances.
+"""r37 from Python: simulations of blade-tip rubbing, from the Campbell diagram of a blade to the effect of tolerances.
 
-Blades, scenes and accuracy levels are those of the shipped configuration, or of one's own (`config="config.yaml"`). Datasets
-have the variables, units and attributes of the workflow's files. Speeds are in rad/s unless a name says rpm, everything is SI.
-What takes minutes, the structure of a blade, is kept in a cache folder (r37.structure_files). What a call does meanwhile is
-told by the logger `r37` (r37.stages).
+Blades, scenes and accuracy levels are those of the shipped configuration, or of your own (`config="config.yaml"`). Datasets
+have the variables, units and attributes of the workflow's files. All units are SI, and speeds are in rad/s unless a name ends
+in rpm. The structure of a blade takes minutes; it is kept in a cache folder (r37.structure_files). The logger `r37` reports
+the progress of a call (r37.stages).
 
-Bad input raises ConfigError, an argument that a call does not have TypeError, a file that cannot be read InputFileError,
-a blade that its load buckles at a speed BucklingError.
+Bad input raises ConfigError, an unknown argument TypeError, a file that cannot be read InputFileError, and a blade that its
+load buckles at a speed BucklingError.
 """
 
 from importlib import import_module

@@ -36,13 +36,13 @@ class Choice:
 
     @property
     def label(self) -> str:
-        """What figures and attributes call it: its name, with the changes where it has none of its own."""
+        """Name in figures and attributes: with the changes, unless these have a name."""
         unnamed = {} if self.base else self.changes
         return ", ".join([self.name, *(on_one_line(f"{key}={plain_value(value)}") for key, value in unnamed.items())])
 
     @property
     def told(self) -> dict[str, str]:
-        """Attributes of a dataset that say what of the entry was changed; none where nothing was."""
+        """Attributes of a dataset with the changes of the entry; empty without any."""
         if not self.changes and not self.base:
             return {}
         base = {"base": self.base} if self.base else {}
@@ -51,7 +51,7 @@ class Choice:
 
     @property
     def file(self) -> str:
-        """The file that it stands in."""
+        """Name of the file with the entry."""
         return getattr(self.configuration.checked, f"{self.kind}s_file")
 
     @cached_property
@@ -105,16 +105,16 @@ class Choice:
 
 @dataclass(frozen=True)
 class BladeChoice(Choice):
-    """A blade by its `name`, with the `changes` (dotted key -> value) to its entry in blades.yaml.
+    """A blade, the result of `r37.blade`: its `name`, and the `changes` (dotted key -> value) to its entry in blades.yaml.
 
-    `base`: the entry, of one with a name of its own.
+    `base`: name of the entry, where the changed blade has another name.
     """
 
     kind: ClassVar[str] = "blade"
 
     @cached_property
     def settings(self) -> BladeSettings:
-        """Shape and material, in the SI. Raises ConfigError."""
+        """Shape and material of the blade, in SI units. Raises ConfigError."""
         root = self.configuration.root
         try:
             designs = _designs(self.document, root)
@@ -147,9 +147,9 @@ class BladeChoice(Choice):
 
 @dataclass(frozen=True)
 class SceneChoice(Choice):
-    """A scene by its `name`, with the `changes` (dotted key -> value) to its entry in scenes.yaml.
+    """A scene, the result of `r37.scene`: its `name`, and the `changes` (dotted key -> value) to its entry in scenes.yaml.
 
-    `base`: the entry, of one with a name of its own. `results`: what is wanted of a run, in place of the entry's.
+    `base`: name of the entry, where the changed scene has another name. `results`: results of a run, in place of the entry's.
     """
 
     kind: ClassVar[str] = "scene"
@@ -182,7 +182,7 @@ class SceneChoice(Choice):
 
 @checked_call
 def blades(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
-    """Names of the blades, designs of families included.
+    """Names of the blades in blades.yaml, designs of families included.
 
     Parameters
     ----------
@@ -191,10 +191,15 @@ def blades(*, file: Path | str | None = None, config: Path | str | None = None) 
     config
         A config.yaml in place of the shipped one.
 
+    Returns
+    -------
+    list of str
+        The names, in the order of the file.
+
     Raises
     ------
     ConfigError
-        For files that cannot be read, or are no blades.
+        For files that cannot be read, or have no blades.
 
     Examples
     --------
@@ -208,17 +213,22 @@ def blades(*, file: Path | str | None = None, config: Path | str | None = None) 
 
 @checked_call
 def scenes(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
-    """Names of the scenes: what a blade may rub on.
+    """Names of the scenes in scenes.yaml: what a blade may rub on.
 
     Parameters
     ----------
     file, config
         As of `r37.blades`, a scenes.yaml.
 
+    Returns
+    -------
+    list of str
+        The names, in the order of the file.
+
     Raises
     ------
     ConfigError
-        For files that cannot be read, or are no scenes.
+        For files that cannot be read, or have no scenes.
 
     Examples
     --------
@@ -238,22 +248,27 @@ def blade(
     config: Path | str | None = None,
     **changes: Any,
 ) -> BladeChoice:
-    """A blade, as it stands in blades.yaml or with other values.
+    """A blade of blades.yaml, as it is there or with changed values.
 
     Parameters
     ----------
     name_of_entry
-        Which blade of the file.
+        Name of the blade in the file.
     name
-        What the changed blade is called in results and figures. Without it these name the changes.
+        Name of the changed blade in results and figures. By default its changes name it.
     file
         A blades.yaml in place of the configuration's.
     config
         A config.yaml in place of the shipped one.
     **changes
-        Values of keys of its entry, in the units of their names. A dot leads into a section, as in
-        `**{"material.density_kg_m3": 4430.0}`; a law over the span may also be a dictionary, or a list of its rows. None leaves
+        Values of keys of the entry, in the units of their names. A dot leads into a section, as in
+        `**{"material.density_kg_m3": 4430.0}`. A law over the span may also be a dictionary, or a list of its rows. None leaves
         a key out.
+
+    Returns
+    -------
+    BladeChoice
+        The blade, for all calls that take one. Nothing is meshed or simulated yet.
 
     Raises
     ------
@@ -285,12 +300,17 @@ def scene(
     config: Path | str | None = None,
     **changes: Any,
 ) -> SceneChoice:
-    """A scene, as it stands in scenes.yaml or with other values.
+    """A scene of scenes.yaml, as it is there or with changed values.
 
     Parameters
     ----------
     name_of_entry, name, file, config, **changes
-        As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the lining out: the bare casing.
+        As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the abradable lining out: the casing is bare.
+
+    Returns
+    -------
+    SceneChoice
+        The scene, for all calls that take one.
 
     Raises
     ------

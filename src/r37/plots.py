@@ -1,6 +1,6 @@
-"""Pictures of datasets: plain functions that give a figure, the convention of matplotlib's own pyplot.
+"""Figures of datasets, as the workflow draws them: each function returns a figure of Matplotlib.
 
-They are the workflow's pictures. Matplotlib's parameters and backend stay those of the caller.
+Matplotlib's parameters and backend stay those of the caller.
 """
 
 from __future__ import annotations
@@ -22,14 +22,19 @@ if TYPE_CHECKING:
 
 @checked_call
 def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
-    """Campbell diagram and dynamic clearance of one blade.
+    """Figure of the Campbell diagram and the dynamic clearance of one blade.
 
     Parameters
     ----------
     campbell
-        What `r37.campbell` gives.
+        The result of `r37.campbell`.
     title
-        In place of the blade's name, which says what was changed of it.
+        Title in place of the blade's name with its changes.
+
+    Returns
+    -------
+    Figure
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises
     ------
@@ -51,16 +56,21 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
 
 @checked_call
 def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, title: str | None = None) -> Figure:
-    """Rms of the leading edge and largest stress over speed.
+    """Figure of the leading edge's rms and the largest stress over speed.
 
     Parameters
     ----------
     response
-        What `r37.sweep` gives, or a part of the dataset rms of a run.
+        The result of `r37.sweep`, or a part of the dataset rms of a run.
     campbell
-        What `r37.campbell` gives, to mark the crossings of 1B.
+        The result of `r37.campbell`, to mark the crossings of 1B.
     title
         As of `r37.plot_campbell`.
+
+    Returns
+    -------
+    Figure
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises
     ------
@@ -89,14 +99,19 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
 
 @checked_call
 def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
-    """A map of a rotor's blades over speed, the worst stress, growth of every blade and nodal diameters at the worst speed.
+    """Figure of a rotor: a map of its blades over speed, the worst stress, and growth and nodal diameters at the worst speed.
 
     Parameters
     ----------
     rotor
-        What `r37.rotor` gives, or `rotor` of the results of a run.
+        The result of `r37.rotor`, or `rotor` of the results of a run.
     title
-        In place of the names of blade and scene.
+        Title in place of the names of blade and scene.
+
+    Returns
+    -------
+    Figure
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises
     ------
@@ -121,14 +136,19 @@ def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
 
 @checked_call
 def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
-    """Motion, stress and wear of every revolution of run-ups of one blade in one scene.
+    """Figure of motion, stress and wear in every revolution of run-ups of one blade in one scene.
 
     Parameters
     ----------
     run_ups
-        What `r37.run_ups` or `r37.run_up` gives.
+        The result of `r37.run_ups` or `r37.run_up`.
     title
-        In place of the names of blade and scene.
+        Title in place of the names of blade and scene.
+
+    Returns
+    -------
+    Figure
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises
     ------
@@ -161,16 +181,21 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
 
 @checked_call
 def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | None = None) -> Figure:
-    """The band that members lie in, their chance of passing yield, and which number moves what.
+    """Figure of the band of the members, their probability of passing yield, and the effect of each number.
 
     Parameters
     ----------
     results
-        What `r37.tolerances` gives, or the results of a run with tolerances.
+        The result of `r37.tolerances`, or the results of a run with tolerances.
     blade, scene
-        Which of them.
+        Names of the blade and the scene.
     title
-        In place of their names.
+        Title in place of these names.
+
+    Returns
+    -------
+    Figure
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises
     ------
@@ -200,14 +225,19 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
 
 @checked_call
 def plot_designs(results: RunResults, title: str | None = None) -> Figure:
-    """What each design of a family is, and how robust, over the one key that varies or by name.
+    """Figure of each design of a family and its robustness, over the varied key or by name.
 
     Parameters
     ----------
     results
-        What `r37.designs` gives, or the results of a run with one family.
+        The result of `r37.designs`, or the results of a run with one family.
     title
-        In place of the family's name.
+        Title in place of the family's name.
+
+    Returns
+    -------
+    Figure
+        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises
     ------

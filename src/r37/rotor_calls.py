@@ -30,37 +30,41 @@ def rotor(
     rotor: Mapping[str, Any] | None = None,
     **options: Unpack[SweepOptions],
 ) -> xr.Dataset:
-    """Every blade of a whole rotor in a scene at several speeds, as rotor.nc of a run: all blades wear one lining.
+    """Response of all blades of a rotor in a scene at several speeds, as in rotor.nc of a run.
+
+    All blades wear one lining.
 
     Parameters
     ----------
     blade
-        The shape of all blades: a name, or what `r37.blade` gives.
+        Shape of all blades: a name, or the result of `r37.blade`.
     scene
-        A name, or what `r37.scene` gives.
+        A name, or the result of `r37.scene`.
     speeds, speeds_rpm
         As of `r37.sweep`.
     rotor
         The section `rotor` of the scene, in the units of its keys: `{"blades": 36, "mistuning_spread_percent": {"normal": 1}}`.
-        A scene that has a rotor needs none; its keys stay where this has none of them.
+        It may be left out for a scene that has a rotor. Otherwise the scene's keys stay where this has none of them.
     fidelity, config, cores, folder
         As of `r37.run`.
     results
-        What is computed, in place of the scene's list. Where `rotor` is given, it is that list without `signal` and `shapes`,
-        which are of a single blade.
+        Results to compute, in place of the scene's list. By default, where `rotor` is given, it is that list without `signal`
+        and `shapes`, which are of a single blade.
 
     Returns
     -------
     Dataset
-        By ascending speed and `blade_number`: `blade_rms` (m) and, over spans of revolutions, `blade_maximum` (m), of the
-        leading edge's displacement, normal and tangential together; `leader`, the blade with the largest `blade_rms`;
-        `blade_max_von_mises` (Pa), `nodal_diameter_share` and others.
+        By ascending speed. `blade_rms` (m) of the leading edge's displacement, normal and tangential together, and
+        `blade_max_von_mises` (Pa), shape (speed, blade_number). `blade_maximum` (m), shape (speed, blade_number, span), largest
+        over spans of revolutions. `leader`, shape (speed,), number of the blade with the largest `blade_rms`.
+        `nodal_diameter_share`, shape (speed, nodal_diameter), and others.
 
     Raises
     ------
     ConfigError
-        For bad input, and for a scene without a rotor. A shape, mesh, model or time step that is impossible raises a
-        ValueError of its own.
+        For bad input, and for a scene without a rotor.
+    ValueError
+        For an impossible shape, mesh, model or time step.
 
     Examples
     --------

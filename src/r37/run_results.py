@@ -57,8 +57,8 @@ class FilesByName(Mapping[str, Content], Generic[Content]):
 class RunResults(FilesByName[xr.Dataset]):
     """Datasets of a run by name (campbell, rms, stress, wear, run_ups, rotor, tolerances, search, ...), and its `tables`.
 
-    Each is read when it is first asked for. `folder`: where they lie; of what a call has made it is gone with this object and
-    its `tables`.
+    Each file is read at its first use. `folder` has the files; a temporary one is deleted with this object and its `tables`.
+    An unknown name raises KeyError.
     """
 
     def __init__(self, folder: Path, temporary: object = None):
@@ -124,12 +124,12 @@ def _table(file: Path) -> pd.DataFrame:
 
 @checked_call
 def open_results(folder: Path | str) -> RunResults:
-    """The results of a finished run of the workflow.
+    """Results of a finished run of the workflow.
 
     Parameters
     ----------
     folder
-        `results`, or `results/runs/<name>`.
+        Folder of the run: `results`, or `results/runs/<name>`.
 
     Returns
     -------

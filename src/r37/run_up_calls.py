@@ -40,25 +40,25 @@ class RunUpOptions(OneOptions, total=False):
 
 @checked_call
 def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack[RunUpOptions]) -> xr.Dataset:
-    """A run-up, or run-down, of a blade in a scene, as a run of run_ups.nc.
+    """Run-up, or run-down, of a blade in a scene, as one run of run_ups.nc.
 
     Parameters
     ----------
     blade, scene
-        Names, or what `r37.blade` and `r37.scene` give.
+        Names, or the results of `r37.blade` and `r37.scene`.
     from_rad_s, to_rad_s
-        First and last speed (rad/s); a lower last one makes a run-down.
+        First and last speed (rad/s). A lower last one makes a run-down.
     from_rpm, to_rpm
         The same in revolutions per minute.
     crossing
-        In place of speeds: about a crossing of the blade's own Campbell diagram, so far above it as shares of its speed, as in
+        Speeds about a crossing of the blade's own Campbell diagram, in place of numbers, as shares of its speed above it:
         `{"mode": "1B", "engine_order": 4, "first": -0.015, "last": 0.07}`.
     rate_rad_s2, rate_rpm_s, revolutions
-        How fast the speed changes, or how many revolutions that takes. One of them is given.
+        Rate of the speed's change (rad/s², rpm/s), or the number of revolutions that it takes. One of them is given.
     revolutions_before, revolutions_after
-        At the first speed, in which the casing becomes lobed, and at the last one.
+        Revolutions at the first speed, while the lobes grow, and at the last one.
     lining
-        "new", or "worn" by the same run-up, done once before.
+        "new", or "worn" by the same run-up before.
     fidelity, results, config
         As of `r37.simulate`.
 
@@ -70,7 +70,9 @@ def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack
     Raises
     ------
     ConfigError
-        For bad input. A crossing that is not there raises a ValueError of its own.
+        For bad input.
+    ValueError
+        For a crossing that is not there, and as of `r37.simulate`.
 
     Examples
     --------
@@ -100,21 +102,21 @@ def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack
 def run_ups(
     blade: BladeChoice | str, scene: SceneChoice | str, several: Mapping[str, Mapping[str, Any]], **options: Unpack[RunOptions]
 ) -> xr.Dataset:
-    """Several run-ups of a blade in a scene, as run_ups.nc of a run.
+    """Several run-ups of a blade in a scene, as in run_ups.nc of a run.
 
     Parameters
     ----------
     blade, scene
         As of `r37.run_up`.
     several
-        Name -> what `r37.run_up` takes of it, as under run_ups of config.yaml.
+        Name -> arguments of `r37.run_up`, as under run_ups of config.yaml.
     fidelity, results, config, cores, folder
         As of `r37.run`.
 
     Returns
     -------
     Dataset
-        Over `run` and `revolution`, with the coordinates `run_up` (name), `blade` and `scene`.
+        The variables of `r37.run_up`, over `run` and `revolution`, with the coordinates `run_up` (name), `blade` and `scene`.
 
     Raises
     ------

@@ -49,31 +49,31 @@ def run(
     targets: str | Sequence[str] = "tables",
     **sections: Any,
 ) -> RunResults:
-    """A run of the workflow: all that `snakemake` makes of a configuration, as datasets and tables.
+    """Run of the workflow: all results of a configuration, as datasets and tables.
 
     Parameters
     ----------
     blades, scenes
-        Names, or what `r37.blade` and `r37.scene` give, changed ones with a `name`. Without them those of the configuration.
+        Names, or the results of `r37.blade` and `r37.scene`; changed ones need a `name`. By default those of the configuration.
     speeds
-        As of `r37.sweep`. Without them those of the configuration.
+        As of `r37.sweep`. By default those of the configuration.
     speeds_rpm
         The same in revolutions per minute, in place of `speeds`.
     fidelity
         An accuracy level in place of the configuration's.
     results
-        What is computed, in place of the scenes' lists: `["stress", "wear"]`.
+        Results to compute, in place of the scenes' lists: `["stress", "wear"]`.
     config
         A config.yaml in place of the shipped one. All of it counts that no other argument replaces.
     cores
-        Jobs that run at once. The numbers do not depend on it.
+        Number of jobs that run at once. The numbers do not depend on it.
     folder
-        Where the run has its files: new, empty, or of an earlier call, which goes on where it was. `snakemake` in that folder
-        runs the same. Without it they are gone with what is returned.
+        Folder of the run's files: new, empty, or of an earlier call, which continues. `snakemake` in that folder runs the same.
+        By default the files are temporary: they are deleted with the returned object.
     targets
-        Rules or files, as Snakemake takes them: `"all_blades"` draws all figures, `["tables", "exports"]` makes more.
+        Rules or files, as Snakemake takes them: `"all_blades"` draws all figures, `["tables", "exports"]` writes more.
     **sections
-        Sections of config.yaml by name, in the units of their keys, those of extensions among them:
+        Sections of config.yaml by name, in the units of their keys, also those of extensions:
         `tolerances={"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}`.
 
     Returns
@@ -84,7 +84,9 @@ def run(
     Raises
     ------
     ConfigError
-        For bad input. A shape, mesh, model or time step that is impossible raises a ValueError of its own.
+        For bad input.
+    ValueError
+        For an impossible shape, mesh, model or time step.
 
     Examples
     --------

@@ -45,35 +45,35 @@ def search(
     objectives: Mapping[str, Any],
     **options: Unpack[SearchOptions],
 ) -> RunResults:
-    """Designs of a blade that are better than it is, proposed in rounds by what all designs before them gave.
+    """Search for better designs of a blade, in rounds: each proposes designs from the results of all before.
 
     Parameters
     ----------
     blade
-        What the search starts at: the name of a blade with profiles, or what `r37.blade` gives; a changed one with a `name`.
+        Start of the search: a blade with profiles by its name, or the result of `r37.blade`; a changed one needs a `name`.
     scenes
-        Names, or what `r37.scene` gives; changed ones with a `name`. Objectives and constraints name those that count.
+        Names, or the results of `r37.scene`; changed ones need a `name`. Objectives and constraints name those that count.
     variables
         Dotted key of blades.yaml -> lowest and highest value, as in `{"stagger_deg.tip": [-3, 3], "sweep_percent": [0, 100]}`.
     objectives
-        Name -> what should be small: `{"lined": {"scenes": ["abradable"]}}` for the length of speed above yield, or another
+        Name -> a number to minimise: `{"lined": {"scenes": ["abradable"]}}` for the length of speed above yield, or another
         `measure`; with a `quantile` under tolerances.
     constraints
-        Name -> what is kept: `{"first": {"measure": "frequency_hz", "mode": "1B", "at_least_percent": 98}}`.
+        Name -> a limit: `{"first": {"measure": "frequency_hz", "mode": "1B", "at_least_percent": 98}}`.
     designs
-        How many are tried.
+        Number of designs that are run.
     first
-        Of these, how many come from a quasi-random sequence, before there is anything to go by.
+        Number of the first designs, which come from a quasi-random sequence.
     batch
-        Designs of a round, which are run side by side.
+        Number of designs in a round, which run in parallel.
     method
-        "surrogate", or "quasi_random" for a yardstick.
+        "surrogate", or "quasi_random" for comparison.
     seed
-        Another one gives another search.
+        Seed of the search.
     tolerances
         `{"of_scenes": ..., "of_blades": ..., "members": 16}` about every design, for objectives with a quantile.
     best
-        Designs that are written as entries and as STEP.
+        Number of best designs that are written as entries and STEP files.
     speeds, speeds_rpm, fidelity, results, config, cores, folder
         As of `r37.run`.
 
@@ -81,7 +81,7 @@ def search(
     -------
     RunResults
         The dataset and the table search: every design and the start. Its method `best_values` has the values of the best
-        design, for `r37.blade`; entries and STEP files of the best lie in `folder / "search/best"`.
+        design, for `r37.blade`; entries and STEP files of the best are in `folder / "search/best"`.
 
     Raises
     ------

@@ -43,26 +43,31 @@ class SpeedsOptions(OneOptions, total=False):
 
 @checked_call
 def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: Path | str | None = None) -> xr.Dataset:
-    """The Campbell diagram of a blade, as campbell.nc of a run.
+    """Campbell diagram of a blade, as in campbell.nc of a run.
 
     Parameters
     ----------
     blade
-        Its name, or what `r37.blade` gives.
+        A name, or the result of `r37.blade`.
     fidelity
         An accuracy level in place of the configuration's.
     config
-        A config.yaml in place of the shipped one, where names are looked up and structure and levels are taken from.
+        A config.yaml in place of the shipped one. It gives names, structure and levels.
 
     Returns
     -------
     Dataset
-        `frequency` (Hz) over mode and speed, `crossing_speed` (rad/s) over mode and engine order, `dynamic_clearance` (m).
+        `frequency` (Hz), shape (mode, speed). `crossing_speed` (rad/s), shape (mode, engine_order), NaN without a crossing.
+        `dynamic_clearance` (m), shape (mode, tangential_displacement).
 
     Raises
     ------
     ConfigError
-        For bad input. A shape, mesh or model that is impossible raises a ValueError of its own.
+        For bad input.
+    ValueError
+        For an impossible shape, mesh or model.
+    BucklingError
+        For a blade that its load buckles at a speed of the diagram.
 
     Examples
     --------
@@ -83,25 +88,26 @@ def reduced_model(
     fidelity: str | None = None,
     config: Path | str | None = None,
 ) -> xr.Dataset:
-    """The reduced model of a blade, as rom.nc of a run.
+    """Reduced model of a blade, as in rom_*.nc of a run.
 
     Parameters
     ----------
     blade
-        Its name, or what `r37.blade` gives.
+        A name, or the result of `r37.blade`.
     scene
-        On whose tip line the contact nodes lie; without it on that of structure.boundary.
+        Scene whose tip line has the contact nodes. By default that of structure.boundary counts.
     fidelity, config
         As of `r37.campbell`.
 
     Returns
     -------
     Dataset
-        `mass` (kg), `stiffness` (N/m), `geometric_stiffness` and others over the reduced coordinates.
+        `mass` (kg), `stiffness` (N/m) and `geometric_stiffness` (N s²/(m rad²)), each of shape (row, column). The rows are the
+        reduced coordinates: displacements of the contact nodes, then modes. Others map them to the nodes.
 
     Raises
     ------
-    ConfigError, ValueError
+    ConfigError, ValueError, BucklingError
         As of `r37.campbell`.
 
     Examples
@@ -120,12 +126,12 @@ def reduced_model(
 def simulate(
     blade: BladeChoice | str, scene: SceneChoice | str, speed: float | None = None, **options: Unpack[SimulateOptions]
 ) -> xr.Dataset:
-    """The response of a blade in a scene at one speed: what `r37.sweep` gives of it, without the dimension speed.
+    """Response of a blade in a scene at one speed: that of `r37.sweep` without the dimension speed.
 
     Parameters
     ----------
     blade, scene
-        Names, or what `r37.blade` and `r37.scene` give.
+        Names, or the results of `r37.blade` and `r37.scene`.
     speed
         Angular speed (rad/s).
     speed_rpm
@@ -133,24 +139,28 @@ def simulate(
     fidelity
         An accuracy level in place of the configuration's.
     results
-        What is computed, in place of the scene's list: `["stress", "wear"]`.
+        Results to compute, in place of the scene's list: `["stress", "wear"]`.
     config
-        A config.yaml in place of the shipped one, where names are looked up and structure and levels are taken from.
+        A config.yaml in place of the shipped one. It gives names, structure and levels.
     initial_displacement, initial_velocity
-        Where the blade starts (velocity per s), in the coordinates of `r37.reduced_model`, shape (coordinates,). It starts
-        at rest without them. What of them lies in modes that are not stepped is left out; the dataset has its share of the
-        energy, and the attribute `initial_state`.
+        State of the blade at the start (velocity per s), in the coordinates of `r37.reduced_model`, shape (coordinates,). By
+        default it starts at rest. Parts in modes that are not stepped are left out; the dataset has their share of the energy,
+        and the attribute `initial_state`.
 
     Returns
     -------
     Dataset
-        As response.nc of a run: `rms_normal` (m), `max_von_mises` (Pa), `status` and others.
+        Variables of response.nc: `rms_normal` (m), shape (tip_point,); `max_von_mises` (Pa) and `status` (0: completed, 1:
+        diverged), scalars; and others, each with its unit.
 
     Raises
     ------
     ConfigError
-        For bad input, and for a displacement that reaches into casing or lining. A shape, mesh, model or time step that is
-        impossible raises a ValueError of its own.
+        For bad input, and for a displacement that reaches into casing or lining.
+    ValueError
+        For an impossible shape, mesh, model or time step.
+    BucklingError
+        For a blade that its load buckles.
 
     Examples
     --------
@@ -176,28 +186,29 @@ def simulate(
 def sweep(
     blade: BladeChoice | str, scene: SceneChoice | str, speeds: Speeds | None = None, **options: Unpack[SpeedsOptions]
 ) -> xr.Dataset:
-    """The response of a blade in a scene at several speeds, as response.nc of a run.
+    """Response of a blade in a scene at several speeds, as in response.nc of a run.
 
     Parameters
     ----------
     speeds
         Angular speeds (rad/s), or ranges `{"start": 750, "stop": 2000, "step": 20}`. With `"refine_to": 1` the range is sampled
-        adaptively, down to intervals of that.
+        adaptively, down to intervals of that length.
     speeds_rpm
         The same in revolutions per minute, in place of `speeds`.
     blade, scene, fidelity, results, config
         As of `r37.simulate`.
     cores
-        Simulations that run at once, in processes of their own. The numbers do not depend on it.
+        Number of simulations that run at once, in processes of their own. The numbers do not depend on it.
 
     Returns
     -------
     Dataset
-        The same variables, units, attributes and numbers as of the workflow, by ascending speed.
+        By ascending `speed`, with the variables, units, attributes and numbers of the workflow: `rms_normal` (m), shape (speed,
+        tip_point); `max_von_mises` (Pa) and `status`, shape (speed,); `amplitude` (m), shape (speed, engine_order); and others.
 
     Raises
     ------
-    ConfigError, ValueError
+    ConfigError, ValueError, BucklingError
         As of `r37.simulate`.
 
     Examples

@@ -37,12 +37,12 @@ class ToleranceOptions(SweepOptions, total=False):
 
 @checked_call
 def compare(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **options: Unpack[SweepOptions]) -> RunResults:
-    """Several blades in several scenes: which is the most robust, and what the workflow makes of their responses.
+    """Several blades in several scenes: their responses, and a ranking by robustness.
 
     Parameters
     ----------
     blades, scenes
-        Names, or what `r37.blade` and `r37.scene` give; changed ones with a `name`.
+        Names, or the results of `r37.blade` and `r37.scene`; changed ones need a `name`.
     speeds, speeds_rpm, fidelity, results, config, cores, folder
         As of `r37.run`.
 
@@ -74,21 +74,21 @@ def designs(
     vary: Mapping[str, Any] | pd.DataFrame,
     **options: Unpack[DesignOptions],
 ) -> RunResults:
-    """A family of designs: one blade with values that vary, and how robust each design is.
+    """Family of designs: one blade with values that vary, and how robust each design is.
 
     Parameters
     ----------
     blade
-        What the designs start from: a name, or what `r37.blade` gives.
+        Blade that the designs start from: a name, or the result of `r37.blade`.
     scenes
-        Names, or what `r37.scene` gives; changed ones with a `name`.
+        Names, or the results of `r37.scene`; changed ones need a `name`.
     vary
         Key of blades.yaml -> values, or `{"start": 0, "stop": 100, "step": 25}`, as under vary of a family. Or a DataFrame: a
         design in each row, its name in the column `blade`, its values under their keys.
     combine
-        "grid" for all combinations of several keys, as without it, or "pairs" for one value of each after the other.
+        "grid" for all combinations of several keys (the default), or "pairs" for the first values together, then the second.
     name
-        Of the family, without it `Design`: a design is called `Design_50` after its values.
+        Name of the family, by default `Design`. A design is called after its values: `Design_50`.
     speeds, speeds_rpm, fidelity, results, config, cores, folder
         As of `r37.run`.
 
@@ -100,7 +100,9 @@ def designs(
     Raises
     ------
     ConfigError
-        For bad input, and a blade without profiles. A shape that is impossible raises a ValueError of its own.
+        For bad input, and a blade without profiles.
+    ValueError
+        For an impossible shape, and as of `r37.run`.
 
     Examples
     --------
@@ -120,22 +122,22 @@ def designs(
 
 @checked_call
 def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **options: Unpack[ToleranceOptions]) -> RunResults:
-    """Numbers that are not known exactly: what members of a sample give that is drawn of them.
+    """Effect of uncertain numbers: the results of a sample of members that is drawn from their distributions.
 
     Parameters
     ----------
     blades, scenes
         As of `r37.compare`.
     of_scenes, of_blades
-        Dotted key -> how the number spreads, as in `{"friction.coefficient": {"uniform_percent": 5}}`.
+        Dotted key -> distribution of the number, as in `{"friction.coefficient": {"uniform_percent": 5}}`.
     members
-        How many are drawn, a power of two.
+        Number of members, a power of two.
     seed
-        Another one gives another sample.
+        Seed of the sample.
     sensitivity
-        Sobol indices, which take as many members again for each number, and once more.
+        Whether Sobol indices are computed. For n numbers this runs n + 2 times the members.
     largest_share
-        Of the finest grid of adaptive speeds that is run at most, by every member.
+        Largest share of the finest grid of adaptive speeds that a member runs.
     speeds, speeds_rpm, fidelity, results, config, cores, folder
         As of `r37.run`.
 
@@ -147,7 +149,7 @@ def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **o
     Raises
     ------
     ConfigError
-        For bad input, and a member that is impossible.
+        For bad input, and for an impossible member.
 
     Examples
     --------

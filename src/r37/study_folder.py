@@ -14,19 +14,19 @@ from .stages import checked_call
 _PACKAGE = Path(__file__).parent
 
 SNAKEFILE = (_PACKAGE / "Snakefile").resolve()
-"""The workflow's Snakefile, for `module r37: snakefile: SNAKEFILE`. In the repository it is that at its top."""
+"""Path of the workflow's Snakefile, for `module r37: snakefile: SNAKEFILE` in a workflow of your own."""
 
 _KEPT_OUT_OF_GIT = "/results/\n/logs/\n/.snakemake/\n"
 
 
 @checked_call
 def init(folder: Path | str) -> Path:
-    """Write a folder for a study that the workflow runs: the shipped configuration, a Snakefile and a profile.
+    """Folder for a study that the workflow runs: the shipped configuration, a Snakefile and a profile.
 
     Parameters
     ----------
     folder
-        New or empty.
+        A new or an empty folder.
 
     Returns
     -------
@@ -36,7 +36,7 @@ def init(folder: Path | str) -> Path:
     Raises
     ------
     ConfigError
-        For a folder that has something in it, and for one that cannot be written.
+        For a folder that has content, and for one that cannot be written.
 
     Examples
     --------

@@ -26,7 +26,7 @@ JOB_LOG = logging.getLogger("r37core")
 
 
 class InputFileError(RuntimeError):
-    """A file that is missing, corrupt or of another make; the message names it and the remedy."""
+    """Error of a file that is missing, corrupt or written by another program; the message names the file and the remedy."""
 
 
 class OutputFileError(InputFileError):

@@ -38,7 +38,7 @@ class ThreadLock:
 
 
 NETCDF_LOCK = ThreadLock()
-"""Held while r37 reads or writes a netCDF file; who does so in other threads holds it, too."""
+"""Lock that r37 holds while it reads or writes a netCDF file; other threads of yours that do so must hold it too."""
 
 
 @contextmanager

@@ -24,7 +24,7 @@ _MOST_LINES = 20
 
 
 class ConfigError(ValueError):
-    """The message names the file, the line if there is one, the key, what was found and what is allowed; one line a refusal."""
+    """Error in a configuration or an argument: file, line, key, value found and values allowed, one line for each error."""
 
 
 class ConfigRefusals:

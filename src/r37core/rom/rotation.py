@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class BucklingError(ValueError):
-    """A blade without a stable position at a speed."""
+    """Error of a blade that its load buckles at a speed: it has no stable position there."""
 
     def __init__(self, speed: float):
         super().__init__(
