@@ -1,5 +1,6 @@
 """The tutorial and the documentation site. Both need the extra `docs`: make site."""
 
+import inspect
 import re
 import runpy
 import shutil
@@ -9,6 +10,8 @@ from pathlib import Path
 
 import pytest
 from browser import opened
+
+import r37
 
 
 def need(*packages):
@@ -76,6 +79,8 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
     assert status == 0, errors
     pages = {file.relative_to(site).as_posix() for file in site.rglob("*.html")}
     assert {"index.html", "tutorial.html", "gallery.html", "api.html", "api/r37.html", "api/r37core.contact.html"} <= pages
+    calls = {f"api/r37.{name}.html" for name in r37.__all__ if callable(getattr(r37, name))}
+    assert {name for name in pages if name.startswith("api/r37.")} == {"api/r37.html", *calls}
     with opened(site / "index.html", {"width": 1400, "height": 900}) as page:
         page.locator("input.sidebar-search").fill("abradable")
         page.locator("input.sidebar-search").press("Enter")
@@ -83,6 +88,13 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
         for name in ("api/r37core.rom.html", "tutorial.html", "architecture.html"):
             page.goto((site / name).as_uri())
             assert page.locator("h1").count()
+        page.goto((site / "changelog.html").as_uri())
+        assert page.title() == f"Changelog - r37 {r37.__version__}"
+        assert page.locator("h2").first.inner_text().startswith(r37.__version__)
+        page.goto((site / "api/r37.sweep.html").as_uri())
+        signature = page.locator("dt.sig").inner_text()
+        assert "speeds_rpm" in signature and "cores: int" in signature and "options" not in signature
+        assert page.locator("dd a[href='r37.simulate.html#r37.simulate']").count()
         page.goto((site / "simulation.html").as_uri())
         drawn = page.locator(".equation svg").evaluate_all("all => all.map(one => one.getBoundingClientRect().width)")
         assert len(drawn) >= 5
@@ -128,6 +140,15 @@ def test_every_page_is_in_the_site(root):
     index = (root / "docs/index.md").read_text()
     for page in (root / "docs").glob("*.md"):
         assert page.stem == "index" or re.search(rf"^{page.stem}$|<{page.stem}>$", index, re.MULTILINE), page.name
+
+
+@pytest.mark.parametrize("name", [name for name in r37.__all__ if callable(getattr(r37, name))])
+def test_docstrings_have_purpose_results_and_errors(name):
+    value = getattr(r37, name)
+    text = inspect.getdoc(value)
+    assert text.split("\n\n")[0].endswith(".")
+    if not isinstance(value, type):
+        assert all(f"{section}\n{'-' * len(section)}\n" in text for section in ("Parameters", "Returns", "Raises", "Examples"))
 
 
 def test_pages_are_named_by_words_and_other_files_are_no_links(root):
