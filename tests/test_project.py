@@ -23,7 +23,6 @@ from r37core.io import FILE_ATTRIBUTES
 from r37core.product.extensions import EXTENSIONS
 
 LAYERS = [
-    "checksums",
     "io",
     "plain",
     "units",

@@ -2,7 +2,6 @@
 
 import dataclasses
 import errno
-import hashlib
 import logging
 import os
 import re
@@ -25,12 +24,13 @@ from workflow_runs import copy_project, kill_snakemake, snakemake
 
 from r37 import structure_files
 from r37core import kept
-from r37core.checksums import checksum_file, checksummed, drop_checksum
 from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock, snakemake_run
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
 from r37core.io import InputFileError, OutputFileError, atomic_write, readable, scratch_folder, write_json
+from r37core.io import InputFileError, OutputFileError, atomic_write, scratch_folder, write_json
+from r37core.plans.run import replaced_level, source_folder
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.reading import read_settings
@@ -345,32 +345,6 @@ def test_a_flipped_bit_of_a_response_is_found(tmp_path):
             read_dataset(file)
 
 
-@pytest.mark.parametrize("name", ["summary.csv", "round_0.json", "rms.nc", "mesh.vtu"])
-def test_what_has_changed_since_it_was_written_is_refused(tmp_path, name):
-    """Cut where it is still a table, or one bit: of netCDF a checksum of its own may not see it."""
-    file = tmp_path / name
-    with checksummed([str(file)]):
-        file.write_bytes(b"blade,scene\nRef,direct\nL50,direct\n")
-    with readable(file):
-        pass
-    for changed in (b"blade,scene\nRef,direct\n", b"blade,scene\nRef,direct\nL51,direct\n"):
-        file.write_bytes(changed)
-        with (
-            pytest.raises(
-                InputFileError, match=rf"{name}: cannot be read .*\.{name}\.sha256 says\); .* delete it and run again"
-            ),
-            readable(file),
-        ):
-            pass
-    # one of an older version, and one that is written anew
-    drop_checksum(file)
-    with readable(file):
-        pass
-    with pytest.raises(KeyError), checksummed([str(file)]):
-        raise KeyError
-    assert not checksum_file(file).exists()
-
-
 @pytest.mark.parametrize("content", [b"", b"x", b"\x80\x04]\x94."])
 def test_nobody_is_advised_to_load_what_may_run_something(tmp_path, content):
     file = tmp_path / "speed_1.npz"
@@ -378,14 +352,6 @@ def test_nobody_is_advised_to_load_what_may_run_something(tmp_path, content):
     with pytest.raises(InputFileError) as refused:
         read_speed(file)
     assert "pickle" not in str(refused.value) and "cannot be read (" in str(refused.value)
-
-
-def test_checksums_are_those_of_a_common_tool(tmp_path):
-    file = tmp_path / "summary.csv"
-    with checksummed([str(file), str(tmp_path / "figure.png")]):
-        file.write_text("abc")
-    assert [path.name for path in tmp_path.glob(".*")] == [".summary.csv.sha256"]
-    assert checksum_file(file).read_text() == f"{hashlib.sha256(b'abc').hexdigest()}  summary.csv\n"
 
 
 def test_a_refusal_names_no_files_of_ours():

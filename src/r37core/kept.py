@@ -16,8 +16,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
-from .checksums import content_digest
-
 _PACKAGE = Path(__file__).parent
 
 
@@ -68,6 +66,12 @@ def keep(content: bytes, name: str) -> None:
     with tempfile.TemporaryDirectory(prefix=".", dir=_folder()) as partial:
         (made := Path(partial) / name).write_bytes(content)
         _put(made, _folder() / name)
+
+
+def content_digest(file: Path | str) -> str:
+    """SHA-256 of a file's content."""
+    with open(file, "rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def users_cache() -> Path:

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from itertools import count
 from pathlib import Path
 
-from r37core.checksums import drop_checksum
 from r37core.config import Settings
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep, speeds_of_round
@@ -99,7 +98,6 @@ def main() -> None:
     for path in left:
         print(f"{size(path) / 1e6:10.2f} MB  {path}")
         if chosen.remove:
-            drop_checksum(path)
             shutil.rmtree(path) if path.is_dir() else path.unlink()
     print(f"{len(left)} left over" + (", removed" if chosen.remove else "; make clean REMOVE=yes removes them" if left else ""))
 

@@ -26,7 +26,6 @@ from .passage import Passage
 
 SOURCES = Sources(
     "alignment.py",
-    "checksums.py",
     "kept.py",
     "lanes.py",
     "native.py",
