@@ -206,18 +206,16 @@ def test_energy_closes_where_the_tip_is_pressed_in():
     np.testing.assert_array_equal(kept["clearance"], Problem(model, 1000.0, scene, SHORT).casing.clearance)
 
 
-@pytest.mark.parametrize("shared_ring", [False, True])
 @pytest.mark.parametrize("engine", ["compiled", "reference"])
-def test_a_tip_in_the_lining_of_a_round_casing_lies_still(engine, shared_ring):
+def test_a_tip_in_the_lining_of_a_round_casing_lies_still(engine):
     """It has cut its way before: the lining is worn by as much as each node reaches into it, and presses nothing."""
-    scene = growing(replace(NARROW, lining=replace(NARROW.lining, shared_ring=shared_ring)), clearance=0.0, lobes=0)
+    scene = growing(NARROW, clearance=0.0, lobes=0)
     simulation = Simulation(moved(4, size=5e-5), 1000.0, scene, replace(SHORT, time_step=2e-6, engine=engine))
     state = simulation.start()
     assert not simulation.advance(state, 1).samples.any()
     depth = np.maximum(-simulation.problem.casing.clearance, 0.0)
     assert depth.max() > 1e-5 and depth.min() == 0.0
-    expected = depth.max(keepdims=True) if shared_ring else depth
-    np.testing.assert_array_equal(state.wear, np.repeat(expected[:, None], simulation.problem.casing.bars, axis=1))
+    np.testing.assert_array_equal(state.wear, np.repeat(depth[:, None], simulation.problem.casing.bars, axis=1))
 
 
 def test_a_tip_inside_of_the_casing_is_refused():

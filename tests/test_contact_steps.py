@@ -193,16 +193,14 @@ def test_work_of_the_contact_forces_is_that_of_forces_times_paths(contact, scene
     "scene",
     [
         NARROW,
-        replace(NARROW, lining=replace(NARROW.lining, shared_ring=True)),
         replace(NARROW, friction=replace(NARROW.friction, vector=False)),
         replace(NARROW, exact_gap=True),
         THIN,
         DIRECT,
         replace(DIRECT, friction=replace(DIRECT.friction, vector=False)),
-        replace(DIRECT, friction=replace(DIRECT.friction, coupled=False)),
         replace(DIRECT, exact_gap=True),
     ],
-    ids=["abradable", "shared", "constant", "exact", "thin", "direct", "direct_constant", "direct_after", "direct_exact"],
+    ids=["abradable", "constant", "exact", "thin", "direct", "direct_constant", "direct_exact"],
 )
 def test_energy_balance_closes_with_static_modes(contact, scene):
     simulation = Simulation(contact, 1600.0, scene, replace(LONG, revolutions=4))

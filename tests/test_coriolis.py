@@ -143,7 +143,6 @@ def test_contact_model_with_coriolis(coupled_blade, contact, tmp_path):
 SCENES = {
     "direct": DIRECT,
     "direct_constant": replace(DIRECT, friction=Friction(0.15, vector=False)),
-    "direct_after": replace(DIRECT, friction=Friction(0.15, coupled=False)),
     "direct_exact": replace(DIRECT, exact_gap=True),
     "abradable": ABRADABLE,
     "abradable_constant": replace(ABRADABLE, friction=Friction(0.15, vector=False)),

@@ -56,7 +56,7 @@ def test_a_product_and_its_sum_are_rounded_once(name):
 def test_a_program_leaves_no_rounding_to_the_compiler(monkeypatch):
     """No sum of it may be reordered or contracted, no quotient be made a product."""
     monkeypatch.setattr(program, "object_code", lambda assembly, *_: assembly)
-    direct = Kind(published=False, lined=False, vector_friction=True, exact_gap=False, coriolis=False)
+    direct = Kind(published=False, lined=False, exact_gap=False, coriolis=False)
     words = program.compile_integration(capacity_of(1, 1), direct).split()
     assert words.count("fadd") > 10 and any(word.startswith("@llvm.fmuladd.v8f64") for word in words)
     assert not {"fast", "reassoc", "contract", "arcp", "afn", "nnan", "ninf", "nsz"}.intersection(words)

@@ -49,7 +49,6 @@ def test_a_rotor_is_drawn_from_a_seed():
         ({"rotor": {"blades": 36, "mistuning_spread_percent": {"normal": 50.0}}}, "a narrower spread, a uniform one"),
         ({"results": ["signal"]}, "results: found signal with a rotor"),
         ({"lining": None}, "run a single blade for each"),
-        ({"lining": {"rings": "shared"}}, "one ring of bars per node"),
     ],
 )
 def test_what_cannot_be_run_is_refused_in_one_line(changes, message):

@@ -122,7 +122,7 @@ def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
         radius=np.repeat(model.radius, 2),
         theta=np.repeat(model.theta, 2),
     )
-    lining = replace(LINING, bars=bars, shared_ring=False)
+    lining = replace(LINING, bars=bars)
     kept = run_speed(
         two,
         SPEED,
@@ -177,19 +177,6 @@ def test_snapshots_are_the_last_samples_of_equal_parts(snapshots, kept):
         assert [first + n for first, last in pieces for n in grid.snapshots_between(first, last)] == expected
 
 
-@pytest.mark.parametrize(("against", "sign"), [(True, -1.0), (False, 1.0), (None, 1.0)])
-def test_rotation_slides_the_tip_with_its_own_speed(against, sign):
-    friction = None if against is None else SimpleNamespace(against_rotation=against)
-    run = SimpleNamespace(
-        scene=SimpleNamespace(friction=friction),
-        tip=SimpleNamespace(radius=np.array([0.25])),
-        grid=SimpleNamespace(speed=1000.0),
-    )
-    np.testing.assert_array_equal(CasingOfRun.rotation_velocity.fget(run), [sign * 250.0])
-
-
-@pytest.mark.parametrize(("lining", "rings"), [(None, 0), ("shared", 1), ("own", 3)])
-def test_a_lining_has_a_ring_for_all_nodes_or_one_each(lining, rings):
-    kind = None if lining is None else SimpleNamespace(shared_ring=lining == "shared")
-    run = SimpleNamespace(scene=SimpleNamespace(lining=kind), tip=SimpleNamespace(radius=np.ones(3)))
-    assert CasingOfRun.rings.fget(run) == rings
+def test_rotation_slides_the_tip_with_its_own_speed():
+    run = SimpleNamespace(tip=SimpleNamespace(radius=np.array([0.25])), grid=SimpleNamespace(speed=1000.0))
+    np.testing.assert_array_equal(CasingOfRun.rotation_velocity.fget(run), [-250.0])

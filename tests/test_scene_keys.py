@@ -21,10 +21,9 @@ LINING = {
     "plastic_modulus_pa": 2e9,
     "yield_stress_pa": 3.0,
     "bars": 500,
-    "rings": "per_node",
     "bar_width_m": 2e-3,
 }
-FRICTION = {"form": "vector", "coefficient": 0.2, "direction": "against_rotation", "coupling": "coupled"}
+FRICTION = {"form": "vector", "coefficient": 0.2}
 ENTRY = {
     "casing": CASING,
     "lining": LINING,
@@ -46,13 +45,10 @@ REACHES = {
     "lining.plastic_modulus_pa": (7e8, "lining.plastic_modulus", 7e8),
     "lining.yield_stress_pa": (7e6, "lining.yield_stress", 7e6),
     "lining.bars": (70, "lining.bars", 70),
-    "lining.rings": ("shared", "lining.shared_ring", True),
     "lining.bar_width_m": (7e-4, "lining.bar_width", 7e-4),
     "lining.bar_area_m2": (7e-7, "lining.bar_area", 7e-7),
     "friction.form": ("constant", "friction.vector", False),
     "friction.coefficient": (0.7, "friction.coefficient", 0.7),
-    "friction.direction": ("along_rotation", "friction.against_rotation", False),
-    "friction.coupling": ("after", "friction.coupled", False),
     "damping_ratio": (0.07, "damping_ratio", 0.07),
     "gap": ("exact", "exact_gap", True),
     "divergence_limit_m": (0.07, "divergence_limit", 0.07),

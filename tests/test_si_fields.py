@@ -96,7 +96,7 @@ def test_words_for_yes_are_among_those_of_their_keys():
     allowed = [schemas.MODELS[name].model_json_schema() for name in schemas.MODELS]
     properties = [part["properties"] for one in allowed for part in one["$defs"].values() if "properties" in part]
     words = {one.name: one for kind in (Friction, Lining, Scene, MeshSource) for one in declared_keys(kind) if one.key.words}
-    assert set(words) == {"form", "direction", "coupling", "rings", "gap", "pressure_side"}
+    assert set(words) == {"form", "gap", "pressure_side"}
     for name, one in words.items():
         enums = [part[name]["enum"] for part in properties if name in part]
         assert enums
@@ -156,7 +156,7 @@ def test_no_default_of_a_key_stands_in_the_code_again(root):
     keys |= {(name, repr(value)) for section in SECTIONS.values() for name, value in section_defaults(section)}
     keys |= {(line.target.id, repr(literal(line.value))) for tree in trees.values() for line in declarations(tree)}
     keys = {(name, value) for name, value in keys if value not in ("None", "()")}
-    assert {("bars", "10000"), ("shared_ring", "False"), ("stress_instants", "62"), ("amplitude", "2.0")} <= keys
+    assert {("bars", "10000"), ("stress_instants", "62"), ("amplitude", "2.0")} <= keys
     found = [
         f"{file.relative_to(core)}:{line}: {name} = {value!r}"
         for file, tree in trees.items()

@@ -87,14 +87,11 @@ ENGINES = ("compiled", "reference")
 SCENES = {
     "free": Scene(Casing(1.0, lobes=0)),
     "direct": DIRECT,
-    "direct_constant_after": replace(DIRECT, friction=Friction(0.15, vector=False, coupled=False)),
-    "direct_along": replace(DIRECT, friction=Friction(0.15, against_rotation=False)),
+    "direct_constant": replace(DIRECT, friction=Friction(0.15, vector=False)),
     "direct_exact": replace(DIRECT, exact_gap=True),
     "abradable_exact": replace(ABRADABLE, exact_gap=True),
-    "direct_vector_after": replace(DIRECT, friction=Friction(0.15, coupled=False)),
     "abradable_constant": replace(ABRADABLE, friction=Friction(0.15, vector=False)),
     "abradable": ABRADABLE,
-    "abradable_shared": replace(ABRADABLE, lining=replace(LINING, shared_ring=True)),
     "thin_lining": replace(ABRADABLE, lining=Lining(1e-4, 1e8, 5e7, 1e5, bar_width=0.03)),
 }
 
@@ -279,7 +276,7 @@ def test_divergence_is_a_result(contact, tmp_path):
 
 def test_a_run_that_blows_up_is_flagged_without_infinities(contact):
     """Friction feeding the blade through an absurd coefficient: numbers overflow, the file does not."""
-    scene = Scene(AT_ONCE, None, Friction(8.0, vector=False, coupled=False), damping_ratio=0.0, divergence_limit=1e300)
+    scene = Scene(AT_ONCE, None, Friction(8.0, vector=False), damping_ratio=0.0, divergence_limit=1e300)
     with np.errstate(all="ignore"):
         kept = run_speed(
             contact,

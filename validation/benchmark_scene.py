@@ -16,14 +16,13 @@ LINED = Scene(
         yield_stress=1.5,
         bar_width=1e-3,
         bars=10_000,
-        shared_ring=False,
     ),
-    friction=Friction(coefficient=0.15, vector=True, against_rotation=True, coupled=True),
+    friction=Friction(coefficient=0.15, vector=True),
     damping_ratio=5e-4,
     exact_gap=False,
     divergence_limit=0.1,
 )
-"""Source: section 5 of the benchmark; the lining's rings and bars as docs/validation.md chooses them."""
+"""Source: section 5 of the benchmark; the lining's bars as docs/validation.md chooses them."""
 
 
 def is_lined_benchmark(scene: Scene) -> bool:

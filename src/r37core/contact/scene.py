@@ -18,7 +18,7 @@ class Lining:
     """Lining of bars in front of the casing.
 
     Law after Legrand, Batailly and Pierre, J. Comput. Nonlinear Dyn. 7 (2012): yield in compression with linear hardening;
-    the plastic shortening is the wear. `shared_ring`: all tip nodes wear one ring, else each has its own.
+    the plastic shortening is the wear. Every contact node has a ring of bars of its own.
     """
 
     thickness: Annotated[float, Key("Distance from its surface to the casing behind it", "_m", ge=1e-6, le=1)]
@@ -26,14 +26,6 @@ class Lining:
     plastic_modulus: Annotated[float, Key("Hardening modulus of a bar as it wears", "_pa", ge=0, le=1e15)]
     yield_stress: Annotated[float, Key("Stress at which a bar starts to wear", "_pa", ge=0, le=1e15)]
     bars: Annotated[int, Key("Number of bars round the circumference", ge=10, le=10_000_000)] = 10000
-    shared_ring: Annotated[
-        bool,
-        Key(
-            "One ring of bars per contact node, or one for all (shared, for validation)",
-            name="rings",
-            words={"per_node": False, "shared": True},
-        ),
-    ] = False
     bar_width: Annotated[float, Key("Width of a bar along the casing's meridian", "_m", ge=1e-6, le=1)] = 0.001
     bar_area: Annotated[
         float | None, Key("Area of a bar, in place of width times arc length at the tip", "_m2", ge=1e-12, le=1)
@@ -48,9 +40,7 @@ class Lining:
 class Friction:
     """Always-sliding Coulomb friction.
 
-    `vector`: along the real sliding velocity (rotation plus vibration), else the vibration is neglected; `against_rotation`:
-    whether the rotation's part of the sliding velocity is the real one or reversed; `coupled`: whether the friction a casing
-    multiplier causes is part of the complementarity problem or added after it is solved.
+    `vector`: along the real sliding velocity (rotation plus vibration), else the vibration is neglected.
     """
 
     coefficient: Annotated[float, Key("Coulomb coefficient", ge=0, le=10)]
@@ -60,22 +50,6 @@ class Friction:
             "Friction against the full sliding velocity (vector) or the rotation alone (constant)",
             name="form",
             words={"constant": False, "vector": True},
-        ),
-    ] = True
-    against_rotation: Annotated[
-        bool,
-        Key(
-            "Direction of friction; along_rotation is unphysical, for validation",
-            name="direction",
-            words={"against_rotation": True, "along_rotation": False},
-        ),
-    ] = True
-    coupled: Annotated[
-        bool,
-        Key(
-            "Friction in the normal solve with bare casing (coupled), or added after it",
-            name="coupling",
-            words={"coupled": True, "after": False},
         ),
     ] = True
 

@@ -68,10 +68,6 @@ def _step(integrator: str) -> Fields:
     return lambda share: {"share_of_limit": share, "integrator": integrator, "revolutions": 20}
 
 
-def _friction(direction: str) -> Fields:
-    return lambda value: {"changes": {"friction.coefficient": value, "friction.direction": direction}}
-
-
 def _entry(path: str) -> Fields:
     return lambda value: {"changes": {path: value}}
 
@@ -89,8 +85,7 @@ EXTREMES: Mapping[str, tuple[Sequence[float], Fields]] = {
     "lobes": ((1, 5, 20), _entry("casing.lobes")),
     "ovalisation_in_clearances": ((0.0, 10.0), _entry("casing.amplitude_clearances")),
     "damping_ratio": ((0.0, 0.1, 0.999, 1.0), _entry("damping_ratio")),
-    "friction_against_rotation": ((0.0, 0.5, 1.0), _friction("against_rotation")),
-    "friction_along_rotation": ((0.0, 0.5, 1.0), _friction("along_rotation")),
+    "friction": ((0.0, 0.5, 1.0), _entry("friction.coefficient")),
     "lining_thickness": ((1e-6, 1e-4, 5e-2), _entry("lining.thickness_m")),
     "elastic_modulus": ((1e4, 1e6, 1e8, 1e10, 1e12), _entry("lining.elastic_modulus_pa")),
     "plastic_modulus": ((0.0, 1e4, 1e12), _entry("lining.plastic_modulus_pa")),

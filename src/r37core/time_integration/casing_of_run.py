@@ -46,8 +46,7 @@ class CasingOfRun:
     @property
     def rotation_velocity(self) -> np.ndarray:
         """What the rotation adds to the nodes' sliding over the casing (m/s), positive along the tangent, shape (nodes,)."""
-        friction = self.scene.friction
-        return self.tip.radius * self.grid.speed * (-1.0 if friction and friction.against_rotation else 1.0)
+        return -self.tip.radius * self.grid.speed
 
     @property
     def bar_area(self) -> float:
@@ -71,12 +70,6 @@ class CasingOfRun:
             return 0
         return min(lining.bars, self.grid.steps_per_revolution) if self.grid.choice.second_order else lining.bars
 
-    @property
-    def rings(self) -> int:
-        """How many rings of bars the lining has."""
-        lining = self.scene.lining
-        return 0 if lining is None else 1 if lining.shared_ring else len(self.tip.radius)
-
     def theta(self, step: np.ndarray | int) -> np.ndarray:
         """Angle (rad) of the undeformed contact nodes at a step of a revolution; the rotor turns towards negative theta."""
         return self.tip.theta - 2.0 * np.pi * step / self.grid.steps_per_revolution
@@ -87,8 +80,7 @@ class CasingOfRun:
 
         The speed was reached slowly, so the tip has cut its way and presses nothing.
         """
-        depth = np.maximum(-self.clearance, 0.0)
-        return (depth if self.rings == len(depth) else depth.max(keepdims=True))[:, None]
+        return np.maximum(-self.clearance, 0.0)[:, None]
 
     def gaps(self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.

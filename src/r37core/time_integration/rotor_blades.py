@@ -23,7 +23,7 @@ def refusal_of(scene: Scene) -> str | None:
         return None
     if scene.lining is None and not scene.casing.ring:
         return "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
-    return "one ring of bars per node (lining.rings: per_node)" if scene.lining and scene.lining.shared_ring else None
+    return None
 
 
 def blade_problems(

@@ -90,7 +90,7 @@ class BladesSimulation:
             return states
         wear = [problem.casing.initial_wear for problem in self.problems]
         if self.rotor.shared_lining:
-            shared = np.zeros((self.problem.casing.rings, self.problem.casing.bars)) + np.max(wear, axis=0)
+            shared = np.zeros((len(self.problem.casing.tip.radius), self.problem.casing.bars)) + np.max(wear, axis=0)
             for state in states:
                 state.wear = shared
         else:

@@ -123,7 +123,7 @@ class Simulation:
 def at_rest(problem: Problem) -> SimulationState:
     """A blade at rest, in an unworn lining, or in one that it has cut its way into."""
     directions, nodes, modes = problem.contact.displacement_operator.shape
-    wear = None if problem.scene.lining is None else np.zeros((problem.casing.rings, problem.casing.bars))
+    wear = None if problem.scene.lining is None else np.zeros((nodes, problem.casing.bars))
     if wear is not None and problem.scene.casing.changes_with_speed:
         wear += problem.casing.initial_wear
     forces = np.zeros((directions, nodes))

@@ -80,7 +80,7 @@ class SteppedBlade:
             return ratio < largest_pressed_ratio(self.scene)
 
         step, above = choice.time_step, choice.static_above
-        return stepped_modes(frequencies, rows, self.coupled_friction, step, above, below, is_stable)
+        return stepped_modes(frequencies, rows, self.friction_coefficient, step, above, below, is_stable)
 
     @cached_property
     def relaxation(self) -> float:
@@ -89,7 +89,7 @@ class SteppedBlade:
             return 1.0
         frequencies, rows = self._at_rest
         flexibility = residual_flexibility(frequencies[self._stepped :], rows[..., self._stepped :])
-        return relaxation(flexibility, self.coupled_friction)
+        return relaxation(flexibility, self.friction_coefficient)
 
     @property
     def _at_rest(self) -> tuple[np.ndarray, np.ndarray]:
@@ -97,10 +97,9 @@ class SteppedBlade:
         return np.sqrt(self.model.squared_frequencies), casing_axes(self.model.displacement_operator, self.cone_angle)
 
     @property
-    def coupled_friction(self) -> float:
-        """Coefficient of the friction that is part of the contact problem."""
-        friction = self.scene.friction
-        return friction.coefficient if friction is not None and friction.coupled else 0.0
+    def friction_coefficient(self) -> float:
+        """Coefficient of friction; 0 without."""
+        return self.scene.friction.coefficient if self.scene.friction else 0.0
 
     @cached_property
     def _modes_of_speed(self) -> tuple[np.ndarray, np.ndarray]:

@@ -76,9 +76,7 @@ def _varied(what: str, changes: Mapping[str, Any] | None = None, **model: Any) -
 VARIED = {
     BASELINE: _varied("as shipped"),
     "radial": _varied("radial normal: a cylindrical casing", {"casing.cone_angle_deg": 0}),
-    "along": _varied("friction along the rotation", {"friction.direction": "along_rotation"}),
     "constant": _varied("constant friction: the vibration's part of the sliding neglected", {"friction.form": "constant"}),
-    "shared": _varied("one ring shared by the nodes", {"lining.rings": "shared"}),
     **{
         f"width_{width:g}": _varied(f"bars {width:g} mm wide", {"lining.bar_width_m": 1e-3 * width})
         for width in (0.5, 0.8, 1.25, 2.0)
@@ -87,7 +85,6 @@ VARIED = {
     "suction": _varied("nodes on the suction edge", tip_line="suction_edge"),
     "inside": _varied("corners not among the nodes", corners=False),
     "exact": _varied("exact gap", {"gap": "exact"}),
-    "after": _varied("friction added after the normal solve", {"friction.coupling": "after"}),
     "yield_mpa": _varied("yield stress of the lining in MPa", {"lining.yield_stress_pa": 1.5e6}),
 }
 """Each choice varied once, cheaply: time integration of the quick level, 10,000 nodes. Compare with the first."""

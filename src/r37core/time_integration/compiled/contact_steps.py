@@ -15,8 +15,7 @@ from r37core.alignment import LANES
 from r37core.contact.node_sweeps import set_laws, sweep_nodes, wear_bars
 from r37core.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
-from .kind import LINED, VECTOR_FRICTION
-from .layout import NORMAL
+from .kind import LINED
 from .steps import bar_at, leave_casing, node_lanes, set_friction_of_listed, with_friction
 
 
@@ -37,7 +36,7 @@ def press_contact(m, place):
         joined = list_beyond(m, count, place)
         if joined == count:
             break
-        if VECTOR_FRICTION:
+        if m.follows_sliding != 0:
             set_friction_of_listed(m, c.listed, joined)
         for j in range(count, joined):
             set_column(m, c.listed[j])
@@ -89,9 +88,8 @@ def list_beyond(m, count, place):
 @inlined
 def set_column(m, k):
     """What a normal force on a node, with the friction that it brings, opens the gaps by at once."""
-    c, coupled = m.contact, m.coupled != 0
     for g in range(0, node_lanes(m), LANES):
-        store(c.columns, (k, g), with_friction(m, m.flexibility, k, g) if coupled else load(m.flexibility, (NORMAL, k, g)))
+        store(m.contact.columns, (k, g), with_friction(m, m.flexibility, k, g))
 
 
 @inlined

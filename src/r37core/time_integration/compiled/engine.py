@@ -21,7 +21,7 @@ from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
 from .kind import Kind
-from .layout import LINING, NORMAL, TANGENTIAL, Capacity, capacity_of, constants_record, integration_record
+from .layout import LINING, NORMAL, Capacity, capacity_of, constants_record, integration_record
 from .passage import Passage
 
 SOURCES = Sources(
@@ -96,13 +96,10 @@ class CompiledEngine:
         self.kind = kind = Kind(
             published=choice.integrator == CENTRAL_DIFFERENCE,
             lined=scene.lining is not None,
-            # other friction is rare with the exact gap and the Coriolis force: no program of its own
-            vector_friction=follows_sliding or scene.exact_gap or coriolis,
             exact_gap=scene.exact_gap,
             coriolis=coriolis,
         )
         self._advance = _program(self.capacity, kind)
-        self._constant_share: np.ndarray | None = None
         self._take_room(before)
         self._lay_out(problem)
         if problem.casing.ring is not None:
@@ -123,7 +120,7 @@ class CompiledEngine:
         m, constants = self.record[0], self.constants[speed_index]
         for name in constants.dtype.names:
             m["speed"][name][..., : constants[name].shape[-1]] = constants[name]
-        m["problem"]["diagonal"][: self._nodes] = np.diagonal(constants["columns"])[: self._nodes]
+        m["problem"]["diagonal"][: self._nodes] = np.diagonal(constants["coupling"][NORMAL])[: self._nodes]
         m["call"]["speed_index"] = speed_index
 
     def _take_room(self, before: CompiledEngine | None) -> None:
@@ -140,10 +137,7 @@ class CompiledEngine:
         _, recursion, coupling, plan, clearance, increments = segments
         fields = {"clearance": clearance}
         if coupling is not None:
-            normal = coupling[:, NORMAL]
-            # friction of constant direction is part of what a normal force does
-            response = normal if self._constant_share is None else normal + self._constant_share * coupling[:, TANGENTIAL]
-            fields |= {"coupling": coupling, "columns": normal, "response": response}
+            fields["coupling"] = coupling
         of_modes = {name: getattr(recursion, name) for name in ("keep", "pull", "inverse", "loss")}
         if self.kind.coriolis:
             of_modes["inverse_keep"] = 1.0 / recursion.keep
@@ -221,7 +215,6 @@ class CompiledEngine:
         self.put_modes(
             displacement_operator=problem.contact.displacement_operator,
             size_operator=problem.contact.size_operator,
-            push_operator=problem.contact.displacement_operator[NORMAL],
             outputs=problem.contact.output_operator[None, :, : self._modes],
         )
         self.put(
@@ -232,8 +225,6 @@ class CompiledEngine:
             nodes=self._nodes,
             vectors=np.array([self.mode_lanes, self._node_lanes]) // LANES,
             pairs=self._pairs,
-            coupled=problem.scene.friction is None or problem.scene.friction.coupled,
-            rings=problem.casing.rings,
             steps_per_revolution=problem.grid.steps_per_revolution,
             steps_per_block=problem.grid.steps_per_sample,
             samples_per_snapshot=problem.grid.samples_per_snapshot,
@@ -241,7 +232,6 @@ class CompiledEngine:
         if self.kind.coriolis:
             self.put_modes(
                 increment_operator=problem.contact.increment_operator,
-                increment_push_operator=problem.contact.increment_operator[NORMAL],
                 increment_outputs=problem.contact.output_operator[None, :, self._modes : 2 * self._modes],
             )
 
@@ -280,13 +270,7 @@ class CompiledEngine:
         velocity = problem.casing.rotation_velocity
         self.put(friction=friction.coefficient, rotation=velocity * problem.grid.time_step)
         if not friction.vector:
-            share = friction.coefficient * np.sign(velocity)[:, None]
-            operator, increments = problem.contact.displacement_operator, problem.contact.increment_operator
-            self._constant_share = share
-            self.put(friction_share=np.stack([share[:, 0], np.zeros(self._nodes)]))
-            self.put_modes(push_operator=operator[NORMAL] + share * operator[TANGENTIAL])
-            if self.kind.coriolis:
-                self.put_modes(increment_push_operator=increments[NORMAL] + share * increments[TANGENTIAL])
+            self.put(friction_share=np.stack([friction.coefficient * np.sign(velocity), np.zeros(self._nodes)]))
 
     def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
         m = self.record[0]

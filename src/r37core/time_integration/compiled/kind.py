@@ -13,14 +13,11 @@ class Kind(NamedTuple):
     """The time integration of a scene.
 
     `published`: the integrator is central_difference, whose forces correct the prediction; else they are those at t_n, see
-    contact_steps. `lined`, `exact_gap`: see Scene. `vector_friction`: along the real sliding velocity; friction of constant
-    direction is in the push rows and responses, but with `exact_gap` or `coriolis` it is a vector that stays. `coriolis`:
-    modes are complex, see r37core.time_integration.gyroscopic.
+    contact_steps. `lined`, `exact_gap`: see Scene. `coriolis`: modes are complex, see r37core.time_integration.gyroscopic.
     """
 
     published: bool
     lined: bool
-    vector_friction: bool
     exact_gap: bool
     coriolis: bool
 
@@ -30,4 +27,4 @@ class Kind(NamedTuple):
         return {name.upper(): value for name, value in self._asdict().items()}
 
 
-PUBLISHED = LINED = VECTOR_FRICTION = EXACT_GAP = CORIOLIS = False
+PUBLISHED = LINED = EXACT_GAP = CORIOLIS = False

@@ -120,8 +120,6 @@ def constants_record(modes: int, nodes: int) -> np.dtype:
             *_fields("jumps", STRIDES, _NUMBERS_OF_A_JUMP, modes),
             # normal displacement of the last node per force in the three directions on the one before
             *_fields("coupling", 3, nodes, nodes),
-            # opening of the last node's gap per unit multiplier of the one before: with friction, and as the problem has it
-            *_fields("response columns", nodes, nodes),
             *_fields("clearance", nodes),  # of the round casing (m)
             *_fields("slow_modes", STRIDES, kind=np.int64),
         ]
@@ -168,17 +166,16 @@ def integration_record(capacity: Capacity) -> np.dtype:
             # had there been no force
             *_fields("u increment last_increment last_second_difference", modes),
             *_fields("push increment_push", modes),  # forces on the modes and, with Coriolis, on their increments
-            # displacement of the nodes per mode, the size of it per amplitude that turns, and what a unit normal force does to
-            # the modes, with constant friction
+            # displacement of the nodes per mode, and the size of it per amplitude that turns
             *_fields("displacement_operator size_operator", 3, nodes, modes),
-            *_fields("push_operator", nodes, modes),
             *_fields("outputs", 1, modes, modes),
             *_fields("sample", modes),
             # with Coriolis the same per increment
             *_fields("increment_operator", 3, nodes, modes),
-            *_fields("increment_push_operator", nodes, modes),
             *_fields("increment_outputs", 1, modes, modes),
             *_fields("friction_share", 2, nodes),  # tangential and meridional force per normal force
+            # with central differences: opening of the last node's gap per unit multiplier of the one before, with friction
+            *_fields("response", nodes, nodes),
             *_fields("force", nodes),
             *_fields("friction_force", 2, nodes),
             # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
@@ -205,9 +202,9 @@ def integration_record(capacity: Capacity) -> np.dtype:
             *_fields("limit friction"),
             # how much of the record is used: vectors of modes and of nodes; numbers
             *_fields("vectors", 2, kind=np.int64),
-            *_fields("pairs number_of_outputs nodes rings", kind=np.int64),
-            # whether it jumps, friction is part of the complementarity problem, and its direction follows the sliding
-            *_fields("jumping coupled follows_sliding", kind=np.int64),
+            *_fields("pairs number_of_outputs nodes", kind=np.int64),
+            # whether it jumps, and the direction of friction follows the sliding
+            *_fields("jumping follows_sliding", kind=np.int64),
             *_fields("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),
             ("call", CALL, ()),
         ]

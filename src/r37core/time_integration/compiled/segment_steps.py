@@ -8,7 +8,7 @@ from __future__ import annotations
 from r37core.alignment import LANES
 from r37core.lanes import inlined, integers_at, load, numbers_at, numbers_of, store
 
-from .layout import MODAL_ROWS
+from .layout import MODAL_ROWS, NORMAL
 from .steps import mode_lanes
 
 OTHERS = 0
@@ -39,7 +39,7 @@ def take_speed(m, index):
     for i in range(0, OTHERS, LANES):
         store(own, MODAL_ROWS * most + i, load(table, first + MODAL_ROWS * modes + i))
     for k in range(m.nodes):
-        m.problem.diagonal[k] = m.speed.columns[k, k]
+        m.problem.diagonal[k] = m.speed.coupling[NORMAL, k, k]
     for i in range(0, mode_lanes(m), LANES):
         of_displacement = load(m.speed.increment_by_displacement, i) * load(m.u, i)
         store(m.increment, i, of_displacement + load(m.speed.increment_by_velocity, i) * load(m.increment, i))
@@ -52,7 +52,7 @@ def end_segment(m, segment):
     put_motion(m, 2 * segment + 1)
     if m.call.wear != 0 and m.call.worn != 0:
         largest, wear = 0.0, numbers_at(m.call.wear)
-        for bar in range(m.rings * int(m.lining.bars)):
+        for bar in range(m.nodes * int(m.lining.bars)):
             largest = max(largest, wear[bar])
         numbers_at(m.call.worn)[segment] = largest
 

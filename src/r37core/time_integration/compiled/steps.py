@@ -18,7 +18,7 @@ from r37core.contact.complementarity import list_nodes, solve_complementarity
 from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping
 from r37core.lanes import bits_of, flag_at, inlined, lanes_of, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
 
-from .kind import CORIOLIS, EXACT_GAP, LINED, PUBLISHED, VECTOR_FRICTION
+from .kind import CORIOLIS, EXACT_GAP, LINED, PUBLISHED
 from .layout import MERIDIONAL, NORMAL, OF_MODES, OF_NODES, TANGENTIAL
 
 FEW_NODES = 3
@@ -134,12 +134,7 @@ def measure_exact_gaps(m, place, lobes):
 
 @inlined
 def set_friction(m, g, tangential, meridional):
-    """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m).
-
-    Friction of constant direction stays as it is.
-    """
-    if m.follows_sliding == 0:
-        return
+    """Vector friction per normal force on the nodes from g on, against their sliding in the last step (m)."""
     # a normal force is negative
     along_tangent, along_meridian = _friction_direction(load(m.rotation, g) + tangential, meridional, -m.friction)
     store(m.friction_share, (0, g), along_tangent)
@@ -206,9 +201,7 @@ def bar_at(m, k, place):
     if EXACT_GAP:
         while bar >= bars:
             bar -= bars
-    if m.rings > 1:
-        bar += k * bars
-    return bar
+    return bar + k * bars
 
 
 @inlined
@@ -216,7 +209,7 @@ def press_lining(m, place):
     """Normal forces of the bars that the nodes press, which wear them; whether a node reaches the casing behind the lining."""
     p, lining, wear = m.problem, m.lining, numbers_at(m.call.wear)
     count = list_nodes(m.beyond, p.listed)
-    if VECTOR_FRICTION:
+    if m.follows_sliding != 0:
         # the same sums
         if count > FEW_NODES:
             set_friction_against_last(m)
@@ -234,10 +227,7 @@ def press_lining(m, place):
         gap = load(p.gap, g) + lining.thickness
         for j in range(count):
             k = p.listed[j]
-            if VECTOR_FRICTION:
-                gap -= with_friction(m, m.speed.coupling, k, g) * m.force[k]
-            else:
-                gap -= load(m.speed.response, (k, g)) * m.force[k]
+            gap -= with_friction(m, m.speed.coupling, k, g) * m.force[k]
         store(p.gap, g, gap)
         any_closed |= bits_of(gap < 0.0)
     return any_closed != 0
@@ -247,12 +237,12 @@ def press_lining(m, place):
 def press_casing(m):
     """Add the Lagrange multipliers of direct contact, keep the set of touching nodes."""
     p = m.problem
-    if VECTOR_FRICTION:
+    if m.follows_sliding != 0:
         # the others' reaction may bring any of them to the casing
         set_friction_against_last(m)
-        for k in range(m.nodes):
-            for g in range(0, node_lanes(m), LANES):
-                store(m.speed.response, (k, g), with_friction(m, m.speed.coupling, k, g))
+    for k in range(m.nodes):
+        for g in range(0, node_lanes(m), LANES):
+            store(m.response, (k, g), with_friction(m, m.speed.coupling, k, g))
     guessed = 0
     for g in range(node_lanes(m) // LANES):
         p.touching[g] = m.on_casing[g]
@@ -260,7 +250,7 @@ def press_casing(m):
     if guessed == 0:
         for g in range(0, node_lanes(m), LANES):
             p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0)
-    violation = solve_complementarity(p, m.speed.response if m.coupled != 0 else m.speed.columns)
+    violation = solve_complementarity(p, m.response)
     m.totals.worst_complementarity = max(m.totals.worst_complementarity, violation)
     for g in range(0, node_lanes(m), LANES):
         multiplier = load(p.multiplier, g)
@@ -339,30 +329,24 @@ def add_pushes(m, first, second, both):
     of_first = m.force[first], m.friction_force[0, first], m.friction_force[1, first]
     of_second = m.force[second], m.friction_force[0, second], m.friction_force[1, second]
     for i in range(0, mode_lanes(m), LANES):
-        push = pushed(m.displacement_operator, m.push_operator, first, i, of_first, load(m.push, i))
+        push = pushed(m.displacement_operator, first, i, of_first, load(m.push, i))
         if both:
-            push = pushed(m.displacement_operator, m.push_operator, second, i, of_second, push)
+            push = pushed(m.displacement_operator, second, i, of_second, push)
         store(m.push, i, push)
         if CORIOLIS:
-            push = pushed(m.increment_operator, m.increment_push_operator, first, i, of_first, load(m.increment_push, i))
+            push = pushed(m.increment_operator, first, i, of_first, load(m.increment_push, i))
             if both:
-                push = pushed(m.increment_operator, m.increment_push_operator, second, i, of_second, push)
+                push = pushed(m.increment_operator, second, i, of_second, push)
             store(m.increment_push, i, push)
 
 
 @inlined
-def pushed(rows, constant_rows, k, i, force, push):
-    """`push` on the eight modes from i on and what a node's `force`, normal, tangential and meridional, adds to it.
-
-    `constant_rows` have friction of constant direction in them, for the normal force alone.
-    """
+def pushed(rows, k, i, force, push):
+    """`push` on the eight modes from i on and what a node's `force`, normal, tangential and meridional, adds to it."""
     normal, tangential, meridional = force
-    if VECTOR_FRICTION:
-        push += load(rows, (NORMAL, k, i)) * normal
-        push += load(rows, (TANGENTIAL, k, i)) * tangential
-        push += load(rows, (MERIDIONAL, k, i)) * meridional
-    else:
-        push += load(constant_rows, (k, i)) * normal
+    push += load(rows, (NORMAL, k, i)) * normal
+    push += load(rows, (TANGENTIAL, k, i)) * tangential
+    push += load(rows, (MERIDIONAL, k, i)) * meridional
     return push
 
 
@@ -404,8 +388,7 @@ def meet(m, place, work, lost):
         press_casing(m)
     else:
         leave_casing(m)
-    if VECTOR_FRICTION:
-        set_friction_force(m)
+    set_friction_force(m)
     return push_blade(m, work, lost)
 
 

@@ -193,11 +193,6 @@ class ReferenceEngine:
         share = -friction.coefficient / np.hypot(along, across)
         return np.array([towards_axis, share * along, share * across])
 
-    def _solved_for(self, directions: np.ndarray) -> np.ndarray:
-        """The part of the directions that the normal forces are solved with: all of it, or without friction added after."""
-        friction = self.problem.scene.friction
-        return directions if friction is None or friction.coupled else directions * [[1.0], [0.0], [0.0]]
-
     def _modal(self, forces: np.ndarray) -> np.ndarray:
         """Modal forces of forces (N) on the nodes, shape (3, nodes, ...)."""
         return np.einsum("dk...,dki->...i", forces, self.rows)
@@ -210,7 +205,7 @@ class ReferenceEngine:
         Node by node the force that its law says while the others keep theirs, until none changes by more than round-off.
         """
         lining, nodes = self.problem.scene.lining, range(len(gap))
-        opening = -np.einsum("dk,dkg->gk", self._solved_for(directions), self.flexibility)
+        opening = -np.einsum("dk,dkg->gk", directions, self.flexibility)
         bars = [] if wear is None else [self._bar(theta[k], k, wear) for k in nodes]
         worn = [] if wear is None else [wear[bar] for bar in bars]
         pressure, touching = np.zeros(len(gap)), np.zeros(len(gap), dtype=bool)
@@ -241,9 +236,8 @@ class ReferenceEngine:
 
     def _bar(self, theta: float, node: int, wear: np.ndarray) -> tuple[int, int]:
         """Ring and number of the bar that a node at an angle (rad) meets."""
-        lining, bars = self.problem.scene.lining, wear.shape[1]
-        assert lining is not None
-        return 0 if lining.shared_ring else node, int(np.floor(theta / (2.0 * np.pi) * bars)) % bars
+        bars = wear.shape[1]
+        return node, int(np.floor(theta / (2.0 * np.pi) * bars)) % bars
 
     def _press_bar(self, penetration: float, wear: float, lining: Lining, modulus: float) -> tuple[float, float]:
         """Normal force (N) and new wear (m) of a bar of elastic `modulus` (Pa) that is pressed to a `penetration` (m).
@@ -273,7 +267,7 @@ class ReferenceEngine:
         if not np.any(gap < 0.0):
             return np.zeros(len(gap))
         # of each node's unit multiplier, along the last axis
-        forces = self._solved_for(directions)[:, :, None] * np.eye(len(gap))
+        forces = directions[:, :, None] * np.eye(len(gap))
         return complementary(-self.normal @ self.motion.response @ self._modal(forces).T, gap)
 
 
