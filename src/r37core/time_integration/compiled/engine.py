@@ -131,6 +131,7 @@ class CompiledEngine:
         else:
             self.record, self._corners = aligned_zeros((1,), integration_record(self.capacity)), {}
         self.address = self.record.ctypes.data
+        self._addresses = np.array([self.address], dtype=np.uint64)
 
     def _table_of(self, segments: Segments) -> np.ndarray:
         """The segments as they stand in the record, shape (segments,)."""
@@ -205,7 +206,11 @@ class CompiledEngine:
 
     def call(self) -> int:
         """Do what the record asks for; returns the blocks done."""
-        return int(self._advance(self.address))
+        return self.call_together(self._addresses)
+
+    def call_together(self, addresses: np.ndarray) -> int:
+        """Do what the records of several blades in one elastic casing ask for, of one capacity and kind, at `addresses`."""
+        return int(self._advance(addresses.ctypes.data, len(addresses)))
 
     def _lay_out(self, problem: Problem) -> None:
         m = self.record[0]
@@ -323,4 +328,4 @@ def _program(capacity: Capacity, kind: Kind) -> Callable:
         return compile_integration(capacity, kind)
 
     code = cached_object("time_integration", SOURCES, (capacity, kind), build)
-    return load_function(code, "advance", ctypes.c_int64, ctypes.c_void_p)
+    return load_function(code, "advance", ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64)

@@ -2,23 +2,15 @@
 
 from __future__ import annotations
 
-import ctypes
-from collections.abc import Callable, Sequence
-from functools import cache
+from collections.abc import Sequence
 
 import numpy as np
-
-from r37core.native import Sources, cached_object, load_function
 
 from ..jump_numbers import LOSS_DD, LOSS_UD, LOSS_UU
 from ..run_length import revolutions_at_once
 from ..state import SimulationRecord, SimulationState
-from .engine import SOURCES, CompiledEngine
-from .kind import Kind
-from .layout import Capacity
+from .engine import CompiledEngine
 from .passage import Passage
-
-_SOURCES = Sources(*SOURCES.files, "time_integration/compiled/lockstep_program.py")
 
 
 def advance_in_lockstep(
@@ -43,7 +35,7 @@ def advance_in_lockstep(
         blocks = min(blocks, samples - done)
         for passage in passages:
             passage.ask(blocks)
-        reached = int(_program(first.capacity, first.kind)(addresses.ctypes.data, blades))
+        reached = first.call_together(addresses)
         done += reached
         for passage in passages:
             passage.done = done
@@ -60,16 +52,3 @@ def _take_casing(engine: CompiledEngine, first: CompiledEngine) -> None:
         own[name][..., mine] = other[name][..., theirs]
     own["loss"][mine] = 0.0
     own["jumps"][:, [LOSS_UU, LOSS_UD, LOSS_DD], mine] = 0.0
-
-
-@cache
-def _program(capacity: Capacity, kind: Kind) -> Callable:
-    """The program of lockstep_program, compiled if it is not there yet."""
-
-    def build() -> bytes:
-        from .lockstep_program import compile_lockstep
-
-        return compile_lockstep(capacity, kind)
-
-    code = cached_object("rotor_in_an_elastic_casing", _SOURCES, (capacity, kind), build)
-    return load_function(code, "advance", ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64)

@@ -1,14 +1,19 @@
-"""The program of the compiled engine: its loop over steps, compiled for this processor. Imports numba, so only when needed."""
+"""The program of the compiled engine: its loop over steps, compiled for this processor. Imports numba, so only when needed.
+
+It takes one blade, or all blades that press one elastic casing: these do a step before any does the next. Every blade has a
+record, and in it the casing's modes, in the rotor's frame that all share. Between contacts these move by themselves, alike in
+all records. A step's pushes on them are summed over the blades, and each record takes the sum: so the casing's motion has the
+same bits in all. Its work and loss count in the first record; the others are laid out without its loss.
+"""
 
 from __future__ import annotations
-
-from typing import Any
 
 import numba
 import numpy as np
 from numba import types
 
-from r37core.lanes import OPTIONS, inlined, pointed_at, spread, sum_of_lanes
+from r37core.alignment import LANES
+from r37core.lanes import OPTIONS, inlined, load, pointed_at, spread, store, sum_of_lanes
 from r37core.native import object_code
 from r37core.program_constants import with_constants
 
@@ -19,113 +24,235 @@ from .kind import EXACT_GAP, PUBLISHED, Kind
 from .layout import MODAL_ROWS, Capacity, constants_record, integration_record
 from .ring_steps import turn_jump, turn_step
 from .segment_steps import begin_segment, end_segment
-from .steps import leave_casing, list_pressed, measure_exact_gaps, measure_gaps, meet, node_lanes, predict, push_blade, record
+from .steps import (
+    leave_casing,
+    list_pressed,
+    measure_exact_gaps,
+    measure_gaps,
+    meet,
+    mode_lanes,
+    node_lanes,
+    predict,
+    push_lanes,
+    record,
+    sum_pushes,
+)
 
 
 @inlined
-def _integrate(address):
+def _begin_segment(addresses, blades, segment):
+    """Let all blades go on at the speed of a segment; returns its blocks of steps."""
+    blocks = 0
+    for b in range(blades):
+        blocks = begin_segment(pointed_at(addresses[b]), segment)
+    return blocks
+
+
+@inlined
+def _find_forces(addresses, blades):
+    """Whether there are forces at t_n on any blade, which its next step follows."""
+    any_forces = False
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        m.follows = int(list_pressed(m) > 0)
+        any_forces |= m.follows != 0
+    return any_forces
+
+
+@inlined
+def _begin_block(addresses, blades):
+    """No work and no loss yet."""
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        store(m.block_work, 0, 0.0)
+        store(m.block_loss, 0, 0.0)
+
+
+@inlined
+def _choose_jump(addresses, blades, interval, first_stride, left, remaining):
+    """Stride of the longest jump that all blades can do, -1 if there is none."""
+    stride = first_stride
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        stride = choose_jump(m, interval * node_lanes(m), stride, left, remaining)
+        if stride < 0:
+            break
+    return stride
+
+
+@inlined
+def _jump(addresses, blades, stride):
+    """Let all blades do the steps of a jump."""
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        store(m.block_loss, 0, jump_ahead(m, stride, load(m.block_loss, 0)))
+        if m.pairs > 0:
+            turn_jump(m, stride)
+        m.totals.steps_jumped += m.flight.lengths[stride]
+        leave_casing(m)
+
+
+@inlined
+def _fly(addresses, blades):
+    """The free step of all blades, and what the forces on each are to its modes; returns whether there are any."""
+    pushed = False
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        store(m.block_loss, 0, predict(m, load(m.block_loss, 0)))
+        if not PUBLISHED and m.follows != 0:
+            sum_pushes(m)
+            pushed = True
+    return pushed
+
+
+@inlined
+def _first_of_casing(m):
+    """The first lane of the casing's modes."""
+    return mode_lanes(m) - 2 * m.pairs
+
+
+@inlined
+def _share_pushes(addresses, blades):
+    """Give every record the pushes of all blades on the casing's modes."""
+    first = pointed_at(addresses[0])
+    for i in range(0, 2 * first.pairs, LANES):
+        total = spread(0.0)
+        for b in range(blades):
+            m = pointed_at(addresses[b])
+            if m.follows != 0:
+                total += load(m.push, _first_of_casing(m) + i)
+        for b in range(blades):
+            m = pointed_at(addresses[b])
+            store(m.push, _first_of_casing(m) + i, total)
+
+
+@inlined
+def _push(m, counted):
+    """Push a blade and the casing, whose work is `counted` with one of them."""
+    work, lost, casing = load(m.block_work, 0), load(m.block_loss, 0), _first_of_casing(m)
+    if m.follows != 0:
+        work, lost = push_lanes(m, 0, casing, work, lost)
+    work_of_both, lost_of_both = push_lanes(m, casing, mode_lanes(m), work, lost)
+    if counted:
+        work, lost = work_of_both, lost_of_both
+    store(m.block_work, 0, work)
+    store(m.block_loss, 0, lost)
+
+
+@inlined
+def _meet(m, place, lobes):
+    """The forces on a blade after a step; returns whether it is beyond the lining or casing."""
+    beyond = measure_exact_gaps(m, place, lobes) if EXACT_GAP else measure_gaps(m, place, lobes)
+    if PUBLISHED and beyond:
+        work, lost = meet(m, place, load(m.block_work, 0), load(m.block_loss, 0))
+        store(m.block_work, 0, work)
+        store(m.block_loss, 0, lost)
+    elif beyond:
+        m.follows = int(press_contact(m, place))
+    elif not PUBLISHED and m.follows != 0:
+        release_contact(m)
+        m.follows = 0
+    else:
+        leave_casing(m)
+    return beyond
+
+
+@inlined
+def _end_block(addresses, blades, block, row):
+    """Add up a block of steps, keep its samples and, unless `row` is -1, snapshots; whether all are within the limit."""
+    within = True
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        m.totals.work += 0.5 * sum_of_lanes(load(m.block_work, 0))
+        m.totals.loss += sum_of_lanes(load(m.block_loss, 0))
+        m.totals.steps += m.steps_per_block
+        within &= record(m, block, row, m.follows != 0)
+    return within
+
+
+@inlined
+def _integrate(addresses, blades):
     """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN."""
-    m = pointed_at(address)
-    at_once = np.isinf(m.casing.rise)
-    decay = 0.0 if at_once else np.exp(-m.casing.rise)
-    coarse_per_block = (m.steps_per_block + COARSE - 1) // COARSE
+    first = pointed_at(addresses[0])
+    at_once = np.isinf(first.casing.rise)
+    decay = 0.0 if at_once else np.exp(-first.casing.rise)
+    steps_per_block = first.steps_per_block
+    coarse_per_block = (steps_per_block + COARSE - 1) // COARSE
     # any integers for numba: what it gives a plain 0 or 1 to is compiled for just that, too
-    zero, one = int(np.int64(0)), int(np.int64(1))
-    beyond, bounded, first_stride = False, False, one
-    # whether there are forces at t_n, which the next step follows
-    follows = False
+    zero, shortest = int(np.int64(0)), int(np.int64(1))
+    # whether a node is beyond the lining or casing, or there are forces at t_n
+    busy, bounded, within, first_stride = False, False, True, shortest
     done = kept = segment = until = zero
-    first_block = m.call.first_step // m.steps_per_block
-    place = m.call.first_step % m.steps_per_revolution
+    first_block = first.call.first_step // steps_per_block
+    place = first.call.first_step % first.steps_per_revolution
     # of the steps' intervals in which the casing's nearest is known, the first of this block
-    interval = place // m.steps_per_block * coarse_per_block
-    while done < m.call.blocks:
+    interval = place // steps_per_block * coarse_per_block
+    while done < first.call.blocks and within:
         begins = done == until
         if begins:
-            until += begin_segment(m, segment)
-        start = m.call.first_step + done * m.steps_per_block
-        remaining = 0.0 if at_once else np.exp(-m.casing.rise * (start + m.call.ahead))
+            until += _begin_segment(addresses, blades, segment)
+        start = first.call.first_step + done * steps_per_block
+        remaining = 0.0 if at_once else np.exp(-first.casing.rise * (start + first.call.ahead))
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
-            beyond, bounded, first_stride = False, False, one
+            busy, bounded, first_stride = False, False, shortest
             if not PUBLISHED:
-                follows = list_pressed(m) > 0
-        work = lost = spread(0.0)
+                busy = _find_forces(addresses, blades)
+        _begin_block(addresses, blades)
         position = 0
-        while position < m.steps_per_block:
-            if position % COARSE == 0 and m.jumping != 0 and not beyond and not follows:
+        while position < steps_per_block:
+            if position % COARSE == 0 and first.jumping != 0 and not busy:
                 if not bounded:
-                    bound_amplitudes(m)
+                    for b in range(blades):
+                        bound_amplitudes(pointed_at(addresses[b]))
                     bounded = True
-                nearest = (interval + position // COARSE) * node_lanes(m)
-                left = m.steps_per_block - position
-                stride = choose_jump(m, nearest, first_stride, left, remaining)
+                left = steps_per_block - position
+                stride = _choose_jump(addresses, blades, interval + position // COARSE, first_stride, left, remaining)
                 first_stride = max(min(stride + 1, STRIDES - 1), 1)
                 if stride >= 0:
-                    lost = jump_ahead(m, stride, lost)
-                    if m.pairs > 0:
-                        turn_jump(m, stride)
-                    remaining *= m.flight.decay[stride]
-                    position += m.flight.lengths[stride]
-                    m.totals.steps_jumped += m.flight.lengths[stride]
-                    leave_casing(m)
+                    _jump(addresses, blades, stride)
+                    remaining *= first.flight.decay[stride]
+                    position += first.flight.lengths[stride]
                     continue
             position += 1
             remaining *= decay
-            lost = predict(m, lost)
-            here = place + position if place + position < m.steps_per_revolution else 0
-            lobes = m.casing.amplitude * (1.0 - remaining)
-            if not PUBLISHED and follows:
-                work, lost = push_blade(m, work, lost)
+            here = place + position if place + position < first.steps_per_revolution else 0
+            lobes = first.casing.amplitude * (1.0 - remaining)
+            pushed = _fly(addresses, blades)
+            if pushed:
+                _share_pushes(addresses, blades)
+            busy = False
+            for b in range(blades):
+                m = pointed_at(addresses[b])
+                if not PUBLISHED and pushed:
+                    _push(m, b == 0)
+                if m.pairs > 0:
+                    turn_step(m)
+                busy |= _meet(m, here, lobes)
+            if pushed or (PUBLISHED and busy):
                 bounded = False
-            if m.pairs > 0:
-                turn_step(m)
-            beyond = measure_exact_gaps(m, here, lobes) if EXACT_GAP else measure_gaps(m, here, lobes)
-            if PUBLISHED and beyond:
-                work, lost = meet(m, here, work, lost)
-                bounded = False
-            elif beyond:
-                follows = press_contact(m, here)
-            elif not PUBLISHED and follows:
-                release_contact(m)
-                follows = False
-            else:
-                leave_casing(m)
-        m.totals.work += 0.5 * sum_of_lanes(work)
-        m.totals.loss += sum_of_lanes(lost)
-        m.totals.steps += m.steps_per_block
         # of the samples from the first snapshot's revolution on, every so many-th
-        due = first_block + done + 1 - m.samples_before_snapshots
-        taken = m.samples_per_snapshot > 0 and due > 0 and due % m.samples_per_snapshot == 0
-        within = record(m, done, kept if taken else -1, follows)
+        due = first_block + done + 1 - first.samples_before_snapshots
+        taken = first.samples_per_snapshot > 0 and due > 0 and due % first.samples_per_snapshot == 0
+        within = _end_block(addresses, blades, done, kept if taken else -1)
         kept += taken
         done += 1
         # counted on, not divided: a block may have two steps
-        place, interval = place + m.steps_per_block, interval + coarse_per_block
-        if place == m.steps_per_revolution:
+        place, interval = place + steps_per_block, interval + coarse_per_block
+        if place == first.steps_per_revolution:
             place = interval = zero
         if done == until or not within:
-            end_segment(m, segment)
+            for b in range(blades):
+                end_segment(pointed_at(addresses[b]), segment)
             segment += 1
-        if not within:
-            break
     return done
 
 
 def compile_integration(capacity: Capacity, kind: Kind) -> bytes:
-    """Object code of `advance(record)`: a function of the record's address that returns the blocks of steps done."""
-    return compile_loop(_integrate, types.int64(address_of(capacity)), capacity, kind)
-
-
-def address_of(capacity: Capacity) -> types.CPointer:
-    """The type of a record's address."""
-    return types.CPointer(numba.from_dtype(integration_record(capacity)))
-
-
-def compile_loop(integrate: Any, signature: Any, capacity: Capacity, kind: Kind) -> bytes:
-    """Object code of a loop over steps of this signature, called `advance`."""
+    """Object code of `advance(records, count)`: a function of the records' addresses that returns the blocks of steps done."""
+    records = types.CPointer(types.CPointer(numba.from_dtype(integration_record(capacity))))
     others = constants_record(*capacity).itemsize // 8 - MODAL_ROWS * capacity.modes
-    integrate = with_constants(integrate, kind.constants | {"OTHERS": others})
+    integrate = with_constants(_integrate, kind.constants | {"OTHERS": others})
     # the loop itself, not a function around it: what a compiled function calls was optimised and emitted once already
-    advance = numba.cfunc(signature, **OPTIONS)(integrate.py_func)
+    advance = numba.cfunc(types.int64(records, types.int64), **OPTIONS)(integrate.py_func)
     return object_code(advance.inspect_llvm(), advance.native_name, "advance")
