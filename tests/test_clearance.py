@@ -27,8 +27,8 @@ from r37core.run_ups import revolutions
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
+from r37core.stress.operator import von_mises
 from r37core.stress.recovery import stress_operator
-from r37core.stress.von_mises import von_mises
 from r37core.time_integration.clearance import NoRoomError, check_room, clearances, growth
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation

@@ -12,10 +12,10 @@ from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import EXTENSIONS
 from r37core.product.remarks import line_of_extension
-from r37core.rotors import closing as rotors
-from r37core.run_ups import closing as run_ups
+from r37core.rotors import dataset as rotors
+from r37core.run_ups import tables as run_ups
 from r37core.search import dataset as search
-from r37core.signals import closing as signals
+from r37core.signals import dataset as signals
 from r37core.tolerances import table as tolerances
 
 
@@ -51,7 +51,7 @@ def test_an_extension_without_a_word_names_what_a_person_opens_first(line, tmp_p
 
 def test_an_extension_s_own_word(line, tmp_path):
     pd.DataFrame({"diverged_speeds": [0]}).to_csv(tmp_path / "rotors.csv", index=False)
-    said = line(extension("rotor.png", closing="rotors.closing.closing"))
+    said = line(extension("rotor.png", closing="rotors.dataset.closing"))
     assert said == "mine: 1 rotor; look at results/rotor.png"
 
 

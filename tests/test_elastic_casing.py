@@ -33,9 +33,9 @@ from r37core.results.response import write_response
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.schedule import RunUp
 from r37core.time_integration import step_limit
-from r37core.time_integration.casing_waves import casing_waves
 from r37core.time_integration.clearance import NoRoomError
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.kept_numbers import casing_waves
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed

@@ -11,8 +11,7 @@ from numba import types
 from r37core.alignment import LANES, aligned_record, aligned_zeros
 from r37core.lanes import OPTIONS, inlined, load, store
 from r37core.time_integration.compiled import program
-from r37core.time_integration.compiled.kind import Kind
-from r37core.time_integration.compiled.layout import capacity_of
+from r37core.time_integration.compiled.layout import Kind, capacity_of
 
 FORMULAS = {
     "product plus number": (lambda a, b, c, d: a * b + c, lambda a, b, c, d: once(a * b + c)),

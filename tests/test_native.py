@@ -18,8 +18,7 @@ from r37core import kept, native
 from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 from r37core.plain import to_plain
 from r37core.time_integration.compiled import engine as compiled
-from r37core.time_integration.compiled.kind import Kind
-from r37core.time_integration.compiled.layout import MODAL_ROWS, capacity_of, constants_record, integration_record
+from r37core.time_integration.compiled.layout import MODAL_ROWS, Kind, capacity_of, constants_record, integration_record
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS
 from r37core.time_integration.simulate import Simulation
 

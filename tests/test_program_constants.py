@@ -6,7 +6,7 @@ import pytest
 from r37core.lanes import OPTIONS, inlined
 from r37core.program_constants import with_constants
 from r37core.time_integration.compiled import steps
-from r37core.time_integration.compiled.kind import Kind
+from r37core.time_integration.compiled.layout import Kind
 
 WIDE = DEEP = False
 

@@ -8,8 +8,8 @@ from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT, RING, assert_same_totals_and_wear, random_model, with_static_modes
 
 from r37core.contact.ring import RingMode
-from r37core.contact.rotor import Rotor
-from r37core.time_integration import run_length
+from r37core.contact.scene import Rotor
+from r37core.time_integration import integration_choice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.rotor_blades import blade_problems, mistuned, on_steps
 from r37core.time_integration.rotor_simulation import BladesSimulation
@@ -224,7 +224,7 @@ def test_one_blade_in_an_elastic_casing_is_the_blade(scene):
 def test_a_rotor_in_an_elastic_casing_is_the_same_in_many_calls(scene, monkeypatch):
     rotor = rotor_of(3, [0.0, 4.1, 2.0], [1.0, 1.03, 0.97])
     _, whole, record = run(rotor, scene)
-    monkeypatch.setattr(run_length, "STEPS_AT_ONCE", 1)
+    monkeypatch.setattr(integration_choice, "STEPS_AT_ONCE", 1)
     _, states, other = run(rotor, scene)
     np.testing.assert_array_equal(samples(other), samples(record))
     np.testing.assert_array_equal(other.worn, record.worn)

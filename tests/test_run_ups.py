@@ -25,7 +25,7 @@ from r37core.run_ups.integration import IntegratedSegments, RunUpIntegration, re
 from r37core.run_ups.revolutions import largest_stress, record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
 from r37core.run_ups.tables import rate_table, run_up_table
-from r37core.time_integration import run_length
+from r37core.time_integration import integration_choice
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
@@ -88,7 +88,7 @@ def test_the_reference_slides_with_the_speed_of_each_segment(contact):
 def test_a_slow_run_up_is_the_same_in_many_calls(contact, monkeypatch):
     run_up = RunUp(1600.0, 1605.0, 8.5, 4, 0, worn=False)
     whole = list(RunUpIntegration(contact, NARROW, LONG, run_up).segments())
-    monkeypatch.setattr(run_length, "STEPS_AT_ONCE", 1)
+    monkeypatch.setattr(integration_choice, "STEPS_AT_ONCE", 1)
     stages = list(RunUpIntegration(contact, NARROW, LONG, run_up).segments())
     assert len(stages) > len(whole)
     for name in ("samples", "speeds", "wear"):

@@ -22,7 +22,7 @@ from integration_cases import (
 from r37core.contact.casing import casing_axes
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
-from r37core.time_integration import run_length
+from r37core.time_integration import integration_choice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
@@ -174,8 +174,8 @@ def test_a_run_in_many_calls_is_the_run_in_one(contact, scene, monkeypatch):
     simulation = Simulation(contact, 1000.0, scene, choice)
     calls, advance, runs = [], simulation.engine.advance, []
     monkeypatch.setattr(simulation.engine, "advance", lambda *arguments: calls.append(1) or advance(*arguments))
-    for at_once in (run_length.STEPS_AT_ONCE, 1):
-        monkeypatch.setattr(run_length, "STEPS_AT_ONCE", at_once)
+    for at_once in (integration_choice.STEPS_AT_ONCE, 1):
+        monkeypatch.setattr(integration_choice, "STEPS_AT_ONCE", at_once)
         state = simulation.start()
         # from a sample inside of a revolution, too
         runs.append((state, simulation.advance_samples(state, 20), simulation.advance_samples(state, 4 * 62 - 20)))

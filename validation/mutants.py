@@ -1,6 +1,6 @@
 """Whether the tests notice small changes of the code: a sample of mutations by cosmic-ray, and the score.
 
-Run: make mutants [MUTANTS='--each 20 stress/of_revolutions.py results/']. A folder stands for each of its modules. A mutation
+Run: make mutants [MUTANTS='--each 20 stress/revolutions.py results/']. A folder stands for each of its modules. A mutation
 is an operator, number, comparison or the like changed at one place; it is killed when a test of its module fails. The sample is
 drawn with a fixed seed, so that it can be repeated.
 """

@@ -18,7 +18,7 @@ from .units import RPM
 
 @dataclass(frozen=True)
 class Variable:
-    """What a dataset's table says of a variable: `dims` beyond those that a file adds to all, meaning, `dtype` as stored."""
+    """Variable of a dataset's table: `dims` beyond those that a file adds to all, meaning, `dtype` as stored."""
 
     dims: tuple[str, ...]
     units: str
@@ -27,7 +27,7 @@ class Variable:
 
     @property
     def attributes(self) -> dict[str, str]:
-        """Of the variable in a file."""
+        """Attributes of the variable in a file."""
         return about(self.units, self.long_name)
 
 
@@ -38,7 +38,7 @@ def about(units: str, long_name: str) -> dict[str, str]:
 
 SPEED = Variable(("speed",), "rad s-1", "angular speed of the rotor")
 SPEED_RPM = Variable(("speed",), "rpm", "angular speed of the rotor in revolutions per minute")
-"""Of the coordinate `speed_rpm`, which stands beside `speed`."""
+"""Description of the coordinate `speed_rpm`, which stands next to `speed`."""
 
 
 def dataset_of(

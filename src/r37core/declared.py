@@ -1,4 +1,4 @@
-"""How a field of a dataclass stands in the configuration files: its key, unit, bounds and description.
+"""Declaration of a dataclass field's key in the configuration files: its key, unit, bounds and description.
 
 The dataclass of a computation declares them, and nothing else does: `r37core.config.declaring` makes the model of the file's
 section of it, and with that the schema, the messages and the tables of docs/configuration.md. Light: the simulations import it.
@@ -39,7 +39,7 @@ class Key:
 
     @property
     def factor(self) -> float | None:
-        """What one of the key's unit is in the SI; None for a key without a unit."""
+        """Factor from the key's unit to the SI; None for a key without a unit."""
         return SUFFIXES[self.unit] if self.unit else None
 
 

@@ -21,7 +21,7 @@ FILE_ATTRIBUTES = {"Conventions": "CF-1.11", "r37core_version": __version__}
 """Global attributes of every netCDF file."""
 
 JOB_LOG = logging.getLogger("r37core")
-"""What a step says for the log of its job; from Python nobody hears it who does not ask for this logger's level DEBUG."""
+"""Logger of the steps, for the log of their job; from Python nobody hears it who does not ask for this logger's level DEBUG."""
 
 
 class InputFileError(RuntimeError):
@@ -62,7 +62,7 @@ def room_for(file: Path) -> Iterator[None]:
 
 
 def _no_room(error: Exception, folder: Path) -> str | None:
-    """What there is no room for, and the remedy; None for an error of another kind. Below 1 MiB a disk counts as full."""
+    """Message about lacking room, and the remedy; None for an error of another kind. Below 1 MiB a disk counts as full."""
     number = getattr(error, "errno", None)
     # netCDF has numbers of its own, below 0, which say nothing of the cause
     unknown = number is None or number < 0
@@ -105,7 +105,7 @@ def readable(file: Path | str) -> Iterator[None]:
 
 
 class Named(SimpleNamespace):
-    """What a step of the workflow is called with from Python: input, output and params, each with named attributes."""
+    """Arguments of a step that is called from Python: input, output and params, each with named attributes."""
 
     def items(self) -> ItemsView[str, Any]:
         """Names and what they stand for."""

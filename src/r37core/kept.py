@@ -1,4 +1,4 @@
-"""What takes long to make, in files by a hash of all that their content follows from; each is checked when it is read.
+"""Results that take long to make, in files by a hash of all that their content follows from; each is checked when it is read.
 
 They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says. A
 file that is cut short or damaged is made again; all may be removed at any time. Of several processes and threads that need
@@ -36,7 +36,7 @@ def kept_file(name: str, made_of: object, make: Callable[[Path], None], folder: 
 
 
 def kept_bytes(name: str, made_of: object, make: Callable[[], bytes], worth_keeping: Callable[[], bool]) -> bytes:
-    """The same of a content in memory, which is kept if it is `worth_keeping` when it is made."""
+    """Content of a kept file, in memory; a new one is kept if it is `worth_keeping` when it is made."""
     name = _hashed(name, made_of)
     if (content := read_kept(name)) is not None:
         return content
@@ -104,7 +104,7 @@ def _alone(file: Path) -> Iterator[None]:
 
 
 def _is_at(opened: BinaryIO, name: Path) -> bool:
-    """Whether an opened file still has this name."""
+    """True if an opened file still has this name."""
     try:
         return os.path.samestat(os.fstat(opened.fileno()), name.stat())
     except FileNotFoundError:
@@ -119,7 +119,7 @@ def _put(made: Path, file: Path) -> None:
 
 
 def _sound(file: Path) -> bool:
-    """Whether a file is there as it was written."""
+    """True if a file is there as it was written."""
     try:
         return _digest_of(file).read_text() == content_digest(file)
     except (OSError, UnicodeDecodeError):

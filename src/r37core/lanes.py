@@ -158,7 +158,7 @@ for _yes in _KINDS:
 
 
 def _address(context: Any, builder: Any, kinds: Any, array: Any, place: Any) -> Any:
-    """Where lanes begin: at a place of a pointer, or at an index (last axis: number) of an array of a record."""
+    """Address at which lanes begin: at a place of a pointer, or at an index (last axis: number) of an array of a record."""
     kind, index = kinds
     indices = cgutils.unpack_tuple(builder, place) if isinstance(index, types.BaseTuple) else [place]
     index_kinds = list(index) if isinstance(index, types.BaseTuple) else [index]
@@ -296,7 +296,7 @@ def lanes_of(typingctx, vectors, place):
 
 @inlined
 def lanes_used(array, used):
-    """How many lanes of an array are `used`; of a single vector the compiler knows it."""
+    """Number of lanes of an array that are `used`; of a single vector the compiler knows it."""
     return LANES if len(array) == LANES else used
 
 

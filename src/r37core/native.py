@@ -99,7 +99,7 @@ def load_function(code: bytes, name: str, result: Any, *arguments: Any) -> Calla
 
 
 def _numba_version() -> str:
-    """What numba says of its version, without importing it, nor importlib.metadata, which takes as long as all of this."""
+    """Content of numba's file about its version, without importing it, nor importlib.metadata, which takes long."""
     spec = find_spec("numba")
     return "" if spec is None or spec.origin is None else Path(spec.origin).with_name("_version.py").read_text(encoding="utf-8")
 

@@ -89,7 +89,7 @@ def _sequence(kind: Any, data: Any, path: str) -> Any:
 
 
 def _made_of_one(kinds: tuple[Any, ...], data: Any, path: str) -> Any:
-    """Of several types the first that fits; a dictionary fits the dataclass that has its keys as fields."""
+    """Value of the first of several types that fits; a dictionary fits the dataclass that has its keys as fields."""
     refusals = []
     for kind in kinds:
         try:

@@ -35,7 +35,7 @@ def with_constants(function: Any, constants: Mapping[str, int]) -> Any:
 
 
 def _used(function: Any, constants: Mapping[str, int]) -> dict[str, int]:
-    """Those of the constants that it or a function that it calls names."""
+    """Constants that a function, or a function that it calls, names."""
     names = _globals_of(function.py_func)
     for other in _called(function).values():
         names = names | _used(other, constants).keys()

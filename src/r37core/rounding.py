@@ -6,10 +6,10 @@ import math
 from decimal import ROUND_CEILING, ROUND_HALF_UP, Context, Decimal
 
 _PARTS = 3.0
-"""Of a spread, that the last digit must not be longer than: rounding then moves a number by at most a sixth of its spread."""
+"""Parts of a spread: the last digit is at most one of them, so rounding changes a number by at most a sixth of its spread."""
 
 _DIGITS = 6
-"""Of a number without a spread."""
+"""Digits of a number without a spread."""
 
 _LEAST = 1e-9
 """Share of a number, below which a spread is round-off and no spread."""

@@ -53,13 +53,13 @@ class RefinedRange:
 
 @dataclass(frozen=True)
 class SpeedPlan:
-    """What a list of speeds asks for: `certain` ones (rad/s), ascending, with the coarse ones of the `refined` ranges."""
+    """Speeds that a list asks for: `certain` ones (rad/s), ascending, with the coarse ones of the `refined` ranges."""
 
     certain: tuple[float, ...]
     refined: tuple[RefinedRange, ...] = ()
 
     def at_most(self, largest_share: float) -> int:
-        """How many speeds are run when so large a share of each grid may be, as a rule at most."""
+        """Number of speeds that are run when so large a share of each grid may be, as a rule at most."""
         grids = sum(max(len(grid.coarse_indices()), int(largest_share * (grid.last + 1))) for grid in self.refined)
         return len(self.certain) - sum(len(grid.coarse_indices()) for grid in self.refined) + grids
 
@@ -69,7 +69,7 @@ class SpeedPlan:
 
 
 def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: float, unit: str = "rad/s") -> SpeedPlan:
-    """What numbers and ranges with `start`, `stop` (included) and, if given, `step` and `refine_to` ask for.
+    """Plan of numbers and ranges with `start`, `stop` (included) and, if given, `step` and `refine_to`.
 
     All of them are in the `unit`, rad/s or rpm, `default_step` is in rad/s.
 

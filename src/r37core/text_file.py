@@ -38,7 +38,7 @@ def with_part(text: str, name: str, part: str, made_with: str | None = None) -> 
 
 
 def part_of(text: str, name: str) -> str:
-    """What stands between the markers of this name; ValueError where these are missing."""
+    """Part between the markers of this name; ValueError where these are missing."""
     return _markers(text, name)["part"]
 
 

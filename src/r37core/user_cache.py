@@ -14,7 +14,7 @@ from .kept import kept_file, users_cache
 
 
 def named_folder() -> Path:
-    """Where the folder is, or is to be: that of R37_CACHE, else the user's cache folder."""
+    """Path of the folder, which may not be there yet: that of R37_CACHE, else the user's cache folder."""
     named = os.environ.get("R37_CACHE")
     return Path(named) if named else users_cache()
 

@@ -15,7 +15,7 @@ import yaml
 from .text_file import TextFileError, read_text
 
 KeyPath = tuple[str | int, ...]
-"""Where a value stands: keys of mappings and numbers of list entries."""
+"""Path of a value: keys of mappings and numbers of list entries."""
 
 _LARGEST = 100_000
 """Values in one file; more than that is an alias that multiplies itself."""
@@ -111,7 +111,7 @@ _Dumper.add_representer(str, _quoted)
 
 
 def scalar(text: str) -> Any:
-    """What a plain text is in YAML: a number, true or false, nothing, or the text itself."""
+    """Value of a plain text in YAML: a number, true or false, nothing, or the text itself."""
     loader = _Loader("")
     return loader.construct_object(yaml.ScalarNode(loader.resolve(yaml.ScalarNode, text, (True, False)), text))
 

@@ -29,9 +29,8 @@ from r37core.results.exceedance import CERTAIN, POSSIBLE, exceedance_of
 from r37core.results.measures import motion
 from r37core.results.ranking import chance_to_be_better, ranking_table, robustness
 from r37core.rom.contact_model import read_contact_model
-from r37core.stress.of_revolutions import largest_of_revolutions
 from r37core.stress.operator import read_stress_operator
-from r37core.stress.statistic import stress_statistic
+from r37core.stress.revolutions import largest_of_revolutions, stress_statistic
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.tolerances.members import members_of

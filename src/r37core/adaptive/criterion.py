@@ -1,4 +1,4 @@
-"""Which speeds adaptive sampling runs next: windows above crossings first, then where the response changes."""
+"""Criterion for the speeds that adaptive sampling runs next: windows above crossings first, then where the response changes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from r37core.time_integration.status import RunStatus
 from .refinement_choice import RefinementChoice, Window
 
 CURVES = ("rms_normal", "rms_tangential", "stress")
-"""What is looked at over speed: rms (m) of the leading edge in two directions, largest stress as a share of yield."""
+"""Curves over speed: rms (m) of the leading edge in two directions, largest stress as a share of yield."""
 
 LEAST_OF_A_ROUND = 16
 """Speeds that a round may ask for where so many are left: each round makes Snakemake plan the whole run again."""
@@ -24,7 +24,7 @@ LEAST_OF_A_ROUND = 16
 
 @dataclass(frozen=True)
 class KnownSpeeds:
-    """What runs have given: `speeds` (rad/s), ascending; `curves`, shape (CURVES, speeds), NaN for no number; `status`."""
+    """Results of runs: `speeds` (rad/s), ascending; `curves`, shape (CURVES, speeds), NaN for no number; `status`."""
 
     speeds: np.ndarray
     curves: np.ndarray
@@ -103,7 +103,7 @@ def _scale(known: KnownSpeeds) -> np.ndarray:
 
 
 def _worth(curves: np.ndarray, status: np.ndarray, scale: np.ndarray, choice: RefinementChoice) -> np.ndarray:
-    """What there is to see in each interval, shape (speeds - 1,): 0 for nothing, else the height in shares of a curve's top."""
+    """Worth of halving each interval, shape (speeds - 1,): 0 for nothing, else the height in shares of a curve's top."""
     worth = np.zeros(len(status) - 1)
     for name, curve, top in zip(CURVES, np.nan_to_num(curves, nan=0.0) / scale[:, None], scale, strict=True):
         larger, change = np.maximum(curve[:-1], curve[1:]), np.abs(np.diff(curve))
@@ -120,7 +120,7 @@ def _worth(curves: np.ndarray, status: np.ndarray, scale: np.ndarray, choice: Re
 
 
 def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:
-    """Whether an interval touches a peak or, next to it without a gap, points within the share `peak` of its height."""
+    """Mask of the intervals that touch a peak or, next to it without a gap, points within the share `peak` of its height."""
     # the lowest value at both ends, so that a peak on the first or last speed counts and a level curve has none
     peaks, _ = find_peaks(np.concatenate([[curve.min()], curve, [curve.min()]]), prominence=choice.prominence)
     near = np.zeros(len(curve), dtype=bool)
@@ -133,7 +133,7 @@ def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:
 
 
 def known_of(measured: Mapping[float, Sequence[float]]) -> list[KnownSpeeds]:
-    """Of each speed (rad/s) status and CURVES of one member after the other."""
+    """Known speeds of each member, from status and CURVES at each speed (rad/s), one member after the other."""
     speeds = np.array(sorted(measured))
     rows = np.array([measured[speed] for speed in speeds], dtype=float).reshape(len(speeds), -1, 1 + len(CURVES))
     return [KnownSpeeds(speeds, member[:, 1:].T, member[:, 0].astype(int)) for member in rows.swapaxes(0, 1)]

@@ -1,4 +1,4 @@
-"""What makes an interval of speeds worth halving. Light: the configuration imports it."""
+"""Choice of what makes an interval of speeds worth halving. Light: the configuration imports it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from r37core.rom.naming import NAMED_MODES
 
 @dataclass(frozen=True)
 class Window:
-    """Where an interaction is expected: from `first` to `last`, shares of the speed above the crossings of `mode`.
+    """Window in which an interaction is expected: from `first` to `last`, shares of the speed above the crossings of `mode`.
 
     Its intervals are halved until none is longer than `step` (rad/s), before anything is known.
     """
@@ -25,7 +25,7 @@ class Window:
 
 @dataclass(frozen=True)
 class RefinementChoice:
-    """What makes an interval of speeds worth halving; every number is a share.
+    """Choice of what makes an interval of speeds worth halving; every number is a share.
 
     `windows` come first. Then an interval is halved when rms or stress change by more than `change` of the larger, when
     stress crosses yield, when the status changes, and when a peak of at least `prominence` of the largest reaches within

@@ -20,7 +20,7 @@ from .criterion import RefinementChoice, dense_ranges, known_of, next_speeds, wi
 
 @dataclass(frozen=True)
 class Round:
-    """One round: its `new` speeds (rad/s), ascending, none in the last; `measured` of each speed before: status, CURVES.
+    """Round: its `new` speeds (rad/s), ascending, none in the last; `measured` of each speed before: status, CURVES.
 
     Of several members of a sample these follow one after the other.
     """
@@ -45,7 +45,7 @@ def round_after(before: Round, gave: Mapping[float, Sequence[float]], plan: Spee
 
 
 def measure_members(yields: Sequence[float], speeds: Sequence[float], files: Iterable[Path | str]) -> dict[float, list[float]]:
-    """Of each speed (rad/s) status and CURVES of one member after the other, as Round has them; one blade alone is one member.
+    """Status and CURVES at each speed (rad/s), one member after the other, as Round has them; one blade alone is one member.
 
     `yields`: yield stress (Pa) of each; `files`: member by member those of all speeds. Raises InputFileError for a file that
     cannot be read.
@@ -72,7 +72,7 @@ def write_round(finished: Round, file: Path | str) -> None:
 
 
 def read_round(file: Path | str) -> Round:
-    """What `write_round` wrote; InputFileError when it cannot be read."""
+    """Read what `write_round` wrote; InputFileError when it cannot be read."""
     content = read_json(file)
     with readable(file):
         rows = {row[0]: [math.nan if value is None else value for value in row[1:]] for row in content["measured"]}

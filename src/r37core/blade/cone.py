@@ -99,7 +99,7 @@ class ConstantRatePath:
         return self.meridional(s), theta
 
     def started_at(self, s: float) -> ConstantRatePath:
-        """The same path, begun at its path length `s` (m)."""
+        """Path begun at its path length `s` (m)."""
         m, theta = (float(coordinate) for coordinate in self.point(s))
         return ConstantRatePath(self.cone, m, theta, float(self.angle(s)), self.rate)
 

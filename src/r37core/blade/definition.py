@@ -13,12 +13,12 @@ from .stacking import chordwise_sweep, plane_section_stacking, sweep_and_lean
 SMALLER_CHANGES = (
     "; where the blade's entry has stagger_deg, camber_deg, chord_percent or thickness_percent, a smaller change near this span"
 )
-"""What may help a shape that cannot be built, or is meshed badly, beside what its message says."""
+"""Advice for a shape that cannot be built, or is meshed badly, in addition to its message."""
 
 
 @dataclass(frozen=True)
 class BladeDefinition:
-    """What a user gives: profiles from hub to tip, and either a sweep and lean table, a chordwise sweep, or neither.
+    """Definition by a user: profiles from hub to tip, and either a sweep and lean table, a chordwise sweep, or neither.
 
     `stacking`: rows of span, sweep (m), lean (rad); `chordwise_sweep_angle` in rad, positive forward. Made of plain
     numbers, so that its repr is exact and tells whether a blade was edited.

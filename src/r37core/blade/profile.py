@@ -1,4 +1,4 @@
-"""One blade profile: multiple circular arcs on a cone, closed by edge circles.
+"""A blade profile: multiple circular arcs on a cone, closed by edge circles.
 
 Source: section 2 of the benchmark; Piollet, Nyssen, Batailly, "Blade/casing rubbing interactions in aircraft
 engines: numerical benchmark and design guidelines based on NASA rotor 37".
@@ -45,7 +45,7 @@ class ProfileParameters:
 
     @property
     def label(self) -> str:
-        """How messages name the profile."""
+        """Name of the profile in messages."""
         return f"span {100 * self.span:g}%"
 
     def check(self) -> None:

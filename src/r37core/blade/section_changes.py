@@ -22,7 +22,7 @@ from .profile_tables import check_profile_order
 from .span_law import SpanLaw
 
 _NO_ANGLE, _WHOLE = 0.0, 1.0
-"""What changes nothing: no angle is added, the whole of a length is kept."""
+"""Changes that change nothing: no angle is added, the whole of a length is kept."""
 
 _SMALLER = "; a smaller change near this span may be possible"
 
@@ -38,7 +38,7 @@ class SectionChange:
 
     @property
     def names(self) -> list[str]:
-        """Of the changes that are not neutral."""
+        """Names of the changes that are not neutral."""
         return [field.name for field in fields(self) if getattr(self, field.name) != field.default]
 
 
@@ -106,7 +106,7 @@ class _Centreline:
         return cls(cone, np.array([p.inlet_angle, p.transition_angle, p.outlet_angle]), lengths, thickest)
 
     def turned(self, camber: float, rotation: float, scale: float) -> _Centreline:
-        """With added turning, spread evenly over the length, all angles rotated alike and all lengths scaled."""
+        """Section with added turning, spread evenly over the length, all angles rotated alike and all lengths scaled."""
         share = np.array([0.0, self.lengths[0], self.lengths.sum()]) / self.lengths.sum()
         angles = self.angles + camber * (0.5 - share) + rotation
         return _Centreline(self.cone, angles, scale * self.lengths, scale * self.thickest)
@@ -140,7 +140,7 @@ class _Centreline:
 
 
 def _redrawn(profile: ProfileParameters, change: SectionChange) -> ProfileParameters:
-    """With another stagger, camber and chord. Raises BladeShapeError where no arcs have them."""
+    """Section redrawn with another stagger, camber and chord. Raises BladeShapeError where no arcs have them."""
     if not change.chord > 0.0:
         # a spline through shares may pass below them
         raise BladeShapeError(f"{profile.label}: the share of the chord is {100 * change.chord:g}%; it must be positive")

@@ -1,4 +1,4 @@
-"""Whether the tip of a blade agrees with the sense of rotation, and its concave side with the side of the pressure.
+"""Check whether the tip of a blade agrees with the sense of rotation, and its concave side with the side of the pressure.
 
 Source: velocity triangles, as in Dixon and Hall, Fluid Mechanics and Thermodynamics of Turbomachinery, chapters 4, 5 and 7. The
 flow relative to a rotor runs against the rotation, at the inlet of a compressor and at the outlet of a turbine, so the
@@ -20,7 +20,7 @@ LEAST = np.radians(5.0)
 
 @dataclass(frozen=True)
 class TipSense:
-    """What the tip's section tells in the blade's frame, where the rotor turns towards negative theta.
+    """Sense of the tip's section in the blade's frame, where the rotor turns towards negative theta.
 
     `stagger` (rad): from the axis to the chord, positive where the leading edge is ahead; `camber` (rad): by how much the
     camber line turns, positive where the side that looks along the rotation is concave.
@@ -30,17 +30,17 @@ class TipSense:
     camber: float
 
     def leads(self) -> bool | None:
-        """Whether the leading edge is ahead in the rotation; None where that cannot be decided."""
+        """True where the leading edge is ahead in the rotation; None where that cannot be decided."""
         return _sign(self.stagger)
 
     def fits(self, pressure_forward: bool) -> bool | None:
-        """Whether the concave side is the given pressure side (`pressure_forward`: along the rotation); None as in `leads`."""
+        """True if the concave side is the given pressure side (`pressure_forward`: along the rotation); None as in `leads`."""
         forward = _sign(self.camber)
         return None if forward is None else forward == pressure_forward
 
 
 def sense_of_line(points: np.ndarray) -> TipSense:
-    """Of the line half-way between the sides: `points`, shape (n, 3), from leading to trailing edge in the blade's frame.
+    """Sense of the line half-way between the sides: `points`, shape (n, 3), from leading to trailing edge in the blade's frame.
 
     The camber is that of the circular arc with the line's mean height over the chord.
     """
@@ -56,7 +56,7 @@ def sense_of_line(points: np.ndarray) -> TipSense:
 
 
 def sense_of_profile(profile: ProfileParameters) -> TipSense:
-    """Of a table's row: both arcs of the centreline are as steep as the mean of the angles at their ends."""
+    """Sense of a table's row: both arcs of the centreline are as steep as the mean of the angles at their ends."""
     angles = np.array([profile.inlet_angle, profile.transition_angle, profile.outlet_angle])
     lengths = np.diff([0.0, profile.transition_axial, profile.outlet_axial])
     rise = lengths @ np.tan(0.5 * (angles[1:] + angles[:-1]))

@@ -18,12 +18,12 @@ class SpanLaw:
 
     @classmethod
     def constant(cls, value: float) -> SpanLaw:
-        """The same at every span."""
+        """Constant law: one value at every span."""
         return cls((0.0,), (value,))
 
     @classmethod
     def linear(cls, hub: float, tip: float) -> SpanLaw:
-        """In proportion to the span from hub to tip."""
+        """Linear law: in proportion to the span from hub to tip."""
         return cls((0.0, 1.0), (hub, tip))
 
     def at(self, spans: Sequence[float]) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Where each profile is placed: stacked on one radial line by the blade's plane sections, then shifted by sweep and lean.
+"""Stacking of the profiles: placed on one radial line by the blade's plane sections, then shifted by sweep and lean.
 
 Source: section 2 of the benchmark. Profiles are first stacked by their conical centres of area, then the blade is cut
 by planes normal to the stacking line and every profile is moved until each section's centre of area is on the line.
@@ -32,7 +32,7 @@ class Placement:
 
 
 def span_weights(spans: np.ndarray) -> scipy.interpolate.CubicSpline:
-    """Not-a-knot spline, span fractions (points,) -> weights, shape (points, profiles), of profiles at ascending `spans`.
+    """Not-a-knot spline: span fractions (points,) -> weights, shape (points, profiles), of profiles at ascending `spans`.
 
     A value at a span is the sum of weight * profile value; beyond the profiles the end polynomials go on.
     """
@@ -73,7 +73,7 @@ def _apart(spans: np.ndarray) -> np.ndarray:
 
 
 def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placement:
-    """What is to be added to the placement `start` so that the centre of area of every profile's section is on one line."""
+    """Displacements to add to the placement `start` so that the centre of area of every profile's section is on one line."""
     weights = span_weights(np.array([p.parameters.span for p in profiles]))
     outlines = _outlines(profiles)
     heights = np.array([p.cone.radius(p.centroid[0]) for p in profiles])

@@ -16,9 +16,8 @@ from r37core.blade.definition import BladeDefinition
 from r37core.exchange.importing.source import MatricesSource
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, check_patches
 from r37core.rounding import rounded_up
-from r37core.time_integration.integration_choice import LARGEST_TABLE
+from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
 from r37core.time_integration.integrators import EXACT_MODAL
-from r37core.time_integration.run_length import MOST_STEPS
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, TypeVar
 import numpy as np
 from pydantic import BeforeValidator, Field, ValidatorFunctionWrapHandler, WithJsonSchema, WrapValidator, model_validator
 
-from r37core.contact.rotor import Rotor
+from r37core.contact.scene import Rotor
 from r37core.yaml_file import KeyPath
 
 from .section import LeftOut, Section, Unique, left_out, refused

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from r37core.time_integration.run_length import SECONDS_PER_STEP
+from r37core.time_integration.integration_choice import SECONDS_PER_STEP
 
 from .settings import Settings
 

@@ -81,7 +81,7 @@ class Casing:
 
     @property
     def changes_with_speed(self) -> bool:
-        """Whether the clearance does."""
+        """True where the clearance depends on the speed."""
         return self.centrifugal or bool(self.growth)
 
     @property
@@ -90,16 +90,16 @@ class Casing:
         return self.amplitude * self.clearance if self.lobes else 0.0
 
     def lobe(self, theta: np.ndarray, time: np.ndarray, duration: float) -> np.ndarray:
-        """How far (m) the lobes reach inwards at angles (rad) and times (s) of a run of `duration` (s)."""
+        """Height (m) of the lobes, inwards, at angles (rad) and times (s) of a run of `duration` (s)."""
         grown = 1.0 - np.exp(-self.rise_rate(duration) * np.asarray(time)) if self.rise_fraction > 0.0 else 1.0
         return self.lobe_height * grown * self.shape(theta)
 
     def knows(self, speed: float) -> bool:
-        """Whether the casing's growth, if it has any, is given up to a speed (rad/s)."""
+        """True where the casing's growth, if it has any, is given up to a speed (rad/s)."""
         return not self.growth_speeds or speed <= self.growth_speeds[-1] * (1.0 + _ROUNDED)
 
     def opening(self, speeds: np.ndarray) -> np.ndarray:
-        """What the casing's growth adds to the clearance (m) at `speeds` (rad/s), shape (speeds,).
+        """Clearance (m) that the casing's growth adds at `speeds` (rad/s), shape (speeds,).
 
         Raises ValueError beyond the speeds that it is given for.
         """

@@ -59,7 +59,7 @@ def _solve(p, columns, count):
 
 @inlined
 def _solve_exchanging(p, columns, count):
-    """The same by Gaussian elimination with partial pivoting."""
+    """Solve by Gaussian elimination with partial pivoting."""
     for i in range(count):
         for j in range(count):
             p.matrix[i, j] = columns[p.listed[j], p.listed[i]]

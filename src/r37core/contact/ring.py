@@ -19,12 +19,12 @@ import numpy as np
 from r37core.declared import Key
 
 MOST_NODAL_DIAMETERS = 100
-"""Of a ring's modes in a simulation."""
+"""Largest number of nodal diameters of a ring's modes in a simulation."""
 
 
 @dataclass(frozen=True)
 class RingMode:
-    """One mode of the casing, in the frame that does not turn.
+    """Mode of the casing, in the frame that does not turn.
 
     Angular `frequency` (rad/s); `modal_mass` of q_c and of q_s; `radial` and `tangential`: its shape.
     """
@@ -67,7 +67,7 @@ class Ring:
 
     @property
     def mass(self) -> float:
-        """Per length of circumference (kg/m): rho A."""
+        """Mass per length of circumference (kg/m): rho A."""
         return self.density * self.width * self.thickness
 
     @property
@@ -123,17 +123,17 @@ class RingMotion:
 
     @property
     def nodal_diameters(self) -> np.ndarray:
-        """Of each mode, shape (modes,)."""
+        """Nodal diameters of each mode, shape (modes,)."""
         return np.array([mode.nodal_diameter for mode in self.modes], dtype=float)
 
     @property
     def frequencies(self) -> np.ndarray:
-        """Angular (rad/s), in the frame that does not turn, shape (2 modes,)."""
+        """Angular frequencies (rad/s), in the frame that does not turn, shape (2 modes,)."""
         return self._of_both([mode.frequency for mode in self.modes])
 
     @property
     def damping_ratios(self) -> np.ndarray:
-        """Of each coordinate, shape (2 modes,)."""
+        """Damping ratio of each coordinate, shape (2 modes,)."""
         return self._of_both([mode.damping_ratio for mode in self.modes])
 
     @property

@@ -10,7 +10,29 @@ import numpy as np
 from r37core.declared import Key
 
 from .casing import Casing
-from .rotor import Rotor
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """Blades whose roots stand still: all meet the same casing, and are coupled by what they wear of its lining and, where it
+    is elastic, by what they bend it.
+
+    `numbers` of the blades, from 1; `angles` (rad) at which they stand, in the sense of growing theta: the rotor turns against
+    it, so a blade passes the casing after those at smaller angles. `frequency_factors`: all frequencies of a blade over those
+    of the reduced model; `longer` (m): by how much a blade is longer than that. `shared_lining`: whether all wear one lining,
+    or each its own.
+    """
+
+    numbers: tuple[int, ...]
+    angles: tuple[float, ...]
+    frequency_factors: tuple[float, ...]
+    longer: tuple[float, ...]
+    shared_lining: bool = True
+
+    @property
+    def order(self) -> tuple[int, ...]:
+        """Places of the blades in the order in which they pass the casing; of two at one angle the first goes first."""
+        return tuple(map(int, np.argsort(np.mod(self.angles, 2.0 * np.pi), kind="stable")))
 
 
 @dataclass(frozen=True)
@@ -56,7 +78,7 @@ class Friction:
 
 @dataclass(frozen=True)
 class Scene:
-    """What the blade meets: casing, lining or None, friction or None, and how the gap is measured.
+    """Surroundings of the blade: casing, lining or None, friction or None, and how the gap is measured.
 
     `exact_gap`: distance of the displaced node from the conical, lobed casing, instead of the clearance at the undeformed
     node's angle less the normal displacement. `rotor`: the blades that meet it, None for a single one.

@@ -19,8 +19,7 @@ from r37core.mesh.mesh_files import vtk_grid
 from r37core.results.campbell import name_modes
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.speeds import exact_text
-from r37core.stress.operator import StressOperator
-from r37core.stress.von_mises import von_mises
+from r37core.stress.operator import StressOperator, von_mises
 from r37core.time_integration.speed_file import read_speed
 
 _NAMED_AMONG = 8

@@ -22,7 +22,7 @@ from .quadrature import Rule, box_rule, tetrahedron_rule, wedge_rule
 
 @dataclass(frozen=True)
 class Shape:
-    """What the elements of first and of second order share.
+    """Shape that the elements of first and of second order share.
 
     `corners`: local coordinates, shape (n, 3); `edges`: two corners of each; `faces`: corners of each, counter-clockwise seen
     from outside; `ideal`: determinant of the edges at a corner of the ideal element, whose edges have length 1.
@@ -36,7 +36,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class Element:
-    """One type of element.
+    """Type of element.
 
     `name`: as in meshio; `abaqus`: as in Abaqus and CalculiX; `spans`: whether x^i y^j z^k is among the monomials that span
     the shape functions, of i, j and k up to 2; `stiffness_rule` and `mass_rule`: quadrature.
@@ -56,12 +56,12 @@ class Element:
 
     @property
     def corners(self) -> int:
-        """How many nodes are corners."""
+        """Number of nodes that are corners."""
         return len(self.shape.corners)
 
     @property
     def quadratic(self) -> bool:
-        """Whether the edges have mid-nodes."""
+        """True where the edges have mid-nodes."""
         return len(self.exponents) > self.corners
 
     @cached_property

@@ -73,7 +73,7 @@ class StructuralMatrices:
 
     @cached_property
     def _free_pairs(self) -> sp.csr_array:
-        """Which of the pairs join unclamped nodes, in the rows and columns of these."""
+        """Mask of the pairs that join unclamped nodes, in the rows and columns of these."""
         pairs = sp.csr_array((np.arange(len(self.indices)), self.indices, self.indptr))
         return pairs[self.free_nodes][:, self.free_nodes]
 

@@ -13,7 +13,7 @@ Solve = Callable[[np.ndarray], np.ndarray]
 
 
 _TOLERANCE = 1e-12
-"""Of eigenvalues; what the factors' rounding does to them is larger."""
+"""Relative tolerance of eigenvalues; the rounding of the factors changes them by more."""
 
 
 def factorise(matrix: sp.sparray) -> Solve:

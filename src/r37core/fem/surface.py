@@ -21,7 +21,7 @@ class Faces:
 
     @property
     def quadratic(self) -> bool:
-        """Whether the edges have mid-nodes."""
+        """True where the edges have mid-nodes."""
         return self.nodes.shape[1] > self.corners
 
     def edges(self) -> np.ndarray:

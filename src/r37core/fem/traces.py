@@ -67,7 +67,7 @@ def face_traces(points: np.ndarray, blocks: Mapping[str, np.ndarray], members: n
 
 
 def _face_trace(points: np.ndarray, element: Element, face: list[int], corners: list[int], elements: np.ndarray) -> Trace:
-    """One face of many elements of a type. A triangle is a quadrangle of which two corners are one."""
+    """Trace of the same face of many elements of a type. A triangle is a quadrangle of which two corners are one."""
     along, weights = np.polynomial.legendre.leggauss(_POINTS)
     first, second = (axis.ravel() for axis in np.meshgrid(along, along))
     # bilinear in the square from -1 to 1, and its slopes along both sides

@@ -1,4 +1,4 @@
-"""What a simulation needs of a blade: the reduced model in its modes at rest, and its contact nodes' displacement operator.
+"""Model of a blade for simulations: the reduced model in its modes at rest, and its contact nodes' displacement operator.
 
 Light: the simulation jobs import it.
 

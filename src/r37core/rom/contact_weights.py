@@ -1,4 +1,4 @@
-"""What a contact node is: a node of the mesh, or a patch of the tip, whose displacement is a weighted mean.
+"""Contact nodes: each is a node of the mesh, or a patch of the tip, whose displacement is a weighted mean.
 
 A force on one node is a point load, whose displacement has no limit as the mesh is refined. On a patch k the displacement is
 

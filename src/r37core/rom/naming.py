@@ -17,7 +17,7 @@ FIRST_BENDING, FIRST_TORSION, _ = NAMED_MODES
 
 
 def mode_label(name: str) -> str:
-    """What a legend calls a mode: those without a name of their own are numbered."""
+    """Label of a mode in a legend: those without a name of their own are numbered."""
     return name if name in NAMED_MODES else f"mode {name}"
 
 

@@ -11,7 +11,7 @@ from .contact_model import ContactModel
 from .rotation import BucklingError
 
 CORIOLIS_TERM = "M x'' + Omega G x' + K(Omega) x = f, for Omega > 0 and a rotor that turns towards negative theta, about -z"
-"""Where a Coriolis matrix G per speed stands, which is written into files."""
+"""Place of a Coriolis matrix G per speed, written into files."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What a reduced model is made of: its boundary nodes, basis and nodes of stress. Light: the configuration imports it."""
+"""Choices of a reduced model: its boundary nodes, basis and nodes of stress. Light: the configuration imports it."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ class BoundaryError(ValueError):
 
 
 POINTS, PATCHES, AREA_PATCHES = "points", "patches", "area_patches"
-"""What contact acts on: nodes of the mesh, patches of the tip line, or patches of the tip's whole face."""
+"""Kinds of contact nodes: nodes of the mesh, patches of the tip line, or patches of the tip's whole face."""
 
 
 @dataclass(frozen=True)
 class BoundaryChoice:
-    """Where the contact nodes lie.
+    """Positions of the contact nodes.
 
     With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n. `contact`: POINTS, PATCHES or
     AREA_PATCHES; see r37core.rom.contact_weights.
@@ -78,7 +78,7 @@ def boundary_located(location: str) -> Iterator[None]:
 
 
 def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
-    """Whether there are two nodes for each patch, one of them between it and the next."""
+    """True where there are two nodes for each patch, one of them between it and the next."""
     positions = choice.chord_positions(count)
     following = np.searchsorted(positions, chord)
     at_one = np.isclose(chord[:, None], positions).any(axis=1)
@@ -88,7 +88,7 @@ def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
 
 @dataclass(frozen=True)
 class StressSubmesh:
-    """Where stress is recovered: unclamped nodes with x < `maximum_x` and `minimum_z` < z < `maximum_z` (m).
+    """Region of the stress: unclamped nodes with x < `maximum_x` and `minimum_z` < z < `maximum_z` (m).
 
     `excluded_layers`: elements that hold a contact node or a clamped node are left out, and so many further layers round them
     as this number exceeds one: there a force on a single node and the clamping give stresses that grow with a finer mesh.
@@ -133,7 +133,7 @@ EVERYWHERE = StressSubmesh()
 
 @dataclass(frozen=True)
 class ReductionChoice:
-    """What a reduced model is made of: basis at `speeds` (rad/s), contact nodes of `boundary`, stress on `stress_submesh`."""
+    """Choices of a reduced model: basis at `speeds` (rad/s), contact nodes of `boundary`, stress on `stress_submesh`."""
 
     boundary: BoundaryChoice
     speeds: tuple[float, ...]

@@ -1,4 +1,4 @@
-"""Where rotation holds a blade: its static displacement under the centrifugal load, at any speed, from that at a few.
+"""Static displacement of a blade under the centrifugal load, at any speed, from that at a few.
 
 (K0 + Omega^2 K1) u = Omega^2 f. In the span of the displacements at some speeds, with the shapes v_i for which
 K1 v_i = kappa_i K0 v_i and v_i^T K0 v_i = 1 there, u = sum over i of Omega^2/(1 + kappa_i Omega^2) v_i (v_i^T f). It is exact

@@ -10,8 +10,10 @@ import pandas as pd
 import xarray as xr
 
 from r37core.dataset_file import SPEED, Variable, dataset_of, read_dataset
+from r37core.results.closing import counted, largest_stress_text
 from r37core.results.measures import range_above_yield
 from r37core.results.netcdf import status_flags
+from r37core.results.table_file import read_table
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
@@ -60,7 +62,7 @@ AXES = {
 
 
 def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_stress: float) -> xr.Dataset:
-    """What the files of the `speeds` (rad/s) have of every blade of a rotor; `yield_stress` (Pa) of the blades' material.
+    """Numbers of every blade of a rotor, from the files of the `speeds` (rad/s); `yield_stress` (Pa): of the blades' material.
 
     Raises InputFileError for a file that cannot be read.
     """
@@ -149,3 +151,12 @@ def _number_of_largest(values: xr.DataArray) -> float:
     """Coordinate of the largest of values along one dimension; NaN where all are NaN, as of a run that diverged."""
     numbers = values[values.dims[0]].values
     return float(numbers[np.nanargmax(values)]) if values.notnull().any() else np.nan
+
+
+def closing(results: Path) -> str:
+    """Closing line: how many rotors there are, how many of their runs diverged, and the largest stress of any blade."""
+    table = read_table(results / "rotors.csv")
+    text = counted(len(table), "rotor")
+    if diverged := int(table["diverged_speeds"].sum()):
+        text += f", {diverged} of {counted(int(table['speeds'].sum()), 'run')} diverged"
+    return text + largest_stress_text(table, "worst_speed_rad_s")

@@ -17,6 +17,6 @@ EXTENSION = Extension(
             "first. Below: growth of all blades at the speed of the largest motion, and nodal diameters there."
         ),
     },
-    closing="rotors.closing.closing",
+    closing="rotors.dataset.closing",
     panel=Panel(joined_dataset, "rotors.panel.rotor_contents", "rotors/panel.js"),
 )

@@ -1,4 +1,4 @@
-"""What the explorer shows of whole rotors: every blade over speed, and growth and waves at each speed."""
+"""Panel of the explorer about whole rotors: every blade over speed, and growth and waves at each speed."""
 
 from __future__ import annotations
 

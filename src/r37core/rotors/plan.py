@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from r37core.config import Settings
-from r37core.contact.rotor import Rotor
+from r37core.contact.scene import Rotor
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 
@@ -33,7 +33,7 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 
 def remarks(settings: Settings) -> list[str]:
-    """Of scenes whose numbers are those of many blades."""
+    """Remarks on scenes whose numbers are those of many blades."""
     return [
         f"scene '{name}': {len(rotor.numbers)} blades on one lining cost as many times a single one; rms, stress and "
         "tables are those of the worst blade (docs/rotor.md)"

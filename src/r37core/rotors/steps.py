@@ -18,7 +18,7 @@ def rotor_of_run(input: Any, output: Any, params: Any) -> None:
 
 
 def join(input: Any, output: Any, params: Any) -> None:
-    """All rotors in one dataset and table. Inputs: rotors. Params: runs, fidelity. Outputs: dataset (nc), table (csv)."""
+    """Join all rotors in one dataset and table. Inputs: rotors. Params: runs, fidelity. Outputs: dataset (nc), table (csv)."""
     files = as_list(input.rotors)
     of_runs = dict(zip(map(tuple, params.runs), files, strict=True))
     made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}

@@ -1,4 +1,4 @@
-"""What no model of the section alone can check of run-ups."""
+"""Checks of run-ups that need more than their section."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 LARGEST_CHANGE_PER_SAMPLE = 0.01
-"""Of the speed."""
+"""Largest relative change of the speed in a sample."""
 
 SHORTEST, LONGEST = 1e-3, 100_000
 """Revolutions of a change of speed."""
@@ -29,7 +29,7 @@ class RunUpError(ValueError):
 
 @dataclass(frozen=True)
 class Crossing:
-    """Where a `mode` has the frequency of an `engine_order`."""
+    """Crossing: the speed at which a `mode` has the frequency of an `engine_order`."""
 
     mode: Annotated[str, Key("Mode of the crossing", one_of=NAMED_MODES)]
     engine_order: Annotated[int, Key("Engine order of the crossing", ge=1, le=100)]

@@ -54,7 +54,7 @@ VARIABLES = {
 """Dimensions are those beyond the run."""
 
 LABELS = ("blade", "scene", "run_up")
-"""Of a run."""
+"""Labels of a run."""
 
 
 def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path | str, provenance: Mapping[str, object]) -> None:

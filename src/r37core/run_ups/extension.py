@@ -30,5 +30,5 @@ EXTENSION = Extension(
     targets=targets,
     remarks=remarks,
     captions=_CAPTIONS,
-    closing="run_ups.closing.closing",
+    closing="run_ups.tables.closing",
 )

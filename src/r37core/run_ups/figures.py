@@ -84,7 +84,7 @@ def _direction(run: xr.Dataset) -> str:
 
 
 def _keys(runs: Iterable[xr.Dataset], colours: Mapping[float, Any]) -> dict[str, Line2D]:
-    """What colours, dashes and crosses of some runs mean, for a legend."""
+    """Legend entries: the meaning of colours, dashes and crosses."""
     keys = {f"{rate:.4g} rad/s²": Line2D([], [], color=colour) for rate, colour in colours.items()}
     there = {_direction(run) for run in runs}
     keys |= {f"run-{name}": Line2D([], [], color="0.3", ls=dashes) for name, dashes in _DIRECTIONS.items() if name in there}

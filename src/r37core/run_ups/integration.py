@@ -15,11 +15,10 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.clearance import check_room
-from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.integration_choice import IntegrationChoice, revolutions_at_once
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.kept_numbers import energy_balance
 from r37core.time_integration.problem import Problem, stable_problem
-from r37core.time_integration.run_length import revolutions_at_once
 from r37core.time_integration.simulate import Simulation, at_rest
 from r37core.time_integration.state import Schedule
 from r37core.time_integration.step_limit import UnstableStepError
@@ -32,7 +31,7 @@ _AT_ONCE = 64
 
 @dataclass(frozen=True)
 class IntegratedSegments:
-    """What some segments leave behind: `samples` and `snapshots` as a simulation records them; `diverged`.
+    """Record of some segments: `samples` and `snapshots` as a simulation records them; `diverged`.
 
     `speeds` (rad/s), shape (samples,); `wear` (m), shape (samples,): the largest by the end of a sample's segment; `shapes`,
     shape (modes at rest, numbers): of the numbers of a snapshot; `snapshot_speeds` (rad/s), shape (snapshots,).
@@ -146,7 +145,7 @@ class RunUpIntegration:
 
 
 _LARGEST_TURN = 3.0
-"""Of a mode in a step (rad), up to which its velocity follows from two displacements."""
+"""Largest turn of a mode in a step (rad) with which its velocity follows from two displacements."""
 
 
 def resolved_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:

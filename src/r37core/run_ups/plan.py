@@ -71,7 +71,7 @@ class RunUps:
         return by_pair
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
-        """What a run-up starts from, with the stress operator where its stress is wanted."""
+        """Files that a run-up starts from, with the stress operator where its stress is wanted."""
         prepared = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
         files = {"prepared": prepared, "model": self.sweep.contact_model(wildcards)}
         for file in self.sweep.stress_operator(wildcards):
@@ -81,7 +81,7 @@ class RunUps:
         return files
 
     def stage(self, made: Provenance) -> Stage:
-        """One run-up."""
+        """Stage of a run-up."""
         return Stage(
             "run_ups.steps.record",
             {
@@ -130,7 +130,7 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 
 def remarks(settings: Settings) -> list[str]:
-    """Of elastic casings that only a run-up overtakes, as far as no crossing decides its speeds."""
+    """Remarks on elastic casings that only a run-up overtakes, as far as no crossing decides its speeds."""
     lines = []
     choices = RunUps(Sweep(settings)).choices
     for name, casing in elastic_casings(settings).items():

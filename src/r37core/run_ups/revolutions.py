@@ -1,4 +1,4 @@
-"""What a run-up's file keeps: some numbers of every revolution, made while the run goes on."""
+"""Content of a run-up's file: some numbers of every revolution, made while the run goes on."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When a run-up has which speed: angle is its clock, so the samples of a revolution are the same at every speed.
+"""Speeds of a run-up over its revolutions: angle is its clock, so the samples of a revolution are the same at every speed.
 
 At a constant rate a the squared speed is linear in the angle, Omega^2 = Omega_0^2 + 2 a theta. Over a segment of samples the
 time integration keeps the mean of the speeds at its ends, which passes the segment in just the time that the run-up takes.

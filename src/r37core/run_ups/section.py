@@ -28,7 +28,7 @@ class CrossingSection(Section):
 
 @declared_by(RunUpChoice)
 class RunUpEntry(Section):
-    """One run-up, or run-down where it ends at the lower speed, of every chosen blade in every chosen scene."""
+    """A run-up, or run-down where it ends at the lower speed, of every chosen blade in every chosen scene."""
 
     blades: AllOrNames = Field(default="all", description="Blades of the run-up")
     scenes: AllOrNames = Field(default="all", description="Scenes of the run-up")
@@ -56,7 +56,7 @@ class RunUpEntry(Section):
         return next(key for key in _LENGTH if getattr(self, key) is not None)
 
     def choice(self, revolutions_of_scene: int) -> RunUpChoice:
-        """What is asked for in a scene whose runs have so many revolutions."""
+        """Run-up that is asked for in a scene whose runs have so many revolutions."""
         parts: dict[str, Any] = {"before": self.revolutions_before or revolutions_of_scene, "crossing": None}
         if crossing := self.crossing:
             parts |= {"start": crossing.first, "stop": crossing.last, "crossing": in_si(Crossing, crossing)}

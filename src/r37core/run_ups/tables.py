@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.results.closing import counted, largest_stress_text
 from r37core.results.measures import first_yield, leading_edge, motion
+from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
 
 from .dataset import runs_of
 
 CASE = ["blade", "scene", "low_speed_rad_s", "high_speed_rad_s", "direction", "lining"]
 CASE += ["revolutions_before", "revolutions_after"]
-"""What run-ups have in common that differ by their rates alone."""
+"""Columns of run-ups that differ by their rates alone."""
 
 
 def run_up_table(dataset: xr.Dataset) -> pd.DataFrame:
-    """One row for each run-up, of its revolutions after those at the first speed; NaN where there is no such number.
+    """Table with a row for each run-up, of its revolutions after those at the first speed; NaN where there is no such number.
 
     The `peak` is where the leading edge's normal and tangential rms are together largest; `last` is the last revolution.
     `casing_hits`: how often a node came upon the bare casing, in the revolutions before, too.
@@ -69,7 +72,7 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
 
 
 def rate_table(runs: pd.DataFrame) -> pd.DataFrame:
-    """One row for each blade, scene, range of speeds, direction and lining: which of the rates stay below yield.
+    """Table with a row for each blade, scene, range of speeds, direction and lining: which of the rates stay below yield.
 
     `lowest_safe_rate_rad_s2`: the slowest of the rates from which on all faster ones stay below, NaN where the fastest does
     not. `rate_at_yield_rad_s2`: between it and the next slower one, where a straight line of the logarithms passes yield; NaN
@@ -112,3 +115,14 @@ def safe_rates(group: pd.DataFrame) -> dict[str, float]:
     lowest = float(rates[first]) if first < len(rates) else np.nan
     values = (len(rates), float(rates[0]), float(rates[-1]), lowest, at_yield, float(np.max(ratios)))
     return dict(zip(_RATES, values, strict=True))
+
+
+def closing(results: Path) -> str:
+    """Closing line: how many run-ups there are, how many pass yield or diverge, and the largest stress of all."""
+    table = read_table(results / "run_ups.csv")
+    text = counted(len(table), "run-up")
+    if "max_von_mises_pa" in table:
+        text += f", {int((table['max_von_mises_pa'] > table['yield_stress_pa']).sum())} of them above yield"
+    if diverged := int((table["status"] == RunStatus.DIVERGED.text).sum()):
+        text += f", {diverged} diverged"
+    return text + largest_stress_text(table, "max_von_mises_speed_rad_s")

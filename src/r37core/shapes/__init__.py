@@ -10,10 +10,10 @@ from r37core.io import read_json, readable
 FOLDER = Path(__file__).parent
 
 PARTS = (FOLDER / "shapes.html", EXPLORER / "explorer.css", EXPLORER / "theme.js", FOLDER / "shapes.js")
-"""What the page of a blade is put together from, beside its data and plotly: body, style, program."""
+"""Parts that the page of a blade is put together from, next to its data and plotly: body, style, program."""
 
 INDEX = "shapes.json"
-"""In each folder of shapes: what its .glb files show."""
+"""Name of the file in each folder of shapes that says what its .glb files show."""
 
 
 def shapes_contents(folders: Mapping[str, Path], explorer_in_report: str = "") -> dict[str, object]:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from r37core.plans.extension import Extension
 
-from .plan import targets
-from .section import SECTION
+from .plan import SECTION, targets
 
 _CAPTIONS = {
     "mode_shapes": (

@@ -16,7 +16,7 @@ from r37core.io import write_json
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.rom.reduced_model import ReducedModel
 from r37core.speeds import exact_text
-from r37core.stress.von_mises import von_mises
+from r37core.stress.operator import von_mises
 from r37core.units import RPM
 
 from . import INDEX

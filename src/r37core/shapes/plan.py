@@ -5,10 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from pydantic import Field
+
+from r37core.config.section import ExtensionSection, Section
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 
-from .section import SECTION
+
+class ShapeSection(Section):
+    """Modes and worst instants as files that move."""
+
+    modes: int = Field(default=6, ge=1, le=30, description="how many modes of each blade, at rest")
+
+
+SECTION = ExtensionSection("shapes", ShapeSection, ShapeSection())
 
 MODE_SHAPES = "<results>/shapes/{blade}/modes"
 WORST_SHAPES = "<results>/shapes/{blade}/stress_{scene}"
@@ -22,7 +32,7 @@ class Shapes:
 
     @property
     def modes(self) -> int:
-        """How many modes of each blade."""
+        """Number of modes of each blade."""
         return self.sweep.settings.section(SECTION).modes
 
     @property

@@ -45,7 +45,7 @@ def worst(input: Any, output: Any, params: Any) -> None:
 
 
 def page(input: Any, output: Any, params: Any) -> None:
-    """One page with a blade's shapes. Inputs: modes and worst, folders of shapes. Output: page (html).
+    """Write the page with a blade's shapes. Inputs: modes and worst, folders of shapes. Output: page (html).
 
     Params: blade, scenes, address (of a file in the report).
     """

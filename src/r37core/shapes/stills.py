@@ -26,7 +26,7 @@ from .moving import COLOUR_MAP, LARGEST_SHOWN
 _COLUMNS, _PANEL_HEIGHT = 5, 2.9
 _PIXELS = (600, 900)
 _LETTERS = 29
-"""In a line that fits a panel."""
+"""Letters of a line that fits a panel."""
 
 
 def draw_shapes(folder: Path) -> Figure:
@@ -109,4 +109,4 @@ def _words(title: str) -> str:
 
 
 _SHORT = {", above yield: outside the linear model": "; above yield, not linear", "displacement ": "shown "}
-"""What breaks badly, in the words of a narrow panel."""
+"""Replacements of words that break badly in a narrow panel."""

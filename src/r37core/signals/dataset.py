@@ -1,4 +1,4 @@
-"""signals.nc: of one blade and scene, and of all."""
+"""signals.nc: signals of one blade and scene, and of all."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import xarray as xr
 
 from r37core.dataset_file import SPEED, SPEED_RPM, Variable, dataset_of, read_dataset
 from r37core.netcdf_access import new_netcdf, open_dataset
+from r37core.results.closing import counted
 from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.time_integration.simulate import TIP_POINTS
@@ -139,3 +140,12 @@ def _append(target: netCDF4.Dataset, dataset: xr.Dataset, blade: str, scene: str
     whole = dataset.reindex({name: values for name, values in axes.items() if name in dataset.dims})
     for name in ("speed", "speed_rpm", *(variable for variable in VARIABLES if variable in whole)):
         target[name][start : start + count] = whole[name].values
+
+
+def closing(results: Path) -> str:
+    """Closing line: how many signals there are, and of which speeds."""
+    signals = read_dataset(results / "signals.nc")
+    if not signals.sizes.get("run"):
+        return "no signal, for no interaction was found"
+    ends = dict.fromkeys(f"{speed:.6g}" for speed in (signals["speed"].values.min(), signals["speed"].values.max()))
+    return f"{counted(signals.sizes['run'], 'signal')} at {' to '.join(ends)} rad/s"

@@ -54,5 +54,5 @@ EXTENSION = Extension(
     simulated=simulated,
     targets=targets,
     captions=_CAPTIONS,
-    closing="signals.closing.closing",
+    closing="signals.dataset.closing",
 )

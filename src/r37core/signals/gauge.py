@@ -1,4 +1,4 @@
-"""Where a strain gauge is, and which way it looks. Light: the configuration imports it."""
+"""Place and direction of a strain gauge. Light: the configuration imports it."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ class Signals:
         return {name: to_plain(in_si(Gauge, entry)) for name, entry in gauges.items()}
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
-        """What signals are made from, with what gauges and the speeds of interactions need beside it."""
+        """Inputs of signals, with those of gauges and of the speeds of interactions."""
         blade, scene, tip_line = wildcards.blade, wildcards.scene, self.tip_line(wildcards)
         files = {
             "prepared": paths.fill(paths.INTEGRATION_STAMP, blade=blade, scene=scene),
@@ -69,7 +69,7 @@ class Signals:
         return sorted(map(float, self._section.probes_deg))
 
     def revolutions(self, wildcards: Any) -> int:
-        """How many revolutions at the end are kept."""
+        """Number of revolutions at the end that are kept."""
         return self._section.revolutions or self.sweep.settings.scenes[wildcards.scene].revolutions
 
     def tip_line(self, wildcards: Any) -> str:

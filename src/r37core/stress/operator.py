@@ -9,7 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from r37core.io import atomic_write, readable
-from r37core.stress.von_mises import von_mises
+
+
+def von_mises(stress: np.ndarray) -> np.ndarray:
+    """Von Mises stress (Pa), shape (...), of components xx yy zz xy yz zx, shape (6, ...)."""
+    xx, yy, zz, xy, yz, zx = stress
+    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.sqrt(0.5 * normal + 3.0 * (xy**2 + yz**2 + zx**2))
 
 
 @dataclass(frozen=True)
@@ -36,7 +42,7 @@ class StressOperator:
         return np.stack(parts).astype(np.float32)
 
     def have_rotation(self, coordinates: np.ndarray) -> bool:
-        """Whether the coordinates, shape (instants, coordinates), have the amplitudes of rotation's shapes."""
+        """True where the coordinates, shape (instants, coordinates), have the amplitudes of rotation's shapes."""
         return coordinates.shape[1] > self.coordinates
 
     def max_von_mises(self, coordinates: np.ndarray) -> np.ndarray:
@@ -57,6 +63,6 @@ def write_stress_operator(stress: StressOperator, file: Path | str) -> None:
 
 
 def read_stress_operator(file: Path | str) -> StressOperator:
-    """What `write_stress_operator` wrote. InputFileError when it cannot be read."""
+    """Read what `write_stress_operator` wrote. InputFileError when it cannot be read."""
     with readable(file), np.load(file) as stored:
         return StressOperator(stored["operator"], int(stored["coordinates"]), str(stored["region"]))

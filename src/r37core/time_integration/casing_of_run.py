@@ -17,7 +17,7 @@ from .time_grid import TimeGrid
 
 @dataclass(frozen=True, eq=False)
 class CasingOfRun:
-    """What the contact nodes of a `model` meet in a `scene` at the speed of a `grid`."""
+    """Casing that the contact nodes of a `model` meet in a `scene` at the speed of a `grid`."""
 
     model: ContactModel
     scene: Scene
@@ -40,12 +40,12 @@ class CasingOfRun:
 
     @cached_property
     def clearance(self) -> np.ndarray:
-        """Of the round casing at each contact node (m), shape (nodes,)."""
+        """Clearance of the round casing at each contact node (m), shape (nodes,)."""
         return clearances(self.model, self.scene, np.array([self.grid.speed]))[0]
 
     @property
     def rotation_velocity(self) -> np.ndarray:
-        """What the rotation adds to the nodes' sliding over the casing (m/s), positive along the tangent, shape (nodes,)."""
+        """Sliding of the nodes over the casing by the rotation (m/s), positive along the tangent, shape (nodes,)."""
         return -self.tip.radius * self.grid.speed
 
     @property
@@ -55,13 +55,13 @@ class CasingOfRun:
 
     @property
     def bar_stiffness(self) -> float:
-        """Of an elastic bar (N/m); 0 without lining."""
+        """Stiffness of an elastic bar (N/m); 0 without lining."""
         lining = self.scene.lining
         return 0.0 if lining is None else lining.elastic_modulus * self.bar_area / lining.thickness
 
     @property
     def bars(self) -> int:
-        """How many bars of each ring are told apart: with steps longer than a bar, one for each step of a revolution.
+        """Number of bars in each ring: with steps longer than a bar, one for each step of a revolution.
 
         All bars that a step passes over are then worn as the one it ends on; a force is still that of a single bar.
         """

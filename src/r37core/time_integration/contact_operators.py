@@ -28,13 +28,13 @@ class ContactOperators:
 
     @property
     def highest_frequency(self) -> float:
-        """Of all modes that are stepped (rad/s), the casing's among them."""
+        """Highest frequency of all modes that are stepped (rad/s), the casing's among them."""
         of_ring = self.casing.ring.frequencies.max() if self.casing.ring is not None else 0.0
         return float(max(self.blade.frequencies[-1], of_ring))
 
     @cached_property
     def recursion(self) -> Recursion:
-        """How a mode goes from step to step: a complex one in the real part of its amplitude, the casing's without turning."""
+        """Recursion of all modes: a complex one in the real part of its amplitude, the casing's without turning."""
         own = self.blade.recursion
         if self.casing.ring is not None:
             ring, grid = self.casing.ring, self.blade.grid
@@ -56,7 +56,7 @@ class ContactOperators:
 
     @cached_property
     def _ring_rows(self) -> np.ndarray:
-        """What the casing's modes add to `displacement_operator`, with which the nodes come nearer to it."""
+        """Columns of the casing's modes in `displacement_operator`, with which the nodes come nearer to it."""
         if self.casing.ring is None:
             return np.empty((3, len(self.casing.tip.radius), 0))
         return -casing_axes(self.casing.ring.displacement(self.casing.tip.theta), self.casing.cone_angle)
@@ -80,12 +80,12 @@ class ContactOperators:
 
     @cached_property
     def increment_operator(self) -> np.ndarray:
-        """The same per increment d, shape (3, nodes, modes); no column without Coriolis."""
+        """Displacement of the contact nodes per increment d, shape (3, nodes, modes); no column without Coriolis."""
         return self.operator_at_rest @ self._shapes[1]
 
     @cached_property
     def complex_operator(self) -> np.ndarray | None:
-        """The same per complex amplitude, shape (3, nodes, modes)."""
+        """Displacement of the contact nodes per complex amplitude, shape (3, nodes, modes)."""
         if self.blade.complex_modes is None:
             return None
         blade = self.operator_at_rest @ self.blade.modes @ self.blade.complex_modes.shapes

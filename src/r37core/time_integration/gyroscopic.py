@@ -18,9 +18,9 @@ import numpy as np
 from .integrators import Recursion
 
 LARGEST_TURN = 2.0
-"""Of a mode in a step (rad), up to which the Coriolis force acts on it. Faster ones, which a large static_above leaves, keep
-their real shapes: towards half a turn in a step two real numbers no longer tell a complex amplitude. The coupling, of up to
-2 Omega, adds to a turn less than 4 pi by the steps of a revolution."""
+"""Largest turn of a mode in a step (rad) with which the Coriolis force acts on it. Faster ones, which a large
+static_above leaves, keep their real shapes: towards half a turn in a step two real numbers no longer determine a complex
+amplitude. The coupling, of up to 2 Omega, adds to a turn less than 4 pi by the steps of a revolution."""
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,7 @@ class InitialMotion:
 
     @property
     def attributes(self) -> dict[str, str | np.ndarray]:
-        """What a dataset says of it; nothing of a blade at rest."""
+        """Attributes of a dataset about the initial motion; none for a blade at rest."""
         parts = {"initial_displacement": self.displacement, "initial_velocity": self.velocity}
         named = {name: part for name, part in parts.items() if part is not None and part.any()}
         return {"initial_state": "in motion", **named} if named else {}
@@ -82,7 +82,7 @@ class InitialMotion:
         return energy(rest) / total if total > 0.0 else 0.0
 
     def put(self, problem: Problem, state: SimulationState) -> None:
-        """Into a state at rest, as far as the modes are stepped.
+        """Put the motion into a state at rest, as far as the modes are stepped.
 
         The increment u_0 - u_{-1} is that of free motion through displacement and velocity, in closed form with exact_modal;
         with central differences the velocity is (u_1 - u_{-1})/(2h). Static modes follow contact forces, and there are none.

@@ -28,7 +28,7 @@ class Recursion:
     lost: np.ndarray
 
     def __getitem__(self, row: int | slice | np.ndarray | None) -> Recursion:
-        """One or some of several recursions, whose arrays have shape (recursions, modes), or some modes of one.
+        """Select one or some of several recursions, whose arrays have shape (recursions, modes), or some modes of one.
 
         None: one as several.
         """
@@ -106,11 +106,11 @@ class Increments:
     by_velocity: np.ndarray
 
     def increment(self, row: int, displacement: np.ndarray, velocity: np.ndarray) -> np.ndarray:
-        """That of one of several recursions."""
+        """Increment of the modes of one of several recursions."""
         return self.by_displacement[row] * displacement + self.by_velocity[row] * velocity
 
     def velocity(self, row: int, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
-        """What the modes then have."""
+        """Velocity of the modes of one of several recursions."""
         return (increment - self.by_displacement[row] * displacement) / self.by_velocity[row]
 
 

@@ -1,4 +1,4 @@
-"""What is kept of a run at one speed: numbers of its samples, snapshots and wear, as its file has them."""
+"""Results kept of a run at one speed: numbers of its samples, snapshots and wear, as its file has them."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ import numpy as np
 from numpy.fft import rfft  # NumPy imports it when it is used, which would be in each of a server's jobs
 
 from r37core.contact.laws import wear_at_the_casing
+from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Lining
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.stress.of_revolutions import largest_of_revolutions
 from r37core.stress.operator import StressOperator
+from r37core.stress.revolutions import largest_of_revolutions
 
-from .casing_waves import casing_waves
 from .problem import Problem
 from .simulate import DIRECTIONS
 from .state import SimulationRecord
@@ -22,13 +22,13 @@ from .status import RunStatus
 
 _WEAR_LOBES = 20
 _ROUND_OFF = 1e-9
-"""Of a bar's penetration at the casing: also from there on the compiled code counts it as there."""
+"""Relative margin of a bar's penetration at the casing; the compiled code has the same."""
 KEPT = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
 """Directions of the spectrum."""
 
 
 def whole(samples: np.ndarray, count: int, diverged: bool) -> np.ndarray:
-    """As many samples as were asked for: NaN from where a run ended, and in place of the last one that diverged."""
+    """Samples extended to the `count` asked for: NaN from where a run ended, and in place of the last one that diverged."""
     # which may be infinite
     reached = len(samples) - diverged
     if reached == count:
@@ -44,7 +44,7 @@ def largest_of_each(revolutions: int, samples: np.ndarray) -> np.ndarray:
 
 
 def status_numbers(problem: Problem, reached: float | None) -> dict[str, np.ndarray]:
-    """How a run ended, and what it was made with: see run_speed. `reached`: revolution of a divergence, None without one."""
+    """Status of a run, and what it was made with: see run_speed. `reached`: revolution of a divergence, None without one."""
     diverged_at = np.nan if reached is None else reached
     return {
         "status": np.array(int(RunStatus.COMPLETED if reached is None else RunStatus.DIVERGED)),
@@ -60,7 +60,7 @@ def status_numbers(problem: Problem, reached: float | None) -> dict[str, np.ndar
 def snapshot_numbers(
     problem: Problem, record: SimulationRecord, stress: StressOperator | None, static_stress: bool
 ) -> dict[str, np.ndarray]:
-    """What is kept of the snapshots of the last revolution: see run_speed."""
+    """Numbers kept of the snapshots of the last revolution: see run_speed."""
     shapes = problem.model.to_reduced @ problem.contact.state_shapes
     coordinates = record.snapshots[-problem.choice.snapshots_per_revolution :] @ shapes.T
     if static_stress:
@@ -147,7 +147,7 @@ def amplitudes(values: np.ndarray) -> np.ndarray:
 
 
 def wear_numbers(wear: np.ndarray, angles: int, lining: Lining) -> dict[str, np.ndarray]:
-    """Of the `wear` (m), shape (rings, bars), the largest over the rings: in each of `angles` sectors, and its lobes.
+    """Largest `wear` (m), shape (rings, bars), over the rings: in each of `angles` sectors, and its lobes.
 
     And the share of the bars that are worn through to the casing behind the `lining`, in any ring.
     """
@@ -172,4 +172,44 @@ def energy_balance(work: float, loss: float, change: float, stiffness_work: floa
         "damping_loss": np.array(loss),
         "energy_change": np.array(change),
         "energy_residual": np.array(change - work + loss - stiffness_work),
+    }
+
+
+def casing_waves(
+    samples: np.ndarray, ring: RingMotion, speed: float, revolutions: int, highest_order: int
+) -> dict[str, np.ndarray]:
+    """Spectrum, level and energy of each of the casing's modes in the frame that does not turn.
+
+    `samples` (m) of q_c, then q_s, of all modes at their antinodes, in the rotor's frame, shape (samples, 2 modes), over whole
+    `revolutions` at a `speed` (rad/s). A mode moves by Re(Z e^(i n theta)), Z = q_c - i q_s. The part A e^(i omega t) of Z is a
+    wave that runs with the rotor, towards negative theta, where omega > 0, else against it. Returned, with the modes first:
+    `casing_amplitude` (m), |A| over the signed `casing_order` omega/Omega; `casing_rms_forward` and `casing_rms_backward` (m),
+    over time and circumference; `casing_energy` (J), kinetic and elastic, mean over the time:
+    m/2 sum of (omega^2 + omega_n^2) |A|^2 of the modal mass m. A mode without nodal diameters runs nowhere: all of it counts as
+    forward. Orders are kept up to the blade's `highest_order` and, as the casing sees these, the nodal diameters more. NaN
+    among the samples stays NaN; so is a mode that is too fast for them.
+    """
+    count, modes = len(samples), len(ring.modes)
+    nodal_diameters, own, size = ring.nodal_diameters, ring.frequencies[:modes], ring.size[:modes]
+    turn = 2.0 * np.pi * revolutions * np.arange(1, count + 1) / count
+    too_fast = own / speed + nodal_diameters > 0.5 * count / revolutions
+    waves = (samples[:, :modes] - 1j * samples[:, modes:]).T * np.exp(1j * np.outer(nodal_diameters, turn))
+    amplitudes = np.abs(np.fft.fft(np.where(too_fast[:, None], np.nan, waves))) / count
+    orders = np.rint(np.fft.fftfreq(count, 1.0 / count)) / revolutions
+    squares = amplitudes**2
+    energy = 0.5 * np.sum(((orders * speed) ** 2 + own[:, None] ** 2) * squares, axis=1) / size**2
+    forward, backward = (0.5 * squares[:, wave].sum(axis=1) for wave in (orders > 0.0, orders < 0.0))
+    # Z of a mode without nodal diameters is real, or imaginary: both halves move together
+    runs = nodal_diameters > 0
+    forward, backward = np.where(runs, forward, 2.0 * (forward + backward)), runs * backward
+    ascending = np.argsort(orders)
+    shown = ascending[np.abs(orders[ascending]) <= highest_order + nodal_diameters.max()]
+    return {
+        "casing_nodal_diameter": nodal_diameters,
+        "casing_frequency": own / 2.0 / np.pi,
+        "casing_order": orders[shown],
+        "casing_amplitude": amplitudes[:, shown].astype(np.float32),
+        "casing_rms_forward": np.sqrt(forward),
+        "casing_rms_backward": np.sqrt(backward),
+        "casing_energy": energy,
     }

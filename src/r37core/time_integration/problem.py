@@ -1,4 +1,4 @@
-"""All of one simulation that does not change while it runs, made once: both engines read it here."""
+"""Problem of a simulation: all that does not change while it runs, made once; both engines read it here."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Problem:
 
     @cached_property
     def casing(self) -> CasingOfRun:
-        """What the contact nodes meet."""
+        """Casing that the contact nodes meet."""
         return CasingOfRun(self.model, self.scene, self.grid)
 
     @cached_property

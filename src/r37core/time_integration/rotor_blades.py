@@ -7,8 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from r37core.contact.rotor import Rotor
-from r37core.contact.scene import Scene
+from r37core.contact.scene import Rotor, Scene
 from r37core.rom.contact_model import ContactModel
 
 from .integration_choice import IntegrationChoice
@@ -18,7 +17,7 @@ from .step_limit import UnstableStepError
 
 
 def refusal_of(scene: Scene) -> str | None:
-    """What the blades of a scene's rotor need that it does not have, None where they can be run."""
+    """Requirement of the blades of a scene's rotor that it does not meet, None where they can be run."""
     if scene.rotor is None:
         return None
     if scene.lining is None and not scene.casing.ring:
@@ -29,7 +28,7 @@ def refusal_of(scene: Scene) -> str | None:
 def blade_problems(
     model: ContactModel, speed: float, scene: Scene, rotor: Rotor, choice: IntegrationChoice
 ) -> tuple[Problem, ...]:
-    """One problem for each blade of the rotor, all with the steps of the one that needs the shortest.
+    """Problems, one for each blade of the rotor, all with the steps of the one that needs the shortest.
 
     Equal blades have the same. In an elastic casing, which has an angle 0 of its own, each stands at its angle; in a rigid one
     all stand at that of the model. Raises what Problem raises; ValueError for a rotor that cannot be run.

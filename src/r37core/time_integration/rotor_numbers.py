@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.fft import rfft
 
-from r37core.contact.rotor import Rotor
+from r37core.contact.scene import Rotor
 
 from .kept_numbers import KEPT
 from .rotor_simulation import BladesRecord, BladesSimulation
@@ -50,7 +50,7 @@ def rotor_numbers(
 
 
 def stress_of_blades(history: np.ndarray) -> dict[str, np.ndarray]:
-    """Of each blade the largest stress of the last revolution and of spans; `history` (Pa), shape (blades, revolutions)."""
+    """Largest stress of each blade in the last revolution and in spans; `history` (Pa), shape (blades, revolutions)."""
     of_blades, span = in_spans(history)
     return {
         "blade_max_von_mises": history[:, -1],
@@ -70,7 +70,7 @@ def in_spans(values: np.ndarray) -> tuple[np.ndarray, int]:
 
 
 def nodal_diameters(displacement: np.ndarray, late: np.ndarray, rotor: Rotor) -> dict[str, np.ndarray]:
-    """How the motion of the blades is made of waves that run round the rotor.
+    """Waves of the blades' motion: how it is made of those that run round the rotor.
 
     `displacement` (m), shape (blades, samples, directions), of whole revolutions; `late`, shape (blades,): see BladesRecord. A
     wave of n nodal diameters at frequency w is x_b(t) = Re(X exp(i(w t - n theta_b))), positive n in the sense of growing

@@ -18,12 +18,11 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
-from .compiled.lockstep import advance_in_lockstep
-from .compiled.passage import Passage, Start
+from .compiled.passage import Passage, Start, advance_in_lockstep
 from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
 from .problem import Problem
-from .reference.lockstep import advance_together
+from .reference.engine import advance_together
 from .rotor_blades import blade_problems, on_steps
 from .simulate import Simulation
 from .state import SimulationRecord, SimulationState
@@ -31,7 +30,7 @@ from .state import SimulationRecord, SimulationState
 
 @dataclass(frozen=True)
 class BladesRecord:
-    """What the blades leave behind: a record of each, and where the samples lie in time.
+    """Records of the blades: one of each, and where the samples lie in time.
 
     `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m), shape
     (blades,): what each has worn off all bars together.
@@ -63,17 +62,17 @@ class BladesSimulation:
 
     @property
     def problems(self) -> list[Problem]:
-        """Of each blade."""
+        """Problem of each blade."""
         return [simulation.problem for simulation in self.blades]
 
     @property
     def problem(self) -> Problem:
-        """Of the first blade: grid and casing are those of all."""
+        """Problem of the first blade: grid and casing are those of all."""
         return self.blades[0].problem
 
     @property
     def elastic(self) -> bool:
-        """Whether the blades press an elastic casing, which couples them."""
+        """True where the blades press an elastic casing, which couples them."""
         return self.problem.casing.ring is not None
 
     def start(self, motion: InitialMotion | None = None) -> list[SimulationState]:
@@ -131,7 +130,7 @@ class BladesSimulation:
         return total
 
     def _start(self, angle: float) -> Start:
-        """Of a blade that stands at an angle (rad) at time 0: so many samples before it passes angle 0, that are whole."""
+        """Start of a blade that stands at an angle (rad) at time 0: the whole samples before it passes angle 0."""
         per_revolution = self.problem.choice.samples_per_revolution
         # an angle that is a whole number of samples but for rounding has no share of one
         left = np.mod(angle, 2.0 * np.pi) / (2.0 * np.pi) * per_revolution
@@ -170,7 +169,7 @@ class BladesSimulation:
 
 
 def _beside_each_other(problems: Sequence[Problem]) -> list[Simulation]:
-    """One simulation each; that of the most modes is made first, so that the others have room in its capacity."""
+    """Simulations, one for each problem; that of the most modes is made first, so that the others have room in its capacity."""
     largest = int(np.argmax([len(problem.blade.frequencies) for problem in problems]))
     first = Simulation.of_problem(problems[largest])
     return [

@@ -16,7 +16,7 @@ from .problem import Problem
 
 
 class Segments(NamedTuple):
-    """What of a problem changes with the speed while its modes are held: all with a first axis of `speeds` (rad/s).
+    """Parts of a problem that change with the speed while its modes are held: all with a first axis of `speeds` (rad/s).
 
     `coupling`: of central differences alone. `increments`: None of a single speed.
     """
@@ -30,7 +30,7 @@ class Segments(NamedTuple):
 
 
 def own_segment(problem: Problem) -> Segments:
-    """Of the problem's own speed alone."""
+    """Segments of the problem's own speed alone."""
     several = problem.contact.recursion[None]
     coupling = None if problem.choice.second_order else problem.contact.coupling[None]
     speeds = np.array([problem.speed])
@@ -38,7 +38,7 @@ def own_segment(problem: Problem) -> Segments:
 
 
 def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
-    """At other `speeds` (rad/s), shape (speeds,), in the modes of the problem's speed and with its steps per revolution.
+    """Segments at other `speeds` (rad/s), (speeds,), in the modes of the problem's speed and with its steps per revolution.
 
     A mode's squared frequency is its stiffness at the speed, phi^T K(Omega) phi; the stiffness between modes is left out.
     Raises BucklingError where it is not positive.

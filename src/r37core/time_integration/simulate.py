@@ -1,4 +1,4 @@
-"""One simulation: a blade at one speed in one scene."""
+"""Simulation of a blade at one speed in one scene."""
 
 from __future__ import annotations
 
@@ -11,15 +11,14 @@ from r37core.rom.contact_model import ContactModel
 
 from .compiled.engine import CompiledEngine
 from .initial_motion import InitialMotion
-from .integration_choice import IntegrationChoice
+from .integration_choice import IntegrationChoice, revolutions_at_once
 from .problem import Problem, stable_problem
 from .reference.engine import ReferenceEngine
-from .run_length import revolutions_at_once
 from .segments import own_segment, segments_at
 from .state import Schedule, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
-"""What the samples are of: every direction at the first tip point, then at the second."""
+"""Content of the samples: every direction at the first tip point, then at the second."""
 
 _ENGINES: dict[str, type[CompiledEngine] | type[ReferenceEngine]] = {"compiled": CompiledEngine, "reference": ReferenceEngine}
 
@@ -39,7 +38,7 @@ class Simulation:
     def of_problem(
         cls, problem: Problem, speeds: np.ndarray | None = None, before: Any = None, beside: Any = None
     ) -> Simulation:
-        """One of a problem; with `speeds` (rad/s), shape (speeds,), its engine goes at these in the problem's modes.
+        """Simulation of a problem; with `speeds` (rad/s), shape (speeds,), its engine goes at these in the problem's modes.
 
         `before`, `beside`: engines of the same scene and choice, see CompiledEngine.
         """
@@ -67,7 +66,7 @@ class Simulation:
         return self.advance_samples(state, revolutions * self.problem.choice.samples_per_revolution)
 
     def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
-        """The same by a number of samples."""
+        """Go on by a number of samples from `state`, which is changed."""
         first, done, reached, per_revolution = state.samples, 0, True, self.problem.choice.samples_per_revolution
         out = self.room(first, samples)
         at_once = revolutions_at_once(self.problem.grid.steps_per_revolution) * per_revolution
@@ -82,7 +81,7 @@ class Simulation:
         return self.recorded(first, out, done)
 
     def follow(self, state: SimulationState, schedule: Schedule) -> SimulationRecord:
-        """The same in the constant-speed segments of a schedule."""
+        """Go on in the constant-speed segments of a schedule from `state`, which is changed."""
         first = state.samples
         out = self.room(first, int(schedule.samples.sum()))
         done = self.engine.advance(state, out, schedule)
@@ -95,7 +94,7 @@ class Simulation:
         return SimulationRecord(np.empty((samples, outputs)), np.empty((self._snapshots(first, samples), numbers)))
 
     def recorded(self, first: int, out: SimulationRecord, done: int) -> SimulationRecord:
-        """What an engine has left in that room when it has `done` so many samples."""
+        """Record of what an engine has left in the room `out` when it has `done` so many samples."""
         of_tip = len(TIP_POINTS) * len(DIRECTIONS)
         casing = None if self.problem.casing.ring is None else out.samples[:done, of_tip:]
         return SimulationRecord(
@@ -103,11 +102,11 @@ class Simulation:
         )
 
     def diverged(self, out: SimulationRecord, done: int) -> bool:
-        """Whether the last of so many samples is beyond the limit, or is NaN."""
+        """True where the last of `done` samples is beyond the limit, or is NaN."""
         return done > 0 and not np.abs(out.samples[done - 1]).max() < self.problem.scene.divergence_limit
 
     def _snapshots(self, first: int, samples: int) -> int:
-        """How many there are in so many samples after the `first`."""
+        """Number of snapshots in so many samples after the `first`."""
         return self.problem.grid.snapshots_after(first + samples) - self.problem.grid.snapshots_after(first)
 
     def energy(self, state: SimulationState) -> float:

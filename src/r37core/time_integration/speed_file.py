@@ -38,6 +38,6 @@ def read_speed(file: Path | str) -> dict[str, np.ndarray]:
 
 
 def read_status(file: Path | str) -> RunStatus:
-    """How a run ended; InputFileError when the file cannot be read."""
+    """Status of a run; InputFileError when the file cannot be read."""
     with readable(file), np.load(file) as stored:
         return RunStatus(int(stored[STATUS]))

@@ -1,4 +1,4 @@
-"""One simulation of a sweep as a job: from a contact model and a task, as JSON, to its file."""
+"""Simulation of a sweep as a job: from a contact model and a task, as JSON, to its file."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def prepared(model: ContactModel, speed: float, scene: Scene, choice: Integratio
 
 
 def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:
-    """What a simulation is made of."""
+    """Model, speed, scene and choice of a simulation."""
     scene, choice = from_plain(Scene, wanted["scene"]), from_plain(IntegrationChoice, wanted["choice"])
     return _kept(read_contact_model, model), float(speed), scene, choice
 

@@ -1,4 +1,4 @@
-"""One speed of one scene, from model to the small set of numbers that its file keeps."""
+"""Run at one speed in one scene, from model to the small set of numbers that its file keeps."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def run_speed(
 def _stress(
     simulation: BladesSimulation, record: BladesRecord, stress: StressOperator | None, static_stress: bool
 ) -> dict[str, np.ndarray]:
-    """Of the blade with the largest stress what snapshot_numbers keeps, the largest history of all, and that of a rotor's."""
+    """Numbers of the blade with the largest stress (snapshot_numbers), the largest history, and those of a rotor."""
     shown, history, rotor = record.first_diverged or 0, None, simulation.rotor
     if stress is not None:
         factors = rotor.frequency_factors if rotor else (1.0,)

@@ -1,4 +1,4 @@
-"""What an engine changes: where a run stands, and what a part of it leaves behind."""
+"""State of a run, which an engine changes, and the record that a part of it leaves behind."""
 
 from __future__ import annotations
 
@@ -7,12 +7,24 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .totals import TOTALS
+TOTALS = np.dtype(
+    [
+        ("steps_in_contact", np.float64),  # steps with any contact force
+        ("casing_hits", np.float64),  # onsets of direct contact
+        ("largest_force", np.float64),  # normal, on a node (N)
+        ("worst_complementarity", np.float64),  # largest relative violation
+        ("work", np.float64),  # of the contact forces (J)
+        ("loss", np.float64),  # of energy to damping (J)
+        ("steps", np.float64),
+        ("steps_jumped", np.float64),  # of them, part of a jump over free flight
+    ]
+)
+"""Totals that are added up over a run."""
 
 
 @dataclass
 class SimulationState:
-    """Where a run stands; a run may be stopped after any of its `samples` and go on from its state.
+    """State of a run; a run may be stopped after any of its `samples` and go on from its state.
 
     `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
     `on_casing`, shape (nodes,): whether a node touched the casing in the last step; `contact_force` (N), shape (3, nodes): what
@@ -49,7 +61,7 @@ class Schedule:
 
 @dataclass(frozen=True)
 class SimulationRecord:
-    """What some revolutions leave behind.
+    """Record of some revolutions.
 
     `samples` (m), shape (samples, 6): normal, radial and tangential displacement of the leading edge, then of the trailing
     edge; `snapshots`, shape (snapshots, numbers): see ContactOperators; `diverged`; `casing` (m), shape (samples, casing

@@ -1,4 +1,4 @@
-"""Which modes follow the contact forces statically: those too fast for the step, and so many that the forces are unique.
+"""Choice of the modes that follow the contact forces statically: too fast for the step, and so many that forces are unique.
 
 The contact forces at an instant follow from the residual flexibility R of the static modes alone. With friction a normal force
 on node k opens the gap of node i by G_ik = -R_ik d_k, d_k being the directions of its force. If the symmetric part of G is
@@ -21,20 +21,20 @@ SETTLES_SOON = 0.2
 """Definiteness of G with which the sweeps over the nodes settle soon: taken wherever some choice of modes has it."""
 
 SMALLEST_DEFINITENESS = 0.05
-"""Of G otherwise, so that the sweeps settle."""
+"""Smallest definiteness of G otherwise, so that the sweeps settle."""
 
 SHARE_WITH_FRICTION = 0.2
-"""And what friction has to leave of the definiteness without it. That is 0.9 of nodes of the mesh, and 0.1 to 0.4 of patches,
-whose neighbours static modes move together: the closer they are, the less."""
+"""Share of the definiteness without friction that friction has to leave. It is 0.9 of nodes of the mesh, and 0.1 to 0.4 of
+patches, whose neighbours static modes move together: the closer they are, the less."""
 
 LARGEST_EIGENVALUE = 1.6
-"""Of D^-1 G, up to which nodes take the whole change in a sweep; sweeps diverge from 2 on."""
+"""Largest eigenvalue of D^-1 G with which nodes take the whole change in a sweep; sweeps diverge from 2 on."""
 
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
 """Directions of friction that are tried (rad)."""
 
 _LARGEST_TURN = 2.0
-"""Of a stepped mode in a step (rad), relative to what static_above says."""
+"""Largest turn of a stepped mode in a step (rad), relative to static_above."""
 
 
 class TooFewStaticModesError(ValueError):
@@ -91,7 +91,7 @@ def stepped_modes(
     most: int,
     is_stable: Callable[[int], bool] = lambda stepped: True,
 ) -> int:
-    """How many of the modes are stepped, in whole vectors where there are more than one, which cost no more.
+    """Number of the modes that are stepped, in whole vectors where there are more than one, which cost no more.
 
     Those that turn by less than `static_above` in a `step` (s), at most `most` of them, as far as the others make the contact
     forces unique at a `coefficient` of friction, and pressed nodes are stable with them (`is_stable`, where that can be): else

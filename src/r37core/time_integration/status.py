@@ -1,4 +1,4 @@
-"""How a run ended."""
+"""Status of a run: how it ended."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ class RunStatus(IntEnum):
 
     @property
     def text(self) -> str:
-        """As the datasets and tables have it."""
+        """Status as the datasets and tables have it."""
         return self.name.lower()

@@ -1,4 +1,4 @@
-"""Whether the step of a run is below its limits, of the free blade and of the pressed one."""
+"""Checks that the step of a run is below its limits, of the free blade and of the pressed one."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _check_published_step(contact: ContactOperators, taken: str) -> None:
 
 
 def predicted_ratio(contact: ContactOperators) -> float:
-    """How near the limit a lining is, whose force is that of the prediction; unstable from 1 on.
+    """Ratio of the step to the limit of a lining whose force is that of the prediction; unstable from 1 on.
 
     A node pressed by x on an elastic bar follows x_{n+1} = (1 - g)(2 x_n - x_{n-1}), g = bar stiffness times c at the node;
     both roots of the recursion lie inside the unit circle for 0 < g < 4/3.
@@ -60,7 +60,7 @@ def predicted_ratio(contact: ContactOperators) -> float:
 
 
 def pressed_ratio(contact: ContactOperators) -> float:
-    """How near the limit a step of the run is in which all nodes are pressed on the casing: see ratio_of_pressed_nodes.
+    """Ratio of the step to its limit while all nodes are pressed on the casing: see ratio_of_pressed_nodes.
 
     A coupled mode counts as two, with the real and the imaginary part of its shape: the limit is where a motion changes its
     sign in every step, and there the two are not coupled.
@@ -86,7 +86,7 @@ def check_rotor_step(contacts: Sequence[ContactOperators]) -> None:
 
 
 def pressed_ratio_of_rotor(contacts: Sequence[ContactOperators]) -> float:
-    """At most how near the limit a step is in which all blades are pressed on one elastic casing: see pressed_ratio.
+    """Upper bound of how near the limit a step is in which all blades are pressed on one elastic casing: see pressed_ratio.
 
     M of all modes has a block A for the blades, D for the casing and C between them. Its largest eigenvalue is at most that of
     [[a, c], [c, d]], with a and d the largest eigenvalues of A and D, and c the largest singular value of C.

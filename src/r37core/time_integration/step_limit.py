@@ -24,12 +24,12 @@ class UnstableStepError(ValueError):
 
 
 def largest_pressed_ratio(scene: Scene) -> float:
-    """Up to which pressed nodes are stable in a scene."""
+    """Largest ratio with which pressed nodes are stable in a scene."""
     return 1.0 if scene.friction is None else WITH_FRICTION
 
 
 def ratio_of_pressed_nodes(recursion: Recursion, normal: np.ndarray, flexibility: np.ndarray) -> float:
-    """How near the limit a step is in which all nodes are pressed on the casing, with the force of t_n; unstable from 1 on.
+    """Ratio of a step to its limit while all nodes are pressed on the casing, with the force of t_n; unstable from 1 on.
 
     `normal`: the nodes' normal displacement by stepped modes, shape (nodes, modes); `flexibility` (m/N): by static ones. The
     static modes hold a pressed node by a stiffness, R^-1 of all of them, and any lining in front of the casing is softer.

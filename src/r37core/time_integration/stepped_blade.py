@@ -34,17 +34,17 @@ class SteppedBlade:
 
     @property
     def frequencies(self) -> np.ndarray:
-        """Of the blade's modes that are stepped (rad/s), ascending, without the Coriolis force."""
+        """Frequencies of the blade's modes that are stepped (rad/s), ascending, without the Coriolis force."""
         return self._modes_of_speed[0][: self._stepped]
 
     @cached_property
     def modes(self) -> np.ndarray:
-        """Those that are stepped, of the speed, shape (modes at rest, modes)."""
+        """Modes of this speed that are stepped, shape (modes at rest, modes)."""
         return np.ascontiguousarray(self._modes_of_speed[1][:, : self._stepped])
 
     @cached_property
     def gyroscopic_coupling(self) -> np.ndarray | None:
-        """What couples the stepped modes at the speed (rad/s), skew-symmetric, shape (modes, modes); None without Coriolis.
+        """Coupling of the stepped modes at the speed (rad/s), skew-symmetric, shape (modes, modes); None without Coriolis.
 
         Modes that turn by more than LARGEST_TURN in a step are not coupled.
         """
@@ -55,12 +55,12 @@ class SteppedBlade:
 
     @cached_property
     def complex_modes(self) -> ComplexModes | None:
-        """Of the stepped modes as the Coriolis force couples them; None for a model without it."""
+        """Complex modes: the stepped modes as the Coriolis force couples them; None for a model without it."""
         return None if self.gyroscopic_coupling is None else complex_modes(self.frequencies, self.gyroscopic_coupling)
 
     @cached_property
     def _stepped(self) -> int:
-        """How many modes are stepped: with central differences all up to the highest frequency, else see static_modes."""
+        """Number of modes that are stepped: with central differences all up to the highest frequency, else see static_modes."""
         frequencies, _ = self._modes_of_speed
         below = int(np.count_nonzero(frequencies <= 2.0 * np.pi * self.grid.choice.highest_frequency))
         if below == 0:
@@ -84,7 +84,7 @@ class SteppedBlade:
 
     @cached_property
     def relaxation(self) -> float:
-        """Of the sweeps over the nodes, the same at every speed: see static_modes.relaxation; 1 with central differences."""
+        """Relaxation of the sweeps over the nodes, one at all speeds: see static_modes; 1 with central differences."""
         if not self.grid.choice.second_order:
             return 1.0
         frequencies, rows = self._at_rest
@@ -107,7 +107,7 @@ class SteppedBlade:
 
     @cached_property
     def recursion(self) -> Recursion:
-        """How the stepped modes go from step to step, without the casing's."""
+        """Recursion of the stepped modes, without the casing's."""
         coupled = self.complex_modes
         frequencies = self.frequencies if coupled is None else coupled.frequencies
         return recursion(self.grid.choice.integrator, frequencies, self.scene.damping_ratio, self.grid.time_step)

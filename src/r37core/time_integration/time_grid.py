@@ -57,7 +57,7 @@ class TimeGrid:
         return choice.samples_per_revolution // choice.snapshots_per_revolution if wanted else 0
 
     def snapshots_after(self, samples: int) -> int:
-        """How many snapshots the first `samples` of the run have."""
+        """Number of snapshots in the first `samples` of the run."""
         every = self.samples_per_snapshot
         return max(samples - self.samples_before_snapshots, 0) // every if every else 0
 

@@ -15,7 +15,7 @@ from r37core.alignment import LANES
 from r37core.contact.node_sweeps import set_laws, sweep_nodes, wear_bars
 from r37core.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
-from .kind import LINED
+from .layout import LINED
 from .steps import bar_at, leave_casing, node_lanes, set_friction_of_listed, with_friction
 
 
@@ -55,7 +55,7 @@ def press_contact(m, place):
 
 @inlined
 def release_contact(m):
-    """No node is pressed any more."""
+    """Release all nodes."""
     leave_casing(m)
     for g in range(0, node_lanes(m), LANES):
         store(m.force, g, 0.0)
@@ -87,7 +87,7 @@ def list_beyond(m, count, place):
 
 @inlined
 def set_column(m, k):
-    """What a normal force on a node, with the friction that it brings, opens the gaps by at once."""
+    """Opening of the gaps, at once, by a normal force on a node with its friction."""
     for g in range(0, node_lanes(m), LANES):
         store(m.contact.columns, (k, g), with_friction(m, m.flexibility, k, g))
 

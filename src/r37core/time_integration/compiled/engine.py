@@ -20,8 +20,7 @@ from ..jump_plan import jump_lengths, nearest_casing
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
-from .kind import Kind
-from .layout import LINING, NORMAL, Capacity, capacity_of, constants_record, integration_record
+from .layout import LINING, NORMAL, Capacity, Kind, capacity_of, constants_record, integration_record
 from .passage import Passage
 
 SOURCES = Sources(
@@ -35,22 +34,19 @@ SOURCES = Sources(
     "contact/laws.py",
     "contact/node_sweeps.py",
     "contact/ring.py",
-    "contact/rotor.py",
     "contact/scene.py",
     "declared.py",
     "units.py",
     "time_integration/compiled/contact_steps.py",
     "time_integration/compiled/jump_steps.py",
-    "time_integration/compiled/kind.py",
     "time_integration/compiled/layout.py",
     "time_integration/compiled/segment_steps.py",
     "time_integration/compiled/program.py",
-    "time_integration/compiled/ring_steps.py",
     "time_integration/compiled/steps.py",
     "time_integration/jump_numbers.py",
-    "time_integration/totals.py",
+    "time_integration/state.py",
 )
-"""What the compiled time integration is made from: a change in one of these compiles it anew."""
+"""Files that the compiled time integration is made from: a change in one of them compiles it again."""
 
 
 _ROWS_AT_ONCE = 2**17
@@ -173,7 +169,7 @@ class CompiledEngine:
                 m[name] = value
 
     def put_modes(self, **values: np.ndarray) -> None:
-        """The same of arrays whose last axis is that of the modes."""
+        """Put arrays whose last axis is that of the modes into fields of the record."""
         self.put(**{name: self._spread(value) for name, value in values.items()})
 
     def _spread(self, values: np.ndarray) -> np.ndarray:
@@ -196,7 +192,7 @@ class CompiledEngine:
 
     @property
     def numbers_of_mode(self) -> int:
-        """Of a snapshot: u and, with Coriolis, d."""
+        """Numbers of a mode in a snapshot: u and, with Coriolis, d."""
         return 1 + self.kind.coriolis
 
     @property
@@ -310,7 +306,7 @@ class _CasingTables:
         return aligned_copy(nearest, self.shape.shape[1])
 
     def fits(self, problem: Problem) -> bool:
-        """Whether they are those of this problem, too."""
+        """True where this problem has the same tables."""
         mine, other = (
             (of.grid.steps_per_revolution, of.grid.steps_per_sample, of.scene.casing.lobes, of.scene.casing.width)
             for of in (self._of, problem)

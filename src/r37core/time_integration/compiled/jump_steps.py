@@ -18,12 +18,11 @@ from r37core.alignment import LANES
 from r37core.lanes import bits_of, inlined, load, numbers_at, store
 
 from ..jump_numbers import BEYOND, COARSE, D_FROM_D, D_FROM_U, LOSS_DD, LOSS_UD, LOSS_UU, STRIDES, U_FROM_D, U_FROM_U
-from .kind import CORIOLIS, EXACT_GAP
-from .layout import MERIDIONAL, NORMAL, TANGENTIAL
+from .layout import CORIOLIS, EXACT_GAP, MERIDIONAL, NORMAL, TANGENTIAL
 from .steps import along, mode_lanes, node_lanes, second_difference
 
 ROUNDING_MARGIN = 1e-9
-"""Of the distances compared; generous beside what summing rounds."""
+"""Relative margin of the distances compared, far above the rounding of their sums."""
 
 
 @inlined
@@ -46,7 +45,7 @@ def bound_amplitudes(m):
 
 @inlined
 def _is_clear(m, place, stride, remaining):
-    """Whether no node can touch anything in a jump; `remaining`: what the casing's lobes lack before it."""
+    """Check that no node can touch anything in a jump; `remaining`: what the casing's lobes lack before it."""
     if m.flight.reach_known[stride] == 0:
         for i in range(0, mode_lanes(m), LANES):
             store(m.flight.beyond, i, load(m.flight.amplitude, i) * load(m.speed.jumps, (stride, BEYOND, i)))
@@ -110,3 +109,34 @@ def jump_ahead(m, stride, lost):
         lost += load(jumps, (stride, LOSS_DD, i)) * (d * d)
         lost += (load(jumps, (stride, LOSS_UU, i)) * u + load(jumps, (stride, LOSS_UD, i)) * d) * u
     return lost
+
+
+SINGLE = STRIDES
+"""Row of a single step."""
+
+
+@inlined
+def turn(m, row, amplitudes):
+    """Write the pairs among `amplitudes` in the frame after a jump or a step: a `row` of the turns."""
+    pairs = m.pairs
+    first = mode_lanes(m) - 2 * pairs
+    for j in range(0, pairs, LANES):
+        cosine, sine = load(m.turn_cosine, (row, j)), load(m.turn_sine, (row, j))
+        c, s = load(amplitudes, first + j), load(amplitudes, first + pairs + j)
+        store(amplitudes, first + j, cosine * c - sine * s)
+        store(amplitudes, first + pairs + j, sine * c + cosine * s)
+
+
+@inlined
+def turn_step(m):
+    """Turn the pairs after a step."""
+    turn(m, SINGLE, m.u)
+    turn(m, SINGLE, m.increment)
+    turn(m, SINGLE, m.last_increment)
+
+
+@inlined
+def turn_jump(m, stride):
+    """Turn the pairs after a jump."""
+    turn(m, stride, m.u)
+    turn(m, stride, m.increment)

@@ -1,4 +1,4 @@
-"""What the compiled engine works on, described once: a NumPy record, whose shapes are known when its program is compiled.
+"""Layout of the numbers that the compiled engine works on: a NumPy record, whose shapes are known when its program is compiled.
 
 Only padded sizes and numbers that no speed changes are in it, so all speeds of a sweep share one compiled time integration.
 """
@@ -15,21 +15,44 @@ from r37core.alignment import LANES, Field, aligned_record, padded
 from r37core.contact.scene import Lining
 
 from ..jump_numbers import STRIDES
-from ..totals import TOTALS
+from ..state import TOTALS
+
+
+class Kind(NamedTuple):
+    """Kind of a program: constants of its functions, so that what a scene lacks is not in its program.
+
+    Only what changes a loop over modes or nodes is one of these; the rest of a scene is numbers of the record.
+    `published`: the integrator is central_difference, whose forces correct the prediction; else they are those at t_n, see
+    contact_steps. `lined`, `exact_gap`: see Scene. `coriolis`: modes are complex, see r37core.time_integration.gyroscopic.
+    """
+
+    published: bool
+    lined: bool
+    exact_gap: bool
+    coriolis: bool
+
+    @property
+    def constants(self) -> dict[str, bool]:
+        """Constants by the names that the functions use."""
+        return {name.upper(): value for name, value in self._asdict().items()}
+
+
+PUBLISHED = LINED = EXACT_GAP = CORIOLIS = False
+"""Placeholders of a kind's constants: each program has its own (r37core.program_constants)."""
 
 NORMAL, TANGENTIAL, MERIDIONAL = range(3)
 """Directions of contact: along the casing's normal, positive towards it; growing theta; along its meridian, downstream."""
 
 FEWEST_MODES, FEWEST_NODES = 96, 8
-"""Of a capacity. A program takes seconds to make, and a step costs what is used of its record, not what there is room for."""
+"""Smallest capacity. A program takes seconds to make, and a step costs what is used of its record, not its room."""
 
 
 OF_MODES, OF_NODES = range(2)
-"""Places of the numbers of vectors."""
+"""Places of the numbers of vectors in the record."""
 
 
 class Capacity(NamedTuple):
-    """How many modes and nodes there is room for, in whole vectors: what a program is compiled for beside its kind.
+    """Room for modes and nodes, in whole vectors: a program is compiled for it and for its kind.
 
     Most blades step 32 or 40 modes, with central differences up to 93. A vector of nodes is handled without loops, so more
     nodes are another capacity: four times as many each, so that contact patches of 15 and 29 nodes share one. Modes are
@@ -42,7 +65,7 @@ class Capacity(NamedTuple):
 
 
 def capacity_of(modes: int, nodes: int) -> Capacity:
-    """The smallest that has room for so many."""
+    """Smallest capacity that has room for so many modes and nodes."""
     most_modes, most_nodes = FEWEST_MODES, FEWEST_NODES
     while most_modes < modes:
         most_modes *= 2
@@ -56,7 +79,7 @@ def _fields(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
 
 
 LINING = aligned_record(_fields(" ".join(field.name for field in fields(Lining)) + " area"))
-"""What the law of the lining may use: every field of Lining as a number, and a bar's area (m2)."""
+"""Numbers of the lining's law: every field of Lining as a number, and a bar's area (m2)."""
 
 CASING = aligned_record(_fields("amplitude rise period width cosine sine"))
 """Amplitude (m) of the lobes; rise rate times step; angle (rad) between lobes and their relative width; cone angle."""
@@ -108,12 +131,12 @@ _MODAL_CONSTANTS = (
 _NUMBERS_OF_A_JUMP = 8
 
 MODAL_ROWS = len(_MODAL_CONSTANTS.split()) + STRIDES * _NUMBERS_OF_A_JUMP
-"""What a speed has of each mode: its constants begin with these rows, and copies them as far as there are modes."""
+"""Rows of a speed with a number for each mode: its constants begin with them, and copies them as far as there are modes."""
 
 
 @cache
 def constants_record(modes: int, nodes: int) -> np.dtype:
-    """What of a time integration changes with the speed while its modes are held, of whole vectors of modes and nodes."""
+    """Record of what changes with the speed while its modes are held, of whole vectors of modes and nodes."""
     return aligned_record(
         [
             *_fields(_MODAL_CONSTANTS, modes),
@@ -127,7 +150,7 @@ def constants_record(modes: int, nodes: int) -> np.dtype:
 
 
 def _flight_record(modes: int, nodes: int) -> np.dtype:
-    """Of jumps: amplitudes of the modes, and how far these get beyond in one; how far they bring the nodes; strides."""
+    """Record of jumps: amplitudes of the modes, and how far these get beyond in one; how far they bring the nodes; strides."""
     return aligned_record(
         [
             *_fields("amplitude beyond", modes),
@@ -151,7 +174,7 @@ CALL = aligned_record(
         *_fields("constants speed_indices lasting ends worn", kind=np.int64),
     ]
 )
-"""One call of the program."""
+"""Arguments of a call of the program."""
 
 
 @cache

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..integration_choice import revolutions_at_once
+from ..jump_numbers import LOSS_DD, LOSS_UD, LOSS_UU
 from ..state import Schedule, SimulationRecord, SimulationState
 from .layout import NORMAL, TANGENTIAL
 
@@ -14,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Start(NamedTuple):
-    """Where a run starts: `samples` after the blade has last passed angle 0, and `late`, a share of a sample, after time 0."""
+    """Start of a run: `samples` after the blade has last passed angle 0, and `late`, a share of a sample, after time 0."""
 
     samples: int = 0
     late: float = 0.0
@@ -86,7 +89,7 @@ class Passage:
 
     @property
     def worn(self) -> float:
-        """What the blade has worn off all bars together (m), up to now."""
+        """Wear (m) of all bars together by this blade, up to now."""
         return float(self._engine.record[0]["worn"])
 
     def end(self) -> None:
@@ -110,3 +113,44 @@ class Passage:
         if self._grid.choice.second_order:
             forces = snapshots[:, numbers:].reshape(len(snapshots), 3, (snapshots.shape[1] - numbers) // 3)
             out[:, kept:] = forces[:, :, :nodes].reshape(len(snapshots), 3 * nodes)
+
+
+def advance_in_lockstep(
+    engines: Sequence[CompiledEngine],
+    states: Sequence[SimulationState],
+    outs: Sequence[SimulationRecord],
+    order: Sequence[int],
+) -> tuple[list[int], list[float]]:
+    """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the bars (m).
+
+    `engines` of a rotor's blades, of one capacity; their forces on the casing are summed in this `order`. Each has the casing's
+    modes; these are made alike to the last bit, and those of the first count for their loss.
+    """
+    first, blades = engines[order[0]], len(engines)
+    for place in order[1:]:
+        _take_casing(engines[place], first)
+    addresses = np.array([engines[place].address for place in order], dtype=np.uint64)
+    passages = [Passage(engine, state, out) for engine, state, out in zip(engines, states, outs, strict=True)]
+    done, samples, grid = 0, len(outs[0].samples), first.problem.grid
+    blocks = reached = revolutions_at_once(blades * grid.steps_per_revolution) * grid.choice.samples_per_revolution
+    while done < samples and reached == blocks:
+        blocks = min(blocks, samples - done)
+        for passage in passages:
+            passage.ask(blocks)
+        reached = first.call_together(addresses)
+        done += reached
+        for passage in passages:
+            passage.done = done
+    for passage in passages:
+        passage.end()
+    return [done] * blades, [passage.worn for passage in passages]
+
+
+def _take_casing(engine: CompiledEngine, first: CompiledEngine) -> None:
+    """Give an engine the constants of the casing's modes of another one, but for their loss."""
+    own, other = engine.record[0]["speed"], first.record[0]["speed"]
+    mine, theirs = engine.casing_lanes, first.casing_lanes
+    for name in ("keep", "pull", "inverse", "inverse_keep", "amplitude_by_u", "amplitude_by_d", "jumps"):
+        own[name][..., mine] = other[name][..., theirs]
+    own["loss"][mine] = 0.0
+    own["jumps"][:, [LOSS_UU, LOSS_UD, LOSS_DD], mine] = 0.0

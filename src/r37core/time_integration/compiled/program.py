@@ -19,10 +19,8 @@ from r37core.program_constants import with_constants
 
 from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, release_contact
-from .jump_steps import bound_amplitudes, choose_jump, jump_ahead
-from .kind import EXACT_GAP, PUBLISHED, Kind
-from .layout import MODAL_ROWS, Capacity, constants_record, integration_record
-from .ring_steps import turn_jump, turn_step
+from .jump_steps import bound_amplitudes, choose_jump, jump_ahead, turn_jump, turn_step
+from .layout import EXACT_GAP, MODAL_ROWS, PUBLISHED, Capacity, Kind, constants_record, integration_record
 from .segment_steps import begin_segment, end_segment
 from .steps import (
     leave_casing,
@@ -50,7 +48,7 @@ def _begin_segment(addresses, blades, segment):
 
 @inlined
 def _find_forces(addresses, blades):
-    """Whether there are forces at t_n on any blade, which its next step follows."""
+    """Set in each record whether its blade has forces at t_n, which the next step follows; returns whether any has."""
     any_forces = False
     for b in range(blades):
         m = pointed_at(addresses[b])
@@ -61,7 +59,7 @@ def _find_forces(addresses, blades):
 
 @inlined
 def _begin_block(addresses, blades):
-    """No work and no loss yet."""
+    """Set work and loss of the block to zero."""
     for b in range(blades):
         m = pointed_at(addresses[b])
         store(m.block_work, 0, 0.0)

@@ -12,7 +12,7 @@ from .layout import MODAL_ROWS, NORMAL
 from .steps import mode_lanes
 
 OTHERS = 0
-"""How many constants of a speed are not of modes: a constant of each program (r37core.program_constants)."""
+"""Number of a speed's constants that are not of modes: a constant of each program (r37core.program_constants)."""
 
 
 @inlined

@@ -6,7 +6,7 @@ recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with ke
 With Coriolis u is the real part of a complex amplitude, whose increment moves the nodes, too: time_integration.gyroscopic.
 
 `m` is a record of layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an
-integer. Names in capitals that choose are those of `kind`, constants of each program.
+integer. Names in capitals that choose are those of layout.Kind, constants of each program.
 """
 
 from __future__ import annotations
@@ -18,11 +18,10 @@ from r37core.contact.complementarity import list_nodes, solve_complementarity
 from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping
 from r37core.lanes import bits_of, flag_at, inlined, lanes_of, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
 
-from .kind import CORIOLIS, EXACT_GAP, LINED, PUBLISHED
-from .layout import MERIDIONAL, NORMAL, OF_MODES, OF_NODES, TANGENTIAL
+from .layout import CORIOLIS, EXACT_GAP, LINED, MERIDIONAL, NORMAL, OF_MODES, OF_NODES, PUBLISHED, TANGENTIAL
 
 FEW_NODES = 3
-"""That many nodes or fewer have their friction set one by one."""
+"""Largest number of nodes whose friction is set one by one."""
 
 _friction_direction = inlined(friction_direction)
 _return_mapping = inlined(return_mapping)
@@ -32,13 +31,13 @@ _lobe_shape = inlined(lobe_shape)
 
 @inlined
 def mode_lanes(m):
-    """How many lanes the modes fill."""
+    """Number of lanes that the modes fill."""
     return lanes_of(m.vectors, OF_MODES)
 
 
 @inlined
 def node_lanes(m):
-    """How many lanes the nodes fill; of a single vector the compiler knows it."""
+    """Number of lanes that the nodes fill; of a single vector the compiler knows it."""
     return LANES if len(m.force) == LANES else lanes_of(m.vectors, OF_NODES)
 
 
@@ -180,7 +179,7 @@ def set_friction_against_last(m):
 
 @inlined
 def with_friction(m, table, k, g):
-    """What a unit normal force on a node does to the nodes from g on, with the vector friction that comes with it.
+    """Effect of a unit normal force on a node on the nodes from g on, with the vector friction that comes with it.
 
     `table`: what forces along the normal, the tangent and the meridian do.
     """
@@ -352,7 +351,7 @@ def pushed(rows, k, i, force, push):
 
 @inlined
 def push_modes(m, i, push, work, lost):
-    """What a push adds to the eight modes from i on; adds its work, doubled, and loss."""
+    """Add a push to the eight modes from i on; adds its work, doubled, and loss."""
     free = load(m.increment, i) + load(m.last_increment, i)
     pushed = load(m.speed.inverse, i) * push
     store(m.increment, i, load(m.increment, i) + pushed)
@@ -362,7 +361,7 @@ def push_modes(m, i, push, work, lost):
 
 @inlined
 def kick_complex_modes(m, i, push, increment_push, work, lost):
-    """What a kick as the step began adds to its end; adds its work, doubled, and loss. See gyroscopic.ComplexRecursion."""
+    """Add a kick at the begin of the step to the eight modes from i on; adds work, doubled, and loss: see ComplexRecursion."""
     keep, pull = load(m.speed.keep, i), load(m.speed.pull, i)
     inverse_keep, inverse, d = load(m.speed.inverse_keep, i), load(m.speed.inverse, i), load(m.increment, i)
     # twice the displacement mid-kick, its increment times keep, and q
@@ -381,7 +380,7 @@ def kick_complex_modes(m, i, push, increment_push, work, lost):
 
 @inlined
 def meet(m, place, work, lost):
-    """Everything that happens in a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
+    """Do a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
     for g in range(0, node_lanes(m), LANES):
         store(m.force, g, 0.0)
     if not LINED or press_lining(m, place):
@@ -394,7 +393,7 @@ def meet(m, place, work, lost):
 
 @inlined
 def leave_casing(m):
-    """No node touches the casing."""
+    """Note that no node touches the casing."""
     for g in range(node_lanes(m) // LANES):
         m.on_casing[g] = 0
 

@@ -8,6 +8,7 @@ in the frame that does not turn.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -125,7 +126,7 @@ class ReferenceEngine:
         return self._pushed_step(before, n, state, force) if self.problem.choice.second_order else self._step(before, n, state)
 
     def _step(self, before: Any, n: int, state: SimulationState) -> Any:
-        """With forces that correct the prediction of t_n."""
+        """Step with forces that correct the prediction of t_n."""
         lining = self.problem.scene.lining
         self._turn(n)
         predicted = self.motion.flown(before)
@@ -149,7 +150,7 @@ class ReferenceEngine:
         return self._modal(state.contact_force)
 
     def _pushed_step(self, before: Any, n: int, state: SimulationState, force: np.ndarray) -> Any:
-        """The same under the modal forces at t_{n-1}; the state gets those on the nodes at t_n."""
+        """Step under the modal forces at t_{n-1}; the state gets those on the nodes at t_n."""
         after, slid = self.motion.pushed(self.motion.flown(before), force), self.motion.slid(before)
         self._turn(n)
         gap, theta = self.gap(self.motion.displacement(after), n)
@@ -287,3 +288,42 @@ def complementary(matrix: np.ndarray, gap: np.ndarray) -> np.ndarray:
             return np.maximum(multipliers, 0.0)
         first = int(np.argmax(wrong))
         touching[first] = not touching[first]
+
+
+def advance_together(
+    engines: Sequence[ReferenceEngine],
+    states: Sequence[SimulationState],
+    outs: Sequence[SimulationRecord],
+    angles: Sequence[float],
+    order: Sequence[int],
+) -> tuple[list[int], list[float]]:
+    """Do the steps of every row of the samples, as each blade stands at its angle (rad); returns the rows done of each and
+    what each has worn off the bars (m).
+
+    In a step the blades follow each other in `order`. All end with the sample in which one passes the limit. An elastic casing
+    is one: each engine has its motion, under the forces of all blades, and the first in `order` counts its work.
+    """
+    motions, worn = [], [0.0] * len(engines)
+    for engine, state, angle in zip(engines, states, angles, strict=True):
+        engine.angle = angle
+        motions.append(engine.motion.read(state))
+    casings = [engine.motion for engine in engines if isinstance(engine.motion, MotionWithCasing)]
+    for casing in casings:
+        casing.counted = casing is engines[order[0]].motion
+    steps, kept, done, bounded = engines[0].problem.grid.steps_per_sample, [0] * len(engines), 0, True
+    while done < len(outs[0].samples) and bounded:
+        for n in range(1, steps + 1):
+            own = [engines[place].force(states[place]) for place in order]
+            for place, force in zip(order, casings[0].pressed_by_all(own) if casings else own, strict=True):
+                before = states[place].worn
+                motions[place] = engines[place].step(motions[place], done * steps + n, states[place], force)
+                worn[place] += states[place].worn - before
+        for place, engine in enumerate(engines):
+            out = SimulationRecord(outs[place].samples, outs[place].snapshots[kept[place] :])
+            within, taken = engine.record(motions[place], 0, done, states[place], out)
+            kept[place] += taken
+            bounded &= within
+        done += 1
+    for engine, motion, state in zip(engines, motions, states, strict=True):
+        engine.motion.write(motion, state)
+    return [done] * len(engines), worn

@@ -1,4 +1,4 @@
-"""How the blade of the reference engine goes from step to step, with dense matrices: freely, and with a force in a step."""
+"""Motion of the blade in the reference engine, step by step with dense matrices: freely, and with a force in a step."""
 
 from __future__ import annotations
 
@@ -15,33 +15,33 @@ from ..state import SimulationState
 
 
 class Motion(Protocol):
-    """What the reference engine asks of a motion; what that is made of is its own affair."""
+    """Interface of a motion to the reference engine."""
 
     response: np.ndarray
 
     def read(self, state: SimulationState) -> Any:
-        """From a state."""
+        """Motion of a state."""
 
     def write(self, motion: Any, state: SimulationState) -> None:
-        """Back into the state."""
+        """Put the motion back into the state."""
 
     def numbers(self, motion: Any) -> np.ndarray:
-        """Those of a snapshot."""
+        """Numbers of a snapshot."""
 
     def flown(self, motion: Any) -> Any:
-        """A step on, without force."""
+        """Motion one step on, without force."""
 
     def pushed(self, motion: Any, force: np.ndarray) -> Any:
-        """What a force adds in a step."""
+        """Motion with the addition of a force in a step."""
 
     def displacement(self, motion: Any) -> np.ndarray:
-        """Of the coordinates that the rows of the nodes are of."""
+        """Displacement in the coordinates of the nodes' rows."""
 
     def slid(self, motion: Any) -> np.ndarray:
         """Displacement in the last step."""
 
     def work_and_loss(self, before: Any, after: Any, force: np.ndarray) -> tuple[float, float]:
-        """Of a step under a force."""
+        """Work and loss of a step under a force."""
 
 
 class RealMotion:
@@ -64,25 +64,25 @@ class RealMotion:
         return np.array([state.displacement, state.increment]) @ self._modes.T
 
     def write(self, motion: np.ndarray, state: SimulationState) -> None:
-        """Put them back into the state."""
+        """Put u and d back into the state."""
         state.displacement[:], state.increment[:] = motion @ self._modes
 
     def numbers(self, motion: np.ndarray) -> np.ndarray:
-        """Those of a snapshot."""
+        """Numbers of a snapshot."""
         return motion[0] @ self._modes
 
     def flown(self, motion: np.ndarray) -> np.ndarray:
-        """A step on, without force."""
+        """Motion one step on, without force."""
         u, d = motion
         following = self._keep @ d - self._pull @ u
         return np.array([u + following, following])
 
     def pushed(self, motion: np.ndarray, force: np.ndarray) -> np.ndarray:
-        """What a force on the modes at rest adds at the end of a step."""
+        """Motion with what a force on the modes at rest adds at the end of a step."""
         return motion + self.response @ force
 
     def displacement(self, motion: np.ndarray) -> np.ndarray:
-        """Of the modes at rest."""
+        """Displacement of the modes at rest."""
         return motion[0]
 
     def slid(self, motion: np.ndarray) -> np.ndarray:
@@ -90,7 +90,7 @@ class RealMotion:
         return motion[1]
 
     def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
-        """Of a step under a force: see integrators.Recursion."""
+        """Work and loss of a step under a force: see integrators.Recursion."""
         moved = before[1] + after[1]
         return float(0.5 * force @ moved), float(moved @ self._loss @ moved)
 
@@ -134,11 +134,11 @@ class CoupledMotion:
         return np.concatenate([self._root * moving.real.sum(axis=1), -(moving @ self._coupled.frequencies).imag])
 
     def write(self, motion: np.ndarray, state: SimulationState) -> None:
-        """Put it back into the state."""
+        """Put the motion back into the state."""
         state.displacement[:], state.increment[:] = self.numbers(motion).reshape(2, -1)
 
     def numbers(self, motion: np.ndarray) -> np.ndarray:
-        """Those of a snapshot: u and d of the complex modes."""
+        """Numbers of a snapshot: u and d of the complex modes."""
         elastic, velocity = np.split(motion, 2)
         frequencies = self._coupled.frequencies
         amplitude = self._coupled.shapes.conj().T @ (self._root * elastic) / frequencies**2
@@ -146,15 +146,15 @@ class CoupledMotion:
         return np.concatenate([amplitude.real, (amplitude.imag - self._by_u * amplitude.real) / self._by_d])
 
     def flown(self, motion: np.ndarray) -> np.ndarray:
-        """A step on, without force."""
+        """Motion one step on, without force."""
         return self._flight @ motion
 
     def pushed(self, motion: np.ndarray, force: np.ndarray) -> np.ndarray:
-        """What a force on the modes at rest, acting since the step began, adds at its end."""
+        """Motion with what a force on the modes at rest, acting since the step began, adds at its end."""
         return motion + self._flight @ self._kick @ (self._modes.T @ force)
 
     def displacement(self, motion: np.ndarray) -> np.ndarray:
-        """Of the modes at rest."""
+        """Displacement of the modes at rest."""
         return self._modes @ (motion[: len(self._root)] / self._root)
 
     def slid(self, motion: np.ndarray) -> np.ndarray:
@@ -162,7 +162,7 @@ class CoupledMotion:
         return self.displacement(motion - self._back @ motion)
 
     def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
-        """Of a step under a force that kicks the blade as it begins."""
+        """Work and loss of a step under a force that kicks the blade as it begins."""
         kick = self._kick @ (self._modes.T @ force)
         kicked = before + kick
         work = force @ self.displacement(self._swing @ (before + 0.5 * kick))
@@ -204,36 +204,36 @@ class MotionWithCasing:
         return self._ring.turned(casing, 2.0 * np.pi * step / self._problem.grid.steps_per_revolution)
 
     def read(self, state: SimulationState) -> tuple:
-        """From a state, which is in the rotor's frame."""
+        """Motion of a state, which is in the rotor's frame."""
         step = state.samples * self._problem.grid.steps_per_sample
         both = np.array([state.displacement[self._stepped :], state.increment[self._stepped :]])
         return self._blade.read(self._of_blade(state)), self._turned(both, -step), step
 
     def write(self, motion: tuple, state: SimulationState) -> None:
-        """Put it back into the state."""
+        """Put the motion back into the state."""
         self._blade.write(motion[0], self._of_blade(state))
         state.displacement[self._stepped :], state.increment[self._stepped :] = self._turned(*motion[1:])
 
     def numbers(self, motion: tuple) -> np.ndarray:
-        """Those of a snapshot, in the rotor's frame; casing modes have no increment of their own to show."""
+        """Numbers of a snapshot, in the rotor's frame; casing modes have no increment of their own to show."""
         blade, casing = self._blade.numbers(motion[0]), self._turned(*motion[1:])
         parts = np.split(blade, range(self._stepped, len(blade), self._stepped))
         return np.concatenate([np.concatenate(pair) for pair in zip(parts, casing, strict=False)])
 
     def flown(self, motion: tuple) -> tuple:
-        """A step on, without force."""
+        """Motion one step on, without force."""
         blade, (u, d), step = motion
         following = self._casing.keep * d - self._casing.pull * u
         return self._blade.flown(blade), np.array([u + following, following]), step + 1
 
     def pushed(self, motion: tuple, force: np.ndarray) -> tuple:
-        """What a force adds at the end of a step."""
+        """Motion with what a force adds at the end of a step."""
         blade, casing, step = motion
         pushed = casing + self._casing.inverse * force[self._at_rest :]
         return self._blade.pushed(blade, force[: self._at_rest]), pushed, step
 
     def displacement(self, motion: tuple) -> np.ndarray:
-        """Of the modes at rest, then of the casing's."""
+        """Displacement of the modes at rest, then of the casing's."""
         return np.concatenate([self._blade.displacement(motion[0]), motion[1][0]])
 
     def slid(self, motion: tuple) -> np.ndarray:
@@ -241,7 +241,7 @@ class MotionWithCasing:
         return np.concatenate([self._blade.slid(motion[0]), motion[1][1]])
 
     def work_and_loss(self, before: tuple, after: tuple, force: np.ndarray) -> tuple[float, float]:
-        """Of a step under a force: see integrators.Recursion, and with a Coriolis force ComplexRecursion, of a kick."""
+        """Work and loss of a step under a force: see Recursion, and of a kick, with a Coriolis force, ComplexRecursion."""
         work, loss = self._blade.work_and_loss(before[0], after[0], force[: self._at_rest])
         if not self.counted:
             return work, loss
