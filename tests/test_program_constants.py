@@ -72,7 +72,7 @@ def test_the_module_keeps_its_own_values():
 
 def test_the_steps_know_every_constant_of_a_kind_by_its_name():
     """A constant that no function names would tell programs apart that are the same."""
-    constants = Kind(True, True, True, True, False).constants
+    constants = Kind(True, True, True, False).constants
     for name in constants:
         other = constants | {name: not constants[name]}
         assert with_constants(steps.meet, constants) is not with_constants(steps.meet, other), name
