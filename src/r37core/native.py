@@ -115,7 +115,7 @@ def _target_machine(**options: Any) -> llvm.TargetMachine:
 
 
 def _drop_unreached(module: llvm.ModuleRef, machine: llvm.TargetMachine) -> None:
-    """Without what a caller does about errors that its function, as it was optimised, never has."""
+    """Drop what a caller does about errors that its function, as it was optimised, never has."""
     passes = llvm.create_new_module_pass_manager()
     passes.add_ipsccp_pass()
     passes.add_simplify_cfg_pass()

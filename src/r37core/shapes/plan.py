@@ -15,7 +15,7 @@ from r37core.plans.sweep_plan import Sweep
 class ShapeSection(Section):
     """Modes and worst instants as files that move."""
 
-    modes: int = Field(default=6, ge=1, le=30, description="how many modes of each blade, at rest")
+    modes: int = Field(default=6, ge=1, le=30, description="Number of modes of each blade, at rest")
 
 
 SECTION = ExtensionSection("shapes", ShapeSection, ShapeSection())
