@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 import yaml
 from browser import opened
-from evidence.key_tables import COLUMN_TABLES, column_table
+from evidence.key_tables import COLUMN_LISTS, column_list
 from explorer_cases import beside, interaction_rows, sweep
 from r37core.contact.benchmark import LINED, is_lined_benchmark
 
@@ -81,11 +81,11 @@ def test_every_column_has_words(root):
     assert [name for name in ROBUSTNESS if not glossary.word(name, glossary.RANKING)] == []
     assert [name for name in named if not glossary.word(name, glossary.INTERACTIONS)] == []
     text = (root / "docs/results.md").read_text()
-    assert all(column_table(words) in text for words in COLUMN_TABLES.values())
-    assert glossary.word("length_certain_rad_s_low", glossary.RANKING).title == "certainly above yield, 5%"
+    assert all(column_list(words) in text for words in COLUMN_LISTS.values())
+    assert glossary.word("length_certain_rad_s_low", glossary.RANKING).title == "above yield in most revolutions, 5%"
     assert glossary.word("chance_better_than_L50", glossary.RANKING).title == "chance to be better than L50"
-    assert glossary.word("length_certain_rad_s_median", glossary.RANKING).title == "certainly above yield, median"
-    assert glossary.word("length_certain_rad_s_scatter", glossary.RANKING).title == "certainly above yield, scatter"
+    assert glossary.word("length_certain_rad_s_median", glossary.RANKING).title == "above yield in most revolutions, median"
+    assert glossary.word("length_certain_rad_s_scatter", glossary.RANKING).title == "above yield in most revolutions, scatter"
     assert glossary.word("never_heard_of", glossary.RANKING) is None
 
 
@@ -155,8 +155,8 @@ def test_a_click_on_a_head_sorts_and_says_what_it_is(at_ref):
     """And Enter does; what has no number stays last."""
     head = at_ref.locator("#interactions th.drop")
     lost = head.locator("button")
-    assert lost.text_content() == "lost above the peak (%)"
-    assert lost.get_attribute("title").startswith("lost above the peak: share of the motion that is lost within 24 rad/s")
+    assert lost.text_content() == "amplitude lost above the peak (%)"
+    assert lost.get_attribute("title").startswith("amplitude lost above the peak: share of the amplitude lost within 24 rad/s")
     lost.click()
     assert column(at_ref, "drop") == ["50", "90", ""]
     assert head.get_attribute("aria-sort") == "ascending"
@@ -190,7 +190,7 @@ def test_quantities_have_long_names_and_speeds_the_chosen_unit(at_ref):
     at_ref.select_option("#unit", "rpm")
     assert "peak speed (rpm)" in at_ref.locator("#interactions th").all_text_contents()
     assert column(at_ref, "peak_speed_rad_s")[0] == "11459"
-    assert "certainly above yield (rpm)" in at_ref.text_content("#keys")
+    assert "above yield in most revolutions (rpm)" in at_ref.text_content("#keys")
 
 
 @pytest.mark.slow
@@ -239,7 +239,7 @@ def test_a_ranking_without_some_columns(page, rows, tmp_path):
     with beside(page, explorer_contents(sweep(), rows, ranking=short), tmp_path / "explorer.html") as other:
         assert other.locator("#bars .certain, #bars .rank").count() == 0
         assert other.locator("#bars .possible").count() == 4
-        assert other.locator("#keys button").all_text_contents() == ["possibly above yield (rad/s)"]
+        assert other.locator("#keys button").all_text_contents() == ["above yield in some revolutions (rad/s)"]
 
 
 @pytest.mark.slow

@@ -172,13 +172,12 @@ def filled(page: str) -> str:
     return page
 
 
-def column_table(words: Mapping[str, Word]) -> str:
-    """Columns as a table of Markdown."""
-    lines = [f"| `{name}` | {word.meaning} |" for name, word in words.items()]
-    return "\n".join(["| column | what it is |", "|---|---|", *lines])
+def column_list(words: Mapping[str, Word]) -> str:
+    """Columns as a list of Markdown."""
+    return "\n".join(f"- `{name}`: {word.meaning}" for name, word in words.items())
 
 
-COLUMN_TABLES = {"columns": INTERACTIONS, "ranking_columns": RANKING}
+COLUMN_LISTS = {"columns": INTERACTIONS, "ranking_columns": RANKING}
 """Part of docs/results.md -> columns that stand there."""
 
 
@@ -188,8 +187,8 @@ def main(docs: Path = Path("docs")) -> None:
     write_text(filled(page.read_text(encoding="utf-8")), page)
     page = docs / "results.md"
     text = page.read_text(encoding="utf-8")
-    for name, words in COLUMN_TABLES.items():
-        text = with_part(text, name, column_table(words))
+    for name, words in COLUMN_LISTS.items():
+        text = with_part(text, name, column_list(words))
     write_text(text, page)
 
 
