@@ -1,6 +1,6 @@
-"""Where a changed blade could resonate.
+"""Campbell diagram of a changed blade.
 
-Dots are crossings of modes and engine orders.
+Dots are crossings of modes and engine orders: possible resonances.
 """
 
 import r37

@@ -1,6 +1,6 @@
-"""Where it does.
+"""Response over speed.
 
-Adaptive speeds are close where something happens. Peaks stand somewhat above the crossings, which are dotted.
+Adaptive speeds are close at the peaks, which lie slightly above the dotted crossings.
 """
 
 import r37

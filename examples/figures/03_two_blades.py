@@ -1,6 +1,6 @@
-"""Two blades, one scene.
+"""Two blades compared.
 
-The interaction of the swept blade lies lower, as its first bending mode does.
+The swept blade peaks at a lower speed, because its first bending mode is lower.
 """
 
 import matplotlib.pyplot as plt

@@ -1,6 +1,6 @@
-"""Which engine orders the tip moves in.
+"""Engine orders of the motion.
 
-Bright spots lie on whole orders: the wear has as many lobes.
+Bright spots lie on whole orders; the wear has as many lobes.
 """
 
 import matplotlib.pyplot as plt

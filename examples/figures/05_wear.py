@@ -1,6 +1,6 @@
-"""What is left of the lining.
+"""Wear of the lining.
 
-At each of three interactions as many lobes are worn into it as the engine order has.
+At each interaction the lining has as many worn lobes as the engine order.
 """
 
 import matplotlib.pyplot as plt

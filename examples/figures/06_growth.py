@@ -1,6 +1,6 @@
-"""How long it takes.
+"""Stress per revolution.
 
-The largest stress of every revolution: below, in and above the interaction of the first bending mode with engine order 4.
+Below, in and above the interaction of the first bending mode with engine order 4.
 """
 
 import matplotlib.pyplot as plt

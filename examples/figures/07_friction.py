@@ -1,6 +1,6 @@
-"""What friction does.
+"""Effect of friction.
 
-The same blade and lining with other coefficients of friction.
+The same blade and lining with three coefficients of friction.
 """
 
 import matplotlib.pyplot as plt

@@ -1,6 +1,6 @@
-"""What a run-up leaves of a peak.
+"""Run-ups of several rates.
 
-The faster the rotor passes the interaction, the less time it has to grow.
+A faster run-up leaves less time to vibrate.
 """
 
 import r37

@@ -1,6 +1,6 @@
-"""How sure it is.
+"""Uncertain friction and clearance.
 
-The band that nine tenths of the members lie in, their chance of passing yield, and which number moves what.
+Range of 90% of the members, chance of passing yield, and effect of each number.
 """
 
 import r37

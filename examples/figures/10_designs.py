@@ -1,6 +1,6 @@
-"""What a designer may choose.
+"""A family of designs.
 
-Shares of the sweep of S100: the more of it, the less clearance is lost as the blade swings.
+More of the sweep of S100 loses less clearance as the blade swings.
 """
 
 import r37

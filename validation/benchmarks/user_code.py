@@ -16,9 +16,8 @@ FILES = sorted((ROOT / "examples/figures").glob("*.py"))
 
 HEAD = """# Figures and their code
 
-Ten figures, each with all the lines that it takes: calls of [r37](python.md), and matplotlib where r37 has no figure of its
-own. They run at level `draft`, on two cores. The first run of a blade takes longest, as it makes its structure. The programs
-lie in `examples/figures`, and a test runs them.
+Each figure takes about ten lines: calls of [r37](python.md), and matplotlib. The programs are in `examples/figures`. They run at level `draft`; the first run of a
+blade takes longest.
 """
 
 
