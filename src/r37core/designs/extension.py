@@ -26,8 +26,8 @@ EXTENSION = Extension(
     captions={
         "designs": (
             "Family {family}: what each design is and how robust, over what varies. Frequencies, largest loss of clearance as "
-            "the tip swings along free modes, where interactions lie, speeds certainly and possibly above yield, largest "
-            "stress."
+            "the tip swings along free modes, where interactions lie, speeds above yield in most and in some revolutions, "
+            "largest stress."
         ),
     },
     closing="designs.table.closing",

@@ -1,4 +1,4 @@
-// the first panel: which blade? Two bars for each blade and scene, certainly and possibly above yield, and the other numbers
+// the first panel: which blade? Two bars for each blade and scene, above yield in most and in some revolutions, and the other numbers
 const drawRanking = (() => {
   const KINDS = { length_certain_rad_s: "certain", length_possible_rad_s: "possible" };
   const element = (tag, className, text = "") => Object.assign(document.createElement(tag), { className, textContent: text });

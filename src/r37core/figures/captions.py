@@ -63,8 +63,7 @@ CAPTIONS = {
     ),
     "ranking": (
         "Which blade? Length of the speeds above yield of every blade, scene by scene, in the order of the first scene. Dark: "
-        "certainly, more than half of the revolutions of the last half of a run exceed yield; light: possibly, more than a "
-        "twentieth of them do. Lines: standard deviation by chance, in direct contact; with members: the range that nine "
-        "tenths of them lie in."
+        "in more than half of the revolutions in a run's second half; light: in more than a twentieth of them. Lines: standard "
+        "deviation by chance, on the bare casing; with members: the range that contains nine tenths of them."
     ),
 }

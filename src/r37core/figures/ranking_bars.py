@@ -35,8 +35,8 @@ def draw_ranking(ranking: pd.DataFrame) -> Figure:
 
 def _draw(axes: Axes, rows: pd.DataFrame) -> None:
     positions = np.arange(float(len(rows)))
-    axes.barh(positions, rows[_POSSIBLE], 0.76, color="C0", alpha=0.35, label="possibly")
-    axes.barh(positions, rows[_CERTAIN], 0.44, color="C0", label="certainly")
+    axes.barh(positions, rows[_POSSIBLE], 0.76, color="C0", alpha=0.35, label="in some revolutions")
+    axes.barh(positions, rows[_CERTAIN], 0.44, color="C0", label="in most revolutions")
     low, high, meaning = _range(rows)
     if np.isfinite(low).any():
         axes.errorbar(

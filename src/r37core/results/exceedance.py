@@ -19,7 +19,7 @@ import xarray as xr
 from r37core.time_integration.status import RunStatus
 
 CERTAIN, POSSIBLE = 0.5, 0.05
-"""A speed is certainly, and possibly, above yield where a larger share of the revolutions is."""
+"""Shares above which a speed counts as above yield in most, and in some, revolutions."""
 
 HALF_WIDTH = 10.0
 """Distance (rad/s) at which a neighbour's share has no weight any more; its weight falls in a straight line to there."""

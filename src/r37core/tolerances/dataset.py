@@ -33,8 +33,8 @@ MEASURES = {
     "first_yield_speed": Variable((), "rad s-1", "first speed above yield"),
     "width_above_yield": Variable((), "rad s-1", "from the first to the last speed above yield"),
     "largest_stress": Variable((), "Pa", "largest von Mises stress over all speeds"),
-    "length_certain": Variable((), "rad s-1", "length of the speeds certainly above yield"),
-    "length_possible": Variable((), "rad s-1", "length of the speeds possibly above yield"),
+    "length_certain": Variable((), "rad s-1", "length of the speeds above yield in most revolutions"),
+    "length_possible": Variable((), "rad s-1", "length of the speeds above yield in some revolutions"),
     "diverged_runs": Variable((), "1", "runs that diverged"),
     "largest_median_stress": Variable((), "Pa", "largest over all speeds of the median over the revolutions"),
 }
