@@ -1,0 +1,111 @@
+# What accuracy costs: levels, mesh, contact on points and patches, step, modes, revolutions (docs/accuracy.md).
+ACCURACY = "results/validation/accuracy"
+MESHES = {5000: BLADES, 10000: BLADES, 20000: BLADES, 40000: ["Ref", "S50", "CS100"], 60000: BLADES}
+accuracy_runs = [f"{ACCURACY}/{blade}_{nodes}.csv" for nodes, blades in MESHES.items() for blade in blades]
+
+
+use rule evidence as accuracy_standard with:
+    input:
+        unpack(behind_engine()),
+    output:
+        f"{ACCURACY}/{{blade}}_20000.csv",
+    log:
+        "logs/validation/accuracy_{blade}_20000.log",
+    priority: 2
+    params:
+        **evidence("contact_runs.standard"),
+        blade=lambda wildcards: wildcards.blade,
+
+
+use rule evidence as accuracy_on_mesh with:
+    input:
+        unpack(behind_engine(standard=f"{ACCURACY}/{{blade}}_20000.csv")),
+    output:
+        f"{ACCURACY}/{{blade}}_{{nodes}}.csv",
+    log:
+        "logs/validation/accuracy_{blade}_{nodes}.log",
+    wildcard_constraints:
+        nodes="5000|10000|40000|60000",
+    priority: 1
+    params:
+        **evidence("contact_runs.on_mesh"),
+        blade=lambda wildcards: wildcards.blade,
+        nodes=lambda wildcards: int(wildcards.nodes),
+
+
+use rule evidence as accuracy_levels with:
+    input:
+        files=accuracy_runs,
+    output:
+        levels=f"{TABLES}/accuracy_levels.csv",
+        worst=f"{TABLES}/accuracy_levels_worst.csv",
+        blades=f"{TABLES}/accuracy_levels_blades.csv",
+    log:
+        "logs/validation/accuracy_levels.log",
+    params:
+        **evidence("accuracy.levels"),
+
+
+use rule evidence as accuracy_convergence with:
+    input:
+        files=accuracy_runs,
+    output:
+        mesh=f"{TABLES}/accuracy_mesh.csv",
+        motion=f"{TABLES}/accuracy_motion.csv",
+        stress=f"{TABLES}/accuracy_stress.csv",
+    log:
+        "logs/validation/accuracy_convergence.log",
+    params:
+        **evidence("accuracy.convergence"),
+
+
+use rule evidence as accuracy_chance with:
+    input:
+        files=[file for file in accuracy_runs if file.endswith("_20000.csv")],
+    output:
+        table=f"{TABLES}/accuracy_chance.csv",
+        friction=f"{TABLES}/accuracy_friction.csv",
+    log:
+        "logs/validation/accuracy_chance.log",
+    params:
+        **evidence("accuracy.chance"),
+
+
+use rule evidence as accuracy_patches with:
+    input:
+        files=accuracy_runs,
+    output:
+        blades=f"{TABLES}/accuracy_patches_blades.csv",
+        published=f"{TABLES}/accuracy_published_direct.csv",
+        stiffness=f"{TABLES}/accuracy_stiff_linings.csv",
+        bars=f"{TABLES}/accuracy_bar_width.csv",
+    log:
+        "logs/validation/accuracy_patches.log",
+    params:
+        **evidence("accuracy.patches"),
+
+
+use rule evidence as accuracy_picture with:
+    input:
+        files=accuracy_runs,
+    output:
+        picture="docs/contact_patches.png",
+    log:
+        "logs/validation/accuracy_picture.log",
+    params:
+        **evidence("accuracy.draw"),
+
+
+# what adaptive speeds find, replayed in the runs of every speed
+use rule evidence as adaptive_speeds with:
+    input:
+        campbell="results/runs/campaign/campbell.nc",
+        files=[f"results/runs/campaign/{blade}/{scene}/response.nc" for blade in BLADES for scene in ("abradable", "direct")],
+    output:
+        table=f"{TABLES}/adaptive_speeds.csv",
+        blades=f"{TABLES}/adaptive_speeds_blades.csv",
+        missed=f"{TABLES}/adaptive_speeds_missed.csv",
+    log:
+        "logs/validation/adaptive_speeds.log",
+    params:
+        **evidence("adaptive_speeds.tables"),
