@@ -100,7 +100,11 @@ use rule evidence as accuracy_picture with:
 use rule evidence as adaptive_speeds with:
     input:
         campbell="results/runs/campaign/campbell.nc",
-        files=[f"results/runs/campaign/{blade}/{scene}/response.nc" for blade in BLADES for scene in ("abradable", "direct")],
+        files=[
+            f"results/runs/campaign/{blade}/{scene}/response.nc"
+            for blade in BLADES
+            for scene in ("abradable", "direct")
+        ],
     output:
         table=f"{TABLES}/adaptive_speeds.csv",
         blades=f"{TABLES}/adaptive_speeds_blades.csv",

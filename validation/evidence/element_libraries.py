@@ -1,36 +1,43 @@
-"""Stiffness and mass from our element table beside those of scikit-fem and FElupe: time, and the same numbers.
+"""Stiffness and mass from our element table, from scikit-fem and from FElupe: time, and whether the numbers agree.
 
-The question was whether a library's shape functions and quadrature would leave less code at equal speed. Needs both:
-pip install scikit-fem felupe; then: python validation/benchmarks/element_libraries.py   (some minutes). The table goes into
-docs/structure.md.
+Needs both libraries: pip install scikit-fem felupe.
 """
+
+from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import felupe
 import numpy as np
+import scipy.sparse as sp
 import skfem
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from r37core.fem.assembly import NodePattern, assemble_mass, assemble_stiffness, block_matrix
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
-from r37core.io import write_text
+from r37core.mesh.blade_mesh import BladeMesh
 
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "tests"))
+from .pages import write_table
+
+sys.path.append(str(Path(__file__).parents[2] / "tests"))
 
 from box_mesh import box_mesh  # noqa: E402
 
 STEEL = Material(youngs_modulus=180e9, poissons_ratio=0.3, density=8000.0)
-COUNTS = {"tetra10": (24, 12, 4), "hexahedron20": (40, 20, 6), "wedge15": (40, 20, 5)}
+COUNTS = {"tetra10": (24, 12, 4), "hexahedron20": (20, 10, 6)}
+"""Elements that all three have, and how many along each side of a box."""
+
 REPETITIONS = 3
+Matrices = tuple[sp.csr_array, sp.csr_array]
 
 
-def ours(mesh, _):
-    """Matrices by the code that r37 runs."""
+def ours(mesh: BladeMesh, name: str) -> Matrices:
+    """Matrices by r37."""
     pattern = NodePattern.of(mesh.blocks, len(mesh.points))
     stiffness = assemble_stiffness(pattern, mesh.blocks, mesh.points, STEEL)
     mass = assemble_mass(pattern, mesh.blocks, mesh.points, STEEL.density)
@@ -38,8 +45,8 @@ def ours(mesh, _):
     return tuple(block_matrix(pattern.indptr, pattern.indices, part) for part in (stiffness, blocks))
 
 
-def scikit_fem(mesh, name):
-    """The same by scikit-fem, quadrature of equal order."""
+def scikit_fem(mesh: BladeMesh, name: str) -> Matrices:
+    """Matrices by scikit-fem, quadrature of equal order."""
     corners = mesh.blocks[name][:, : ELEMENTS[name].corners]
     used, numbers = np.unique(corners, return_inverse=True)
     points, cells = mesh.points[used].T, numbers.reshape(corners.shape)
@@ -59,8 +66,8 @@ def scikit_fem(mesh, name):
     return stiffness, mass.assemble(mass_basis)
 
 
-def felupe_library(mesh, name):
-    """The same by FElupe, with its own quadrature."""
+def felupe_library(mesh: BladeMesh, name: str) -> Matrices:
+    """Matrices by FElupe, with its own quadrature."""
     kinds = {
         "tetra10": ("tetra10", felupe.RegionQuadraticTetra),
         "hexahedron20": ("hexahedron20", felupe.RegionQuadraticHexahedron),
@@ -71,7 +78,7 @@ def felupe_library(mesh, name):
     return body.assemble.matrix(), body.assemble.mass()
 
 
-def measure(way, mesh, name):
+def measure(way: Callable[[BladeMesh, str], Matrices], mesh: BladeMesh, name: str) -> tuple[float, float, float]:
     """Shortest time (s), trace of the stiffness (N/m) and total mass (kg)."""
     times = []
     for _ in range(REPETITIONS):
@@ -81,23 +88,14 @@ def measure(way, mesh, name):
     return min(times), stiffness.diagonal().sum(), mass.sum() / 3.0
 
 
-def main():
-    lines = ["| element | nodes | by | time (s) | trace of the stiffness, off by | mass, off by |", "|---|---|---|---|---|---|"]
+def table(input: Any, output: Any, params: Any) -> None:
+    """Time, trace of the stiffness and mass by each."""
+    rows = []
     for name, counts in COUNTS.items():
         mesh = box_mesh(0.1, 0.05, 0.005, counts, element=name)
-        reference = measure(ours, mesh, name)
+        _, trace, mass = measure(ours, mesh, name)
         for label, way in (("r37", ours), ("scikit-fem", scikit_fem), ("FElupe", felupe_library)):
-            begin = f"| {name} | {len(mesh.points)} | {label} |"
-            if way is not ours and name == "wedge15":
-                lines.append(f"{begin} has none | | |")
-                continue
-            spent, trace, total = reference if way is ours else measure(way, mesh, name)
-            lines.append(
-                f"{begin} {spent:.2f} | {abs(trace / reference[1] - 1.0):.0e} | {abs(total / reference[2] - 1.0):.0e} |"
-            )
-            print(lines[-1], flush=True)
-    write_text("\n".join(lines) + "\n", ROOT / "results/studies/element_libraries.md")
-
-
-if __name__ == "__main__":
-    main()
+            spent, *sums = measure(way, mesh, name)
+            off = [f"{abs(total / own - 1.0):.0e}" for total, own in zip(sums, (trace, mass), strict=True)]
+            rows.append([name, f"{len(mesh.points):,}", label, f"{spent:.2f}", *off])
+    write_table(["element", "nodes", "by", "time (s)", "trace of the stiffness, off by", "mass, off by"], rows, output.table)
