@@ -301,6 +301,9 @@ def on_mesh(input: Any, output: Any, params: Any) -> None:
                 # more contact nodes are expensive
                 everywhere = SPREAD if model.count == Model(model.contact).count else SPREAD[::2]
                 runs.run(model, contact, scene, np.union1d(everywhere, steep), what)
+        if params.nodes == FINEST:
+            for times in STIFFER:
+                runs.run(model, contact, LINED, SPREAD[::2], f"lining {times} times as stiff")
         if params.blade in DRAWN and params.nodes in (5000, FINEST):
             runs.run(model, contact, BARE, GRID, EVERY_SPEED)
         if params.nodes == FINEST or model.count == 15:

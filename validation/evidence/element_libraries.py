@@ -26,7 +26,7 @@ from .pages import write_table
 
 sys.path.append(str(Path(__file__).parents[2] / "tests"))
 
-from box_mesh import box_mesh  # noqa: E402
+from box_mesh import box_mesh
 
 STEEL = Material(youngs_modulus=180e9, poissons_ratio=0.3, density=8000.0)
 COUNTS = {"tetra10": (24, 12, 4), "hexahedron20": (20, 10, 6)}

@@ -109,18 +109,18 @@ def test_levels_have_the_worst_blade(made):
 
 def test_convergence_names_the_worst_blade(made):
     tables = made(accuracy.convergence, "mesh", "motion", "stress")
-    assert tables["mesh"][0]["bare casing, points"] == "9.1; S50 16"
+    assert tables["mesh"][0]["bare casing, points"] == "9.1%; S50 16%"
     assert len(tables["mesh"]) <= 12
     assert len(tables["motion"]) <= 12
     modes = tables["motion"][0]
-    assert (modes["bare casing, points"], modes["bare casing, patches"]) == ("", "0; CS100 0")
+    assert (modes["bare casing, points"], modes["bare casing, patches"]) == ("", "0.0%; CS100 0.0%")
 
 
 def test_what_chance_decides(made):
     tables = made(accuracy.chance, "table", "friction")
     # three of 51 by a perturbation, one next to the end of the branch
     assert {row["lining, points"] for row in tables["table"]} == {"8%: 10%, 10%"}
-    assert tables["friction"][0]["Ref: settled"] == "100%"
+    assert tables["friction"][0]["Ref: settled speeds"] == "100%"
 
 
 def test_points_and_patches(made):
