@@ -161,6 +161,7 @@ LEVELS = {
     "fine": Level(40000, {BARE: "step 2.4e-06 s", LINED: "step 3.2e-06 s"}),
 }
 MEASURED = [name for name in LEVELS if name != "paper"]
+JUDGED = {"lining": (LINED, POINTS), "bare casing, patches": (BARE, PATCHES), "bare casing, points": (BARE, POINTS)}
 
 
 def levels(input: Any, output: Any, params: Any) -> None:
@@ -168,45 +169,31 @@ def levels(input: Any, output: Any, params: Any) -> None:
     runs = Runs(as_list(input.files))
     known, rows = settings_of(Path.cwd()).levels, []
     for name, level in LEVELS.items():
-        fidelity = known[name]
-        errors = [_level_cell(runs, name, *kind) for kind in ((LINED, POINTS), (BARE, PATCHES), (BARE, POINTS))]
-        turns = fidelity.time_integration.revolutions
-        cost = np.mean([runs.of(level.of(scene, POINTS), "cpu_s").median() for scene in SCENES]) * turns / 200.0
-        rows.append([f"`{name}`", f"{level.nodes:,}", _step_of(fidelity.time_integration), *errors, f"{cost:.2f} s"])
-    head = ["level", "nodes", "time integration, step", "error, lining", "error, bare casing, patches", "the same, points"]
-    write_table([*head, "CPU per run"], rows, output.levels)
-    write_table(*_levels_table(runs), output.worst)
+        section, errors = known[name].time_integration, ["", "", ""]
+        if name in MEASURED:
+            errors = [_percent(worst(_of_level(runs, name, *kind))[1].mean()) for kind in JUDGED.values()]
+        cost = np.mean([runs.of(level.of(scene, POINTS), "cpu_s").median() for scene in SCENES]) * section.revolutions / 200.0
+        rows.append([f"`{name}`", f"{level.nodes:,}", _step_of(section), *errors, f"{cost:.2f}"])
+    write_table(["level", "nodes", "step (us)", *JUDGED, "CPU (s)"], rows, output.levels)
+    steep = [[f"`{name}`", *(_steep_cell(runs, name, *kind) for kind in JUDGED.values())] for name in MEASURED]
+    write_table(["level", *JUDGED], steep, output.steep)
     write_table(*_levels_of_blades(runs), output.blades)
 
 
 def _step_of(section: Any) -> str:
     if section.time_step_s is not None:
-        return f"central differences, {section.time_step_s:g} s"
-    lined, bare = section.largest_time_step_s.lined, section.largest_time_step_s.direct
-    return f"exact modal, {lined:g} s" + (f", bare casing {bare:g} s" if bare != lined else "")
+        return f"{1e6 * section.time_step_s:g}"
+    lined, bare = (1e6 * step for step in (section.largest_time_step_s.lined, section.largest_time_step_s.direct))
+    return f"{lined:g}" if bare == lined else f"{lined:g}, {bare:g}"
 
 
-def _level_cell(runs: Runs, name: str, scene: str, contact: str) -> str:
-    if name not in MEASURED:
-        return ""
-    return f"{worst(_of_level(runs, name, scene, contact))[1].mean():.1f}%"
+def _steep_cell(runs: Runs, name: str, scene: str, contact: str) -> str:
+    blade, errors = worst(_of_level(runs, name, scene, contact, "steep"))
+    return f"{blade} {_percent(errors.median())}, {_percent(errors.max())}"
 
 
 def _of_level(runs: Runs, name: str, scene: str, contact: str, at: str = "settled") -> pd.Series:
     return runs.errors(LEVELS[name].of(scene, contact), Of(scene, contact, nodes=FINEST), at)
-
-
-def _levels_table(runs: Runs) -> tuple[list[str], list[list[str]]]:
-    rows = []
-    for name in MEASURED:
-        for scene, contact in KINDS:
-            blade, errors = worst(_of_level(runs, name, scene, contact))
-            steep_blade, steep = worst(_of_level(runs, name, scene, contact, "steep"))
-            settled = f"{errors.mean():.1f}%, {errors.quantile(0.9):.1f}%"
-            place = f"{steep_blade} {steep.median():.0f}%, {steep.max():.0f}%"
-            rows.append([f"`{name}`", NAMES[scene], contact, blade, settled, place])
-    head = ["level", "scene", "contact", "worst blade", "its mean, 90% quantile"]
-    return [*head, "steep places: worst blade, its median, largest"], rows
 
 
 def _levels_of_blades(runs: Runs) -> tuple[list[str], list[list[str]]]:

@@ -27,8 +27,8 @@ from r37core.speeds import SpeedPlan
 from .configuration import settings_of
 from .pages import write_table
 
-STEPS = (5.0, 8.0, 20.0)
-"""Plain grids (rad/s): as many runs as a fifth of every 1 rad/s, and those of two fidelity levels."""
+STEPS = (5.0, 20.0)
+"""Plain grids (rad/s): as many runs as a fifth of every 1 rad/s, and those of the level `draft`."""
 
 TOLERANCE = 2.0
 """Difference (rad/s) of a peak's speed or width above yield up to which it counts as the same."""

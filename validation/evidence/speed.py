@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from r37core.estimate.projection import PARTS
 from r37core.io import as_list
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduction_choice import PATCHES
@@ -23,7 +22,7 @@ from .configuration import settings_of
 from .contact_runs import BARE, CENTRAL, SCENES, SMALL, STEPS
 from .pages import write_table
 
-LEVELS = ("standard", "paper")
+LEVELS, SHOWN = ("standard", "paper"), ("time integration", "start-up", "workflow", "reduction")
 SPEEDS = np.arange(800.0, 2000.0, 120.0)
 """Speeds (rad/s) of the time of a step."""
 
@@ -110,6 +109,6 @@ def campaign(input: Any, output: Any, params: Any) -> None:
     for level, file in zip(LEVELS, as_list(input.files), strict=True):
         costs = pd.read_csv(file).set_index("part")
         total = costs.loc["total"]
-        hours = [f"{costs.core_hours[part]:.2f}" for part in (*PARTS, "total")]
-        rows.append([f"`{level}`", *hours, f"{total.wall_hours:.1f} h on {total.cores:.0f} cores"])
-    write_table(["level", *(f"{part} (core h)" for part in (*PARTS, "total")), "wall"], rows, output.table)
+        hours = [f"{costs.core_hours[part]:.2f}" for part in SHOWN]
+        rows.append([f"`{level}`", f"{total.simulations:,.0f}", *hours, f"{total.wall_hours:.1f} h on {total.cores:.0f} cores"])
+    write_table(["level", "simulations", *(f"{part} (core h)" for part in SHOWN), "all"], rows, output.table)

@@ -12,7 +12,7 @@ from r37core.stability.steps import COLUMNS
 
 from .pages import write_table
 
-SHOWN = 12
+SHOWN = 8
 """Rows of the table of what is not accurate, those that change most."""
 
 

@@ -38,7 +38,7 @@ use rule evidence as accuracy_levels with:
         files=accuracy_runs,
     output:
         levels=f"{TABLES}/accuracy_levels.csv",
-        worst=f"{TABLES}/accuracy_levels_worst.csv",
+        steep=f"{TABLES}/accuracy_steep.csv",
         blades=f"{TABLES}/accuracy_levels_blades.csv",
     log:
         "logs/validation/accuracy_levels.log",

@@ -98,13 +98,14 @@ def test_branches_are_looked_at_before_their_ends():
 
 
 def test_levels_have_the_worst_blade(made):
-    tables = made(accuracy.levels, "levels", "worst", "blades")
-    errors = {row["level"]: row["error, lining"] for row in tables["levels"]}
-    assert errors == {"`draft`": "16.0%", "`standard`": "4.0%", "`paper`": "", "`fine`": "2.0%"}
-    assert {row["worst blade"] for row in tables["worst"]} == {"S50"}
-    assert len(tables["worst"]) == 12
+    tables = made(accuracy.levels, "levels", "steep", "blades")
+    errors = {row["level"]: row["lining"] for row in tables["levels"]}
+    assert errors == {"`draft`": "16%", "`standard`": "4.0%", "`paper`": "", "`fine`": "2.0%"}
+    assert tables["steep"][1]["bare casing, points"] == "S50 4.0%, 4.0%"
+    steps = [row["step (us)"] for row in tables["levels"]]
+    assert steps == ["6.4", "6.4, 4.8", "0.1", "3.2, 2.4"]
     # half of the revolutions
-    assert [row["CPU per run"] for row in tables["levels"]] == ["0.05 s", "0.10 s", "0.10 s", "0.10 s"]
+    assert [row["CPU (s)"] for row in tables["levels"]] == ["0.05", "0.10", "0.10", "0.10"]
 
 
 def test_convergence_names_the_worst_blade(made):

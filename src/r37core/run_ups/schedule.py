@@ -16,13 +16,13 @@ from typing import NamedTuple
 import numpy as np
 
 LARGEST_LEAD = 2e-4
-"""Angle (rad) by which the rotor may be elsewhere within a segment than at its mean speed (docs/accuracy.md)."""
+"""Angle (rad) by which the rotor may be elsewhere within a segment than at its mean speed (docs/run_ups.md)."""
 
 LONGEST_SEGMENT = 8
 """Revolutions."""
 
 LARGEST_STIFFENING = 0.05
-"""Change of the first mode's squared frequency over which the modes are held (docs/accuracy.md)."""
+"""Change of the first mode's squared frequency over which the modes are held (docs/run_ups.md)."""
 
 
 @dataclass(frozen=True)
