@@ -82,11 +82,16 @@ class Runs:
         """A quantity of some runs by blade and speed (rad/s), empty if there are none."""
         return self._rows[runs][quantity] if runs in self._rows else _NONE
 
-    def settled(self, scene: str, contact: str) -> pd.Series:
-        """Whether the motion is settled, at all speeds that were perturbed."""
+    def perturbation(self, scene: str, contact: str) -> pd.Series:
+        """Largest relative change of rms by one of the perturbations, at all speeds that were perturbed."""
         base = self.of(Of(scene, contact))
-        calm = pd.concat([abs(self.of(Of(scene, contact, what)) / base - 1.0) < SETTLED for what in PERTURBED], axis=1)
-        return calm.all(axis=1) & ~self._near(base.index, _jumps, BESIDE, Of(scene, contact, EVERY_SPEED))
+        changes = [abs(self.of(Of(scene, contact, what)) / base - 1.0) for what in PERTURBED]
+        return pd.concat(changes, axis=1).max(axis=1, skipna=False)
+
+    def settled(self, scene: str, contact: str) -> pd.Series:
+        """Whether the motion is settled, and no branch ends next to it."""
+        changes = self.perturbation(scene, contact)
+        return (changes < SETTLED) & ~self._near(changes.index, _jumps, BESIDE, Of(scene, contact, EVERY_SPEED))
 
     def steep(self, scene: str, contact: str) -> pd.Series:
         """Whether a speed is one of the steep places of its blade."""
@@ -270,13 +275,10 @@ def chance(input: Any, output: Any, params: Any) -> None:
 
 
 def _chance_cell(runs: Runs, blade: str, scene: str, contact: str) -> str:
-    settled = runs.settled(scene, contact).loc[blade]
-    unsettled = ~settled[settled.index.isin(SPREAD)]
-    base = runs.of(Of(scene, contact)).loc[blade]
-    perturbed = pd.concat([runs.of(Of(scene, contact, what)).loc[blade] for what in PERTURBED], axis=1)
-    changes = 100.0 * abs(perturbed.div(base, axis=0) - 1.0).max(axis=1)
-    moved = changes.loc[unsettled.index[unsettled]]
-    return f"{100.0 * unsettled.mean():.0f}%" + (f": {moved.median():.0f}%, {moved.max():.0f}%" if len(moved) else "")
+    changes = runs.perturbation(scene, contact).loc[blade]
+    changes = changes[changes.index.isin(SPREAD)]
+    moved = 100.0 * changes[~(changes < SETTLED)]
+    return f"{len(moved) / len(changes):.0%}" + (f": {moved.median():.0f}%, {moved.max():.0f}%" if len(moved) else "")
 
 
 def _friction_table(runs: Runs) -> tuple[list[str], list[list[str]]]:
