@@ -14,7 +14,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from published import INTERACTIONS
+from published import INTERACTIONS, REFERENCE
 
 from r37core.figures import style
 from r37core.io import as_list
@@ -34,6 +34,7 @@ from .contact_runs import (
     FINEST_STEP,
     FRICTION,
     FRICTION_BLADES,
+    IN_PUBLISHED_RANGE,
     LINED,
     MODES,
     PERTURBED,
@@ -332,7 +333,7 @@ PUBLISHED_CASES = {
 def _published_table(runs: Runs) -> tuple[list[str], list[list[str]]]:
     rows = []
     for name, of in PUBLISHED_CASES.items():
-        curve = 1e3 * runs.of(replace(of, what="published range"), "normal").loc["Ref"]
+        curve = 1e3 * runs.of(replace(of, what=IN_PUBLISHED_RANGE), "normal").loc[REFERENCE]
         speeds, rms = curve.index.to_numpy(), curve.to_numpy()
         top, jump = int(np.argmax(rms)), int(np.argmin(np.diff(rms)))
         after = rms[jump + 1 : jump + 25].min()

@@ -80,8 +80,8 @@ def remarks_on_laws(settings: Settings) -> list[str]:
         if friction is not None and lining is None and friction.coefficient > LARGE_FRICTION:
             lines.append(
                 f"scene '{name}': friction.coefficient is {friction.coefficient:g}; above {LARGE_FRICTION:g} exact_modal and "
-                "central_difference differ in direct contact, at any step: CS50 by 6% at 0.25, Ref by a fifth and more from "
-                "0.5 on; compare fidelity standard with paper (docs/accuracy.md#what-chance-decides)"
+                "central_difference differ in direct contact, at any step, by a fifth and more on some blades; compare "
+                "fidelity standard with paper (docs/accuracy.md#what-chance-decides)"
             )
         if lining is not None and lining.plastic_modulus == 0.0:
             lines.append(
