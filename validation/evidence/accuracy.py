@@ -44,6 +44,7 @@ from .contact_runs import (
     STANDARD,
     STEPS,
     STIFFER,
+    TWICE_THE_BARS,
     WIDE_BARS,
     branch_speeds,
 )
@@ -260,8 +261,7 @@ def _motion_rows(runs: Runs) -> list[list[str]]:
         ("100 revolutions", AS_SHIPPED),
         (AS_SHIPPED, "400 revolutions"),
         ("friction + 0.1%", AS_SHIPPED),
-        ("half as many bars", AS_SHIPPED),
-        ("twice as many bars", AS_SHIPPED),
+        (TWICE_THE_BARS, AS_SHIPPED),
     ]
     return rows + [_row(runs, what, against, _changed({"what": what}, {"what": against})) for what, against in compared]
 

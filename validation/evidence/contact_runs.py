@@ -42,7 +42,7 @@ TIP_ELEMENTS = {5000: 21, 10000: 28, 20000: 42, 40000: 56, 60000: 70}
 """Nodes of a mesh, and its elements along the tip: those of the levels, one mesh between, and a finer one."""
 
 STANDARD, SMALL, FINEST = 20000, 10000, 60000
-COUNTS, MODES = (4, 15, 29), (3, 20, 40)
+COUNTS, MODES = (4, 15, 29), (3, 40)
 """Contact nodes and fixed-interface modes that are tried on the small mesh, next to the shipped 8 and 10."""
 
 GRID = np.arange(750.0, 2000.5, 5.0)
@@ -68,8 +68,8 @@ PERTURBED = ("friction + 0.1%", "friction - 0.1%", "half the step")
 CENTRAL = "central differences, 1e-07 s"
 FINEST_STEP = "step 8e-07 s"
 WIDE_BARS = "bars as wide as patches"
-BARS = ("half as many bars", "twice as many bars")
-STEPS = (6.4e-6, 3.2e-6, 1.6e-6, 8e-7)
+TWICE_THE_BARS = "twice as many bars"
+STEPS = (6.4e-6, 3.2e-6, 8e-7)
 STIFFER = (10, 100)
 FRICTION = (0.2, 0.25, 0.3, 0.5)
 FRICTION_BLADES = ("Ref", "CS50")
@@ -139,7 +139,7 @@ CHANGES: dict[str, Change] = {
     CENTRAL: _CENTRAL_STEP,
     "100 revolutions": _choice(revolutions=100),
     "400 revolutions": _choice(revolutions=400),
-    **{what: _lining(bar_width=width) for what, width in zip(BARS, (2.0, 0.5), strict=True)},
+    TWICE_THE_BARS: _lining(bar_width=0.5),
     **{f"lining {times} times as stiff": _lining(elastic_modulus=times, plastic_modulus=times) for times in STIFFER},
     **{f"friction {value:g}": _friction(1.0, value) for value in FRICTION},
     **{f"friction {value:g}, half the step": _both(_friction(1.0, value), _half_the_step) for value in FRICTION},
@@ -250,7 +250,7 @@ def standard(input: Any, output: Any, params: Any) -> None:
                 run(np.union1d(FEW, steep), what, stress)
             run(np.union1d(FEW, steep[1::2]), CENTRAL, stress)
             if scene == LINED:
-                for what in (*BARS, *(f"lining {times} times as stiff" for times in STIFFER)):
+                for what in (TWICE_THE_BARS, *(f"lining {times} times as stiff" for times in STIFFER)):
                     run(SPREAD[::2], what)
                 _bars_as_wide(runs, model, contact)
             elif params.blade in FRICTION_BLADES and model.contact == PATCHES:
