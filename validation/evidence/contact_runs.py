@@ -248,7 +248,8 @@ def standard(input: Any, output: Any, params: Any) -> None:
                 run(np.union1d(SPREAD, steep), what, stress)
             for what in (*(f"step {step:g} s" for step in STEPS), "100 revolutions", "400 revolutions"):
                 run(np.union1d(FEW, steep), what, stress)
-            run(np.union1d(FEW, steep[1::2]), CENTRAL, stress)
+            if scene == BARE or model.contact == POINTS:
+                run(np.union1d(FEW, steep[1::2]), CENTRAL, stress)
             if scene == LINED:
                 for what in (TWICE_THE_BARS, *(f"lining {times} times as stiff" for times in STIFFER)):
                     run(SPREAD[::2], what)
