@@ -395,4 +395,4 @@ def draw(input: Any, output: Any, params: Any) -> None:
     for axes in panels[-1]:
         axes.set_xlabel("angular speed (rad/s)")
     panels[0, 0].legend()
-    figure.savefig(output.picture)
+    style.save(figure, output.picture)
