@@ -41,12 +41,6 @@ def test_readme_has_the_levels_errors_and_costs(root, readme):
     assert set(rows) == {*levels} - {"reference"}
 
 
-def test_numbers_of_the_default_sweep_are_those_of_the_gallery(root):
-    page = (root / "docs/simulation.md").read_text().split("## What the default sweep shows\n", 1)[1].split("\n## ", 1)[0]
-    numbers = re.findall(r"[\d.]+(?:%| mm| rad/s)|(?<=published )[\d.]+", page)
-    gallery = (root / "docs/gallery.md").read_text()
-    assert len(numbers) >= 6
-    assert [number for number in numbers if number not in gallery] == []
 
 
 def test_the_first_run_is_one_that_can_be_made(root):
@@ -116,7 +110,7 @@ def test_no_page_is_called_like_one_that_the_site_makes_itself(root):
 
 
 def test_readme_is_short(readme):
-    assert len(readme.split()) <= 700
+    assert len(readme.split()) <= 650
 
 
 def test_remeshed_blades_are_within_their_bounds(root):

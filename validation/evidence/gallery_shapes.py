@@ -21,25 +21,27 @@ _SWING = 0.02
 
 
 def draw_modes(file: Path | str, png: Path | str) -> None:
-    """The first three modes of a modes_<speed>.vtu, each moved by its shape and coloured by the size of its displacement.
-
-    Lines are the edges of the blade at rest.
-    """
+    """The first three modes of a modes_<speed>.vtu, as `add_mode` shows them."""
     with readable(file):
         grid = pyvista.read(file)
     plotter = new_plotter(len(NAMED_MODES), (400 * len(NAMED_MODES), _HEIGHT))
     for column, name in enumerate(NAMED_MODES):
         plotter.subplot(0, column)
-        shape = np.asarray(grid.point_data[f"mode {name}"])
-        size = np.linalg.norm(shape, axis=1)
-        moved = grid.copy()
-        moved.points = grid.points + _SWING / size.max() * shape
-        moved.point_data["size"] = size / size.max()
-        plotter.add_mesh(_surface(moved), scalars="size", cmap="viridis", smooth_shading=True, show_scalar_bar=False)
-        plotter.add_mesh(_surface(grid).extract_feature_edges(), color="black", line_width=1.5)
+        add_mode(plotter, grid, name)
         frequency = float(grid.field_data[f"frequency of mode {name} (Hz)"][0])
         _finish(plotter, f"{name}, {frequency:.0f} Hz")
     save_picture(plotter, png)
+
+
+def add_mode(plotter: pyvista.Plotter, grid: pyvista.DataSet, name: str) -> None:
+    """A blade moved by a mode and coloured by the size of its displacement. Lines are the edges of the blade at rest."""
+    shape = np.asarray(grid.point_data[f"mode {name}"])
+    size = np.linalg.norm(shape, axis=1)
+    moved = grid.copy()
+    moved.points = grid.points + _SWING / size.max() * shape
+    moved.point_data["size"] = size / size.max()
+    plotter.add_mesh(_surface(moved), scalars="size", cmap="viridis", smooth_shading=True, show_scalar_bar=False)
+    plotter.add_mesh(_surface(grid).extract_feature_edges(), color="black", line_width=1.5)
 
 
 def draw_mesh(file: Path | str, submesh: StressSubmesh, png: Path | str) -> None:

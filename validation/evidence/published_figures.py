@@ -1,74 +1,122 @@
-"""Figures that only the gallery has: stress, wear and clearances in the manner of the paper."""
+"""Pictures of what the paper publishes, of ours: response, stress, wear and clearances."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Mapping
 
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, VARIANTS, WIDTH_ABOVE_YIELD
 
 from r37core.figures import style
-from r37core.figures.campbell_diagram import draw_campbell
-from r37core.figures.maps import draw_cells, draw_spectral_map
-from r37core.results.measures import peak_of, width_above_yield
-from validation.published import BLADES, INTERACTIONS, REFERENCE, VARIANTS, WIDTH_ABOVE_YIELD
-from validation.studies.measures import history_of
-from validation.studies.modelling_choices.figures import SCENES, draw_blades, draw_histories, draw_reference
-from validation.studies.modelling_choices.validation import Runs
+from r37core.figures.cells import draw_cells
+from r37core.results.measures import history_of, leading_edge, peak_of, peak_speed, width_above_yield
 
-from .cases import COARSE, FINE
+from .published_checks import PEAK_WITHIN, Runs
+from .published_windows import BARE
+
+FINE, COARSE = 248, 62
+"""Instants of a revolution at which the paper recovers stress: for a picture of it, and for its largest value."""
 
 _DECADES = 4.0
-_DOTS_PER_INCH = 120
-"""So that the pages of docs/ stay small."""
+
+SCENES = {"lined": ("abradable lining", "C0"), "direct": ("bare casing", "C1")}
+"""Kind of scene -> its label and colour."""
+
+_DIRECTIONS = {"rms_normal": "normal to the casing", "rms_tangential": "tangential"}
 
 
-@dataclass(frozen=True)
-class GalleryData:
-    """What the gallery shows, of a sweep and a few runs beside it.
-
-    `campbells` by blade, `swept` responses by blade and kind of scene; runs about the interactions and over all speeds, by the
-    names of the modelling choices' windows; `revolution`: stress (Pa) of the reference blade at FINE instants of the last
-    revolution, shape (FINE,); `scenes`: names by kind.
-    """
-
-    campbells: Mapping[str, xr.Dataset]
-    swept: Mapping[tuple[str, str], xr.Dataset]
-    shipped: Runs
-    survey: Runs
-    revolution: np.ndarray
-    scenes: Mapping[str, str]
-
-
-def gallery_figures(data: GalleryData) -> dict[str, Callable[[str], None]]:
-    """All figures of the gallery but the rendered ones, each to be drawn into a file."""
-    campbell = data.campbells[REFERENCE]
-    lined = {blade: data.swept[blade, "lined"] for blade in BLADES}
-    drawn: dict[str, Callable[[], Figure]] = {
-        "campbell": lambda: draw_campbell(campbell, REFERENCE),
-        "reference": lambda: draw_reference(data.survey, data.shipped),
-        "revolution": lambda: draw_revolution(data.revolution, INTERACTIONS[0].peak),
-        "histories": lambda: draw_histories(data.shipped),
-        "stress": lambda: draw_stress_over_speed(data.survey),
-        "wear_content": lambda: draw_wear(lined[REFERENCE]),
-        "variants_spectra": lambda: draw_variant_spectra(lined, data.campbells),
-        "variants_response": lambda: draw_blades(data.shipped),
-        "clearances": lambda: draw_clearances(data.campbells),
-        "peak_histories": lambda: draw_peak_histories(data.shipped),
-        "widths": lambda: draw_widths(data.shipped),
-    }
-    for kind, (label, _) in SCENES.items():
-        drawn[f"spectrum_{kind}"] = partial(draw_spectral_map, data.swept[REFERENCE, kind], campbell, f"{REFERENCE}, {label}")
-    return {name: partial(_save, draw) for name, draw in drawn.items()}
+def draw_reference(lined: xr.Dataset, bare: xr.Dataset) -> Figure:
+    """Rms of the reference blade in both scenes over the whole range; dotted: published peaks."""
+    runs = {"lined": leading_edge(lined), "direct": leading_edge(bare)}
+    figure, panels = plt.subplots(2, 1, figsize=(style.PAGE, 5.0), sharex=True)
+    for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
+        for scene, run in runs.items():
+            label, color = SCENES[scene]
+            axes.semilogy(run["speed"], 1e3 * run[name], color=color, linewidth=1.1, label=label)
+        for row in INTERACTIONS:
+            if row.blade == "Ref":
+                axes.axvline(row.peak, color="C0", linestyle=":", linewidth=0.9)
+                axes.annotate(
+                    f"1B/{row.engine_order}", (row.peak + 4, 0.96), xycoords=("data", "axes fraction"), fontsize=7, va="top"
+                )
+        axes.axvline(DIRECT_PEAK, color="C1", linestyle=":", linewidth=0.9)
+        axes.set_ylabel(f"rms, {direction} (mm)")
+    panels[0].legend(loc="upper right", bbox_to_anchor=(0.73, 1.0))
+    panels[0].set_title("blade Ref, leading edge, last half of the run; dotted: published peaks")
+    panels[1].set_xlabel("speed (rad/s)")
+    style.rpm_axis(panels[0])
+    return figure
 
 
-def _save(draw: Callable[[], Figure], file: str) -> None:
-    style.save(draw(), file, dots_per_inch=_DOTS_PER_INCH)
+def draw_blades(shipped: Runs) -> Figure:
+    """Rms of all blades about their interaction of 1B with order 4; dotted: published peaks."""
+    figure, panels = plt.subplots(2, 1, figsize=(style.PAGE, 5.2), sharex=True)
+    for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
+        _draw_about_order_4(axes, shipped, name, 1e3)
+        axes.set_ylabel(f"rms, {direction} (mm)")
+    style.rpm_axis(panels[0])
+    _legend_above(figure, panels[0])
+    panels[1].set_xlabel("speed (rad/s); dotted: published peaks")
+    return figure
+
+
+def _draw_about_order_4(axes: Axes, shipped: Runs, name: str, scale: float) -> None:
+    """One curve for each blade, and its published peak."""
+    for number, row in enumerate(INTERACTIONS[: len(BLADES)]):
+        run, color = leading_edge(shipped[row.name]), f"C{number}"
+        axes.plot(run["speed"], scale * run[name], ".-", color=color, markersize=3, linewidth=1.0, label=row.blade)
+        axes.axvline(row.peak, color=color, linestyle=":", linewidth=0.9)
+
+
+def _legend_above(figure: Figure, axes: Axes) -> None:
+    """The legend of one panel above the figure, out of the way of its peaks."""
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=len(BLADES) + 1, fontsize=8)
+
+
+def draw_histories(shipped: Runs) -> Figure:
+    """Largest stress of every revolution of the reference blade in both scenes, at three published speeds."""
+    runs = {"lined": shipped[INTERACTIONS[0].name], "direct": shipped[BARE]}
+    figure, panels = plt.subplots(1, 3, figsize=(style.PAGE, 2.9), sharey=True)
+    for axes, speed in zip(panels, (INTERACTIONS[0].peak, DIRECT_PEAK, QUIET), strict=True):
+        for scene, run in runs.items():
+            label, color = SCENES[scene]
+            history = 1e-9 * history_of(run, speed)
+            shown = np.where(history > 0.0, history, np.nan)
+            axes.semilogy(run["revolution"], shown, color=color, linewidth=1.2, label=label)
+        style.yield_lines(axes, {name: float(run["yield_stress"]) for name, run in runs.items()})
+        axes.set(xlabel="revolution", title=f"{speed:g} rad/s")
+    panels[0].set_ylabel("largest von Mises of the revolution (GPa)")
+    panels[0].legend()
+    return figure
+
+
+def draw_choices(choices: Mapping[str, Runs]) -> Figure:
+    """One row for each choice: error of every peak speed in percent, and how many there are; grey: what counts as agreeing."""
+    figure, axes = plt.subplots(figsize=(9.0, 0.32 * len(choices) + 1.6))
+    axes.axvspan(-100 * PEAK_WITHIN, 100 * PEAK_WITHIN, color="0.92", zorder=0)
+    rows = np.arange(len(choices))
+    for number, published in enumerate(INTERACTIONS):
+        speeds = [peak_speed(runs[published.name]) if published.name in runs else np.nan for runs in choices.values()]
+        errors = 100.0 * (np.array(speeds) / published.peak - 1.0)
+        marker = "o" if published.engine_order == 4 else "^sD"[published.engine_order - 5]
+        color = f"C{number}" if published.engine_order == 4 else "C0"
+        axes.plot(errors, rows, marker, color=color, alpha=0.8, markersize=5, linestyle="none", label=published.label)
+    for row, runs in enumerate(choices.values()):
+        found_peaks = sum(np.isfinite(peak_speed(runs[published.name])) for published in INTERACTIONS if published.name in runs)
+        axes.annotate(
+            f"{found_peaks} of {len(INTERACTIONS)}", (1.01, row), xycoords=("axes fraction", "data"), va="center", fontsize=8
+        )
+    axes.set_yticks(rows, list(choices))
+    axes.invert_yaxis()
+    axes.set(xlabel="peak speed less the published one (%)")
+    axes.annotate("peaks found", (1.01, 1.0), xycoords="axes fraction", va="bottom", fontsize=8)
+    figure.legend(loc="outside lower center", ncols=5, fontsize=8)
+    return figure
 
 
 def draw_revolution(stress: np.ndarray, speed: float) -> Figure:
@@ -83,13 +131,13 @@ def draw_revolution(stress: np.ndarray, speed: float) -> Figure:
     return figure
 
 
-def draw_stress_over_speed(survey: Runs) -> Figure:
+def draw_stress_over_speed(runs: Runs) -> Figure:
     """Largest stress of the last revolution of the reference blade in both scenes, with the yield line."""
     figure, axes = plt.subplots(figsize=(style.PAGE, 3.0))
     for kind, (label, _) in SCENES.items():
-        run = survey[f"Ref_{kind}"]
+        run = runs[kind]
         axes.semilogy(run["speed"], 1e-9 * run["max_von_mises"], marker=".", markersize=2, linewidth=0.9, label=label)
-    style.yield_lines(axes, {REFERENCE: float(survey["Ref_lined"]["yield_stress"])}, named=True)
+    style.yield_lines(axes, {REFERENCE: float(runs["lined"]["yield_stress"])}, named=True)
     for interaction in INTERACTIONS:
         if interaction.blade == REFERENCE:
             axes.axvline(interaction.peak, color="0.5", linestyle=":", linewidth=0.8)
