@@ -1,13 +1,13 @@
-"""The time integration against SciPy, and other programs on a small blade: validation/benchmarks/other_programs.py."""
+"""The time integration against SciPy and other programs, on a small blade."""
 
 import os
-import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import CHECKOUT
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
+from evidence.equations_of_motion import against_spring, blade_of, with_wear, without_yield
+from evidence.massless_boundary import boundary_rows, massless_boundary, run_nlstep
 from integration_cases import random_model, with_static_modes
 
 from r37core.contact.laws import series_modulus
@@ -21,15 +21,8 @@ ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-7)
 SCENE = Scene(Casing(0.356e-3, amplitude=1.5, rise_fraction=0.0), ELASTIC, Friction(0.3), damping_ratio=0.01)
 
 
-@pytest.fixture(scope="module", autouse=True)
-def benchmarks():
-    sys.path.insert(0, str(CHECKOUT / "validation/benchmarks"))
-    yield
-    sys.path.remove(str(CHECKOUT / "validation/benchmarks"))
-
-
 FLEXIBILITY = 2e-7
-"""Of static modes (m/N), which the time integration has beside those of the equations of motion."""
+"""Of static modes (m/N), which the time integration has in addition to those of the equations of motion."""
 
 SLOW, FAST = np.linspace(6e3, 1e5, 10), np.linspace(3e6, 5e6, 14)
 """Frequencies (rad/s)."""
@@ -93,8 +86,6 @@ def error(found, exact):
 
 @pytest.mark.parametrize(("integrator", "order", "largest"), [(EXACT_MODAL, 2.0, 1e-4), (CENTRAL_DIFFERENCE, 1.0, 5e-2)])
 def test_on_bars_that_do_not_yield_the_integration_has_the_order_that_it_claims(model, integrator, order, largest):
-    from equations_of_motion import blade_of, without_yield
-
     blade, seen = held(model, integrator)
     exact = without_yield(blade_of(model, SPEED, seen(SCENE), np.inf), TIMES, rtol=1e-9, atol=1e-14)
     errors = [error(integrated(blade, SCENE, steps, integrator)[0], exact) for steps in (1000, 2000, 4000)]
@@ -103,8 +94,6 @@ def test_on_bars_that_do_not_yield_the_integration_has_the_order_that_it_claims(
 
 
 def test_a_casing_that_rises(model):
-    from equations_of_motion import blade_of, without_yield
-
     rising = replace(SCENE, casing=replace(SCENE.casing, rise_fraction=0.5))
     exact = without_yield(blade_of(model, SPEED, in_series(rising), TIMES[-1]), TIMES, rtol=1e-9, atol=1e-14)
     assert error(integrated(with_static_modes(model, FLEXIBILITY), rising, 4000, EXACT_MODAL)[0], exact) < 1e-3
@@ -112,8 +101,6 @@ def test_a_casing_that_rises(model):
 
 def test_on_bars_that_wear_the_integration_is_of_first_order(model):
     """In motion and wear: what a node does on a bar after its last step there goes unseen."""
-    from equations_of_motion import blade_of, with_wear
-
     scene = replace(SCENE, lining=replace(ELASTIC, yield_stress=1e6, bars=BARS))
     exact, wear = with_wear(blade_of(model, SPEED, in_series(scene), np.inf), TIMES, rtol=1e-8, atol=1e-13)
     assert np.count_nonzero(wear) > 4
@@ -127,8 +114,6 @@ def test_on_bars_that_wear_the_integration_is_of_first_order(model):
 
 def test_springs_with_dashpots_lead_to_the_multipliers_of_direct_contact(model):
     """Those of central differences, which have mass at the nodes: it does not bounce."""
-    from equations_of_motion import against_spring, blade_of
-
     scene = replace(SCENE, lining=None)
     ours = integrated(model, scene, 8000, CENTRAL_DIFFERENCE)[0][:HALF]
     blade = blade_of(model, SPEED, scene, np.inf)
@@ -140,8 +125,6 @@ def test_springs_with_dashpots_lead_to_the_multipliers_of_direct_contact(model):
 
 def test_in_direct_contact_the_integration_is_on_the_springs_of_its_static_modes(model):
     """Second order; nothing is lost in an impact."""
-    from equations_of_motion import against_spring, blade_of
-
     scene = replace(SCENE, lining=None)
     exact = against_spring(blade_of(model, SPEED, scene, np.inf), TIMES, 1.0 / FLEXIBILITY, 0.0, rtol=1e-9, atol=1e-14)
     blade = with_static_modes(model, FLEXIBILITY)
@@ -151,9 +134,6 @@ def test_in_direct_contact_the_integration_is_on_the_springs_of_its_static_modes
 
 
 def test_a_massless_boundary_keeps_the_slow_modes_and_the_flexibility(model):
-    from equations_of_motion import blade_of
-    from massless_boundary import boundary_rows, massless_boundary
-
     blade, kept = blade_of(random_model(2), SPEED, SCENE, np.inf), 12
     mass, damping, stiffness = massless_boundary(blade, kept)
     nodes = slice(0, 6)
@@ -168,9 +148,6 @@ def test_a_massless_boundary_keeps_the_slow_modes_and_the_flexibility(model):
 @pytest.mark.skipif("NLSTEP" not in os.environ, reason="NLstep, its folder in the variable NLSTEP, and GNU Octave")
 def test_nlstep_on_a_light_touch():
     """Fast modes have no mass in either."""
-    from equations_of_motion import blade_of
-    from massless_boundary import run_nlstep
-
     stiff, scene = (
         model_of(np.concatenate([SLOW, FAST])),
         replace(SCENE, lining=None, casing=replace(SCENE.casing, amplitude=1.1)),
