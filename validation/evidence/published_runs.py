@@ -93,8 +93,8 @@ def runs_of(name: str) -> dict[str, xr.Dataset]:
     with np.load(histories_of(name)) as found:
         for window, run in runs.items():
             speeds = [key.split()[1] for key in found if key.split()[0] == window]
-            stress = np.array([found[f"{window} {speed}"] for speed in speeds]).reshape(len(speeds), -1)
             if speeds:
+                stress = np.array([found[f"{window} {speed}"] for speed in speeds])
                 run = run.assign_coords(history_speed=[float(speed) for speed in speeds], revolution=run["revolution"])
                 runs[window] = run.assign(max_von_mises_history=(("history_speed", "revolution"), stress))
     return runs
