@@ -1,26 +1,20 @@
-"""Picture of the explorer's first screen as Chromium shows it: docs/explorer.png."""
+"""The explorer of a finished run as Chromium shows it."""
 
 from __future__ import annotations
 
-import shutil
+import sys
 from pathlib import Path
 from typing import Any
 
-CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
-# three-dimensional parts of the page, without a graphics card
-SOFTWARE_GRAPHICS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
+_TESTS = Path(__file__).parents[2] / "tests"
 
 
-def take(input: Any, output: Any, params: Any) -> None:
-    """Take the picture, in light, at the interaction that the page opens at. Input: page. Output: picture."""
-    # of the tests' packages, which only this step needs
-    from playwright.sync_api import sync_playwright
+def picture(input: Any, output: Any, params: Any) -> None:
+    """Picture of the first screen, in light, at the interaction that the page opens at. Input: the page."""
+    sys.path.insert(0, str(_TESTS))
+    from browser import opened
 
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*SOFTWARE_GRAPHICS])
-        page = browser.new_page(viewport={"width": 1200, "height": 1000}, color_scheme="light")
-        page.goto(Path(input.page).resolve().as_uri())
+    with opened(Path(input[0]).resolve(), {"width": 1200, "height": 1000}, color_scheme="light") as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         page.wait_for_timeout(1000)
-        page.screenshot(path=output.picture)
-        browser.close()
+        page.screenshot(path=output[0])

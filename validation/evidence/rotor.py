@@ -1,0 +1,83 @@
+"""Whole rotors of the seven blades, and several rotors of two of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from r37core.dataset_file import read_dataset
+from r37core.results.measures import range_above_yield, ratio_to_yield
+from r37core.time_integration.status import RunStatus
+
+from .pages import write_table
+
+ORDERS = (4, 5)
+WINDOW = (-0.06, 0.10)
+"""Speeds about a crossing, as shares of it."""
+
+KINDS = {
+    "single": "a single blade",
+    "equal": "36 equal blades",
+    "mistuned_0p2": "0.2% of mistuning",
+    "mistuned_1": "1%",
+    "mistuned_1_other": "1%, another draw",
+    "mistuned_3": "3%",
+    "own_linings": "1%, a lining for each blade",
+    "longer_20": "equal, blade 1 longer by 20 um",
+    "longer_50": "equal, blade 1 longer by 50 um",
+}
+"""Scenes of validation/rotors.yaml."""
+
+
+def rotor_ratio(rotor: xr.Dataset) -> xr.DataArray:
+    """Stress of the worst blade as a share of yield, over speed; infinite where the run diverged."""
+    worst = rotor["blade_max_von_mises"].max("blade_number") / rotor["yield_stress"]
+    return worst.where(rotor["status"] != RunStatus.DIVERGED, np.inf)
+
+
+def length_about(ratio: xr.DataArray, crossing: float) -> float:
+    """Length (rad/s) of the speeds about a crossing with a stress above yield."""
+    near = ratio.sel(speed=slice(*(crossing * (1.0 + share) for share in WINDOW)))
+    return range_above_yield(near["speed"].values, near.values).length
+
+
+def blades(input: Any, output: Any, params: Any) -> None:
+    """Single blades and rotors about both crossings of 1B. Input: singles, rotors, campbells: a file for each blade."""
+    rows = []
+    for single_file, rotor_file, campbell_file in zip(input.singles, input.rotors, input.campbells, strict=True):
+        single, rotor = ratio_to_yield(read_dataset(single_file)), read_dataset(rotor_file)
+        ratio, crossings = rotor_ratio(rotor), read_dataset(campbell_file)["crossing_speed"].sel(mode="1B")
+        cells = [
+            f"{length_about(of, float(crossings.sel(engine_order=order))):.0f}" for order in ORDERS for of in (single, ratio)
+        ]
+        worst = rotor.isel(speed=int(ratio.argmax()))
+        others = float(worst["blade_rms"].max() / worst["blade_rms"].median())
+        rows.append([Path(single_file).parts[-3], *cells, _at_once(rotor), f"{others:.0f}"])
+    lengths = [f"1B/{order}: {of} (rad/s)" for order in ORDERS for of in ("single", "rotor")]
+    head = ["blade", *lengths, "blades above yield at once, median (most)", "leader's rms over the median blade's"]
+    write_table(head, rows, output.table)
+
+
+def _at_once(rotor: xr.Dataset) -> str:
+    above = (rotor["blades_above_yield"] * rotor.sizes["blade_number"]).values.round()
+    some = above[above > 0.0]
+    return f"{np.median(some):.0f} ({some.max():.0f})" if some.size else "none"
+
+
+def kinds(input: Any, output: Any, params: Any) -> None:
+    """Length above yield of several rotors, and how many blades are above yield at once. Input: files of each blade and kind."""
+    tables = {Path(file).parts[-3:-1]: read_dataset(file) for file in input}
+    rows = []
+    for kind, words in KINDS.items():
+        cells = []
+        for blade in dict.fromkeys(blade for blade, _ in tables):
+            rotor = tables[blade, kind]
+            ratio = ratio_to_yield(rotor) if kind == "single" else rotor_ratio(rotor)
+            length = range_above_yield(ratio["speed"].values, ratio.values).length
+            cells += [f"{length:.0f}", "" if kind == "single" else _at_once(rotor)]
+        rows.append([words, *cells])
+    heads = [head for blade in dict.fromkeys(blade for blade, _ in tables) for head in (f"{blade} (rad/s)", f"{blade}: blades")]
+    write_table(["rotor", *heads], rows, output.table)

@@ -1,0 +1,143 @@
+"""Ranges of interactions under tolerances, what they come from, and how many members it takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.dataset_file import read_dataset
+from r37core.results.ranges import ENDS, read_ranges
+from r37core.rounding import rounded_to
+from r37core.tolerances.dataset import INDEXED, QUANTILES
+from r37core.tolerances.number_ranks import Ranking, ranking
+
+from .configuration import settings_of
+from .pages import write_table
+from .which_blade import Models, length_of_runs
+
+MODE, ORDER = "1B", 4
+COLUMNS = {
+    "peak (rad/s)": ("peak_speed_rad_s", 1.0),
+    "first yield (rad/s)": ("first_yield_speed_rad_s", 1.0),
+    "width above yield (rad/s)": ("width_above_yield_rad_s", 1.0),
+    "largest stress (GPa)": ("max_von_mises_pa", 1e-9),
+}
+COUNTS = (8, 16, 32, 64, 128)
+UNKNOWN = "-"
+CLEARANCES = (0.8, 1.0, 1.25, 2.0)
+CLEARANCE_SPEEDS = np.arange(1680.0, 1801.0, 4.0)
+
+
+def ranges(input: Any, output: Any, params: Any) -> None:
+    """Nominal value and range of the interaction of 1B with engine order 4, of every blade. Input: table."""
+    table = read_ranges(input.table)
+    chosen = table[(table["mode"] == MODE) & (table["engine_order"] == ORDER)]
+    rows = [[row["blade"], *(ranged(row, *column) for column in COLUMNS.values())] for _, row in chosen.iterrows()]
+    write_table(["blade", *COLUMNS], rows, output.table)
+
+
+def ranged(row: pd.Series, name: str, scale: float) -> str:
+    """Nominal value and, in brackets, both ends of its range, with as many digits as the range bears."""
+    low, high = (scale * row[f"{name}_{end}"] for end in (ENDS[0], ENDS[-1]))
+    nominal, low_text, high_text = (rounded_to(value, high - low) for value in (scale * row[name], low, high))
+    return f"{nominal} ({low_text} to {high_text})"
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Values of the numbers, shape (members, numbers), and one measure, shape (members,), of members of one sample."""
+
+    values: np.ndarray
+    measure: np.ndarray
+
+    def parts(self, members: int) -> list[Sample]:
+        """Samples of so many members that follow each other: each as evenly spread as the whole."""
+        rows = np.arange(len(self.measure)).reshape(-1, members)
+        return [Sample(self.values[of], self.measure[of]) for of in rows]
+
+    @property
+    def ranking(self) -> Ranking:
+        """Rank coefficients of the numbers."""
+        return ranking(self.values, self.measure)
+
+
+def samples(dataset: xr.Dataset) -> dict[str, Sample]:
+    """Measure -> all members of the only blade and scene of tolerances.nc."""
+    members = dataset.squeeze(["blade", "scene"]).sortby("member").transpose("member", "number", ...)
+    return {measure: Sample(members["value"].values, members[measure].values) for measure in INDEXED}
+
+
+def numbers(input: Any, output: Any, params: Any) -> None:
+    """Place and rank coefficient of each number for each measure. Input: members."""
+    dataset = read_dataset(input.members)
+    rankings = {measure: sample.ranking for measure, sample in samples(dataset).items()}
+    rows = [
+        [f"`{number}`", *(_coefficient(of, place) for of in rankings.values())]
+        for place, number in enumerate(dataset["number"].values)
+    ]
+    rows.append(["explained by all together", *(f"{100.0 * of.explained:.0f}%" for of in rankings.values())])
+    write_table(["number", *(measure.replace("_", " ") for measure in INDEXED)], rows, output.table)
+
+
+def _coefficient(of: Ranking, number: int) -> str:
+    """A number's place, its coefficient and, in brackets, the interval of that."""
+    if not of.known[number]:
+        return UNKNOWN
+    first, last = (round(float(places[number])) for places in of.places)
+    low, high = float(of.low[number]), float(of.high[number])
+    value, low_text, high_text = (rounded_to(each, high - low) for each in (float(of.coefficient[number]), low, high))
+    place = f"{first}" if first == last else f"{first} to {last}"
+    return f"place {place}: {value} ({low_text} to {high_text})"
+
+
+def members(input: Any, output: Any, params: Any) -> None:
+    """Error of ranges and rankings from parts of a sample, against the whole. Input: members."""
+    of_measures = samples(read_dataset(input.members))
+    whole = {measure: np.abs(sample.ranking.coefficient) for measure, sample in of_measures.items()}
+    total, rows = len(next(iter(of_measures.values())).measure), []
+    for count in (each for each in COUNTS if each <= total):
+        parts = {measure: sample.parts(count) for measure, sample in of_measures.items()}
+        errors = [range_error(parts[measure], of_measures[measure]) for measure in INDEXED]
+        cells = [f"{100.0 * error:.0f}%" for error in errors] if count < total else [UNKNOWN] * len(errors)
+        rows.append([str(count), str(total // count), *cells, *_of_rankings(parts, whole)])
+    measures = (f"range of the {measure.replace('_', ' ')}" for measure in INDEXED)
+    write_table(["members", "samples", *measures, "the first is right", "pairs told apart (of 15)"], rows, output.table)
+
+
+def _of_rankings(parts: dict[str, list[Sample]], whole: dict[str, np.ndarray]) -> list[str]:
+    found = {measure: [sample.ranking for sample in several] for measure, several in parts.items()}
+    if any(np.isnan(of.coefficient).all() for several in found.values() for of in several):
+        # too few members for so many numbers
+        return [UNKNOWN, UNKNOWN]
+    right = [np.abs(of.coefficient).argmax() == whole[measure].argmax() for measure in found for of in found[measure]]
+    apart = [of.above.sum() for several in found.values() for of in several]
+    return [f"{100.0 * np.mean(right):.0f}%", f"{np.mean(apart):.1f}"]
+
+
+def range_error(parts: list[Sample], whole: Sample) -> float:
+    """Root mean square error of the worse end of the range from parts, as a share of the range of the whole."""
+    found = np.quantile([part.measure for part in parts], QUANTILES, axis=1, method="inverted_cdf")
+    known = np.quantile(whole.measure, QUANTILES, method="inverted_cdf")
+    errors = np.sqrt(np.mean((found - known[:, None]) ** 2, axis=1))
+    return float(max(errors[0], errors[-1]) / (known[-1] - known[0]))
+
+
+def clearances(input: Any, output: Any, params: Any) -> None:
+    """Length above yield of Ref at 1B/4 at several clearances, with both kinds of lobes. Input: contact, stress."""
+    settings, models = settings_of(Path.cwd()), Models.read(*input)
+    scene, rows = settings.scenes["abradable"].scene, []
+    for scale in CLEARANCES:
+        casing = replace(scene.casing, clearance=scale * scene.casing.clearance)
+        fixed = replace(casing, amplitude=scene.casing.amplitude / scale)
+        lengths = [
+            length_of_runs(settings, models, "Ref", replace(scene, casing=lobes), CLEARANCE_SPEEDS) for lobes in (casing, fixed)
+        ]
+        rows.append([f"{scale:g}", *(f"{length:.0f}" for length in lengths)])
+    write_table(
+        ["clearance over the shipped one", "lobes that grow with it (rad/s)", "lobes of a fixed height"], rows, output.table
+    )

@@ -1,0 +1,198 @@
+"""The ranking of the seven blades, and how sure it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.config import Settings
+from r37core.dataset_file import read_dataset
+from r37core.results.exceedance import CERTAIN, POSSIBLE, exceedance_of
+from r37core.results.measures import motion
+from r37core.results.ranking import read_ranking
+from r37core.rom.contact_model import ContactModel, read_contact_model
+from r37core.stress.of_revolutions import largest_of_revolutions
+from r37core.stress.operator import StressOperator, read_stress_operator
+from r37core.stress.statistic import stress_statistic
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import run_speed
+
+from .configuration import settings_of
+from .pages import write_table
+
+SCENES = {"abradable": "lining", "direct": "bare casing"}
+KEPT = {"spectrum_highest_order": 1, "wear_angles": 1}
+BAR_WIDTHS = (8e-4, 1e-3, 1.25e-3)
+"""(m) The ends of what config/tolerances.yaml varies, and the shipped one."""
+
+BAR_SPEEDS = np.arange(750.0, 2001.0, 5.0)
+_DIFFERS = 1e-5
+
+
+@dataclass(frozen=True)
+class Models:
+    """A blade's contact model and its stress operator."""
+
+    contact: ContactModel
+    stress: StressOperator
+
+    @classmethod
+    def read(cls, contact: str, stress: str) -> Models:
+        """Models in two files of a run."""
+        return cls(read_contact_model(contact), read_stress_operator(stress))
+
+
+def length_text(length: float, scatter: float = np.nan) -> str:
+    """A length (rad/s), with its scatter where it has one."""
+    return f"{length:.0f}" + ("" if np.isnan(scatter) else f" ± {max(scatter, 1.0):.0f}")
+
+
+def lengths(response: xr.Dataset) -> str:
+    """Certain and, in brackets, possible length (rad/s) of a response."""
+    exceedance = exceedance_of(response)
+    certain = length_text(exceedance.length(CERTAIN), exceedance.scatter_of_length(CERTAIN))
+    return f"{certain} ({exceedance.length(POSSIBLE):.0f})"
+
+
+def rankings(input: Any, output: Any, params: Any) -> None:
+    """Lengths and places in both scenes, of contact on patches and on points. Input: patches, points."""
+    tables = {kind: read_ranking(file).set_index(["scene", "blade"]) for kind, file in input.items()}
+    rows = []
+    for blade in dict.fromkeys(tables["patches"].index.get_level_values("blade")):
+        cells = [blade]
+        for scene in SCENES:
+            row = tables["patches"].loc[scene, blade]
+            cells += [str(row["rank"])] + [_lengths_of_row(table.loc[scene, blade]) for table in tables.values()]
+        rows.append(cells)
+    kinds = ("place", *tables)
+    write_table(["blade", *(f"{words}: {kind}" for words in SCENES.values() for kind in kinds)], rows, output.table)
+
+
+def _lengths_of_row(row: pd.Series) -> str:
+    certain = length_text(row["length_certain_rad_s"], row["length_certain_scatter_rad_s"])
+    return f"{certain} ({row['length_possible_rad_s']:.0f})"
+
+
+def speeds(input: Any, output: Any, params: Any) -> None:
+    """Lengths at fewer speeds than every 1 rad/s, and at the adaptive ones of the main job. Input: every, adaptive."""
+    rows = []
+    for every, adaptive in zip(input.every, input.adaptive, strict=True):
+        response, few = read_dataset(every), read_dataset(adaptive)
+        halves = " | ".join(lengths(response.isel(speed=slice(first, None, 2))) for first in (0, 1))
+        grids = [lengths(response.isel(speed=slice(None, None, step))) for step in (10, 20)]
+        rows.append([blade_of(every), lengths(response), halves, *grids, lengths(few), str(few.sizes["speed"])])
+    head = ["blade", "every 1 rad/s", "every 2: even, odd", "every 10", "every 20", "adaptive", "adaptive: runs"]
+    write_table(head, [[cell.replace(" | ", ", ") for cell in row] for row in rows], output.table)
+
+
+def blade_of(file: str) -> str:
+    """Blade of a response's file."""
+    return Path(file).parts[-3]
+
+
+def statistic(input: Any, output: Any, params: Any) -> None:
+    """Scatter of what may be read off a run, against neighbours 1 rad/s away. Input: files, responses at every 1 rad/s."""
+    names = {
+        "last revolution": "max_von_mises",
+        "median of the last 100": "max_von_mises_median",
+        "90% of the last 100": "max_von_mises_high",
+    }
+    rows = [[blade_of(file), *(f"{scatter(read_dataset(file)[name].values):.1f}" for name in names.values())] for file in input]
+    write_table(["largest stress: scatter (%)", *names], rows, output.table)
+
+
+def scatter(values: np.ndarray) -> float:
+    """Standard deviation (%) of equally spaced values, from their distance to the line between two neighbours."""
+    off = values[1:-1] / (0.5 * (values[:-2] + values[2:])) - 1.0
+    # such a distance has 1.5 times the variance; the median of many, robustly
+    return float(100.0 * 1.4826 * np.median(np.abs(off)) / np.sqrt(1.5))
+
+
+def missed(input: Any, output: Any, params: Any) -> None:
+    """Largest stress of every revolution against that of all nodes at all instants. Input: contacts, stresses, responses."""
+    settings, off = settings_of(Path.cwd()), {scene: [] for scene in SCENES}
+    for contact, stress in zip(input.contacts, input.stresses, strict=True):
+        models, blade = Models.read(contact, stress), Path(contact).parent.name
+        for scene, differences in off.items():
+            (response,) = (file for file in input.responses if Path(file).parts[-3:-1] == (blade, scene))
+            differences += [_missed_at(settings, models, blade, scene, at) for at in steep_speeds(read_dataset(response))]
+    rows = []
+    for scene, differences in off.items():
+        several = np.array(differences)
+        some, share = np.count_nonzero((several > _DIFFERS).any(axis=1)), np.mean(several > _DIFFERS)
+        rows.append([SCENES[scene], str(len(several)), str(some), f"{100 * share:.2f}%", f"{100 * several.max():.2f}%"])
+    head = ["scene", "runs", "with a revolution that differs", "of all revolutions", "largest difference"]
+    write_table(head, rows, output.table)
+
+
+def _missed_at(settings: Settings, models: Models, blade: str, scene: str, speed: float) -> np.ndarray:
+    """Relative difference of each revolution's largest stress from that of all nodes and instants."""
+    choice = settings.integration_choice(blade, scene, speed)
+    simulation = Simulation(models.contact, speed, settings.scenes[scene].scene, choice)
+    states = simulation.advance(simulation.start(), choice.revolutions).snapshots
+    shapes, parts = models.contact.to_reduced @ simulation.problem.contact.state_shapes, choice.snapshots_per_revolution
+    found = largest_of_revolutions(models.stress, states, shapes, np.empty(0), parts)
+    every = [models.stress.max_von_mises(one @ shapes.T).max() for one in np.split(states, len(states) // parts)]
+    return np.abs(found / np.array(every) - 1.0)
+
+
+def steep_speeds(response: xr.Dataset) -> list[float]:
+    """Two speeds of the range (rad/s), the top of the widest range above yield and 2 rad/s above it."""
+    ranges = sorted(exceedance_of(response).ranges(CERTAIN), key=lambda part: part.length)
+    several = [800.0, 1450.0]
+    if ranges:
+        inside = response.sel(speed=slice(ranges[-1].begin, ranges[-1].end))
+        top = float(inside["speed"][int(np.argmax(motion(inside).values))])
+        several += [top, min(top + 2.0, 2000.0)]
+    return several
+
+
+def bars_of_blade(input: Any, output: Any, params: Any) -> None:
+    """Lengths above yield (rad/s) of a blade on bars of BAR_WIDTHS. Input: contact, stress. Params: blade."""
+    settings, models = settings_of(Path.cwd(), structure={"boundary": {"contact": "patches"}}), Models.read(*input)
+    scene = settings.scenes["abradable"].scene
+    row: dict[str, float | str] = {"blade": params.blade}
+    for width in BAR_WIDTHS:
+        bars = replace(scene, lining=replace(scene.lining, bar_width=width))
+        row[f"{1e3 * width:g} mm"] = length_of_runs(settings, models, params.blade, bars)
+    pd.DataFrame([row]).to_csv(output[0], index=False)
+
+
+def length_of_runs(settings: Settings, models: Models, blade: str, scene: Any, speeds: np.ndarray = BAR_SPEEDS) -> float:
+    """Certain length (rad/s) of a lined blade from runs of its own."""
+    limit, shares = settings.blades[blade].material.yield_stress, []
+    for speed in speeds:
+        choice = settings.integration_choice(blade, "abradable", float(speed))
+        run = run_speed(models.contact, float(speed), scene, choice, ("stress",), stress=models.stress, **KEPT)
+        statistic = stress_statistic(run["revolution_von_mises"], limit)
+        shares.append(1.0 if run["status"] else float(statistic["share_of_revolutions_above_yield"]))
+    coordinates = {"speed": np.asarray(speeds, float)}
+    content = {"share_of_revolutions_above_yield": ("speed", shares), "status": ("speed", np.zeros(len(shares), int))}
+    return exceedance_of(xr.Dataset(content | {"lined": 1.0}, coordinates)).length(CERTAIN)
+
+
+def bars(input: Any, output: Any, params: Any) -> None:
+    """Lengths and places of all blades on bars of each width. Input: tables of the blades."""
+    table = pd.concat([pd.read_csv(file) for file in input]).set_index("blade")
+    ranks = table.rank(method="min").astype(int)
+    rows = [
+        [blade, *(f"{table.loc[blade, width]:.0f} ({ranks.loc[blade, width]})" for width in table)] for blade in table.index
+    ]
+    write_table(["blade", *(f"bars of {width}" for width in table)], rows, output.table)
+
+
+def chances(input: Any, output: Any, params: Any) -> None:
+    """Range of the certain length over the members, and the chance to be better than the next blade. Input: ranking."""
+    table = read_ranking(input.ranking).query("scene == 'direct'").sort_values("rank").set_index("blade")
+    rows = []
+    for blade, after in zip(table.index, [*table.index[1:], None], strict=True):
+        row = table.loc[blade]
+        low, high = (row[f"length_certain_rad_s_{end}"] for end in ("low", "high"))
+        better = "" if after is None else f"{100 * float(row[f'chance_better_than_{after}']):.0f}"
+        rows.append([blade, _lengths_of_row(row), f"{low:.0f} to {high:.0f}", better])
+    write_table(["blade", "nominal (rad/s)", "members (rad/s)", "better than the blade below (%)"], rows, output.table)

@@ -1,0 +1,82 @@
+# Ranges of an interaction under tolerances (docs/tolerances.md).
+module tolerances:
+    snakefile:
+        "../../Snakefile"
+    config:
+        # fewer members than the overlay
+        run("tolerances", "tolerances", tolerances={"members": 8})
+
+
+use rule * from tolerances as tolerances_*
+
+
+# one blade at draft, from below the first member's yield to above the last one's peak
+module members:
+    snakefile:
+        "../../Snakefile"
+    config:
+        run(
+            "members",
+            "tolerances",
+            blades=["Ref"],
+            fidelity="draft",
+            speeds=[{"start": 1690, "stop": 1766, "step": 4}],
+            speeds_for=[],
+            tolerances={"members": 128},
+        )
+
+
+use rule * from members as members_*
+
+
+use rule evidence as tolerance_ranges with:
+    input:
+        unpack(behind_engine(table="results/runs/tolerances/tolerances.csv")),
+    output:
+        table=f"{TABLES}/tolerance_ranges.csv",
+    log:
+        "logs/validation/tolerance_ranges.log",
+    params:
+        **evidence("tolerances.ranges"),
+
+
+use rule evidence as tolerance_numbers with:
+    input:
+        unpack(behind_engine(members="results/runs/members/tolerances.nc")),
+    output:
+        table=f"{TABLES}/tolerance_numbers.csv",
+    log:
+        "logs/validation/tolerance_numbers.log",
+    params:
+        **evidence("tolerances.numbers"),
+
+
+use rule evidence as tolerance_members with:
+    input:
+        unpack(behind_engine(members="results/runs/members/tolerances.nc")),
+    output:
+        table=f"{TABLES}/tolerance_members.csv",
+    log:
+        "logs/validation/tolerance_members.log",
+    params:
+        **evidence("tolerances.members"),
+
+
+use rule evidence as tolerance_clearances with:
+    input:
+        unpack(behind_engine(**models_of("Ref"))),
+    output:
+        table=f"{TABLES}/tolerance_clearances.csv",
+    log:
+        "logs/validation/tolerance_clearances.log",
+    params:
+        **evidence("tolerances.clearances"),
+
+
+use rule copy as tolerances_picture with:
+    input:
+        unpack(behind_engine("results/runs/tolerances/figures/tolerances_Ref__abradable.png")),
+    output:
+        "docs/tolerances_Ref.png",
+    log:
+        "logs/validation/tolerances_picture.log",

@@ -1,0 +1,122 @@
+# Which blade is the best, and how sure that is (docs/which_blade.md).
+module ranking:
+    snakefile:
+        "../../Snakefile"
+    config:
+        # of the overlay: fewer members, the bare casing alone, and speeds that its smoothing bears
+        run(
+            "ranking",
+            "ranking",
+            scenes=["direct"],
+            speeds=[{"start": 750, "stop": 2000, "step": 20}],
+            tolerances={"members": 4},
+        )
+
+
+use rule * from ranking as ranking_*
+
+
+def models_of(blade, folder="results"):
+    return {kind: f"{folder}/{blade}/{kind}_pressure_edge.npz" for kind in ("contact", "stress")}
+
+
+def responses(folder, *scenes):
+    return [f"{folder}/{blade}/{scene}/response.nc" for scene in scenes for blade in BLADES]
+
+
+use rule evidence as which_blade with:
+    input:
+        unpack(behind_engine(patches="results/runs/patches/ranking.csv", points="results/runs/campaign/ranking.csv")),
+    output:
+        table=f"{TABLES}/which_blade.csv",
+    log:
+        "logs/validation/which_blade.log",
+    params:
+        **evidence("which_blade.rankings"),
+
+
+use rule evidence as which_blade_speeds with:
+    input:
+        unpack(
+            lambda wildcards: behind_engine(
+                every=responses("results/runs/campaign", wildcards.scene),
+                adaptive=responses("results", wildcards.scene),
+            )(wildcards)
+        ),
+    output:
+        table=f"{TABLES}/which_blade_speeds_{{scene}}.csv",
+    log:
+        "logs/validation/which_blade_speeds_{scene}.log",
+    params:
+        **evidence("which_blade.speeds"),
+
+
+use rule evidence as which_blade_statistic with:
+    input:
+        unpack(behind_engine(*responses("results/runs/campaign", "direct"))),
+    output:
+        table=f"{TABLES}/which_blade_statistic.csv",
+    log:
+        "logs/validation/which_blade_statistic.log",
+    params:
+        **evidence("which_blade.statistic"),
+
+
+use rule evidence as which_blade_missed with:
+    input:
+        unpack(
+            behind_engine(
+                contacts=[f"results/{blade}/contact_pressure_edge.npz" for blade in BLADES],
+                stresses=[f"results/{blade}/stress_pressure_edge.npz" for blade in BLADES],
+                responses=responses("results", "abradable", "direct"),
+            )
+        ),
+    output:
+        table=f"{TABLES}/which_blade_missed.csv",
+    log:
+        "logs/validation/which_blade_missed.log",
+    params:
+        **evidence("which_blade.missed"),
+
+
+use rule evidence as which_blade_bars_of_blade with:
+    input:
+        unpack(lambda wildcards: behind_engine(**models_of(wildcards.blade, "results/runs/patches"))(wildcards)),
+    output:
+        "results/evidence/which_blade_bars_{blade}.csv",
+    log:
+        "logs/validation/which_blade_bars_{blade}.log",
+    params:
+        **evidence("which_blade.bars_of_blade"),
+        blade=lambda wildcards: wildcards.blade,
+
+
+use rule evidence as which_blade_bars with:
+    input:
+        unpack(behind_engine(*[f"results/evidence/which_blade_bars_{blade}.csv" for blade in BLADES])),
+    output:
+        table=f"{TABLES}/which_blade_bars.csv",
+    log:
+        "logs/validation/which_blade_bars.log",
+    params:
+        **evidence("which_blade.bars"),
+
+
+use rule evidence as which_blade_chances with:
+    input:
+        unpack(behind_engine(ranking="results/runs/ranking/ranking.csv")),
+    output:
+        table=f"{TABLES}/which_blade_chances.csv",
+    log:
+        "logs/validation/which_blade_chances.log",
+    params:
+        **evidence("which_blade.chances"),
+
+
+use rule copy as which_blade_picture with:
+    input:
+        unpack(behind_engine("results/runs/patches/figures/ranking.png")),
+    output:
+        "docs/which_blade.png",
+    log:
+        "logs/validation/which_blade_picture.log",
