@@ -90,6 +90,15 @@ def speeds(input: Any, output: Any, params: Any) -> None:
     write_table(head, [[cell.replace(" | ", ", ") for cell in row] for row in rows], output.table)
 
 
+def adaptive(input: Any, output: Any, params: Any) -> None:
+    """Lengths at every 1 rad/s and at the adaptive speeds of the main job, in both scenes. Input: every, adaptive."""
+    cells: dict[str, list[str]] = {}
+    for files in zip(input.every, input.adaptive, strict=True):
+        cells.setdefault(blade_of(files[0]), []).extend(lengths(read_dataset(file)) for file in files)
+    head = [f"{words}: {which}" for words in SCENES.values() for which in ("every 1 rad/s", "adaptive")]
+    write_table(["blade", *head], [[blade, *row] for blade, row in cells.items()], output.table)
+
+
 def blade_of(file: str) -> str:
     """Blade of a response's file."""
     return Path(file).parts[-3]
@@ -100,7 +109,6 @@ def statistic(input: Any, output: Any, params: Any) -> None:
     names = {
         "last revolution": "max_von_mises",
         "median of the last 100": "max_von_mises_median",
-        "90% of the last 100": "max_von_mises_high",
     }
     rows = [[blade_of(file), *(f"{scatter(read_dataset(file)[name].values):.1f}" for name in names.values())] for file in input]
     write_table(["largest stress: scatter (%)", *names], rows, output.table)

@@ -51,6 +51,22 @@ use rule evidence as which_blade_speeds with:
         **evidence("which_blade.speeds"),
 
 
+use rule evidence as which_blade_adaptive with:
+    input:
+        unpack(
+            behind_engine(
+                every=responses("results/runs/campaign", "abradable", "direct"),
+                adaptive=responses("results", "abradable", "direct"),
+            )
+        ),
+    output:
+        table=f"{TABLES}/which_blade_adaptive.csv",
+    log:
+        "logs/validation/which_blade_adaptive.log",
+    params:
+        **evidence("which_blade.adaptive"),
+
+
 use rule evidence as which_blade_statistic with:
     input:
         unpack(behind_engine(*responses("results/runs/campaign", "direct"))),

@@ -1,6 +1,6 @@
 """Which numbers move a measure most, from the sample alone: a straight line through ranks.
 
-Why not Sobol indices, the correlation of ranks or PAWN: docs/tolerances.md#how-many-members has what each tells apart.
+Sobol indices take members of their own for each number; docs/tolerances.md#how-many-members has what coefficients tell apart.
 """
 
 from __future__ import annotations
