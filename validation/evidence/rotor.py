@@ -68,7 +68,7 @@ def _at_once(rotor: xr.Dataset) -> str:
 
 
 def kinds(input: Any, output: Any, params: Any) -> None:
-    """Length above yield of several rotors, and how many blades are above yield at once. Input: files of each blade and kind."""
+    """Length above yield of several rotors, and how many blades are at once. Input: files of each blade and kind."""
     tables = {Path(file).parts[-3:-1]: read_dataset(file) for file in input}
     rows = []
     for kind, words in KINDS.items():

@@ -11,7 +11,7 @@ import pandas as pd
 import xarray as xr
 
 from r37core.dataset_file import read_dataset
-from r37core.results.ranges import ENDS, read_ranges
+from r37core.results.ranges import read_ranges
 from r37core.rounding import rounded_to
 from r37core.tolerances.dataset import INDEXED, QUANTILES
 from r37core.tolerances.number_ranks import Ranking, ranking
@@ -22,10 +22,9 @@ from .which_blade import Models, length_of_runs
 
 MODE, ORDER = "1B", 4
 COLUMNS = {
-    "peak (rad/s)": ("peak_speed_rad_s", 1.0),
-    "first yield (rad/s)": ("first_yield_speed_rad_s", 1.0),
-    "width above yield (rad/s)": ("width_above_yield_rad_s", 1.0),
-    "largest stress (GPa)": ("max_von_mises_pa", 1e-9),
+    "peak (rad/s)": "peak_speed_rad_s",
+    "first yield (rad/s)": "first_yield_speed_rad_s",
+    "width above yield (rad/s)": "width_above_yield_rad_s",
 }
 COUNTS = (8, 16, 32, 64, 128)
 UNKNOWN = "-"
@@ -37,14 +36,14 @@ def ranges(input: Any, output: Any, params: Any) -> None:
     """Nominal value and range of the interaction of 1B with engine order 4, of every blade. Input: table."""
     table = read_ranges(input.table)
     chosen = table[(table["mode"] == MODE) & (table["engine_order"] == ORDER)]
-    rows = [[row["blade"], *(ranged(row, *column) for column in COLUMNS.values())] for _, row in chosen.iterrows()]
+    rows = [[row["blade"], *(ranged(row, column) for column in COLUMNS.values())] for _, row in chosen.iterrows()]
     write_table(["blade", *COLUMNS], rows, output.table)
 
 
-def ranged(row: pd.Series, name: str, scale: float) -> str:
+def ranged(row: pd.Series, name: str) -> str:
     """Nominal value and, in brackets, both ends of its range, with as many digits as the range bears."""
-    low, high = (scale * row[f"{name}_{end}"] for end in (ENDS[0], ENDS[-1]))
-    nominal, low_text, high_text = (rounded_to(value, high - low) for value in (scale * row[name], low, high))
+    low, high = (row[f"{name}_{end}"] for end in ("low", "high"))
+    nominal, low_text, high_text = (rounded_to(value, high - low) for value in (row[name], low, high))
     return f"{nominal} ({low_text} to {high_text})"
 
 

@@ -1,0 +1,113 @@
+"""Evidence of the pages on ranking, tolerances, search, families and rotors, on made-up data."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from evidence import better_blade, designs, rotor, tolerances, which_blade
+from evidence.pages import read_table
+
+RANDOM = np.random.default_rng(0)
+
+
+def test_scatter_is_that_of_the_noise_and_not_of_the_curve():
+    speeds = np.linspace(0.0, 1.0, 4001)
+    values = (2.0 + np.sin(6.0 * speeds)) * (1.0 + 0.03 * RANDOM.standard_normal(len(speeds)))
+    assert which_blade.scatter(values) == pytest.approx(3.0, rel=0.1)
+
+
+def response(above, step=1.0, lined=1.0):
+    """A response on speeds from 800 rad/s on, whose shares are 1 in the range `above` and 0 elsewhere."""
+    speeds = np.arange(800.0, 900.5, step)
+    shares = ((speeds >= above[0]) & (speeds <= above[1])).astype(float)
+    content = {"share_of_revolutions_above_yield": ("speed", shares), "status": ("speed", np.zeros(len(speeds), "i1"))}
+    content |= {"rms_normal": (("speed", "tip_point"), np.ones((len(speeds), 2))), "lined": lined}
+    return xr.Dataset(content, {"speed": speeds})
+
+
+def test_adaptive_speeds_stand_next_to_all(tmp_path):
+    """Both scenes in one row; the grid of 20 rad/s misses the lined range."""
+    files = {}
+    for kind, step in (("every", 1.0), ("adaptive", 20.0)):
+        for scene, lined in (("abradable", 1.0), ("direct", 0.0)):
+            file = tmp_path / kind / "Ref" / scene / "response.nc"
+            file.parent.mkdir(parents=True)
+            response((841, 851), step, lined).to_netcdf(file)
+            files.setdefault(kind, []).append(str(file))
+    which_blade.adaptive(SimpleNamespace(**files), SimpleNamespace(table=tmp_path / "table.csv"), None)
+    head, row = read_table(tmp_path / "table.csv")
+    assert head[1:3] == ["lining: every 1 rad/s", "lining: adaptive"]
+    assert row[:3] == ["Ref", "11 (12)", "0 (0)"]
+
+
+def test_bars_are_ranked_by_width(tmp_path):
+    files = []
+    for blade, lengths in {"Ref": (30.0, 5.0), "S100": (10.0, 20.0)}.items():
+        files.append(tmp_path / f"{blade}.csv")
+        pd.DataFrame([{"blade": blade, "0.8 mm": lengths[0], "1 mm": lengths[1]}]).to_csv(files[-1], index=False)
+    which_blade.bars(files, SimpleNamespace(table=tmp_path / "table.csv"), None)
+    assert read_table(tmp_path / "table.csv")[1:] == [["Ref", "30 (2)", "5 (1)"], ["S100", "10 (1)", "20 (2)"]]
+
+
+def sample(members=64):
+    values = RANDOM.random((members, 2))
+    return tolerances.Sample(values, values[:, 0] + 0.1 * values[:, 1])
+
+
+def test_parts_of_a_sample():
+    whole = sample()
+    parts = whole.parts(16)
+    assert len(parts) == 4 and np.array_equal(parts[1].measure, whole.measure[16:32])
+    assert tolerances.range_error([whole], whole) == 0.0
+    assert 0.0 < tolerances.range_error(parts, whole) < 0.5
+
+
+def test_rankings_of_parts():
+    parts = {"peak_speed": sample().parts(16)}
+    assert tolerances._of_rankings(parts, {"peak_speed": np.array([1.0, 0.1])})[0] == "100%"
+    assert tolerances._of_rankings({"peak_speed": sample(8).parts(4)}, {"peak_speed": np.ones(2)}) == ["-", "-"]
+
+
+def test_a_coefficient_has_its_place_or_a_dash():
+    found = sample().ranking
+    assert tolerances._coefficient(found, 0).startswith("place 1: ")
+    number = np.arange(64.0)
+    assert tolerances._coefficient(tolerances.Sample(number[:, None], (-1.0) ** number).ranking, 0) == "-"
+
+
+def test_best_designs_come_in_their_order():
+    names = ["start", "a", "b", "c"]
+    search = xr.Dataset({"order": ("design", [0, 2, 0, 1])}, {"design": names})
+    assert better_blade.best_of(search) == ["start", "c", "a"]
+    assert [better_blade.named(search, name) for name in ("start", "c")] == ["Free", "Free_best1"]
+
+
+def test_integral_of_the_share():
+    assert better_blade.integral(response((841, 851))) == pytest.approx(11.0)
+
+
+def test_correlation_over_designs(tmp_path):
+    rows = [
+        {"blade": f"Sweep_{n}", "scene": scene, **dict.fromkeys(designs.LEFT, n), "length_certain_rad_s": sign * n}
+        for n in range(4)
+        for scene, sign in (("abradable", 1), ("direct", -1))
+    ]
+    pd.DataFrame(rows).to_csv(tmp_path / "designs.csv", index=False)
+    files = SimpleNamespace(designs=tmp_path / "designs.csv"), SimpleNamespace(table=tmp_path / "table.csv")
+    designs.correlations(*files, None)
+    assert read_table(tmp_path / "table.csv")[1] == ["loss of clearance, 1T", "1.00", "-1.00"]
+
+
+def test_length_about_a_crossing_leaves_out_the_rest():
+    speeds = np.arange(900.0, 1300.0, 10.0)
+    stress = np.where((np.abs(speeds - 1000.0) < 15.0) | (speeds > 1200.0), 2.0, 0.0)
+    ratio = xr.DataArray(stress, {"speed": speeds}, ("speed",))
+    assert rotor.length_about(ratio, 1000.0) == pytest.approx(30.0)
+
+
+def test_blades_at_once_are_counted_where_some_are_above_yield():
+    shares = xr.Dataset({"blades_above_yield": ("speed", [0.0, 1 / 36, 3 / 36])}, {"blade_number": range(36)})
+    assert rotor._at_once(shares) == "2 (3)"
+    assert rotor._at_once(shares * 0.0) == "none"
