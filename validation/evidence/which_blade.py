@@ -32,6 +32,8 @@ BAR_WIDTHS = (8e-4, 1e-3, 1.25e-3)
 
 BAR_SPEEDS = np.arange(750.0, 2001.0, 5.0)
 _DIFFERS = 1e-5
+_OVER_THE_RANGE = np.linspace(760.0, 1990.0, 6).round().tolist()
+_RANGES = 3
 
 
 @dataclass(frozen=True)
@@ -150,14 +152,11 @@ def _missed_at(settings: Settings, models: Models, blade: str, scene: str, speed
 
 
 def steep_speeds(response: xr.Dataset) -> list[float]:
-    """Two speeds of the range (rad/s), the top of the widest range above yield and 2 rad/s above it."""
-    ranges = sorted(exceedance_of(response).ranges(CERTAIN), key=lambda part: part.length)
-    several = [800.0, 1450.0]
-    if ranges:
-        inside = response.sel(speed=slice(ranges[-1].begin, ranges[-1].end))
-        top = float(inside["speed"][int(np.argmax(motion(inside).values))])
-        several += [top, min(top + 2.0, 2000.0)]
-    return several
+    """Speeds over the range (rad/s), the tops of the widest ranges above yield and 2 rad/s above each."""
+    ranges = sorted(exceedance_of(response).ranges(CERTAIN), key=lambda part: part.length)[-_RANGES:]
+    inside = [response.sel(speed=slice(part.begin, part.end)) for part in ranges]
+    tops = [float(part["speed"][int(np.argmax(motion(part)))]) for part in inside]
+    return [*_OVER_THE_RANGE, *(min(top + more, 2000.0) for top in tops for more in (0.0, 2.0))]
 
 
 def bars_of_blade(input: Any, output: Any, params: Any) -> None:

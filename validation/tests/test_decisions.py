@@ -111,3 +111,11 @@ def test_blades_at_once_are_counted_where_some_are_above_yield():
     shares = xr.Dataset({"blades_above_yield": ("speed", [0.0, 1 / 36, 3 / 36])}, {"blade_number": range(36)})
     assert rotor._at_once(shares) == "2 (3)"
     assert rotor._at_once(shares * 0.0) == "none"
+
+
+def test_steep_speeds_are_at_the_top_of_the_widest_range():
+    found = response((841, 851))
+    found["rms_normal"] = found["rms_normal"] + (found["speed"] == 848.0)
+    found["rms_tangential"] = found["rms_normal"]
+    assert which_blade.steep_speeds(found.assign_coords(tip_point=["leading_edge", "trailing_edge"]))[6:] == [848.0, 850.0]
+    assert len(which_blade.steep_speeds(response((0, 1)))) == 6
