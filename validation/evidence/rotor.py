@@ -18,8 +18,9 @@ ORDERS = (4, 5)
 WINDOW = (-0.06, 0.10)
 """Speeds about a crossing, as shares of it."""
 
+SINGLE, NOT_RUN = "single", "-"
 KINDS = {
-    "single": "a single blade",
+    SINGLE: "a single blade",
     "equal": "36 equal blades",
     "mistuned_0p2": "0.2% of mistuning",
     "mistuned_1": "1%",
@@ -68,16 +69,23 @@ def _at_once(rotor: xr.Dataset) -> str:
 
 
 def kinds(input: Any, output: Any, params: Any) -> None:
-    """Length above yield of several rotors, and how many blades are at once. Input: files of each blade and kind."""
+    """Length above yield of several rotors, and how many blades are at once. Input: files of each blade and kind.
+
+    Params: windows, the blade and the first and last speed (rad/s) of each column.
+    """
     tables = {Path(file).parts[-3:-1]: read_dataset(file) for file in input}
-    rows = []
-    for kind, words in KINDS.items():
-        cells = []
-        for blade in dict.fromkeys(blade for blade, _ in tables):
-            rotor = tables[blade, kind]
-            ratio = ratio_to_yield(rotor) if kind == "single" else rotor_ratio(rotor)
-            length = range_above_yield(ratio["speed"].values, ratio.values).length
-            cells += [f"{length:.0f}", "" if kind == "single" else _at_once(rotor)]
-        rows.append([words, *cells])
-    heads = [head for blade in dict.fromkeys(blade for blade, _ in tables) for head in (f"{blade} (rad/s)", f"{blade}: blades")]
+    rows = [[words] for words in KINDS.values()]
+    for blade, first, last in params.windows.values():
+        for row, kind in zip(rows, KINDS, strict=True):
+            row += _in_window(tables[blade, kind].sel(speed=slice(first, last)), kind)
+    heads = [head for name in params.windows for head in (f"{name} (rad/s)", f"{name}: blades")]
     write_table(["rotor", *heads], rows, output.table)
+
+
+def _in_window(rotor: xr.Dataset, kind: str) -> list[str]:
+    """Length above yield, and blades at once, of some speeds of a rotor or of a single blade; a dash where none was run."""
+    if not rotor.sizes["speed"]:
+        return [NOT_RUN, NOT_RUN]
+    ratio = ratio_to_yield(rotor) if kind == SINGLE else rotor_ratio(rotor)
+    length = range_above_yield(ratio["speed"].values, ratio.values).length
+    return [f"{length:.0f}", NOT_RUN if kind == SINGLE else _at_once(rotor)]

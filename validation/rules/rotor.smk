@@ -12,10 +12,15 @@ module rotors:
 use rule * from rotors as rotors_*
 
 
-ROTOR_KINDS = {"Ref": (1648, 1808), "S100": (1600, 1760)}
+ROTOR_BLADES = ("Ref", "S100")
+# about crossings of 1B, the second one of Ref for equal blades alone
+ROTOR_WINDOWS = {"Ref, 1B/4": ("Ref", 1648, 1808), "Ref, 1B/5": ("Ref", 1250, 1402), "S100, 1B/4": ("S100", 1600, 1760)}
 
 
-# about the crossing of 1B with engine order 4 alone
+def rotor_speeds(*windows):
+    return [{"start": start, "stop": stop, "step": 8} for _, start, stop in map(ROTOR_WINDOWS.get, windows)]
+
+
 module rotor_kinds:
     snakefile:
         "../../Snakefile"
@@ -24,10 +29,11 @@ module rotor_kinds:
             "rotor_kinds",
             scenes_file="validation/rotors.yaml",
             scenes="all",
-            blades=list(ROTOR_KINDS),
+            blades=list(ROTOR_BLADES),
+            speeds=rotor_speeds("Ref, 1B/4"),
             speeds_for=[
-                {"blades": [blade], "speeds": [{"start": start, "stop": stop, "step": 8}]}
-                for blade, (start, stop) in ROTOR_KINDS.items()
+                {"blades": ["S100"], "speeds": rotor_speeds("S100, 1B/4")},
+                {"blades": ["Ref"], "scenes": ["single", "equal"], "speeds": rotor_speeds("Ref, 1B/4", "Ref, 1B/5")},
             ],
         )
 
@@ -58,7 +64,7 @@ use rule evidence as rotor_kinds with:
             behind_engine(
                 *[
                     f"results/runs/rotor_kinds/{blade}/{kind}/{'response' if kind == 'single' else 'rotor'}.nc"
-                    for blade in ROTOR_KINDS
+                    for blade in ROTOR_BLADES
                     for kind in KINDS
                 ]
             )
@@ -69,6 +75,7 @@ use rule evidence as rotor_kinds with:
         "logs/validation/rotor_kinds.log",
     params:
         **evidence("rotor.kinds"),
+        windows=ROTOR_WINDOWS,
 
 
 use rule copy as rotor_picture with:

@@ -119,3 +119,13 @@ def test_steep_speeds_are_at_the_top_of_the_widest_range():
     found["rms_tangential"] = found["rms_normal"]
     assert which_blade.steep_speeds(found.assign_coords(tip_point=["leading_edge", "trailing_edge"]))[6:] == [848.0, 850.0]
     assert len(which_blade.steep_speeds(response((0, 1)))) == 6
+
+
+def test_a_kind_of_rotor_without_speeds_in_a_window_has_dashes():
+    speeds = np.arange(1600.0, 1700.0, 10.0)
+    stress = np.where(np.abs(speeds - 1650.0) < 15.0, 2.0, 0.0)
+    content = {"blade_max_von_mises": (("speed", "blade_number"), stress[:, None] * [0.1, 1.0]), "yield_stress": 1.0}
+    content |= {"blades_above_yield": ("speed", 0.5 * (stress > 1.0)), "status": ("speed", np.zeros(10, "i1"))}
+    found = xr.Dataset(content, {"speed": speeds, "blade_number": [1, 2]})
+    assert rotor._in_window(found, "equal") == ["30", "1 (1)"]
+    assert rotor._in_window(found.sel(speed=slice(1000.0, 1100.0)), "equal") == ["-", "-"]
