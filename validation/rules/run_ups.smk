@@ -3,7 +3,7 @@ module run_ups:
     snakefile:
         "../../Snakefile"
     config:
-        run("run_ups", "run_ups", speeds=[])
+        run("run_ups", "run_ups", speeds=[1000])
 
 
 use rule * from run_ups as run_ups_*
