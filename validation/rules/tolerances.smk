@@ -75,7 +75,7 @@ use rule evidence as tolerance_clearances with:
 
 use rule copy as tolerances_picture with:
     input:
-        unpack(behind_engine("results/runs/tolerances/figures/tolerances_Ref__abradable.png")),
+        unpack(behind_engine("results/runs/members/figures/tolerances_Ref__abradable.png")),
     output:
         "docs/tolerances_Ref.png",
     log:
