@@ -71,7 +71,7 @@ def made(mesh, steel, choice, tmp_path):
     """Model files of a mesh of the run, with so many contact nodes."""
 
     def make(nodes):
-        write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(1))
+        write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
         names = {"rom": "rom.nc", "contact": "contact.npz", "cost": "cost.json"}
         files = {name: str(tmp_path / file) for name, file in names.items()}
         wanted = ModelChoice(OWN_MESH, nodes, 3, False, "pressure_edge", corners=True)

@@ -1,17 +1,12 @@
 """The explorer's tables: interactions of what is chosen, their words, and which blade is the best; and light and dark."""
 
-from dataclasses import replace
-
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 from browser import opened
 from evidence.key_tables import COLUMN_LISTS, column_list
 from explorer_cases import beside, interaction_rows, sweep
-from r37core.contact.benchmark import LINED, is_lined_benchmark
 
-from r37core.config.scenes import Scenes
 from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents
 from r37core.plans.sweep_plan import Datasets, Sweep
@@ -56,7 +51,7 @@ def rows():
 @pytest.fixture(scope="module")
 def page(rows, tmp_path_factory):
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    write_page(explorer_contents(sweep(), rows, benchmark_scenes=["abradable"], ranking=RANKING), "r37", file)
+    write_page(explorer_contents(sweep(), rows, ranking=RANKING), "r37", file)
     with opened(file, viewport={"width": 1400, "height": 1000}) as page:
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         yield page
@@ -96,41 +91,12 @@ def test_numbers_are_shown_in_the_units_of_their_columns():
     assert glossary.word("blade", glossary.INTERACTIONS).title == "blade"
 
 
-def test_the_benchmark_is_told_by_its_physics(root):
-    entries = Scenes.model_validate(yaml.safe_load((root / "config/scenes.yaml").read_text())).root
-    scenes = {name: entry.scene() for name, entry in entries.items()}
-    assert len(scenes) > 5
-    assert [name for name, scene in scenes.items() if is_lined_benchmark(scene)] == ["abradable"]
-    assert Datasets(Sweep(read_settings(root))).benchmark_scenes == ["abradable"]
-    assert not is_lined_benchmark(replace(LINED, damping_ratio=1e-3))
-    assert is_lined_benchmark(replace(LINED, divergence_limit=0.05))
-
-
-def test_published_peaks_are_those_of_the_benchmark_alone(rows):
-    contents = explorer_contents(sweep(), rows, benchmark_scenes=["abradable"])
-    assert {(one["blade"], one["scene"]) for one in contents["published"]} == {("Ref", "abradable")}
-    assert [row["published_peak_speed_rad_s"] for row in contents["interactions"]] == [1717.0, None, None, None, None]
-    without = explorer_contents(sweep(), rows)
-    assert without["published"] == []
-    assert "published_peak_speed_rad_s" not in [one["name"] for one in without["columns"]]
-
-
 def test_contents_have_the_ranking(rows):
     contents = explorer_contents(sweep(), rows, ranking=RANKING.assign(unheard_of=1.0))
     assert contents["ranking"][0]["length_certain_rad_s"] == 30.0
     assert contents["ranking"][2]["length_certain_rad_s_low"] is None
     assert "unheard_of" not in [one["name"] for one in contents["ranking_columns"]]
     assert explorer_contents(sweep(), rows)["ranking"] is None
-
-
-@pytest.mark.slow
-def test_published_peaks_are_drawn_in_the_scene_they_are_of(at_ref):
-    names = "[...document.getElementById('response').layout.shapes].map(one => one.name).filter(Boolean)"
-    assert at_ref.evaluate(names) == ["published peak, abradable"] * 4
-    assert column(at_ref, "published_peak_speed_rad_s") == ["1717", "", ""]
-    at_ref.select_option("#scene", "direct")
-    assert at_ref.evaluate(names) == []
-    assert at_ref.locator("#interactions td.published_peak_speed_rad_s:visible").count() == 0
 
 
 @pytest.mark.slow
@@ -245,7 +211,7 @@ def test_a_ranking_without_some_columns(page, rows, tmp_path):
 @pytest.mark.slow
 def test_a_finger_finds_all(page, rows, tmp_path):
     """On a phone: nothing runs over the side, controls have room, a tap says what a column is, tables scroll in their box."""
-    contents = explorer_contents(sweep(), rows, benchmark_scenes=["abradable"], ranking=RANKING)
+    contents = explorer_contents(sweep(), rows, ranking=RANKING)
     phone = {"is_mobile": True, "has_touch": True}
     with beside(page, contents, tmp_path / "explorer.html", (390, 844), "#scene=abradable", **phone) as other:
         assert other.evaluate("document.documentElement.scrollWidth") == 390

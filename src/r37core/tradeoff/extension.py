@@ -9,8 +9,8 @@ from .section import SECTION
 
 _CAPTIONS = {
     "tradeoff": (
-        "Error of the normal rms at the peak over the CPU time of a run, for every value of every parameter that was varied, "
-        "against the reference value of the parameter. Stars: fidelity levels."
+        "Error of the normal rms at the peak over the CPU time of a run, for every value of every parameter. Each is compared "
+        "with the reference value of its parameter. Stars: fidelity levels."
     ),
     "tradeoff_growth": (
         "Growth of a cost with a parameter. Dashed: power law, fitted to the more expensive half of the values."

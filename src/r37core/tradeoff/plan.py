@@ -156,11 +156,11 @@ def left_out(settings: Settings) -> str:
     missing = [name for name in _wanted(settings) if name not in varied(settings)]
     if blade is None or not missing:
         return ""
-    given = _given(settings, blade)
+    of_program = _given(settings, blade)
     kind = "matrices" if is_of_matrices(settings, blade) else "a mesh"
     lines = [
-        (f"because {blade} is given by {kind}", [name for name in missing if name in given]),
-        ("because fewer than two of their values can be run", [name for name in missing if name not in given]),
+        (f"because {blade} is given by {kind}", [name for name in missing if name in of_program]),
+        ("because fewer than two of their values can be run", [name for name in missing if name not in of_program]),
     ]
     return "; ".join(f"{', '.join(names)}, {reason}" for reason, names in lines if names)
 
