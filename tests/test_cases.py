@@ -84,7 +84,7 @@ def made(mesh, steel, choice, tmp_path):
 
 def test_a_model_of_a_given_mesh(made):
     files = made(3)
-    assert len(read_contact_model(files["contact"]).positions) == 3
+    assert len(read_contact_model(files["contact"]).radius) == 3
     assert read_json(files["cost"])["cpu_s"] > 0.0
 
 

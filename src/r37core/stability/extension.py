@@ -14,9 +14,9 @@ EXTENSION = Extension(
     targets=targets,
     captions={
         "stability": (
-            "Extremes of the configuration, each run with its own time step and with half of it. Accurate: both give the same "
-            "mean rms within 5%; degraded: they do not; diverged: the run ends, which its status says; refused: not run; "
-            "unsound: a wrong number that nothing flags."
+            "Extremes of the configuration, each run with its own time step and with half of it. Accurate: both have the same "
+            "mean rms within 5%. Degraded: they have not. Diverged: the status of the run reports it. Refused: not run. "
+            "Unsound: a wrong number that no status reports."
         )
     },
     closing="stability.closing.closing",
