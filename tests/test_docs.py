@@ -41,8 +41,6 @@ def test_readme_has_the_levels_errors_and_costs(root, readme):
     assert set(rows) == {*levels} - {"reference"}
 
 
-
-
 def test_the_first_run_is_one_that_can_be_made(root):
     """One blade in the shipped scenes about one crossing, in a folder of its own, which the page names."""
     page = (root / "docs/first_run.md").read_text()

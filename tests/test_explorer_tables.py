@@ -9,8 +9,6 @@ from explorer_cases import beside, interaction_rows, sweep
 
 from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents
-from r37core.plans.sweep_plan import Datasets, Sweep
-from r37core.product.reading import read_settings
 from r37core.results import glossary
 from r37core.results.interaction import COLUMNS
 from r37core.results.ranges import RANGES

@@ -18,6 +18,7 @@ import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
 from plans_of_snakemake import planned_outputs
+from r37core.plans.run import replaced_level, source_folder
 from snakemake.exceptions import InputFunctionException, WorkflowError, format_exception_to_string
 from stubbed_runs import copy_stubbed
 from workflow_runs import copy_project, kill_snakemake, snakemake
@@ -28,9 +29,7 @@ from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock, snakemake_run
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
-from r37core.io import InputFileError, OutputFileError, atomic_write, readable, scratch_folder, write_json
 from r37core.io import InputFileError, OutputFileError, atomic_write, scratch_folder, write_json
-from r37core.plans.run import replaced_level, source_folder
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.reading import read_settings

@@ -181,6 +181,15 @@ def test_tradeoff_of_a_small_sweep(compiled, project):
     assert (project / "results/figures/tradeoff_revolutions.pdf").exists()
 
 
+def test_python_makes_what_a_section_asks_for(monkeypatch, root):
+    """Without a target the tables; the section of an extension that is made on request adds its own."""
+    asked = []
+    monkeypatch.setattr("r37.runs.run_workflow", lambda settings, place, targets, cores: asked.append(list(targets)))
+    for more in ({"tradeoff": {"scenes": ["direct"]}}, {"tolerances": {}}, {"tradeoff": {}, "targets": "stability"}):
+        r37.run("Ref", "direct", [900], config=root / "config/config.yaml", **more)
+    assert asked == [["tables", "tradeoff"], ["tables"], ["stability"]]
+
+
 OF_FAN = (
     "tradeoff: { scenes: [direct], parameters: { boundary_nodes: { values: [2, 3, 90], reference: 3 }, "
     "mesh_nodes: { values: [2500, 5000], reference: 5000 }, revolutions: { values: [2, 4], reference: 4 } } }\n"

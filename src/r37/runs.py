@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.io import temporary_folder
+from r37core.product.extensions import EXTENSIONS
 
 from .arguments import Speeds, plain_value, sequence_of, speed_keys
 from .call_settings import Call, OneOptions, base_of, chosen_blade, chosen_scene, level, names_of_their_own, remarks_of, tell
@@ -46,53 +47,54 @@ def run(
     config: Path | str | None = None,
     cores: int = 1,
     folder: Path | str | None = None,
-    targets: str | Sequence[str] = "tables",
+    targets: str | Sequence[str] | None = None,
     **sections: Any,
 ) -> RunResults:
     """Run of the workflow: all results of a configuration, as datasets and tables.
 
-    Parameters
-    ----------
-    blades, scenes
-        Names, or the results of `r37.blade` and `r37.scene`; changed ones need a `name`. By default those of the configuration.
-    speeds
-        As of `r37.sweep`. By default those of the configuration.
-    speeds_rpm
-        The same in revolutions per minute, in place of `speeds`.
-    fidelity
-        An accuracy level in place of the configuration's.
-    results
-        Results to compute, in place of the scenes' lists: `["stress", "wear"]`.
-    config
-        A config.yaml in place of the shipped one. All of it counts that no other argument replaces.
-    cores
-        Number of jobs that run at once. The numbers do not depend on it.
-    folder
-        Folder of the run's files: new, empty, or of an earlier call, which continues. `snakemake` in that folder runs the same.
-        By default the files are temporary: they are deleted with the returned object.
-    targets
-        Rules or files, as Snakemake takes them: `"all_blades"` draws all figures, `["tables", "exports"]` writes more.
-    **sections
-        Sections of config.yaml by name, in the units of their keys, also those of extensions:
-        `tolerances={"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}`.
+        Parameters
+        ----------
+        blades, scenes
+            Names, or the results of `r37.blade` and `r37.scene`; changed ones need a `name`. By default those of the configuration.
+        speeds
+            As of `r37.sweep`. By default those of the configuration.
+        speeds_rpm
+            The same in revolutions per minute, in place of `speeds`.
+        fidelity
+            An accuracy level in place of the configuration's.
+        results
+            Results to compute, in place of the scenes' lists: `["stress", "wear"]`.
+        config
+            A config.yaml in place of the shipped one. All of it counts that no other argument replaces.
+        cores
+            Number of jobs that run at once. The numbers do not depend on it.
+        folder
+            Folder of the run's files: new, empty, or of an earlier call, which continues. `snakemake` in that folder runs the same.
+            By default the files are temporary: they are deleted with the returned object.
+        targets
+                Rules or files, as Snakemake takes them: `"all_blades"` draws all figures, `["tables", "exports"]` makes more. By default
+            the tables, and what `sections` ask for that is made on request alone: exports, tradeoff, stability, estimate.
+            **sections
+            Sections of config.yaml by name, in the units of their keys, also those of extensions:
+            `tolerances={"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}`.
 
-    Returns
-    -------
-    RunResults
-        As of `r37.open_results`.
+        Returns
+        -------
+        RunResults
+            As of `r37.open_results`.
 
-    Raises
-    ------
-    ConfigError
-        For bad input.
-    ValueError
-        For an impossible shape, mesh, model or time step.
+        Raises
+        ------
+        ConfigError
+            For bad input.
+        ValueError
+            For an impossible shape, mesh, model or time step.
 
-    Examples
-    --------
-    >>> results = r37.run("Ref", "abradable", [1150, 1550], fidelity="draft", interactions={"prominence": 0.3})
-    >>> results["rms"].speed.values
-    array([1150., 1550.])
+        Examples
+        --------
+        >>> results = r37.run("Ref", "abradable", [1150, 1550], fidelity="draft", interactions={"prominence": 0.3})
+        >>> results["rms"].speed.values
+        array([1150., 1550.])
     """
     keys = {name: plain_value(section) for name, section in sections.items()}
     if speeds is not None or speeds_rpm is not None:
@@ -103,7 +105,9 @@ def run(
         # what is wanted is a key of each scene
         scenes = scenes_named(base_of(chosen, config))
     rubs_on = [] if scenes is None else scenes_of_run(scenes, chosen, options)
-    return run_of("r37.run", chosen, rubs_on, keys, options, targets, whole=True)
+    on_request = [extension.name for extension in EXTENSIONS if extension.on_request and extension.name in sections]
+    wanted = ["tables", *on_request] if targets is None else targets
+    return run_of("r37.run", chosen, rubs_on, keys, options, wanted, whole=True)
 
 
 def run_of(

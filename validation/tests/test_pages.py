@@ -17,15 +17,9 @@ def test_a_page_has_the_content_of_its_tables(page):
     assert renewed(text, [CHECKOUT / file for file in PAGES.tables(page)]) == text
 
 
-<<<<<<< HEAD
 def test_tables_are_linked_or_shown():
     tables = {str(file.relative_to(CHECKOUT)) for file in (CHECKOUT / "validation/tables").glob("*.csv")}
     assert tables == set(PAGES.all_tables)
-=======
-@pytest.fixture(scope="module")
-def pages(root):
-    return {name: (root / "docs" / f"{name}.md").read_text() for name in ("validation", "validation_tables")}
->>>>>>> 7ff6651 (Levels, steep places and outcomes as short tables that README and pages take; tests of accuracy, adaptive speeds, extremes)
 
 
 def test_pictures_stand_on_a_page():
@@ -33,7 +27,6 @@ def test_pictures_stand_on_a_page():
     assert pictures == set(PAGES.pictures)
 
 
-<<<<<<< HEAD
 def test_a_table_in_a_page(tmp_path):
     file = tmp_path / "rates.csv"
     write_table(["blade", "rate, up"], [["Ref", "1 | 2"], ["S100", ""]], file)
@@ -60,44 +53,3 @@ def test_mutants_are_of_modules_and_tests_that_are_there():
     modules = ast.literal_eval(re.search(r"^TESTS = (\{.*?^\})", text, re.MULTILINE | re.DOTALL)[1])
     assert [name for name in modules if not (CHECKOUT / "src/r37core" / name).exists()] == []
     assert [name for names in modules.values() for name in names.split() if not (CHECKOUT / "tests" / name).exists()] == []
-=======
-def test_mutants_are_of_modules_and_tests_that_are_there(root):
-    text = (CHECKOUT / "validation/benchmarks/mutants.py").read_text()
-    modules = ast.literal_eval(re.search(r"^TESTS = (\{.*?^\})", text, re.MULTILINE | re.DOTALL)[1])
-    assert [name for name in modules if not (root / "src/r37core" / name).exists()] == []
-    here = CHECKOUT / "tests"
-    assert [name for names in modules.values() for name in names.split() if not (here / name).exists()] == []
-
-
-def test_validation_page_has_every_interaction_and_every_modelling_choice(pages):
-    rows = section(pages["validation_tables"], "validation").splitlines()
-    for one in INTERACTIONS:
-        start = f"| {one.blade} 1B/{one.engine_order}: peak | {one.peak:g} rad/s |"
-        assert any(row.startswith(start) for row in rows), start
-    choices = section(pages["validation"], "modelling_choices")
-    assert all(f"| {CHOICES[name].what} |" in choices for name in (SHIPPED, *VARIED))
-
-
-def test_pages_say_what_their_long_tables_do(pages, claims):
-    """What `make claims` writes on the page itself: the text before the table, and the rows that differ."""
-    from claims.texts import summary
-
-    for page, name in (("validation", "validation"), ("validation", "ranges")):
-        assert section(pages[page], name).strip() == summary(section(pages[f"{page}_tables"], name)), (page, name)
-
-
-def test_a_summary_has_the_rows_that_differ(claims):
-    from claims.texts import summary
-
-    table = "2 of 3 agree.\n\n| what | ours |\n|---|---|\n| a | **2** |\n| b | 3 |\n\nAfter it.\n"
-    assert summary(table) == "2 of 3 agree.\n\n| what | ours |\n|---|---|\n| a | **2** |"
-    assert summary(table.replace("**", "")) == "2 of 3 agree."
-
-
-@pytest.mark.slow
-def test_rule_graph_is_that_of_the_workflow(root, claims):
-    """`make claims ONLY=rules` renews it."""
-    from claims.rule_graph import rule_graph
-
-    assert section((root / "docs/architecture.md").read_text(), "rules").strip() == rule_graph()
->>>>>>> 7ff6651 (Levels, steep places and outcomes as short tables that README and pages take; tests of accuracy, adaptive speeds, extremes)

@@ -52,6 +52,7 @@ def test_long_pages_and_forbidden_words_are_told():
     said = "A dear step; it is slow, for it refines itself. Two readings."
     assert set(PROSE["forbidden"](said).values()) == {"expensive", "adaptive speed sampling", "modelling choice", "because"}
 
+
 def test_pages_are_short():
     """45,000 words in all, 3,000 a page but for the generated one, 15 large tables."""
     lengths = {name: len(text.split()) for name, text in PAGES.items()}

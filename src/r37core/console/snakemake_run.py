@@ -116,7 +116,11 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
         # another Snakefile that has our rules as a module may have no configuration of its own
         folder = Path(workflow.basedir)
         settings = settings_of_run(
-            folder if (folder / "config").is_dir() else root, config.configfiles, config.config, above, only_given=config.replace_workflow_config
+            folder if (folder / "config").is_dir() else root,
+            config.configfiles,
+            config.config,
+            above,
+            only_given=config.replace_workflow_config,
         )
     lifted = lock.enter() if workflow.is_main_process else []
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
