@@ -8,6 +8,7 @@ import pytest
 import yaml
 from defaults import Where
 
+from r37core.cases.plan import Cases, shape_of_model
 from r37core.config import ConfigError
 from r37core.exchange.orientation import OURS
 from r37core.exports.plan import Exports, targets
@@ -17,6 +18,8 @@ from r37core.plans.provenance import structure_hash
 from r37core.plans.structure_plan import Imported, Structure
 from r37core.plans.sweep_plan import Datasets, Simulations, Sweep
 from r37core.product.reading import read_settings
+from r37core.stability import plan as stability
+from r37core.tradeoff import plan as tradeoff
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 AXES = {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1], "rotation": "positive"}
@@ -220,6 +223,28 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     assert set(Datasets(sweep).response_pictured(given)) == {"campbell", "rms"}
     monkeypatch.chdir(tmp_path / "config")
     assert all(file.startswith("/") for file in imported.files(fan))
+
+
+def test_what_is_varied_of_matrices(settings_with):
+    """The model is the run's own, and there is no stress."""
+    settings = settings_with(MATRICES)
+    model = ["mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_instants", "stress_region"]
+    assert tradeoff.left_out(settings) == f"{', '.join(model)}, because Fan is given by matrices"
+    cases = Cases(settings, "tradeoff", tradeoff.cases)
+    inputs = cases.inputs(SimpleNamespace(case="revolutions/25__direct"))
+    assert inputs == {"contact": "<results>/Fan/contact_pressure_edge.npz", "campbell": "<results>/Fan/campbell.nc"}
+    extremes = stability.cases(settings)
+    assert extremes["mesh_nodes_500__direct"].refused == "Fan is given by matrices"
+    assert extremes["lobes_5__direct"].scene is not None
+
+
+def test_what_is_varied_of_a_mesh(settings_with):
+    settings = settings_with(MESH)
+    assert tradeoff.left_out(settings) == "mesh_nodes, because Fan is given by a mesh"
+    assert shape_of_model(SimpleNamespace(blade="Fan", model=tradeoff.cases(settings)["bars/300__direct"].model.name)) == {
+        "mesh": "<results>/Fan/mesh.vtu"
+    }
+    assert stability.cases(settings)["mesh_nodes_500__direct"].refused == "Fan is given by a mesh"
 
 
 def test_plan_of_exports(three):

@@ -18,7 +18,6 @@ import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
 from plans_of_snakemake import planned_outputs
-from r37core.plans.run import replaced_level, source_folder
 from snakemake.exceptions import InputFunctionException, WorkflowError, format_exception_to_string
 from stubbed_runs import copy_stubbed
 from workflow_runs import copy_project, kill_snakemake, snakemake

@@ -198,8 +198,8 @@ OF_FAN = (
 
 
 @pytest.mark.slow
-def test_a_mesh_and_matrices_of_another_program(root, drawn, tmp_path):  # noqa: F811
-    """The mesh stays as it is; of matrices the whole model does."""
+def test_a_mesh_of_another_program(root, drawn, tmp_path):  # noqa: F811
+    """The mesh stays as it is; contact nodes and runs vary."""
     project = with_example(root, drawn, tmp_path, copy_project)
     overlay(project, "config.yaml", OF_FAN)
     said = snakemake(project, "tradeoff", "stability", "estimate", "--cores", "2")

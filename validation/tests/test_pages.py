@@ -41,7 +41,8 @@ def test_a_table_in_a_page(tmp_path):
 def test_pages_name_their_tables_and_pictures(tmp_path):
     (tmp_path / "docs").mkdir()
     (tmp_path / "README.md").write_text("![A](docs/a.png)\n[all rows](validation/tables/b.csv)\n")
-    (tmp_path / "docs/one.md").write_text("<!-- table c -->\n<!-- end -->\n![B](gallery/b.png) [all](../validation/tables/d.csv)\n")
+    text = "<!-- table c -->\n<!-- end -->\n![B](gallery/b.png) [all](../validation/tables/d.csv)\n"
+    (tmp_path / "docs/one.md").write_text(text)
     pages = Pages(tmp_path)
     assert pages.files == ["docs/one.md"] and pages.tables("docs/one.md") == ["validation/tables/c.csv"]
     assert pages.all_tables == [f"validation/tables/{name}.csv" for name in "bcd"]

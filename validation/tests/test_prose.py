@@ -76,7 +76,8 @@ def test_docstrings_and_names_can_be_read_alone():
 
 def test_what_leans(tmp_path):
     (tmp_path / "src").mkdir()
-    text = '"""A module."""\nof_speed = 1\n"""Of the speed."""\n\n\ndef from_plain(at_end):\n    """Those of it."""\n    with_lanes = 1\n'
+    text = '"""A module."""\nof_speed = 1\n"""Of the speed."""\n\n\n'
+    text += 'def from_plain(at_end):\n    """Those of it."""\n    with_lanes = 1\n'
     (tmp_path / "src/one.py").write_text(text)
     assert PROSE["leaning_docstrings"](tmp_path) == ["src/one.py:3: Of the speed.", "src/one.py:7: Those of it."]
     assert set(PROSE["preposition_names"](tmp_path)) == {f"src/one.py: {name}" for name in ("of_speed", "at_end", "with_lanes")}

@@ -85,8 +85,8 @@ class CodeHashes:
 class EngineNumbers:
     """Content of a file in place of the hashes of CodeHashes: numbers that stay the same when code is only rearranged.
 
-            Each is a function of the wildcards, so that Snakemake reads the file when it plans a job, maybe after the file is made.
-        """
+    Each is a function of the wildcards, so that Snakemake reads the file when it plans a job, maybe after the file is made.
+    """
 
     def __init__(self, file: Path):
         self._file = file
