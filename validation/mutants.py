@@ -42,7 +42,7 @@ TESTS = {
     "rom/craig_bampton.py": "test_rom.py",
     "config/rotor_section.py": "test_rotor_section.py",
     "speeds.py": "test_results.py test_config.py",
-    "studies/runner.py": "test_studies.py test_modelling_choices.py",
+    "cases/runner.py": "test_cases.py",
     "time_integration/integrators.py": "test_integrators.py test_time_integration.py",
     "time_integration/gyroscopic.py": "test_coriolis.py",
     "time_integration/jump_plan.py": "test_jumps.py",

@@ -59,7 +59,7 @@ class Case:
     """A blade's model in one scene at some speeds, and what is kept of them.
 
     - `model`: made for the case, or this run's own on the tip line of this name.
-    - `scene`: None where the configuration refuses it; `refused` says why.
+    - `scene`: None where the case is refused; `refused` has the reason.
     - `speeds`: rad/s, ascending. With a `crossing` they are shares of its speed.
     - `results`: as of a scene, and `instants`, the stress at each instant of the last revolution.
     - `kept`: how much of spectrum and wear, as run_speed takes it.

@@ -77,7 +77,7 @@ def shape_of_model(wildcards: Any) -> dict[str, str]:
 
 
 def choice_of_model(wildcards: Any) -> dict[str, Any]:
-    """What a model's name says."""
+    """The choice that a model's name stands for."""
     return to_plain(model_of_name(wildcards.model))
 
 

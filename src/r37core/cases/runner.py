@@ -30,13 +30,13 @@ from r37core.time_integration.speed_run import run_speed
 from .case import Case, Crossing
 from .costs import Stopwatch, peak_memory
 
-BESIDE = {
+COSTS = {
     "cpu_s": Variable(("speed",), "s", "CPU time of the time integration"),
     "wall_s": Variable(("speed",), "s", "wall time of the time integration"),
     "file_cpu_s": Variable(("speed",), "s", "CPU time of writing the run's file"),
     "bytes_written": Variable(("speed",), "1", "bytes of the run's file"),
 }
-"""What a case's response holds of every speed beside the results."""
+"""Costs of every speed, which the response of a case has next to the results."""
 
 
 def run_case_of_files(case: Case, files: Mapping[str, str], output: Path | str) -> None:
@@ -107,19 +107,19 @@ def run_case(
 
 
 def write_refusal(case: Case, output: Path | str, attributes: Mapping[str, Any] | None = None) -> None:
-    """A response without speeds, whose attribute `refused` says why."""
+    """A response without speeds, whose attribute `refused` has the reason."""
     nothing = xr.Dataset(coords={"speed": ("speed", np.empty(0), SPEED.attributes)})
     write_dataset(nothing, output, {**(attributes or {}), "refused": case.refused.split(";")[0]})
 
 
 class Runs:
-    """The runs of one case: files in a folder, and what is kept beside them, by speed (rad/s)."""
+    """The runs of one case: files in a folder, and their costs, by speed (rad/s)."""
 
     def __init__(self, case: Case, model: ContactModel, recovery: StressOperator | None, folder: Path):
         assert case.scene is not None
         self.case, self.scene, self.model, self.recovery, self.folder = case, case.scene, model, recovery, folder
         self.files: dict[float, Path] = {}
-        self.beside: dict[float, dict[str, float]] = {}
+        self.costs: dict[float, dict[str, float]] = {}
         self.histories = set(case.speeds if case.history_speeds is None else case.history_speeds)
         for number, speed in enumerate(case.speeds, 1):
             self.run(speed)
@@ -153,7 +153,7 @@ class Runs:
         with writing:
             write_speed(run, file, {})
         self.files[speed] = file
-        self.beside[speed] = {
+        self.costs[speed] = {
             "cpu_s": integration.cpu,
             "wall_s": integration.wall,
             "file_cpu_s": writing.cpu,
@@ -161,7 +161,7 @@ class Runs:
         }
 
     def write(self, output: Path | str, attributes: Mapping[str, object]) -> None:
-        """The response of all runs, ascending, with BESIDE."""
+        """The response of all runs, ascending, with COSTS."""
         speeds, reducing, partial = sorted(self.files), Stopwatch(), self.folder / "response.nc"
         instants = self.case.choice.snapshots_per_revolution
         with reducing:
@@ -174,8 +174,8 @@ class Runs:
                 provenance=attributes,
             )
         with netCDF4.Dataset(partial, "a") as dataset:
-            for name, variable in BESIDE.items():
-                values = [self.beside[speed][name] for speed in speeds]
+            for name, variable in COSTS.items():
+                values = [self.costs[speed][name] for speed in speeds]
                 create_variable(dataset, name, variable)[:] = values
             if "instants" in self.case.results and self.recovery:
                 dataset.createDimension("instant", instants)

@@ -1,4 +1,4 @@
-"""What a run says of the estimate when it ends."""
+"""Closing line of the estimate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run says of the extremes when it ends."""
+"""Closing line of the extremes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run says of the trade-off when it ends."""
+"""Closing line of the trade-off."""
 
 from __future__ import annotations
 
