@@ -8,7 +8,7 @@ module ranking:
             "ranking",
             "ranking",
             scenes=["direct"],
-            speeds=[{"start": 750, "stop": 2000, "step": 20}],
+            speeds=[{"start": 750, "stop": 2000, "step": 25}],
             tolerances={"members": 4},
         )
 
