@@ -14,7 +14,7 @@ from r37core.time_integration.status import RunStatus
 
 from .pages import write_table
 
-ORDERS = (4, 5)
+ORDER = 4
 WINDOW = (-0.06, 0.10)
 """Speeds about a crossing, as shares of it."""
 
@@ -46,19 +46,22 @@ def length_about(ratio: xr.DataArray, crossing: float) -> float:
 
 
 def blades(input: Any, output: Any, params: Any) -> None:
-    """Single blades and rotors about both crossings of 1B. Input: singles, rotors, campbells: a file for each blade."""
+    """Single blades and rotors about the crossing of 1B with ORDER. Input: singles, rotors, campbells: a file for each blade."""
     rows = []
     for single_file, rotor_file, campbell_file in zip(input.singles, input.rotors, input.campbells, strict=True):
         single, rotor = ratio_to_yield(read_dataset(single_file)), read_dataset(rotor_file)
         ratio, crossings = rotor_ratio(rotor), read_dataset(campbell_file)["crossing_speed"].sel(mode="1B")
-        cells = [
-            f"{length_about(of, float(crossings.sel(engine_order=order))):.0f}" for order in ORDERS for of in (single, ratio)
-        ]
+        cells = [f"{length_about(of, float(crossings.sel(engine_order=ORDER))):.0f}" for of in (single, ratio)]
         worst = rotor.isel(speed=int(ratio.argmax()))
         others = float(worst["blade_rms"].max() / worst["blade_rms"].median())
         rows.append([Path(single_file).parts[-3], *cells, _at_once(rotor), f"{others:.0f}"])
-    lengths = [f"1B/{order}: {of} (rad/s)" for order in ORDERS for of in ("single", "rotor")]
-    head = ["blade", *lengths, "blades above yield at once, median (most)", "leader's rms over the median blade's"]
+    head = [
+        "blade",
+        "single (rad/s)",
+        "rotor (rad/s)",
+        "blades above yield at once, median (most)",
+        "leader's rms over the median blade's",
+    ]
     write_table(head, rows, output.table)
 
 
