@@ -46,7 +46,7 @@ def length_about(ratio: xr.DataArray, crossing: float) -> float:
 
 
 def blades(input: Any, output: Any, params: Any) -> None:
-    """Single blades and rotors about the crossing of 1B with ORDER. Input: singles, rotors, campbells: a file for each blade."""
+    """Single blades and rotors about the crossing of 1B with ORDER. Input: singles, rotors, campbells."""
     rows = []
     for single_file, rotor_file, campbell_file in zip(input.singles, input.rotors, input.campbells, strict=True):
         single, rotor = ratio_to_yield(read_dataset(single_file)), read_dataset(rotor_file)
