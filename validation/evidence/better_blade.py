@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from r37core.search.choice import START
+from r37core.search.problem import START
 
 from r37core.dataset_file import read_dataset
 from r37core.results.exceedance import exceedance_of

@@ -9,8 +9,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
-from r37core.stress.of_revolutions import largest_of_revolutions
-from r37core.stress.statistic import stress_statistic
 
 from r37core.config import Settings
 from r37core.dataset_file import read_dataset
@@ -19,6 +17,7 @@ from r37core.results.measures import motion
 from r37core.results.ranking import read_ranking
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import StressOperator, read_stress_operator
+from r37core.stress.revolutions import largest_of_revolutions, stress_statistic
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 
