@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from r37core.search.problem import START
 
 from r37core.dataset_file import read_dataset
 from r37core.results.exceedance import exceedance_of
+from r37core.search.problem import START
 
 from .pages import write_table
 from .which_blade import length_text
