@@ -4,13 +4,14 @@ from dataclasses import dataclass, fields
 from typing import Annotated
 
 import pytest
+from evidence import key_tables as reference
+from evidence import schemas
 from pydantic import Field
 
 from r37core.config import ConfigError, Document, in_si
 from r37core.config.declaring import DECLARED, declared_by
 from r37core.config.section import Section
 from r37core.declared import Key, declared_keys
-from r37core.product import reference, schemas
 
 
 @dataclass(frozen=True)

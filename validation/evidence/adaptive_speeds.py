@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from r37core.plans.rounds_plan import Rounds
 
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.adaptive.rounds import first_round, round_after
@@ -19,7 +18,7 @@ from r37core.config import plain
 from r37core.dataset_file import read_dataset
 from r37core.io import as_list
 from r37core.plain import from_plain
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.sweep_plan import Rounds, Sweep
 from r37core.results.interactions import Interaction, InteractionChoice, find_interactions
 from r37core.results.measures import leading_edge
 from r37core.speeds import SpeedPlan

@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, VARIANTS, WIDTH_ABOVE_YIELD
-from r37core.figures.cells import draw_cells
 
 from r37core.figures import style
+from r37core.figures.maps import draw_cells
 from r37core.results.measures import history_of, leading_edge, peak_of, peak_speed, width_above_yield
 
 from .published_checks import PEAK_WITHIN, Runs
