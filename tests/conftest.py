@@ -3,7 +3,6 @@
 import filecmp
 import os
 import shutil
-import sys
 import tempfile
 from collections import Counter
 from dataclasses import replace
@@ -21,8 +20,6 @@ for library in ("OPENBLAS", "OMP", "MKL"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
 CHECKOUT = Path(__file__).parent.parent
-# what makes the tables of the pages
-sys.path.append(str(CHECKOUT / "validation"))
 CONFIGURATION = Path(__file__).parent / "config"
 DELIVERED = (
     "cluster",

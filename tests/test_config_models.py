@@ -6,16 +6,16 @@ import subprocess
 import sys
 
 import pytest
-from evidence.schemas import schemas
 
 from r37core.config import ConfigError, Settings, command_line_document, read_document
 from r37core.product.reading import load_settings, read_settings
+from r37core.product.schemas import schemas
 
 FILES = ("config", "blades", "scenes", "fidelity")
 
 
 def test_schemas_are_fresh(root):
-    """`PYTHONPATH=validation python -m evidence.schemas` renews them."""
+    """`python -m r37core.product.schemas` renews them."""
     folder = root / "config/schemas"
     assert {file.name: file.read_text() for file in folder.iterdir()} == schemas()
 

@@ -4,8 +4,6 @@ from dataclasses import dataclass, fields
 from typing import Annotated
 
 import pytest
-from evidence import key_tables as reference
-from evidence import schemas
 from pydantic import Field
 
 from r37core.config import ConfigError, Document, in_si
@@ -74,14 +72,6 @@ def test_and_what_a_message_says(change, message):
     with pytest.raises(ConfigError) as refused:
         Document("seal.yaml", {"clearance_m": 1e-3} | change).check(SealSection)
     assert message in str(refused.value)
-
-
-def test_and_what_the_page_says(monkeypatch):
-    monkeypatch.setitem(schemas.MODELS, "seal", SealSection)
-    rows = reference.tables()["seal"].splitlines()
-    assert "| `clearance_m` | required | 1e-06 to 0.1 m | at rest |" in rows
-    assert "| `slope_deg` | `tip` | tip; or above -90, below 90 degrees | of its face |" in rows
-    assert "| `teeth` | `5` | integer at least 1 | how many |" in rows
 
 
 def test_and_the_section_becomes_the_dataclass_again():

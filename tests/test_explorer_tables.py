@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 import pytest
 from browser import opened
-from evidence.key_tables import COLUMN_LISTS, column_list
 from explorer_cases import beside, interaction_rows, sweep
 
 from r37core.explorer import write_page
@@ -68,13 +67,11 @@ def column(page, name):
     return page.locator(f"#interactions tbody td.{name}").all_text_contents()
 
 
-def test_every_column_has_words(root):
-    """One glossary for the page, its tooltips and docs/results.md, which `python -m evidence.key_tables` renews."""
+def test_every_column_has_words():
+    """One glossary for the page and its tooltips."""
     named = [*COLUMNS, *RANGES, "share_of_members", "robust"]
     assert [name for name in ROBUSTNESS if not glossary.word(name, glossary.RANKING)] == []
     assert [name for name in named if not glossary.word(name, glossary.INTERACTIONS)] == []
-    text = (root / "docs/results.md").read_text()
-    assert all(column_list(words) in text for words in COLUMN_LISTS.values())
     assert glossary.word("length_certain_rad_s_low", glossary.RANKING).title == "above yield in most revolutions, 5%"
     assert glossary.word("chance_better_than_L50", glossary.RANKING).title == "chance to be better than L50"
     assert glossary.word("length_certain_rad_s_median", glossary.RANKING).title == "above yield in most revolutions, median"

@@ -5,7 +5,6 @@ import math
 import re
 
 import pytest
-from evidence import schemas
 
 from r37core.config import si_fields
 from r37core.config.casing_section import CasingSection
@@ -15,6 +14,7 @@ from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
 from r37core.declared import declared_keys
 from r37core.exchange.importing.source import MeshSource
+from r37core.product import schemas
 from r37core.units import SUFFIXES
 
 IN_SI = {

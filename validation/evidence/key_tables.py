@@ -11,9 +11,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from evidence.schemas import MODELS
 from r37core.config.speed_section import UNITS
 from r37core.io import write_text
+from r37core.product.schemas import MODELS
 from r37core.results.glossary import INTERACTIONS, RANKING, Word
 from r37core.text_file import with_part
 from r37core.units import SUFFIXES

@@ -15,6 +15,7 @@ from published import BLADES, DIRECT_PEAK, FIRST_YIELD, INTERACTIONS, OVERTAKES,
 
 from r37core.results import measures as read
 
+from . import benchmark_measures as own
 from .checks import Check, claim
 from .published_windows import BARE, FINE
 
@@ -70,7 +71,7 @@ def interaction_checks(runs: Runs) -> list[Check]:
         ]
         # members of tolerances keep no wear
         if "wear_harmonic" in run:
-            lobes = float(read.strongest_lobes(read.peak_of(run)))
+            lobes = float(own.strongest_lobes(read.peak_of(run)))
             checks.append(Check(f"{row.label}: lobes of the wear at the peak", float(row.engine_order), lobes, "", 0.0))
     return checks
 
@@ -86,7 +87,7 @@ def reference_checks(runs: Runs) -> list[Check]:
     peaks = [read.peak_of(about) for row, about in _interactions(runs) if row.blade == REFERENCE]
     through = all(float(peak["casing_hits"]) > 0 for peak in peaks)
     width, first = read.width_above_yield(run), _first_yield(run, _AT)
-    contact = float(read.first_contact(run)[int(np.argmax(read.motion(run)))]) - 1.0
+    contact = float(own.first_contact(run)[int(np.argmax(read.motion(run)))]) - 1.0
     checks = [
         Check("Ref 1B/4: width above yield", published.WIDTH_ABOVE_YIELD, width, "rad/s", _COUNTED_WITHIN),
         Check(f"Ref lined at {_AT:g}: first yield", FIRST_YIELD["lined"], first, "revolutions", _COUNTED_WITHIN),
@@ -104,7 +105,7 @@ def direct_checks(run: xr.Dataset) -> list[Check]:
     """The reference blade in direct contact."""
     peak = read.peak_of(run)
     speed, largest = float(peak["speed"]), float(read.motion(peak))
-    last, share = read.steepest_fall(run)
+    last, share = own.steepest_fall(run)
     above = read.motion(run.sel(speed=slice(1.03 * speed, None)))
     shares = [float(choose(above) / largest) if above.size else np.nan for choose in (np.median, np.max)]
     low, first = f"{_percent(shares[0])}, at most {_percent(shares[1])}", _first_yield(run, DIRECT_PEAK)
@@ -120,8 +121,8 @@ def direct_checks(run: xr.Dataset) -> list[Check]:
 
 def scene_checks(lined: xr.Dataset, direct: xr.Dataset) -> list[Check]:
     """Both scenes of the reference blade side by side."""
-    ratio = float(np.nanmax(read.history_of(lined, QUIET)) / np.nanmax(read.history_of(direct, QUIET)))
-    passes = read.overtakes(read.history_of(lined, _AT), read.history_of(direct, _AT))
+    ratio = float(np.nanmax(own.history_of(lined, QUIET)) / np.nanmax(own.history_of(direct, QUIET)))
+    passes = own.overtakes(own.history_of(lined, _AT), own.history_of(direct, _AT))
     return [
         claim(f"at {QUIET:g}: lined far below direct contact in stress", ratio < 0.5, f"{ratio:.2f} of it"),
         Check(f"at {_AT:g}: lined passes direct contact in stress", OVERTAKES, passes, "revolutions", _COUNTED_WITHIN),
@@ -177,7 +178,7 @@ def survey_checks(runs: Runs, about: Runs) -> list[Check]:
             low, high = ((1.0 + share) * row.campbell for share in (-0.01, FINE))
             outside = outside.where((outside["speed"] < low) | (outside["speed"] > high), drop=True)
     rest, normal = (1e3 * float(outside[name].max()) for name in ("rms_radial", "rms_normal"))
-    counts = [read.interactions_above(run, published.LARGEST_ELSEWHERE) for run in (other, lined)]
+    counts = [own.interactions_above(run, published.LARGEST_ELSEWHERE) for run in (other, lined)]
     widths = [read.width_above_yield(run) for run in (about["CS100_4"], about[_MAIN])]
     low, lows = rest < 1e3 * published.LARGEST_ELSEWHERE, f"{rest:.2g} mm; normal to the casing {normal:.2g}"
     more = "CS100 has more responses above 0.8 mm, normal to the casing, than Ref"
@@ -193,7 +194,7 @@ def survey_checks(runs: Runs, about: Runs) -> list[Check]:
 
 def _median(scene: str, run: xr.Dataset) -> Check:
     """Median rms of the radial displacement, which is counted once, and of the normal one, as "radial" is read elsewhere."""
-    radial, normal = (1e3 * read.median_over_speed(run, f"rms_{direction}") for direction in ("radial", "normal"))
+    radial, normal = (1e3 * own.median_over_speed(run, f"rms_{direction}") for direction in ("radial", "normal"))
     name = f"Ref {scene}, 750 to 2000: median rms, radial"
     return Check(name, 1e3 * published.MEDIAN[scene], radial, "mm", 0.5, f"normal to the casing {normal:.2g}")
 
@@ -229,7 +230,7 @@ def _clearance_checks(campbells: Mapping[str, xr.Dataset]) -> list[Check]:
     checks, slopes = [], {}
     for mode, prototype in published.CLEARANCE_SLOPES.items():
         for blade, value in prototype.items():
-            slopes[mode, blade] = ours = read.slope_of_clearance(campbells[blade], mode)
+            slopes[mode, blade] = ours = own.slope_of_clearance(campbells[blade], mode)
             # the prototype's are printed in thousandths
             within = max(0.01, 0.0006 / value)
             checks.append(Check(f"{blade}: slope of {mode}'s dynamic clearance (prototype)", value, ours, "", within))
@@ -242,11 +243,11 @@ def _clearance_checks(campbells: Mapping[str, xr.Dataset]) -> list[Check]:
 
 
 def _first_yield(run: xr.Dataset, speed: float) -> float:
-    return read.first_yield(read.history_of(run, speed), float(run["yield_stress"]))
+    return read.first_yield(own.history_of(run, speed), float(run["yield_stress"]))
 
 
 def _below_yield(scene: str, run: xr.Dataset) -> Check:
-    largest, limit = float(np.nanmax(read.history_of(run, QUIET))), float(run["yield_stress"])
+    largest, limit = float(np.nanmax(own.history_of(run, QUIET))), float(run["yield_stress"])
     return claim(f"{scene} at {QUIET:g}: below yield in the whole run", largest < limit, f"{1e-9 * largest:.2g} GPa")
 
 

@@ -14,8 +14,9 @@ from published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, VARIA
 
 from r37core.figures import style
 from r37core.figures.maps import draw_cells
-from r37core.results.measures import history_of, leading_edge, peak_of, peak_speed, width_above_yield
+from r37core.results.measures import leading_edge, peak_of, peak_speed, width_above_yield
 
+from .benchmark_measures import history_of
 from .published_checks import PEAK_WITHIN, Runs
 from .published_windows import BARE
 

@@ -191,14 +191,16 @@ def ranges(input: Any, output: Any, params: Any) -> None:
     judged = judge(shipped, nominal, [window_checks(runs_of(name)) for name in ALL_MEMBERS])
     write_table(*ranges_table(judged), output.table)
     head, rows = ranges_table([row for row in judged if not (row.shipped.agrees and row.inside)][:_LONGEST])
-    write_table(_without_unit(head), map(_without_unit, rows), output.short)
+    write_table(_in_short(head), map(_in_short, rows), output.short)
     write_table(
         ["published numbers and statements", "how many"], [[name, str(count)] for name, count in counts(judged)], output.counts
     )
 
 
-def _without_unit(row: list[str]) -> list[str]:
-    return row[:1] + row[2:]
+def _in_short(row: list[str]) -> list[str]:
+    """The row without its unit and the nominal run."""
+    what, _, published, ours, _, several, inside = row
+    return [what, published, ours, several, inside]
 
 
 def ranges_table(judged: Sequence[Judged]) -> Table:

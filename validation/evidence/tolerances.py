@@ -105,7 +105,7 @@ def members(input: Any, output: Any, params: Any) -> None:
         cells = [f"{100.0 * error:.0f}%" for error in errors] if count < total else [UNKNOWN] * len(errors)
         rows.append([str(count), str(total // count), *cells, *_of_rankings(parts, whole)])
     measures = (f"range of the {measure.replace('_', ' ')}" for measure in INDEXED)
-    write_table(["members", "samples", *measures, "the first is right", "pairs told apart (of 15)"], rows, output.table)
+    write_table(["members", "samples", *measures, "the first is right", "pairs distinguished (of 15)"], rows, output.table)
 
 
 def _of_rankings(parts: dict[str, list[Sample]], whole: dict[str, np.ndarray]) -> list[str]:

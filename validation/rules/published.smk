@@ -176,14 +176,3 @@ use rule evidence as overview with:
         "logs/validation/overview.log",
     params:
         **evidence("overview.draw"),
-
-
-use rule evidence as explorer_picture with:
-    input:
-        unpack(behind_engine(page="results/explorer.html")),
-    output:
-        picture="docs/explorer.png",
-    log:
-        "logs/validation/explorer_picture.log",
-    params:
-        **evidence("explorer_picture.take"),

@@ -35,7 +35,7 @@ def test_a_table_in_a_page(tmp_path):
     assert renewed(page, [file]) == page.replace("old\n", markdown(read_table(file)))
     assert markdown(read_table(file)).splitlines()[1:3] == ["|---|---|", r"| Ref | 1 \| 2 |"]
     with pytest.raises(ValueError):
-        renewed(page, [tmp_path / "other.csv"])
+        renewed(page.replace("table rates", "table others"), [file])
 
 
 def test_pages_name_their_tables_and_pictures(tmp_path):

@@ -11,7 +11,7 @@ from r37core.fem.material import Material
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 OWN_MESH = 0
-"""In place of a number of nodes: the mesh of the run, as for a blade of another program."""
+"""Number of nodes that stands for the mesh of the run, as for a blade of another program."""
 
 
 @dataclass(frozen=True)

@@ -60,7 +60,7 @@ class Console:
     caller: Caller | None
 
     def start(self) -> None:
-        """Before the first job, when the targets are known."""
+        """Check the targets and start the job server, before the first job."""
         with _refused(self.refusal):
             check_part(self.settings, self.workflow.dag_settings.targets)
             check_asked(self.settings, self.workflow.dag_settings.targets)
@@ -72,7 +72,7 @@ class Console:
                 start_scripts_by(self.scripts / "start.py")
 
     def succeed(self) -> None:
-        """After the last job: nothing is said where there is nothing to say."""
+        """Print what the run found, after the last job."""
         lock.release()
         if self.caller:
             return
@@ -81,7 +81,7 @@ class Console:
         _say_last([*failures.taken(), *lines])
 
     def fail(self) -> None:
-        """After a failure: what matters comes last."""
+        """Print the messages of failed jobs, what matters last."""
         lock.release()
         if self.caller:
             self.caller.failed(failures.notes())
@@ -160,5 +160,5 @@ def _refused(refusal: type[Exception]) -> Iterator[None]:
 
 
 def _say_last(lines: list[str]) -> None:
-    """After Snakemake's own last words. The lines are made before: `--directory` is left by then."""
+    """Print lines after Snakemake's own last words. The lines are made before: `--directory` is left by then."""
     atexit.register(sys.stderr.writelines, [f"{line}\n" for line in lines])

@@ -22,7 +22,7 @@ class Word:
 _SPEED = "rad/s"
 _MM, _MPA, _PERCENT = ("mm", 1e3), ("MPa", 1e-6), ("%", 100.0)
 _REVOLUTIONS = "later revolutions"
-"""Those in the second half of a run."""
+"""Revolutions in the second half of a run."""
 
 _POSSIBLE = f"more than {POSSIBLE:.0%} of the {_REVOLUTIONS} exceed yield"
 _CERTAIN = f"more than {CERTAIN:.0%} of the {_REVOLUTIONS} exceed yield"

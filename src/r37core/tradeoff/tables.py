@@ -41,10 +41,22 @@ def _rows(together: xr.Dataset, references: Mapping[str, str]) -> Iterator[dict[
             }
 
 
+LEVEL_COLUMNS = (
+    "level",
+    "reference",
+    "error",
+    "error_of_largest_values",
+    "cpu_s_per_run",
+    "model_cpu_s",
+    "tolerance",
+    "recommended",
+)
+
+
 def level_table(table: pd.DataFrame, tolerance: float) -> pd.DataFrame:
     """The fidelity levels: largest error at the peak over scenes, costs, and which one is the cheapest within the tolerance."""
     levels = table[table["parameter"] == LEVEL]
-    rows = pd.DataFrame(
+    rows = [
         {
             "level": name,
             "reference": level["reference"].iloc[0],
@@ -55,12 +67,11 @@ def level_table(table: pd.DataFrame, tolerance: float) -> pd.DataFrame:
             "tolerance": tolerance,
         }
         for name, level in levels.groupby("value", sort=False)
-    )
-    if rows.empty:
-        return rows
-    known = rows.dropna(subset=["error"]).set_index("level")
-    chosen = recommended_level(known["error"].to_dict(), known["cpu_s_per_run"].to_dict(), tolerance)
-    return rows.assign(recommended=np.where(rows["level"] == chosen, "yes", "no"))
+    ]
+    errors = {row["level"]: row["error"] for row in rows if np.isfinite(row["error"])}
+    chosen = recommended_level(errors, {row["level"]: row["cpu_s_per_run"] for row in rows}, tolerance)
+    recommended = ({"recommended": "yes" if row["level"] == chosen else "no"} for row in rows)
+    return pd.DataFrame([row | more for row, more in zip(rows, recommended, strict=True)], columns=list(LEVEL_COLUMNS))
 
 
 def level_error(level: pd.DataFrame, quantities: Mapping[str, str] = CONVERGING) -> float:

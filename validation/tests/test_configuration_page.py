@@ -6,9 +6,11 @@ import subprocess
 
 import pytest
 from conftest import CHECKOUT
-from evidence.key_tables import UNIT_OF_SUFFIX, filled, tables
+from evidence.key_tables import COLUMN_LISTS, UNIT_OF_SUFFIX, column_list, filled, tables
+from test_declared_keys import SealSection
 
 from r37core.config import ConfigError, read_document
+from r37core.product import schemas
 from r37core.product.reading import read_settings
 from r37core.units import SUFFIXES
 
@@ -126,3 +128,17 @@ def test_git_ignores_files_of_ones_own_and_no_shipped_one(tmp_path):
     own = ["config/my.yaml", "config/my_blades.yaml", "config/own/study.yaml", "config/own/profiles/fan.csv"]
     command = ["git", "-C", tmp_path, "check-ignore", *own, *shipped]
     assert subprocess.run(command, capture_output=True, text=True, check=False).stdout.split() == own
+
+
+def test_the_page_of_a_declared_section(monkeypatch):
+    monkeypatch.setitem(schemas.MODELS, "seal", SealSection)
+    rows = tables()["seal"].splitlines()
+    assert "| `clearance_m` | required | 1e-06 to 0.1 m | at rest |" in rows
+    assert "| `slope_deg` | `tip` | tip; or above -90, below 90 degrees | of its face |" in rows
+    assert "| `teeth` | `5` | integer at least 1 | how many |" in rows
+
+
+def test_the_page_of_results_has_every_column(root):
+    """`PYTHONPATH=validation python -m evidence.key_tables` renews it."""
+    text = (root / "docs/results.md").read_text()
+    assert all(column_list(words) in text for words in COLUMN_LISTS.values())

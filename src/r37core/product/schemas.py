@@ -1,6 +1,6 @@
 """JSON schemas of the configuration files, for editors, in config/schemas.
 
-`PYTHONPATH=validation python -m evidence.schemas` writes them.
+`python -m r37core.product.schemas` writes them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from r37core.config.blades import Blades
 from r37core.config.fidelity import Levels
 from r37core.config.scenes import Scenes
 from r37core.io import write_text
-from r37core.product.reading import CONFIG
+
+from .reading import CONFIG
 
 MODELS: dict[str, type[BaseModel]] = {"config": CONFIG, "blades": Blades, "scenes": Scenes, "fidelity": Levels}
 

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 import xarray as xr
 
 from r37core.results.measures import leading_edge, motion
-from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 
 
 def steepest_fall(response: xr.Dataset) -> tuple[float, float]:
@@ -44,12 +41,6 @@ def first_contact(response: xr.Dataset) -> np.ndarray:
     """Number of the first revolution in which a tip point moves beyond its position at rest, shape (speeds,); NaN for none."""
     touched = response["revolution_maximum"].max("tip_point").transpose("speed", "revolution").values > 0.0
     return np.where(touched.any(axis=1), touched.argmax(axis=1) + 1.0, np.nan)
-
-
-def motion_of_run(run: Mapping[str, np.ndarray]) -> float:
-    """`motion` of one run (m), from the variables of its file."""
-    edge = run["rms"][TIP_POINTS.index("leading_edge")]
-    return float(np.nan_to_num(np.hypot(*(edge[DIRECTIONS.index(name)] for name in ("normal", "tangential")))))
 
 
 def history_of(response: xr.Dataset, speed: float) -> np.ndarray:

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-
-from validation.studies import measures
+from evidence import benchmark_measures as measures
 
 SPEEDS = 1000.0 + 2.0 * np.arange(8)
 
