@@ -28,6 +28,16 @@ def behind_engine(*files, **named):
     return inputs
 
 
+def models_of(blade, folder="results"):
+    """Models of a blade for runs with stress, by kind."""
+    return {kind: f"{folder}/{blade}/{kind}_pressure_edge.npz" for kind in ("contact", "stress")}
+
+
+def responses(folder, *scenes):
+    """Responses of all blades in some scenes of a run."""
+    return [f"{folder}/{blade}/{scene}/response.nc" for scene in scenes for blade in BLADES]
+
+
 # the pattern of the others, never run by itself
 rule evidence:
     log:

@@ -16,14 +16,6 @@ module ranking:
 use rule * from ranking as ranking_*
 
 
-def models_of(blade, folder="results"):
-    return {kind: f"{folder}/{blade}/{kind}_pressure_edge.npz" for kind in ("contact", "stress")}
-
-
-def responses(folder, *scenes):
-    return [f"{folder}/{blade}/{scene}/response.nc" for scene in scenes for blade in BLADES]
-
-
 use rule evidence as which_blade with:
     input:
         unpack(behind_engine(patches="results/runs/patches/ranking.csv", points="results/runs/campaign/ranking.csv")),
