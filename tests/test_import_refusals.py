@@ -13,6 +13,7 @@ from defaults import MeshSource, Orientation, Where
 
 from r37core.config.imported_entry import MeshEntry, SurfaceRule
 from r37core.exchange.importing.abaqus_reader import read_abaqus
+from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.importing.source import mesh_files
 from r37core.exchange.orientation import OURS
@@ -410,3 +411,21 @@ def test_empty_sets_are_not_listed(deck):
     with pytest.raises(ImportRefused) as refusal:
         read(folder, tip="?")
     assert "NOTHING" not in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "found"),
+    [
+        ("a.inp", "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=A\n*ELASTIC\n115000., 0.32\n*DENSITY\n4.4e-9\n", None),
+        ("a.inp", "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=A\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.85e-9\n", 210000.0),
+        ("a.inp", "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=A\n*ELASTIC\n115e9, 0.32\n", None),
+        ("a.inp", "*NODE\n1, 0, 0, 0\n", None),
+        ("a.bdf", "MAT1,1,2.1+11,,.3,7850.\n", 2.1e11),
+        ("a.bdf", "MAT1           1  1.15+5             .324.4-9    \n", None),
+        ("a.bdf", "MAT1*                  1         2.1+11                              .3\n*                 7850.\n", 2.1e11),
+    ],
+)
+def test_a_material_of_the_file_that_is_not_used(tmp_path, file, text, found):
+    (tmp_path / file).write_text(text)
+    other = ignored_material(file, tmp_path, TITANIUM)
+    assert other is None if found is None else other.youngs_modulus == found

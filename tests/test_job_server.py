@@ -208,6 +208,39 @@ def test_no_client_ends_the_server_or_keeps_others_waiting_for_ever(start):
     assert start.said == []
 
 
+def test_a_server_that_ends_is_reported_and_leaves_nothing(start, monkeypatch):
+    monkeypatch.setattr(job_server, "_STOPPED_S", 0.05)
+    folder = Path(os.environ[job_server.ADDRESS]).parent
+    start.server.send_signal(signal.SIGSTOP)
+    # a job that waits for it is done by itself
+    job = start("2")
+    assert job.wait(LONGEST) == 2 and parent() == os.getpid()
+    wait_for(folder, there=False)
+    (line,) = start.said
+    assert f"job server (process {start.server.pid}) was stopped or killed" in line and "the same command again" in line
+
+
+def test_a_server_that_is_stopped_for_a_moment_goes_on(start, monkeypatch):
+    monkeypatch.setattr(job_server, "_STOPPED_S", 0.2)
+    start.server.send_signal(signal.SIGSTOP)
+    start.server.send_signal(signal.SIGCONT)
+    assert start("2").wait(LONGEST) == 2 and parent() == start.server.pid
+    assert start.said == []
+
+
+def test_folders_of_servers_that_were_killed_are_removed(serve):
+    """And those of living ones stay."""
+    _, first = serve(SCRIPT)
+    here = Path(os.environ[job_server.ADDRESS]).parent
+    deserted = Path(".snakemake/r37_jobs_before")
+    deserted.mkdir()
+    with socket.socket(socket.AF_UNIX) as killed:
+        killed.bind(str(deserted / "socket"))
+    serve(SCRIPT)
+    assert here.is_dir() and not deserted.exists()
+    assert first.poll() is None
+
+
 def test_only_the_owner_reaches_the_server(start):
     folder = Path(os.environ[job_server.ADDRESS]).parent
     assert folder.stat().st_mode & 0o777 == 0o700

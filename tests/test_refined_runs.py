@@ -142,12 +142,6 @@ def test_leftovers_are_what_no_round_asked_for(project, monkeypatch):
     assert leftovers(project / "results", read_settings(project)) == []
 
 
-def test_a_study_without_a_range_that_refines_is_refused(root, tmp_path):
-    copy_stubbed(root, tmp_path)
-    text = snakemake(tmp_path, "refinement", "--cores", "1", "--dry-run", check=False)
-    assert "speeds: found no range with refine_to; allowed: at least one, for this study" in text
-
-
 @pytest.fixture(scope="module")
 def real(small_sweep, tmp_path_factory):
     """A small real run: windows, halving."""

@@ -7,7 +7,8 @@ import pytest
 
 from r37core.stress.operator import StressOperator, read_stress_operator, write_stress_operator
 from r37core.stress.recovery import stress_operator
-from r37core.stress.revolutions import largest_of_revolutions, stress_statistic
+from r37core.stress.revolutions import largest_of_revolutions
+from r37core.stress.statistic import stress_statistic
 
 INSTANTS, REVOLUTIONS = 31, 40
 

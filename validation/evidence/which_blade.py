@@ -17,7 +17,8 @@ from r37core.results.measures import motion
 from r37core.results.ranking import read_ranking
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import StressOperator, read_stress_operator
-from r37core.stress.revolutions import largest_of_revolutions, stress_statistic
+from r37core.stress.revolutions import largest_of_revolutions
+from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 

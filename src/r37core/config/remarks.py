@@ -6,6 +6,8 @@ from collections.abc import Mapping
 
 from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
+from r37core.exchange.importing.file_material import ignored_material
+from r37core.exchange.importing.source import MeshSource
 
 from .settings import Settings
 from .speed_choice import fastest_of, length_of_run, most_runs, slowest_speeds
@@ -63,12 +65,17 @@ def remarks_on_speeds(settings: Settings) -> list[str]:
 
 
 def remarks_on_materials(settings: Settings) -> list[str]:
-    """What is to be said of a density or a yield stress that no alloy has."""
+    """Remarks on a density or a yield stress that no alloy has, and on a material of a mesh file that is not used."""
     blades: dict[str, list[str]] = {}
     for name, blade in settings.blades.items():
         for key, (value, (low, high)) in ({} if blade.material is None else blade.material.unusual).items():
             text = f"material.{key}: found {value:g}; alloys and composites have {low:g} to {high:g}: check its unit"
             blades.setdefault(text, []).append(name)
+        if isinstance(blade.definition, MeshSource) and blade.material is not None:
+            other = ignored_material(blade.definition.file, settings.root, blade.material)
+            if other is not None:
+                text = f"{blade.definition.file} has a material of its own ({other.in_words}, in its units); it is not used"
+                blades.setdefault(f"{text}, and differs from that of blades.yaml", []).append(name)
     return [f"{', '.join(names[:3])}{', ...' if len(names) > 3 else ''}: {text}" for text, names in blades.items()]
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import ast
 import atexit
 import contextlib
+import errno
 import gc
 import importlib
 import os
@@ -27,6 +28,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import traceback
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -43,6 +45,12 @@ _KEPT: list[subprocess.Popen] = []
 _PATIENCE_S = 5
 """How long (s) a client may take to say what it wants."""
 
+_FOLDERS = "r37_jobs_"
+"""How the names of the folders of sockets begin."""
+
+_STOPPED_S = 2.0
+"""How long (s) a server may be stopped: users who pause all processes of a machine continue them one after another."""
+
 _END_S = 20.0
 """How long (s) Snakemake waits for the end of its server, which may be importing something."""
 
@@ -54,7 +62,8 @@ def start(script: Path, python: Path, say: Callable[[str], object]) -> bool:
     """
     os.environ.pop(ADDRESS, None)
     try:
-        folder = Path(tempfile.mkdtemp(prefix="r37_jobs_", dir=".snakemake"))
+        _remove_deserted(Path(".snakemake"))
+        folder = Path(tempfile.mkdtemp(prefix=_FOLDERS, dir=".snakemake"))
         address = Path(os.path.relpath(folder)) / "socket"
         # -P: the user's folder may hold a random.py
         command = [str(python), "-P", "-m", __name__, str(address), str(script)]
@@ -80,18 +89,31 @@ def _end(server: subprocess.Popen, folder: Path) -> None:
     shutil.rmtree(folder, ignore_errors=True)
 
 
+def _remove_deserted(place: Path) -> None:
+    """Remove the folders of servers that were killed: nobody listens at their sockets."""
+    for address in place.glob(f"{_FOLDERS}*/socket"):
+        with socket.socket(socket.AF_UNIX) as client, contextlib.suppress(OSError):
+            client.settimeout(1.0)
+            if client.connect_ex(os.path.relpath(address)) == errno.ECONNREFUSED:
+                shutil.rmtree(address.parent)
+
+
 def _watch(server: subprocess.Popen, folder: Path, say: Callable[[str], object]) -> None:
-    """Wait until a server ends, and report it unless all is well."""
+    """Wait until a server ends, and report it unless all is well; one that is stopped is killed, as its clients wait for it."""
+    options = os.WSTOPPED | os.WNOWAIT
     try:
-        end = os.waitid(os.P_PID, server.pid, os.WNOWAIT | os.WEXITED)
+        while (end := os.waitid(os.P_PID, server.pid, options | os.WEXITED)) and end.si_code == os.CLD_STOPPED:
+            time.sleep(_STOPPED_S)
+            if os.waitid(os.P_PID, server.pid, options | os.WNOHANG):
+                server.kill()
     except ChildProcessError:
         # somebody else has waited for it
         return
     if end and end.si_status and not server.stdin.closed:  # type: ignore[union-attr]
         shutil.rmtree(folder, ignore_errors=True)
         say(
-            f"the job server (process {server.pid}) was killed; no job is lost, but each starts by itself from now on, which "
-            "takes longer; to have it back, end this run and give the same command again"
+            f"the job server (process {server.pid}) was stopped or killed; no job is lost, but each starts by itself from now "
+            "on, which takes longer; to have it back, end this run and give the same command again"
         )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from r37core.dataset_file import SPEED, Variable
-from r37core.stress.revolutions import HIGH
+from r37core.stress.statistic import HIGH
 
 _TIP = ("tip_point",)
 _OF_REVOLUTIONS = "largest von Mises stress of each revolution of the last half of the run"

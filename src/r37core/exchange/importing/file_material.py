@@ -1,0 +1,92 @@
+"""The material that a mesh file has of its own: it is not used, and a remark names it where it differs from the blade's."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import astuple, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from r37core.fem.material import Material
+
+from .deck_text import deck_lines, keyword_and_options
+from .source import DECK, kind_of, mesh_files
+
+_UNITS = ((1.0, 1.0), (1e6, 1e12), (1e9, 1e9), (1e3, 1e9), (6894.757, 1.068685e7))
+"""Factors of modulus (Pa) and density (kg/m3) in m-kg-s, mm-t-s, mm-kg-ms, mm-kg-s and in-lbf-s, of which a file names none."""
+
+_ALIKE = 0.01
+
+
+@dataclass(frozen=True)
+class FileMaterial:
+    """Young's modulus, Poisson's ratio and density of a file, in its own units; NaN for what it does not have."""
+
+    youngs_modulus: float = np.nan
+    poissons_ratio: float = np.nan
+    density: float = np.nan
+
+    def agrees(self, material: Material) -> bool:
+        """Whether this is the same material, in one of the usual systems of units, as far as the file has numbers."""
+        own = np.array(astuple(self))
+        blade, present = np.array([material.youngs_modulus, material.poissons_ratio, material.density]), np.isfinite(own)
+        factors = ([modulus, 1.0, density] for modulus, density in _UNITS)
+        return any(np.allclose((own * factor)[present], blade[present], rtol=_ALIKE, atol=0.0) for factor in factors)
+
+    @property
+    def in_words(self) -> str:
+        """Numbers of the material, as the file has them."""
+        numbers = zip(("Young's modulus", "Poisson's ratio", "density"), astuple(self), strict=True)
+        return ", ".join(f"{name} {value:g}" for name, value in numbers if np.isfinite(value))
+
+
+def ignored_material(name: str, root: Path, material: Material) -> FileMaterial | None:
+    """The first material of the mesh file `name` in the folder `root` that is not the blade's; None without one."""
+    files = mesh_files(name, root)
+    kind, readers = kind_of(files[0]), {DECK: _of_deck, ".bdf": _of_bulk_data, ".nas": _of_bulk_data}
+    materials = [each for file in files for each in readers[kind](file)] if kind in readers else []
+    return next((each for each in materials if not each.agrees(material)), None)
+
+
+def _of_deck(file: Path) -> Iterator[FileMaterial]:
+    """Materials of Abaqus and CalculiX: the first row of *ELASTIC and of *DENSITY after each *MATERIAL."""
+    materials: list[dict[str, list[float]]] = [{}]
+    keyword = ""
+    for line in deck_lines(file):
+        if line.startswith("*"):
+            keyword, _ = keyword_and_options(line)
+            materials += [{}] if keyword == "MATERIAL" else []
+        elif keyword in ("ELASTIC", "DENSITY"):
+            materials[-1].setdefault(keyword, _numbers(line.split(",")))
+    for known in filter(None, materials):
+        modulus, ratio = [*known.get("ELASTIC", []), np.nan, np.nan][:2]
+        yield FileMaterial(modulus, ratio, [*known.get("DENSITY", []), np.nan][0])
+
+
+def _of_bulk_data(file: Path) -> Iterator[FileMaterial]:
+    """Cards MAT1 of Nastran (MID, E, G, NU, RHO), with commas, in fields of 8 or, MAT1*, of 16 characters."""
+    lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
+    for line, following in zip(lines, [*lines[1:], ""], strict=True):
+        if not line.upper().startswith("MAT1"):
+            continue
+        width = 16 if line[4:5] == "*" else 8
+        if "," in line:
+            cells = line.split(",")[1:]
+        else:
+            cells = [line[first : first + width] for first in range(8, 72, width)]
+            cells += [following[8:24]] if width == 16 else []
+        _, modulus, _, ratio, density = _numbers([*cells, *[""] * 5][:5])
+        yield FileMaterial(modulus, ratio, density)
+
+
+def _numbers(cells: Sequence[str]) -> list[float]:
+    """Numbers of some cells, NaN for one that has none; Nastran may write 2.1+11."""
+    numbers = []
+    for cell in cells:
+        try:
+            numbers.append(float(re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", cell.strip().upper().replace("D", "E"))))
+        except ValueError:
+            numbers.append(np.nan)
+    return numbers
