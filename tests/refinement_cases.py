@@ -4,8 +4,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.adaptive.criterion import RefinementChoice, Window
-from r37core.adaptive.rounds import first_round, round_after
-from r37core.results.measures import leading_edge
+from r37core.adaptive.replay import replay
 from r37core.speeds import plan_speeds
 from r37core.time_integration.status import RunStatus
 
@@ -50,25 +49,3 @@ def spiked(*spikes, yield_stress=1e9, diverged=()):
 def asked(response, crossings=(), choice=CHOICE, plan=PLAN):
     rounds = replay(response, campbell(crossings), plan, choice)
     return rounds, sorted(speed for new in rounds for speed in new)
-
-
-def replay(response, campbell, plan, choice):
-    """New speeds (rad/s) of each round, as the sweep would ask for them, with the runs looked up in the whole grid."""
-    rows = measured(response)
-    current = first_round(plan, campbell, choice)
-    rounds = []
-    while current.new:
-        rounds.append(list(current.new))
-        current = round_after(current, {speed: rows[speed] for speed in current.new}, plan, choice)
-    return rounds
-
-
-def measured(response):
-    """Status and adaptive.criterion.CURVES of each speed (rad/s)."""
-    edge = leading_edge(response)
-    stress = (
-        response["max_von_mises"] / response["yield_stress"] if "max_von_mises" in response else edge["rms_normal"] * np.nan
-    )
-    columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], stress]
-    rows = np.stack([column.values.astype(float) for column in columns], axis=1)
-    return dict(zip(map(float, response["speed"].values), rows.tolist(), strict=True))

@@ -275,25 +275,6 @@ def test_all_that_a_run_has_is_reached(finished, tmp_path):
         xr.testing.assert_identical(tree[f"{blade}/direct/response"].to_dataset().load(), results.response(blade, "direct"))
 
 
-@pytest.mark.parametrize(
-    ("given", "targets"),
-    [
-        ({}, ["tables"]),
-        ({"tolerances": {"members": 8}}, ["tables"]),
-        ({"stability": {}, "exports": {"modes": 3}}, ["tables", "exports", "stability"]),
-        ({"estimate": {"every": 100}, "tradeoff": {}}, ["tables", "estimate", "tradeoff"]),
-        ({"estimate": {"every": 100}, "targets": "campbell"}, "campbell"),
-    ],
-)
-def test_a_section_of_what_is_made_on_request_adds_its_target(monkeypatch, given, targets):
-    asked = []
-    monkeypatch.setattr("r37.runs.run_of", lambda caller, blades, scenes, keys, options, wanted, **more: asked.append(wanted))
-    r37.run("Ref", "abradable", [1150], **given)
-    assert [sorted(each) if isinstance(each, list) else each for each in asked] == [
-        sorted(targets) if isinstance(targets, list) else targets
-    ]
-
-
 @pytest.mark.slow
 def test_an_estimate_asked_for_in_python_is_among_the_tables(finished, tmp_path):
     results = r37.run("Ref", "abradable", [1150, 1550], estimate={"every": 600}, folder=tmp_path / "study")

@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.adaptive.criterion import RefinementChoice
-from r37core.adaptive.rounds import first_round, round_after
+from r37core.adaptive.replay import replay
 from r37core.config import plain
 from r37core.dataset_file import read_dataset
 from r37core.io import as_list
@@ -92,28 +91,6 @@ def tables(input: Any, output: Any, params: Any) -> None:
     write_table(*summary(outcomes), output.table)
     write_table(*by_blade(outcomes), output.blades)
     write_table(*missed(outcomes), output.missed)
-
-
-def replay(response: xr.Dataset, campbell: xr.Dataset, plan: SpeedPlan, choice: RefinementChoice) -> list[list[float]]:
-    """New speeds (rad/s) of each round, as the sweep would ask for them, with the runs looked up in the whole grid."""
-    rows = _measured(response)
-    current = first_round(plan, campbell, choice)
-    rounds = []
-    while current.new:
-        rounds.append(list(current.new))
-        current = round_after(current, {speed: rows[speed] for speed in current.new}, plan, choice)
-    return rounds
-
-
-def _measured(response: xr.Dataset) -> dict[float, list[float]]:
-    """Status and adaptive.criterion.CURVES of each speed (rad/s)."""
-    edge = leading_edge(response)
-    stress = (
-        response["max_von_mises"] / response["yield_stress"] if "max_von_mises" in response else edge["rms_normal"] * np.nan
-    )
-    columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], stress]
-    rows = np.stack([column.values.astype(float) for column in columns], axis=1)
-    return dict(zip(map(float, response["speed"].values), rows.tolist(), strict=True))
 
 
 def plain_grid(plan: SpeedPlan, step: float) -> list[float]:

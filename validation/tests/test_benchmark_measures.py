@@ -4,20 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from evidence import benchmark_measures as measures
-
-SPEEDS = 1000.0 + 2.0 * np.arange(8)
-
-
-def response(normal, tangential=None, stress=None, speeds=SPEEDS, **more):
-    """One blade and scene; both tip points, of which the trailing edge moves a hundred times as much."""
-    normal = np.asarray(normal, dtype=float)
-    tips = {"rms_normal": normal, "rms_tangential": 0.0 * normal if tangential is None else np.asarray(tangential)}
-    data = {name: (("speed", "tip_point"), np.stack([values, 100.0 * values[::-1]], axis=1)) for name, values in tips.items()}
-    if stress is not None:
-        data |= {"max_von_mises": ("speed", np.asarray(stress, dtype=float)), "yield_stress": ((), 2.0)}
-    status = np.zeros(len(normal), dtype="i1")
-    coords = {"speed": speeds[: len(normal)], "tip_point": ["leading_edge", "trailing_edge"]}
-    return xr.Dataset(data | {"status": ("speed", status)} | more, coords)
+from test_measures import response
 
 
 def test_the_steepest_fall_is_a_share_of_the_speed_before_it():

@@ -3,7 +3,13 @@
 from r37core.cases.case import MODEL_NAME
 from r37core.cases.plan import MODEL_FILE, Cases, choice_of_model, shape_of_model
 
-CASE_NAME = r"[\w.+/-]+"
+
+# the pattern of the extensions' cases, never run by itself
+use rule step as case with:
+    wildcard_constraints:
+        case=r"[\w.+/-]+",
+    params:
+        **step("cases.steps.run"),
 
 
 use rule step as case_model with:

@@ -4,17 +4,14 @@ from r37core.estimate import plan as estimate_plan
 estimate_cases = Cases(settings, "estimate", estimate_plan.cases)
 
 
-use rule step as estimate_case with:
+use rule case as estimate_case with:
     input:
         unpack(estimate_cases.inputs),
     output:
         response=estimate_cases.file,
     log:
         estimate_cases.log,
-    wildcard_constraints:
-        case=CASE_NAME,
     params:
-        **step("cases.steps.run"),
         case=estimate_cases.case,
 
 

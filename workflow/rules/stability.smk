@@ -4,17 +4,14 @@ from r37core.stability import plan as stability_plan
 stability_cases = Cases(settings, "stability", stability_plan.cases)
 
 
-use rule step as stability_case with:
+use rule case as stability_case with:
     input:
         unpack(stability_cases.inputs),
     output:
         response=stability_cases.file,
     log:
         stability_cases.log,
-    wildcard_constraints:
-        case=CASE_NAME,
     params:
-        **step("cases.steps.run"),
         case=stability_cases.case,
 
 

@@ -4,17 +4,14 @@ from r37core.tradeoff import plan as tradeoff_plan
 tradeoff_cases = Cases(settings, "tradeoff", tradeoff_plan.cases)
 
 
-use rule step as tradeoff_case with:
+use rule case as tradeoff_case with:
     input:
         unpack(tradeoff_cases.inputs),
     output:
         response=tradeoff_cases.file,
     log:
         tradeoff_cases.log,
-    wildcard_constraints:
-        case=CASE_NAME,
     params:
-        **step("cases.steps.run"),
         case=tradeoff_cases.case,
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
-from typing import Any, Protocol
+from typing import Any
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
@@ -18,17 +18,9 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import EXACT_MODAL
 
 from .case import OWN_MESH, Case, ModelChoice, model_of_name
+from .section import CasesSection
 
 MODEL_FILE = "<results>/cases/{blade}/{model}/{file}"
-
-
-class CasesSection(Protocol):
-    """What the sections of extensions with cases have in common."""
-
-    blade: str | None
-    scenes: Any
-    base: str | None
-    engine_order: int | None
 
 
 class Cases:

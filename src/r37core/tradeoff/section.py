@@ -6,8 +6,9 @@ from typing import Annotated, Any, Generic, Literal, TypeVar
 
 from pydantic import Field, model_validator
 
+from r37core.cases.section import CasesSection
 from r37core.config.fidelity import TimeStep
-from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, Unique, left_out, refused
+from r37core.config.section import ExtensionSection, LeftOut, Name, Section, Unique, left_out, refused
 
 Value = TypeVar("Value")
 
@@ -96,15 +97,9 @@ class Places(Section):
     off_resonance: PlaceSection = PlaceSection(first=0.9, last=0.92, speeds=3)
 
 
-class TradeoffSection(Section):
+class TradeoffSection(CasesSection):
     """Error and cost of every approximation (snakemake tradeoff)."""
 
-    blade: Name | LeftOut = left_out("Blade; by default the first one of the run")
-    scenes: AllOrNames = Field(default="all", description="Scenes of the run")
-    base: Name | LeftOut = left_out("Fidelity level of all parameters but one; by default that of the run")
-    engine_order: Annotated[int, Field(ge=1, le=100)] | LeftOut = left_out(
-        "Crossing of 1B that the speeds lie about; by default the fastest one"
-    )
     places: Places = Places()
     parameters: Parameters | LeftOut = left_out("Parameters that are varied; by default all, with values from coarse to fine")
 
