@@ -138,12 +138,12 @@ def _missed(speed: np.ndarray, curve: np.ndarray, run: Sequence[float]) -> tuple
 
 
 def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: InteractionChoice) -> list[Interaction]:
-    """Interactions of a response that pass yield, in direct contact certainly."""
+    """Interactions of a response that pass yield, on a bare casing in most revolutions."""
     return [row for row in find_interactions(response, campbell, interactions) if _peak_and_width(row)[1] > 0.0]
 
 
 def _peak_and_width(row: Interaction) -> tuple[float, float]:
-    """Speed of the peak and width above yield (rad/s): of the last revolution, in direct contact of what is certain."""
+    """Speed of the peak and width above yield (rad/s): of the last revolution, on a bare casing in most revolutions."""
     every = row.all_revolutions
     width = every.certain_to_rad_s - every.certain_from_rad_s if row.note else row.last_revolution.width_above_yield_rad_s
     return row.peak.peak_speed_rad_s, 0.0 if math.isnan(width) else width

@@ -38,4 +38,4 @@ def correlations(input: Any, output: Any, params: Any) -> None:
     for name, words in LEFT.items():
         in_scene = (designs[designs["scene"] == scene] for scene in SCENES)
         rows.append([words, *(f"{spearmanr(of[name], of['length_certain_rad_s']).statistic:.2f}" for of in in_scene)])
-    write_table(["rank correlation with the certain length", *SCENES.values()], rows, output.table)
+    write_table(["rank correlation with the length", *SCENES.values()], rows, output.table)

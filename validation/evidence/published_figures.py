@@ -127,7 +127,9 @@ def draw_revolution(stress: np.ndarray, speed: float) -> Figure:
     axes.plot(share, 1e-9 * stress, "-", label=f"{FINE} instants")
     step = FINE // COARSE
     axes.plot(share[::step], 1e-9 * stress[::step], "o", markersize=3, label=f"{COARSE} instants")
-    axes.set(xlabel="share of the last revolution", ylabel="largest von Mises (GPa)", title=f"{speed:g} rad/s, lined")
+    axes.set(
+        xlabel="share of the last revolution", ylabel="largest von Mises (GPa)", title=f"{speed:g} rad/s, abradable lining"
+    )
     figure.legend(*axes.get_legend_handles_labels(), loc="outside right upper")
     return figure
 

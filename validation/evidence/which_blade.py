@@ -194,7 +194,7 @@ def bars(input: Any, output: Any, params: Any) -> None:
 
 
 def chances(input: Any, output: Any, params: Any) -> None:
-    """Range of the certain length over the members, and the chance to be better than the next blade. Input: ranking."""
+    """Range of the length over the members, and the chance to be better than the next blade. Input: ranking."""
     table = read_ranking(input.ranking).query("scene == 'direct'").sort_values("rank").set_index("blade")
     rows = []
     for blade, after in zip(table.index, [*table.index[1:], None], strict=True):
