@@ -10,13 +10,12 @@ from yaml import safe_dump, safe_load
 
 from r37core.config import command_line_document
 from r37core.product.reading import read_settings
-from r37core.text_file import part_of
 from r37core.yaml_file import load_yaml
 
 
 def section(page, name):
     """What stands between a page's markers."""
-    return part_of(page, name)
+    return re.search(rf"<!-- {name} -->\n(.*?)<!-- end -->", page, re.DOTALL)[1]
 
 
 @pytest.fixture(scope="module")

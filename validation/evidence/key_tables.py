@@ -15,11 +15,11 @@ from r37core.config.speed_section import UNITS
 from r37core.io import write_text
 from r37core.product.schemas import MODELS
 from r37core.results.glossary import INTERACTIONS, RANKING, Word
-from r37core.text_file import with_part
 from r37core.units import SUFFIXES
 
 from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
 from .keys_again import Shown, ShownModels
+from .pages import with_part
 
 UNIT_OF_SUFFIX = {
     "_m": "m",

@@ -9,11 +9,18 @@ from pathlib import Path
 from typing import Any
 
 from r37core.io import as_list, atomic_write, write_text
-from r37core.text_file import with_part
 
 _MARKER = re.compile(r"^<!-- table (\w+) -->$", re.MULTILINE)
 _LINK = re.compile(r"(?<=/)validation/tables/\w+\.csv|(?<=\()validation/tables/\w+\.csv")
 _PICTURE = re.compile(r"!\[[^\]]*\]\(([\w/]+\.png)\)")
+
+
+def with_part(text: str, name: str, part: str) -> str:
+    """The text with another part between <!-- name --> and <!-- end -->; ValueError where these markers are missing."""
+    markers = re.search(rf"(<!-- {re.escape(name)} -->\n).*?<!-- end -->", text, re.DOTALL)
+    if markers is None:
+        raise ValueError(f"there is no part between <!-- {name} --> and <!-- end -->")
+    return f"{text[: markers.start()]}{markers[1]}{part.rstrip()}\n<!-- end -->{text[markers.end() :]}"
 
 
 def write_table(head: Sequence[str], rows: Iterable[Sequence[str]], file: Path | str) -> None:

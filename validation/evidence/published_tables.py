@@ -134,9 +134,9 @@ def choices(input: Any, output: Any, params: Any) -> None:
 
 def choices_runs() -> dict[str, Runs]:
     """Runs of every choice in words, the first as shipped: the same speeds of the run with all of them."""
-    words = CHOICES | INSIDE
+    words, standard = CHOICES | INSIDE, runs_of("standard")
     shipped = in_windows(swept(source("standard").responses), narrow, 4.0)
-    shipped = {window: with_history(run, runs_of("standard").get(window)) for window, run in shipped.items()}
+    shipped = {window: with_history(run, standard.get(window)) for window, run in shipped.items()}
     return {"as shipped": shipped} | {words[name.removeprefix("choice_")]: runs_of(name) for name in ALL_CHOICES}
 
 

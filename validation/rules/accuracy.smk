@@ -100,12 +100,12 @@ use rule evidence as accuracy_picture with:
 # what adaptive speeds find, replayed in the runs of every speed
 use rule evidence as adaptive_speeds with:
     input:
-        campbell="results/runs/campaign/campbell.nc",
-        files=[
-            f"results/runs/campaign/{blade}/{scene}/response.nc"
-            for blade in BLADES
-            for scene in ("abradable", "direct")
-        ],
+        unpack(
+            behind_engine(
+                *responses("results/runs/campaign", "abradable", "direct"),
+                campbell="results/runs/campaign/campbell.nc",
+            )
+        ),
     output:
         table=f"{TABLES}/adaptive_speeds.csv",
         blades=f"{TABLES}/adaptive_speeds_blades.csv",

@@ -5,7 +5,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 CHECKOUT = Path(__file__).parents[2]
-sys.path[:0] = [str(CHECKOUT / name) for name in ("tests", "", "validation", "validation/benchmarks")]
+sys.path[:0] = [str(CHECKOUT / name) for name in ("tests", "", "validation")]
 
 # tests/conftest.py under a name of its own: this file is called conftest, too
 _spec = spec_from_file_location("conftest_of_the_product", CHECKOUT / "tests/conftest.py")
