@@ -317,8 +317,8 @@ def test_the_benchmark_has_points_and_every_other_blade_patches(with_blades):
     assert found == dict.fromkeys(("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100"), "points") | own
     assert set(chosen(with_blades, structure={"boundary": {"contact": "area_patches"}}).values()) == {"area_patches"}
     settings = read_settings(with_blades)
-    on_points = read_settings(with_blades, command_line_document({"structure": {"boundary": {"contact": "points"}}}))
-    assert structure_hash(settings, "Mine") != structure_hash(on_points, "Mine")
+    point_contact = read_settings(with_blades, command_line_document({"structure": {"boundary": {"contact": "points"}}}))
+    assert structure_hash(settings, "Mine") != structure_hash(point_contact, "Mine")
 
 
 def test_direct_contact_on_points_is_told_at_the_end(with_blades):

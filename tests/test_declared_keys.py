@@ -6,7 +6,7 @@ from typing import Annotated
 import pytest
 from pydantic import Field
 
-from r37core.config import ConfigError, Document, in_si
+from r37core.config import ConfigError, Document, si_form
 from r37core.config.declaring import DECLARED, declared_by
 from r37core.config.section import Section
 from r37core.declared import Key, declared_keys
@@ -75,9 +75,9 @@ def test_and_what_a_message_says(change, message):
 
 
 def test_and_the_section_becomes_the_dataclass_again():
-    assert in_si(Seal, SealSection(clearance_m=1e-3)) == Seal(1e-3, teeth=5)
+    assert si_form(Seal, SealSection(clearance_m=1e-3)) == Seal(1e-3, teeth=5)
     given = SealSection(clearance_m=1e-3, slope_deg=90 / 2, face="brush", speed_rpm=30.0, stiffness_n_m2=2.0, swirl=[1.0, 2.0])
-    seal = in_si(Seal, given, teeth=7)
+    seal = si_form(Seal, given, teeth=7)
     assert (seal.teeth, seal.brushed, seal.stiffness, seal.swirl) == (7, True, 2.0, (1.0, 2.0))
     assert (seal.slope, seal.speed) == (pytest.approx(0.7853981633974483), pytest.approx(3.141592653589793))
 

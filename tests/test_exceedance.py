@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 
 from r37core.figures.ranking_bars import draw_ranking
-from r37core.results.contact_ranges import with_ranges_above_yield
+from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from r37core.results.interactions import InteractionChoice, find_interactions
 from r37core.results.ranking import ROBUSTNESS, as_scatter_bears, chance_to_be_better, ranking_table, robustness
@@ -189,7 +189,7 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     shares = drawn(rising(speeds), speeds)
     shares[20], last = 0.09, 1e9 * (0.5 + shares)
     last[40] = 1.1e9
-    rows = with_ranges_above_yield(response(speeds, shares, np.ones(len(speeds)), last=last), [])
+    rows = rows_above_yield(response(speeds, shares, np.ones(len(speeds)), last=last), [])
     shown = [row.all_revolutions for row in rows]
     for speed in speeds[(shares > POSSIBLE) | (last > 1e9)]:
         assert any(every.possible_from_rad_s <= speed <= every.possible_to_rad_s for every in shown), speed
@@ -202,7 +202,7 @@ def test_the_fall_of_a_branch_and_its_scatter():
     speeds = np.arange(1000.0, 1101.0, 2.0)
     motion = np.where(speeds <= 1050.0, speeds / 1050.0, 0.3)
     motion[speeds == 1054.0] = 0.9
-    (row,) = with_ranges_above_yield(response(speeds, np.where(speeds < 1060.0, 1.0, 0.0), motion), [])
+    (row,) = rows_above_yield(response(speeds, np.where(speeds < 1060.0, 1.0, 0.0), motion), [])
     assert (row.peak_motion.fall_speed_rad_s, row.peak_motion.fall_speed_scatter_rad_s) == (1053.0, 3.0)
     assert 0.0 < row.peak_motion.peak_motion_scatter_m < 0.3
 
@@ -212,7 +212,7 @@ def test_the_motion_falls_where_it_stays_down():
     speeds = np.arange(1000.0, 1101.0, 2.0)
     down = np.where(speeds <= 1050.0, 1.0 + 1e-3 * speeds, 0.3)
     for loud, fall in ((), (1051.0, 1.0)), ((1076.0,), (1064.0, 14.0)), ((1078.0,), (1051.0, 1.0)):
-        (row,) = with_ranges_above_yield(
+        (row,) = rows_above_yield(
             response(speeds, np.where(speeds < 1060.0, 1.0, 0.0), np.where(np.isin(speeds, loud), 1.5, down)), []
         )
         assert (row.peak_motion.fall_speed_rad_s, row.peak_motion.fall_speed_scatter_rad_s) == fall
@@ -226,17 +226,17 @@ def test_the_scatter_of_a_peak_is_of_the_five_nearest_speeds_or_of_those_within_
         speeds, level = 1000.0 + scale * np.cumsum(steps), random.uniform(1.0, 2.0, 16)
         level[8] = 3.0
         one = response(speeds, np.arange(16) == 8, level / np.sqrt(2.0), lined=1)
-        (row,) = with_ranges_above_yield(one, [])
+        (row,) = rows_above_yield(one, [])
         off = [abs(level[i] - np.interp(speeds[i], speeds[[i - 1, i + 1]], level[[i - 1, i + 1]])) for i in range(1, 15)]
         away = np.abs(speeds[1:-1] - speeds[8])
         nearest = np.argsort(away)[: within or np.count_nonzero(away <= 10.0)]
         assert len(nearest) >= 5
         expected = 1.4826 * np.median(np.array(off)[nearest]) / np.sqrt(1.5)
         assert row.peak_motion.peak_motion_scatter_m == pytest.approx(expected)
-    (few,) = with_ranges_above_yield(response(speeds[:3], np.ones(3), np.array([1.0, 2.0, 4.0]) / np.sqrt(2.0)), [])
+    (few,) = rows_above_yield(response(speeds[:3], np.ones(3), np.array([1.0, 2.0, 4.0]) / np.sqrt(2.0)), [])
     share = (speeds[1] - speeds[0]) / (speeds[2] - speeds[0])
     assert few.peak_motion.peak_motion_scatter_m == pytest.approx(1.4826 / np.sqrt(1.5) * abs(1.0 - 3.0 * share))
-    (two,) = with_ranges_above_yield(response(speeds[:2], np.ones(2), np.ones(2)), [])
+    (two,) = rows_above_yield(response(speeds[:2], np.ones(2), np.ones(2)), [])
     assert np.isnan(two.peak_motion.peak_motion_scatter_m)
 
 
@@ -247,16 +247,14 @@ def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_pe
     shares = np.where(np.abs(speeds - 1020.0) <= 6.0, 1.0, np.where(np.abs(speeds - 1080.0) <= 6.0, 1.0, 0.0))
     aside = np.roll(normal, 1)
     for tangential, direction in ((normal, "both"), (0.1 * aside, "normal")):
-        rows = with_ranges_above_yield(response(speeds, shares, normal, tangential=tangential), [])
+        rows = rows_above_yield(response(speeds, shares, normal, tangential=tangential), [])
         assert [row.peak.peak_speed_rad_s for row in rows] == [1020.0, 1080.0]
         assert [row.crossing.direction for row in rows] == [direction, direction]
-    (row, _) = with_ranges_above_yield(response(speeds, shares, 0.1 * aside, tangential=normal), [])
+    (row, _) = rows_above_yield(response(speeds, shares, 0.1 * aside, tangential=normal), [])
     assert row.crossing.direction == "tangential"
     # neither direction has its own peak where both together have theirs
     to_and_fro = [1e-3 * np.exp(-(((speeds - peak) / 4.0) ** 2)) for peak in (1018.0, 1022.0)]
-    (row,) = with_ranges_above_yield(
-        response(speeds, np.abs(speeds - 1020.0) <= 6.0, to_and_fro[0], tangential=to_and_fro[1]), []
-    )
+    (row,) = rows_above_yield(response(speeds, np.abs(speeds - 1020.0) <= 6.0, to_and_fro[0], tangential=to_and_fro[1]), [])
     assert (row.peak.peak_speed_rad_s, row.crossing.direction) == (1020.0, "both")
     below = find_interactions(response(speeds, np.zeros(len(speeds)), normal), None, CHOICE)
     assert [row.peak.peak_speed_rad_s for row in below] == [1020.0, 1080.0]

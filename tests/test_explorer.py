@@ -14,7 +14,7 @@ from overlays import overlay
 from plans_of_snakemake import planned
 from workflow_runs import copy_project
 
-from r37core.explorer import FOLDER, with_programs, write_page
+from r37core.explorer import FOLDER, page_parts, write_page
 from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
 from r37core.results.table_file import read_table
 from r37core.rotors.extension import EXTENSION
@@ -469,7 +469,7 @@ def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
 def test_rotors_have_panels_in_their_scenes(page, datasets, interactions, rotors, tmp_path):
     assert page.locator("#rotor_map").count() == 0
     contents = explorer_contents(datasets, interactions) | {"panels": {"rotors": rotor_contents(rotors)}}
-    place, parts = "#blade=Ref&scene=abradable&speed=900", with_programs([FOLDER.parent / EXTENSION.panel.program])
+    place, parts = "#blade=Ref&scene=abradable&speed=900", page_parts([FOLDER.parent / EXTENSION.panel.program])
     with beside(page, contents, tmp_path / "explorer.html", place=place, parts=parts) as other:
         panels = [f"#rotor_{name}" for name in ("map", "leader", "growth", "waves")]
         assert all(map(other.is_visible, panels))

@@ -20,7 +20,7 @@ from defaults import MatricesSource, Orientation
 
 from r37core.exchange.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
 from r37core.exchange.importing import matrix_file
-from r37core.exchange.importing.matrices_in import import_matrices, in_words
+from r37core.exchange.importing.matrices_in import import_matrices, wording
 from r37core.exchange.importing.matrix_file import read_matrix
 from r37core.exchange.importing.source import matrix_files
 from r37core.exchange.refusal import ImportRefused, MeshWarning
@@ -246,7 +246,7 @@ def test_the_first_frequency_shows_a_wrong_unit(model, choice, tmp_path, factor,
     if outcome == "said":
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            assert re.match(said, in_words(import_matrices(source, choice)))
+            assert re.match(said, wording(import_matrices(source, choice)))
     elif outcome == "warned":
         with pytest.warns(MeshWarning, match=rf"{said}, with a tip of 56\.1 mm; .* look at mass_unit"):
             import_matrices(source, choice)

@@ -84,7 +84,7 @@ def test_rigid_motions_have_no_energy(mesh, matrices):
 def test_one_element_has_six_motions_without_energy(element):
     points = element.nodes @ np.array([[1.0, 0.2, 0.1], [0.0, 0.9, 0.3], [0.1, 0.0, 1.2]])
     blocks = {element.name: np.arange(len(points))[None]}
-    pattern = NodePattern.of(blocks, len(points))
+    pattern = NodePattern.build(blocks, len(points))
     stiffness = assemble_stiffness(pattern, blocks, points, MATERIAL)
     values = np.linalg.eigvalsh(block_matrix(pattern.indptr, pattern.indices, stiffness).toarray())
     assert np.abs(values[:6]).max() < 1e-10 * values[-1]
@@ -213,7 +213,7 @@ def test_coriolis_is_skew_and_does_no_work(matrices):
 
 def test_pattern_sums_shared_nodes():
     elements = np.array([range(15), [0, 1, 2, *range(15, 27)]])
-    pattern = NodePattern.of({"wedge15": elements}, 27)
+    pattern = NodePattern.build({"wedge15": elements}, 27)
     sums = pattern.scatter("wedge15", np.ones((2, 15, 15)))
     matrix = block_matrix(pattern.indptr, pattern.indices, sums[:, None, None] * np.eye(3))
     assert matrix[0, 0] == 2.0

@@ -201,7 +201,7 @@ def test_thirty_names_of_sets_are_shown():
         sets = {f"s{i:02}": np.arange(3) for i in range(number)}
         mesh = SimpleNamespace(sets=sets, points=np.zeros((5, 3)))
         with pytest.raises(ImportRefused) as refused:
-            source._of_set("root", "none", mesh)
+            source._set_members("root", "none", mesh)
         assert str(refused.value).endswith(f"s29 (3 nodes){more}")
 
 

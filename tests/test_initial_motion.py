@@ -29,7 +29,7 @@ def choice(integrator, step=2e-7, revolutions=1, engine="compiled", **others):
 
 
 def motion(displacement=None, velocity=None):
-    return InitialMotion.from_arrays(displacement, velocity)
+    return InitialMotion.read_motion(displacement, velocity)
 
 
 def times(problem, count):
@@ -208,8 +208,8 @@ def test_energy_balance_has_the_energy_of_the_start(model, contact, scene, integ
     assert run["initial_energy"] == pytest.approx(0.5 * mass_norm, rel=1e-3)
     assert run["energy_change"] < 0.0
     assert abs(run["energy_residual"]) < 1e-9 * run["initial_energy"]
-    at_rest = run_speed(contact, speed, growing, choice(integrator, 2e-7, 3), ("energy",), **KEPT)
-    assert at_rest["share_of_time_in_contact"] == 0.0 and "initial_energy" not in at_rest
+    rest_state = run_speed(contact, speed, growing, choice(integrator, 2e-7, 3), ("energy",), **KEPT)
+    assert rest_state["share_of_time_in_contact"] == 0.0 and "initial_energy" not in rest_state
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)

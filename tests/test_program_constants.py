@@ -4,7 +4,7 @@ import numba
 import pytest
 
 from r37core.lanes import OPTIONS, inlined
-from r37core.program_constants import with_constants
+from r37core.program_constants import specialised
 from r37core.time_integration.compiled import steps
 from r37core.time_integration.compiled.layout import Kind
 
@@ -32,7 +32,7 @@ def measured(number):
 
 
 def program(wide, deep):
-    inner = with_constants(measured, {"WIDE": wide, "DEEP": deep})
+    inner = specialised(measured, {"WIDE": wide, "DEEP": deep})
 
     @numba.njit(**OPTIONS)
     def of(number):
@@ -58,14 +58,14 @@ def test_an_error_names_file_and_line_of_the_source():
 def test_choices_share_what_does_not_tell_them_apart():
     """`width` does not use DEEP, `measured` does, `doubled` none of them."""
     shallow, deep = ({"WIDE": False, "DEEP": value} for value in (False, True))
-    assert with_constants(width, shallow) is with_constants(width, deep)
-    assert with_constants(measured, shallow) is not with_constants(measured, deep)
-    assert with_constants(measured, shallow) is with_constants(measured, dict(shallow))
-    assert with_constants(doubled, deep) is doubled
+    assert specialised(width, shallow) is specialised(width, deep)
+    assert specialised(measured, shallow) is not specialised(measured, deep)
+    assert specialised(measured, shallow) is specialised(measured, dict(shallow))
+    assert specialised(doubled, deep) is doubled
 
 
 def test_the_module_keeps_its_own_values():
-    with_constants(measured, {"WIDE": False, "DEEP": True})
+    specialised(measured, {"WIDE": False, "DEEP": True})
     assert DEEP is False
     assert measured.py_func.__globals__["DEEP"] is False
 
@@ -75,4 +75,4 @@ def test_the_steps_know_every_constant_of_a_kind_by_its_name():
     constants = Kind(True, True, True, False).constants
     for name in constants:
         other = constants | {name: not constants[name]}
-        assert with_constants(steps.meet, constants) is not with_constants(steps.meet, other), name
+        assert specialised(steps.meet, constants) is not specialised(steps.meet, other), name

@@ -185,7 +185,7 @@ def test_rpm_taken_for_rad_s_are_told(finished, monkeypatch):
 @pytest.mark.parametrize(
     ("call", "stage"),
     [
-        (lambda blade: r37.campbell(blade), "r37.simulations.in_parallel"),
+        (lambda blade: r37.campbell(blade), "r37.simulations.parallel_results"),
         (lambda blade: r37.sweep(blade, "abradable", [1150]), "r37.simulations.Calculation"),
         (
             lambda blade: r37.run_up(blade, "abradable", from_rad_s=1100, to_rad_s=1150, revolutions=4),

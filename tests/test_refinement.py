@@ -37,7 +37,7 @@ def test_a_range_has_its_coarse_speeds_and_its_end():
     assert len(plan.every_speed()) == 68
     assert from_plain(SpeedPlan, to_plain(plan)) == plan
     assert plan_speeds([{"start": 900, "stop": 1000, "refine_to": 1}], 8.0).refined[0].coarse == 8
-    assert PLAN.at_most(0.2) == 250
+    assert PLAN.speed_count(0.2) == 250
 
 
 def test_names_of_speeds_are_exact():
@@ -52,7 +52,7 @@ def test_names_of_speeds_are_exact():
 def test_a_number_inside_a_range_is_no_repetition():
     plan = plan_speeds([{"start": 900, "stop": 1000, "step": 20, "refine_to": 1}, 920, 933, 933.5], 8.0)
     assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)
-    assert plan.at_most(0.2) == 20 + 2
+    assert plan.speed_count(0.2) == 20 + 2
 
 
 @pytest.mark.parametrize(

@@ -31,12 +31,12 @@ def numbers(content, path=()):
         yield from numbers(value, (*path, key))
 
 
-def with_value(content, path, value):
+def changed_content(content, path, value):
     if not path:
         return value
     step, *rest = path
     changed = list(content) if isinstance(content, list) else dict(content)
-    changed[step] = with_value(content[step], rest, value)
+    changed[step] = changed_content(content[step], rest, value)
     return changed
 
 
@@ -50,7 +50,7 @@ def test_no_number_may_be_anything_else(root, name, value):
     content = load_yaml(root / f"config/{name}.yaml")
     for path in numbers(content):
         with pytest.raises(ConfigError, match=r"^a\.yaml: .*: (found|at least)"):
-            Document("a.yaml", with_value(content, path, value)).check(MODELS[name])
+            Document("a.yaml", changed_content(content, path, value)).check(MODELS[name])
 
 
 @pytest.mark.parametrize("name", MODELS)

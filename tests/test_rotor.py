@@ -11,7 +11,7 @@ from r37core.contact.ring import RingMode
 from r37core.contact.scene import Rotor
 from r37core.time_integration import integration_choice
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
-from r37core.time_integration.rotor_blades import blade_problems, mistuned, on_steps
+from r37core.time_integration.rotor_blades import blade_problems, mistuned, nearest_step_angle
 from r37core.time_integration.rotor_simulation import BladesSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
@@ -360,7 +360,7 @@ def test_blades_that_go_on_together_meet_bars_at_the_same_places():
         run(rotor_of(3, angles), choice=replace(choice, engine=engine))[2] for engine in ("compiled", "reference")
     )
     assert together.worn.sum() == pytest.approx(passed.worn.sum(), rel=0.02)
-    assert on_steps(0.1234, 1000) == pytest.approx(20 * 2.0 * np.pi / 1000)
+    assert nearest_step_angle(0.1234, 1000) == pytest.approx(20 * 2.0 * np.pi / 1000)
     elastic = replace(STEEP, casing=replace(STEEP.casing, ring=(RingMode(3, 3500.0, 0.7, 0.01),)))
     problems = blade_problems(a_blade(), SPEED, elastic, rotor_of(3, angles), choice)
     steps = (problems[1].casing.tip.theta - problems[0].casing.tip.theta) / (

@@ -26,7 +26,7 @@ from r37core.stress.operator import StressOperator
 from r37core.time_integration.kept_numbers import KEPT as KEPT_DIRECTIONS
 from r37core.time_integration.kept_numbers import amplitudes
 from r37core.time_integration.rotor_blades import mistuned
-from r37core.time_integration.rotor_numbers import MOST_GROWTH, in_spans, nodal_diameters
+from r37core.time_integration.rotor_numbers import MOST_GROWTH, nodal_diameters, span_maxima
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 
@@ -52,11 +52,11 @@ def test_a_wave_of_nodal_diameters_is_found():
 
 def test_growth_is_kept_in_spans_of_revolutions():
     values = np.arange(2.0 * (2 * MOST_GROWTH + 1)).reshape(2, -1)
-    spans, span = in_spans(values)
+    spans, span = span_maxima(values)
     assert span == 3 and spans.shape == (2, 134) and spans.dtype == np.float32
     np.testing.assert_array_equal(spans[:, [0, 1, -2, -1]], [[2, 5, 398, 400], [403, 406, 799, 801]])
     for revolutions, length in ((1, 1), (MOST_GROWTH, 1), (MOST_GROWTH + 1, 2), (20000, 100)):
-        spans, span = in_spans(np.zeros((1, revolutions)))
+        spans, span = span_maxima(np.zeros((1, revolutions)))
         assert span == length and spans.shape[-1] == -(-revolutions // length) <= MOST_GROWTH
 
 
@@ -387,7 +387,7 @@ def test_a_rotor_has_a_dataset_a_table_and_figures_where_there_is_one(root):
     assert rotor_runs(sweep) == [("Ref", "abradable"), ("S100", "abradable")]
     assert joined_dataset(sweep) == {"<results>/rotor.nc": [{}]}
     figures = {
-        f"<results>/figures/rotor_{{blade}}__{{scene}}.{suffix}": paths.of_runs(rotor_runs(sweep)) for suffix in ("png", "pdf")
+        f"<results>/figures/rotor_{{blade}}__{{scene}}.{suffix}": paths.run_keys(rotor_runs(sweep)) for suffix in ("png", "pdf")
     }
     assert targets(sweep) == {"<results>/rotor.nc": [{}], "<results>/rotors.csv": [{}]} | figures
     (remark,) = remarks(sweep.settings)

@@ -78,7 +78,7 @@ def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
 
 def test_the_reference_slides_with_the_speed_of_each_segment(contact):
     problem = Simulation(contact, 1600.0, NARROW, replace(LONG, engine="reference")).problem
-    engine = Simulation.of_problem(problem, np.array([1590.0, 1610.0])).engine
+    engine = Simulation.build(problem, np.array([1590.0, 1610.0])).engine
     for place, speed in enumerate((1590.0, 1610.0)):
         engine.take(place)
         np.testing.assert_allclose(engine.rotation_velocity, problem.casing.rotation_velocity * speed / 1600.0, rtol=1e-14)
@@ -394,10 +394,12 @@ def test_crossings_that_a_blade_does_not_have():
         RunUpError,
         match=r"config\.yaml: run_ups\.up: found a run-up about 1B and engine order 3, which do not cross up to 2000 rad/s",
     ):
-        choice.of_blade(496, campbell, "up")
+        choice.blade_run_up(496, campbell, "up")
     with pytest.raises(RunUpError, match=r"found 2052 rad/s; allowed: up to structure\.maximum_speed_rad_s, 2000"):
-        replace(choice, crossing=Crossing("1B", 4)).of_blade(496, campbell, "up")
-    assert replace(choice, stop=0.05, crossing=Crossing("1B", 4)).of_blade(496, campbell, "up").stop == pytest.approx(1995.0)
+        replace(choice, crossing=Crossing("1B", 4)).blade_run_up(496, campbell, "up")
+    assert replace(choice, stop=0.05, crossing=Crossing("1B", 4)).blade_run_up(496, campbell, "up").stop == pytest.approx(
+        1995.0
+    )
 
 
 def test_files_that_are_no_run_ups_are_named(contact, tmp_path):

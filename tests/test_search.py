@@ -26,7 +26,7 @@ from r37core.search.gaussian_processes import SearchPackageMissing
 from r37core.search.plan import Search, choice_of, designs_of, is_asked
 from r37core.search.problem import Constraint, Design, SearchChoice, SearchVariable
 from r37core.search.proposal import first_designs
-from r37core.search.quantity import DesignStructure, Quantity, of_contact, of_structure
+from r37core.search.quantity import DesignStructure, Quantity, contact_value, structure_value
 from r37core.search.rounds import SearchRound, first_round, read_round, round_after, tried_after, write_round
 from r37core.search.steps import shape
 
@@ -266,7 +266,7 @@ def structure():
     ],
 )
 def test_quantities_of_a_structure(quantity, expected):
-    assert of_structure(quantity, structure(), 1000.0) == pytest.approx(abs(expected))
+    assert structure_value(quantity, structure(), 1000.0) == pytest.approx(abs(expected))
 
 
 def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
@@ -275,11 +275,11 @@ def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
         "b": {"length_certain_rad_s": 5.0, "length_certain_scatter_rad_s": 0.05},
     }
     members = {"a": [{"length_certain_rad_s": float(value)} for value in range(11)], "b": [{"length_certain_rad_s": 7.0}] * 4}
-    assert of_contact(Quantity("length_certain_rad_s", ("a", "b")), nominal, {}) == (5.0, 0.05)
-    value, scatter = of_contact(Quantity("length_certain_rad_s", ("a", "b"), quantile=0.9), nominal, members)
+    assert contact_value(Quantity("length_certain_rad_s", ("a", "b")), nominal, {}) == (5.0, 0.05)
+    value, scatter = contact_value(Quantity("length_certain_rad_s", ("a", "b"), quantile=0.9), nominal, members)
     assert value == pytest.approx(9.0) and 0.2 < scatter < 3.0
-    assert of_contact(Quantity("length_certain_rad_s", ("b",), quantile=0.5), nominal, members) == (7.0, 0.0)
-    value, scatter = of_contact(Quantity("largest_rms_m", ("a",)), {"a": {"largest_rms_m": 2.0, "diverged_runs": 0.0}}, {})
+    assert contact_value(Quantity("length_certain_rad_s", ("b",), quantile=0.5), nominal, members) == (7.0, 0.0)
+    value, scatter = contact_value(Quantity("largest_rms_m", ("a",)), {"a": {"largest_rms_m": 2.0, "diverged_runs": 0.0}}, {})
     assert value == 2.0 and np.isnan(scatter)
 
 
@@ -287,11 +287,11 @@ def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
 def test_a_design_is_not_better_for_runs_that_diverged(measure):
     """They have neither motion nor stress."""
     ended, diverged = ({measure: 2.0, "diverged_runs": float(number)} for number in (0, 1))
-    value, scatter = of_contact(Quantity(measure, ("a", "b")), {"a": ended, "b": diverged}, {})
+    value, scatter = contact_value(Quantity(measure, ("a", "b")), {"a": ended, "b": diverged}, {})
     assert value == np.inf and np.isnan(scatter)
     members = {"a": [ended] * 8 + [diverged] * 2}
     for quantile, expected in ((0.5, 2.0), (0.9, np.inf)):
-        value, scatter = of_contact(Quantity(measure, ("a",), quantile=quantile), {}, members)
+        value, scatter = contact_value(Quantity(measure, ("a",), quantile=quantile), {}, members)
         assert value == expected and np.isnan(scatter)
 
 

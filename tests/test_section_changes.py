@@ -166,14 +166,14 @@ def test_a_change_and_its_opposite_give_the_profile_again(profiles):
 
 def test_laws_over_the_span():
     spans = np.array([0.0, 0.3, 0.5, 1.0])
-    np.testing.assert_array_equal(SpanLaw.constant(0.7).at(spans), 0.7)
-    np.testing.assert_allclose(SpanLaw.linear(1.0, 3.0).at(spans), 1.0 + 2.0 * spans)
-    assert SpanLaw.linear(0.0, 2.0).at([0.5]) == [1.0]
+    np.testing.assert_array_equal(SpanLaw.constant(0.7).evaluate(spans), 0.7)
+    np.testing.assert_allclose(SpanLaw.linear(1.0, 3.0).evaluate(spans), 1.0 + 2.0 * spans)
+    assert SpanLaw.linear(0.0, 2.0).evaluate([0.5]) == [1.0]
     cubic = SpanLaw((0.0, 0.3, 0.5, 1.0), tuple(spans**3))
-    np.testing.assert_allclose(cubic.at([0.7]), [0.7**3])
+    np.testing.assert_allclose(cubic.evaluate([0.7]), [0.7**3])
     stations, values = (0.0, 0.2, 0.5, 0.7, 1.0), (0.0, 1.0, 0.0, 1.0, 0.0)
-    np.testing.assert_allclose(SpanLaw(stations, values).at(spans), CubicSpline(stations, values)(spans), atol=1e-12)
-    np.testing.assert_array_equal(SpanLaw((0.0, 0.3, 1.0), (1.1, 1.1, 1.1)).at(spans), 1.1)
+    np.testing.assert_allclose(SpanLaw(stations, values).evaluate(spans), CubicSpline(stations, values)(spans), atol=1e-12)
+    np.testing.assert_array_equal(SpanLaw((0.0, 0.3, 1.0), (1.1, 1.1, 1.1)).evaluate(spans), 1.1)
 
 
 def test_an_impossible_profile_names_its_changes(profiles):

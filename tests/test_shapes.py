@@ -91,7 +91,7 @@ def test_a_file_has_what_was_written(surface, tmp_path):
     linear = np.where(surface.colours <= 0.04045, surface.colours / 12.92, ((surface.colours + 0.055) / 1.055) ** 2.4)
     np.testing.assert_allclose(colour[:, :3], linear, atol=1e-5)
     assert content["asset"]["extras"] == {"unit": "Pa"}
-    assert content["meshes"][0]["weights"] == surface.at_rest.tolist()
+    assert content["meshes"][0]["weights"] == surface.rest_weights.tolist()
     sampler = content["animations"][0]["samplers"][0]
     np.testing.assert_allclose(accessor(content, binary, sampler["output"]).reshape(-1, 2), surface.weights, atol=1e-7)
 

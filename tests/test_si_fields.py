@@ -8,7 +8,7 @@ import pytest
 
 from r37core.config import si_fields
 from r37core.config.casing_section import CasingSection
-from r37core.config.declaring import in_si
+from r37core.config.declaring import si_form
 from r37core.config.section import Section
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
@@ -86,10 +86,10 @@ def test_of_two_units_the_one_that_is_given_counts(rad_s, rpm, speeds):
 
 def test_a_dataclass_takes_its_fields_and_parts_made_otherwise():
     section = CasingSection(clearance_m=1e-3, cone_angle_deg=-90.0 / 2)
-    assert in_si(Casing, section) == Casing(1e-3, 2, 0.15, 2.0, 0.2, -0.25 * math.pi)
-    assert in_si(Casing, section, cone_angle=None).cone_angle is None
+    assert si_form(Casing, section) == Casing(1e-3, 2, 0.15, 2.0, 0.2, -0.25 * math.pi)
+    assert si_form(Casing, section, cone_angle=None).cone_angle is None
     with pytest.raises(TypeError, match="depth"):
-        in_si(Casing, section, depth=1.0)
+        si_form(Casing, section, depth=1.0)
 
 
 def test_words_for_yes_are_among_those_of_their_keys():

@@ -10,7 +10,7 @@ from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import oscillator, with_static_modes
 from scipy.optimize import brentq
 
-from r37core.config.declaring import in_si
+from r37core.config.declaring import si_form
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.style import save
@@ -49,7 +49,7 @@ def test_a_gauge_in_uniaxial_tension(element, side):
 def test_angles_of_gauges_are_given_in_degrees():
     for degrees, radians in ((45.0, np.pi / 4), (-180.0, -np.pi), (90.0, np.pi / 2), (0.0, 0.0)):
         entry = GaugeEntry(chord=0.5, span=0.25, side="suction", angle_deg=degrees)
-        assert in_si(Gauge, entry) == Gauge(0.5, 0.25, "suction", pytest.approx(radians, rel=1e-15))
+        assert si_form(Gauge, entry) == Gauge(0.5, 0.25, "suction", pytest.approx(radians, rel=1e-15))
 
 
 def test_the_sign_of_an_angle():

@@ -380,8 +380,8 @@ def test_contact_model(model, contact, tmp_path):
     # the boundary coordinates are the displacements themselves
     coordinates = np.zeros(model.size)
     coordinates[:3] = [1e-3, 2e-3, 3e-3]
-    at_rest = np.linalg.solve(contact.to_reduced, coordinates)
-    radial, tangential, axial = contact.displacement_operator[:, 0] @ at_rest
+    rest_state = np.linalg.solve(contact.to_reduced, coordinates)
+    radial, tangential, axial = contact.displacement_operator[:, 0] @ rest_state
     theta = contact.theta[0]
     assert radial == pytest.approx(np.cos(theta) * 1e-3 + np.sin(theta) * 2e-3, rel=1e-6)
     assert tangential == pytest.approx(np.cos(theta) * 2e-3 - np.sin(theta) * 1e-3, rel=1e-6)

@@ -23,7 +23,7 @@ from r37core.product.reading import read_settings
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.interactions import COLUMNS, find_interactions
 from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
-from r37core.results.ranges import ENDS, as_ranges_bear, read_ranges, with_ranges
+from r37core.results.ranges import ENDS, as_ranges_bear, ranged_summary, read_ranges
 from r37core.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
@@ -590,7 +590,7 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path):
     rows = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4), (990.0, 0.004, 6))}, InteractionChoice())
     range_table([("NA", "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
     summary = pd.DataFrame([{"blade": blade, "scene": "lined", **one.columns} for blade in ("NA", "L50") for one in nominal])
-    joined = with_ranges(summary.astype({"engine_order": "Int64"}), read_ranges(tmp_path / "tolerances.csv"))
+    joined = ranged_summary(summary.astype({"engine_order": "Int64"}), read_ranges(tmp_path / "tolerances.csv"))
     assert len(joined) == len(summary)
     assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
     assert joined["peak_speed_rad_s_median"].dropna().tolist() == [1710.0]
@@ -638,7 +638,7 @@ def test_a_summary_without_a_nominal_interaction(tmp_path, blade):
     range_table([(blade, "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
     table = read_ranges(tmp_path / "tolerances.csv")
     assert (table["blade"][0], table["share_of_members"][0]) == (blade, 0.5)
-    joined = with_ranges(pd.DataFrame([], columns=list(COLUMNS)), table)
+    joined = ranged_summary(pd.DataFrame([], columns=list(COLUMNS)), table)
     assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
 
 

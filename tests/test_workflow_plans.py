@@ -360,7 +360,7 @@ def test_run_ups_are_planned_like_speeds(root):
     down = of(blade="Ref", scene="direct", run_up="down")
     assert set(planned.inputs(climb)) == {"prepared", "model", "stress"}
     assert planned.inputs(down)["campbell"] == "<results>/Ref/campbell.nc"
-    found = from_plain(RunUpChoice, planned.run_up(climb)).of_blade(496, None, "climb")
+    found = from_plain(RunUpChoice, planned.run_up(climb)).blade_run_up(496, None, "climb")
     assert (found.start, found.stop) == pytest.approx((300.0 * math.pi, 400.0 * math.pi))
     assert found.rate(496) == pytest.approx(10.0 * math.pi)
     assert found.before == planned.choice(climb)["revolutions"] == 200

@@ -9,11 +9,11 @@ def adapt(app, name, source):
     The graph is a diagram of mermaid in the repository, which needs scripts.
     """
     text = re.sub(r"\[`?([^\]`]+)`?\]\(\.\./[^)]+\)", r"`\1`", source[0])
-    text = re.sub(r"\[(\w+)\.md\](?=\(\1\.md)", in_words, text)
+    text = re.sub(r"\[(\w+)\.md\](?=\(\1\.md)", wording, text)
     source[0] = re.sub(r"```mermaid\nflowchart LR\n(.*?)```", lambda found: table(found[1]), text, flags=re.DOTALL)
 
 
-def in_words(found):
+def wording(found):
     """A link with the page's words in place of its file's name; a capital where a sentence begins."""
     words = found[1].replace("_", " ")
     begins = re.search(r"(\A|[.!?]\s+|\n\s*\n|\n\s*- )\Z", found.string[: found.start()])

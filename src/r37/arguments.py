@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from r37core.config import ConfigError
-from r37core.config.messages import on_one_line
+from r37core.config.messages import single_line
 from r37core.io import write_text
 from r37core.speeds import LARGEST_NUMBER
 from r37core.user_cache import kept_for_user, named_folder
@@ -28,7 +28,7 @@ def speed_keys(speeds: Any, speeds_rpm: Any) -> dict[str, list[Any]]:
     if isinstance(several, Mapping):
         several = [several]
     if isinstance(several, str | bytes) or not isinstance(several, Iterable):
-        raise ConfigError(f"{key}: found {on_one_line(repr(several))}; allowed: a list of numbers and ranges, in {unit}")
+        raise ConfigError(f"{key}: found {single_line(repr(several))}; allowed: a list of numbers and ranges, in {unit}")
     entries = finite(several, key)
     return {key: [_range(entry, key, unit) if isinstance(entry, Mapping) else number(entry, key, unit) for entry in entries]}
 
@@ -37,7 +37,7 @@ def speed_key(speed: Any, speed_rpm: Any) -> dict[str, list[Any]]:
     """Key of config.yaml with the one speed of a call; see speed_keys."""
     key, unit, value = _single_unit("speed", speed, speed_rpm)
     if isinstance(value, Iterable) and not isinstance(value, str) and getattr(value, "ndim", True):
-        told = on_one_line(repr(value))
+        told = single_line(repr(value))
         raise ConfigError(f"{key}: found {told}; allowed: one number, in {unit}; several are for r37.sweep")
     return {key.replace("speed", "speeds"): [number(value, key, unit)]}
 
@@ -77,7 +77,7 @@ def sequence_of(value: Any, single: Any, key: str, what: str) -> list[Any]:
     if isinstance(value, single):
         return [value]
     if isinstance(value, bytes) or not isinstance(value, Iterable) or isinstance(value, type):
-        raise ConfigError(f"{key}: found {on_one_line(repr(value))}; allowed: {what}, or a list of them")
+        raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: {what}, or a list of them")
     several = finite(value, key)
     if not several:
         raise ConfigError(f"{key}: found none; allowed: at least one")
@@ -95,7 +95,7 @@ def finite(several: Iterable[Any], key: str) -> list[Any]:
 def mapping(value: Any, key: str, allowed: str) -> dict[str, Any]:
     """What has keys and values, of plain types. Raises ConfigError."""
     if not isinstance(value, Mapping) or not all(isinstance(name, str) for name in value):
-        raise ConfigError(f"{key}: found {on_one_line(repr(value))}; allowed: {allowed}")
+        raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: {allowed}")
     return {name: plain_value(entry) for name, entry in value.items()}
 
 
@@ -103,7 +103,7 @@ def number(value: Any, key: str, unit: str) -> float:
     """A plain number of one that may be NumPy's. Raises ConfigError."""
     plain = plain_value(value)
     if isinstance(plain, bool) or not isinstance(plain, int | float):
-        raise ConfigError(f"{key}: found {on_one_line(repr(plain))}; allowed: numbers, in {unit}")
+        raise ConfigError(f"{key}: found {single_line(repr(plain))}; allowed: numbers, in {unit}")
     return plain
 
 

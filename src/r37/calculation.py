@@ -21,7 +21,7 @@ from r37core.speeds import exact_text
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.speed_job import run_job
 
-from .jobs import in_parallel, run_step
+from .jobs import parallel_results, run_step
 from .stages import LOGGER, simulations_in_words
 from .structure_files import Recipe, recipe
 
@@ -59,7 +59,7 @@ class Calculation:
         files = {key: self.path(of) if isinstance(of, str) else [*map(self.path, of)] for key, of in input.items()}
         outputs = {key: self.path(file) for key, file in output.items()}
         params = stage.values(Named(**vars(self.run), **wildcards), Named(**files))
-        in_parallel([partial(run_step, stage.step, files, outputs, params)], 1)
+        parallel_results([partial(run_step, stage.step, files, outputs, params)], 1)
 
     def models(self) -> None:
         """What simulations start from. Raises what making it raises."""
@@ -103,7 +103,7 @@ class Calculation:
             prepare = sweep_stages(self.sweep, self.made)["prepare_time_integration"]
             self.do(prepare, {"models": self.sweep.models(self.run)}, {})
         LOGGER.info("%s", simulations_in_words(self.settings, self.run.blade, self.run.scene, str(len(speeds))))
-        in_parallel([self._simulation(speed, motion) for speed in speeds], self.cores, "simulations", "run")
+        parallel_results([self._simulation(speed, motion) for speed in speeds], self.cores, "simulations", "run")
 
     def _simulation(self, speed: float, motion: InitialMotion | None) -> Callable[[], None]:
         text = exact_text(speed)
@@ -115,5 +115,5 @@ class Calculation:
 
 def _kept(made: Recipe) -> Path:
     """The file of a recipe, with the numbers that one thread of linear algebra gives."""
-    (file,) = in_parallel([made.file], 1)
+    (file,) = parallel_results([made.file], 1)
     return file

@@ -11,7 +11,7 @@ from typing import Any
 from r37core.config import ConfigError, Document, Settings, command_line_document, read_document
 from r37core.config.config_file import Config
 from r37core.config.cross_checks import history_speeds_are_run
-from r37core.config.messages import on_one_line
+from r37core.config.messages import single_line
 from r37core.config.reading import together
 from r37core.product.extensions import EXTENSIONS
 from r37core.product.reading import CONFIG, READER
@@ -36,7 +36,7 @@ class Configuration:
     document: Document
     root: Path
 
-    def with_changes(self, files: Iterable[Path | str]) -> Configuration:
+    def changed_by(self, files: Iterable[Path | str]) -> Configuration:
         """Configuration with files of changes on top, each on those before it. Raises ConfigError."""
         return replace(self, document=together(self.document, [read_document(Path.cwd(), str(file)) for file in files]))
 
@@ -45,7 +45,7 @@ class Configuration:
         """The content as a model. Raises ConfigError."""
         return self.document.check(CONFIG)
 
-    def with_file(self, key: str, file: Path | str) -> Configuration:
+    def replacing_file(self, key: str, file: Path | str) -> Configuration:
         """Configuration with another file under the key `blades_file` or `scenes_file`; tables of blades lie next to it."""
         path = Path(file).absolute()
         document = self.document.overlaid(command_line_document({key: str(path)}, f"{key[:-5]} file"))
@@ -92,9 +92,9 @@ def read_configuration(file: Path | str | None = None) -> Configuration:
 def existing_file(argument: str, file: Any, allowed: str) -> Path:
     """The file that an argument of a call names. Raises ConfigError where it is none, whatever was handed over."""
     if not isinstance(file, str | os.PathLike):
-        raise ConfigError(f"{argument}: found {on_one_line(repr(file))}; allowed: {allowed}")
+        raise ConfigError(f"{argument}: found {single_line(repr(file))}; allowed: {allowed}")
     if not os.path.isfile(file):
-        raise ConfigError(f"{argument}: found {on_one_line(str(file))}, and there is no such file; allowed: {allowed}")
+        raise ConfigError(f"{argument}: found {single_line(str(file))}, and there is no such file; allowed: {allowed}")
     return Path(file)
 
 

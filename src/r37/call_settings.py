@@ -79,7 +79,7 @@ def chosen_scene(scene: SceneChoice | str, base: Configuration, results: Sequenc
         raise ConfigError(f"results: found {results!r}; allowed: a list of names")
     if isinstance(results, str):
         raise ConfigError(f'results: found "{results}"; allowed: a list, as in results=["{results}"]')
-    chosen = chosen.with_results(None if results is None else finite(results, "results"))
+    chosen = chosen.replacing_results(None if results is None else finite(results, "results"))
     chosen.check()
     return chosen
 

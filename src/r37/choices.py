@@ -12,8 +12,8 @@ from typing import Any, ClassVar
 
 from r37core.config import BladeSettings, ConfigError, Document, SceneEntry, command_line_document, read_document
 from r37core.config.blades import SHARES, Blades, blade_settings
-from r37core.config.families import Designs, with_designs, with_value
-from r37core.config.messages import did_you_mean, on_one_line
+from r37core.config.families import Designs, changed_content, expanded_families
+from r37core.config.messages import did_you_mean, single_line
 from r37core.config.scenes import Scenes
 from r37core.config.section import Without
 from r37core.config.section_laws import SECTION_KEYS
@@ -38,7 +38,7 @@ class Choice:
     def label(self) -> str:
         """Name in figures and attributes: with the changes, unless these have a name."""
         unnamed = {} if self.base else self.changes
-        return ", ".join([self.name, *(on_one_line(f"{key}={plain_value(value)}") for key, value in unnamed.items())])
+        return ", ".join([self.name, *(single_line(f"{key}={plain_value(value)}") for key, value in unnamed.items())])
 
     @property
     def told(self) -> dict[str, str]:
@@ -68,7 +68,7 @@ class Choice:
             raise _unknown(f"changed {self.kind}", original, entries, file.name)
         content: dict[str, Any] = {}
         for key, value in changes.items():
-            content = with_value(content, key.split("."), Without.KEY if value is None else plain_value(value))
+            content = changed_content(content, key.split("."), Without.KEY if value is None else plain_value(value))
         changed = command_line_document({self.name: content}, place)
         if self.base is None:
             return changed
@@ -159,7 +159,7 @@ class SceneChoice(Choice):
         """Raises ConfigError for what the scene cannot be."""
         _ = self.entry
 
-    def with_results(self, results: Sequence[str] | None) -> SceneChoice:
+    def replacing_results(self, results: Sequence[str] | None) -> SceneChoice:
         """Scene with other results, where there are any: results are no change of the scene."""
         return self if results is None else replace(self, results=tuple(results))
 
@@ -342,7 +342,7 @@ def _named(entry: str, name: str | None, changes: Mapping[str, Any], configurati
     """What a choice is made of. Raises ConfigError for what is no name."""
     for key, value in (("name_of_entry", entry), ("name", name)):
         if not isinstance(value, str | None):
-            raise ConfigError(f"{key}: found {on_one_line(repr(value))}; allowed: a name")
+            raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: a name")
     return (entry, changes, configuration) if name is None else (name, changes, configuration, entry)
 
 
@@ -350,11 +350,11 @@ def _configuration(key: str, file: Path | str | None, config: Path | str | None)
     configuration = read_configuration(config)
     if file is None:
         return configuration
-    return configuration.with_file(key, existing_file("file", file, "a file that is there"))
+    return configuration.replacing_file(key, existing_file("file", file, "a file that is there"))
 
 
 def _designs(document: Document, root: Path) -> Designs:
-    return with_designs(document.check(Blades).root, root, document)
+    return expanded_families(document.check(Blades).root, root, document)
 
 
 def _unknown(kind: str, name: str, known: Iterable[str], file: str) -> ConfigError:

@@ -212,13 +212,13 @@ def _check(options: argparse.Namespace) -> None:
     from .call_configuration import read_configuration
 
     first, *changes = options.config or [None]
-    configuration = read_configuration(first).with_changes(changes)
+    configuration = read_configuration(first).changed_by(changes)
     settings = load_settings(configuration.document, configuration.root)
     extent, measured = extent_of(settings, beside(settings)), settings.fidelity.measured
     print(f"blades: {', '.join(settings.blade_names)}")
     print(f"scenes: {', '.join(settings.scene_names)}")
     print(f"level: {settings.fidelity_name}")
-    print(f"simulations: {extent.in_words}")
+    print(f"simulations: {extent.wording}")
     if measured is not None:
         cost = extent.cpu_time(measured.cpu_s_per_run)
         print(f"their CPU time: about {cost} at most, as measured on the reference blade; of yours: snakemake estimate")

@@ -26,7 +26,7 @@ def check_cores(cores: int) -> None:
         raise ConfigError(f"cores: found {cores!r}; allowed: a whole number of at least 1")
 
 
-def in_parallel(calls: Sequence[Callable[[], Result]], cores: int, what: str = "", unit: str = "") -> list[Result]:
+def parallel_results(calls: Sequence[Callable[[], Result]], cores: int, what: str = "", unit: str = "") -> list[Result]:
     """What the calls give, in their order, on so many processes. Raises what one of them raises.
 
     Each has one thread of the linear algebra library, so that the numbers are the workflow's to the last bit. With a `unit`,

@@ -76,14 +76,14 @@ def rotor(
     True
     """
     chosen = chosen_blade(blade, options.get("config"))
-    rubs_on = _with_rotor(scene, base_of([chosen], options.get("config")), rotor, options.get("results"))
+    rubs_on = _rotor_scene(scene, base_of([chosen], options.get("config")), rotor, options.get("results"))
     file = fill(ROTOR_OF_RUN, blade=chosen.name, scene=rubs_on.name)
     keys = speed_keys(speeds, options.get("speeds_rpm"))
     results = run_of("r37.rotor", [chosen], [rubs_on], keys, options, file)
     return results.rotor(chosen.name, rubs_on.name).assign_attrs(chosen.told | rubs_on.told)
 
 
-def _with_rotor(
+def _rotor_scene(
     scene: SceneChoice | str, base: Configuration, rotor: Mapping[str, Any] | None, results: Sequence[str] | None
 ) -> SceneChoice:
     """The scene, with the rotor where one is given. Raises ConfigError."""

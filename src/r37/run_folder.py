@@ -52,8 +52,8 @@ def write_run(call: Call, folder: Path) -> None:
     blades = blades.overlaid(call.blades_above) if call.blades_above else blades
     tables: dict[str, Path] = {}
     files = {
-        "blades": {name: _with_files_here(entry, root, tables) for name, entry in blades.content.items()},
-        "scenes": {name: _with_histories_run(name, entry, call) for name, entry in documents.scenes.content.items()},
+        "blades": {name: _local_entry(entry, root, tables) for name, entry in blades.content.items()},
+        "scenes": {name: _run_histories(name, entry, call) for name, entry in documents.scenes.content.items()},
         "fidelity": documents.levels.content,
     }
     # first, so that a call that was killed here knows its folder again
@@ -67,7 +67,7 @@ def write_run(call: Call, folder: Path) -> None:
         add_workflow(folder)
 
 
-def _with_files_here(entry: Mapping[str, Any], root: Path, tables: dict[str, Path]) -> dict[str, Any]:
+def _local_entry(entry: Mapping[str, Any], root: Path, tables: dict[str, Path]) -> dict[str, Any]:
     """An entry of blades.yaml whose files are found from the folder of the run; `tables` gets those that are copied there."""
     changed = dict(entry)
     for key in (*_TABLES, *_IMPORTED):
@@ -84,7 +84,7 @@ def _with_files_here(entry: Mapping[str, Any], root: Path, tables: dict[str, Pat
     return changed
 
 
-def _with_histories_run(name: str, entry: Mapping[str, Any], call: Call) -> dict[str, Any]:
+def _run_histories(name: str, entry: Mapping[str, Any], call: Call) -> dict[str, Any]:
     """An entry of scenes.yaml with the stress histories of those speeds alone that the call runs."""
     settings, keys = call.settings, ("stress_history_speeds_rad_s", "stress_history_speeds_rpm")
     if not any(key in entry for key in keys):

@@ -106,8 +106,8 @@ def run(
         # what is wanted is a key of each scene
         scenes = scenes_named(base_of(chosen, config))
     rubs_on = [] if scenes is None else scenes_of_run(scenes, chosen, options)
-    on_request = [extension.name for extension in EXTENSIONS if extension.on_request and extension.name in sections]
-    wanted = ["tables", *on_request] if targets is None else targets
+    made_on_request = [extension.name for extension in EXTENSIONS if extension.made_on_request and extension.name in sections]
+    wanted = ["tables", *made_on_request] if targets is None else targets
     return run_of("r37.run", chosen, rubs_on, keys, options, wanted, whole=True)
 
 

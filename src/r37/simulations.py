@@ -21,7 +21,7 @@ from .arguments import Speeds, speed_key, speed_keys
 from .calculation import Calculation
 from .call_settings import Call, OneOptions, call_of_one, remarks_of, tell
 from .choices import BladeChoice, SceneChoice
-from .jobs import check_cores, in_parallel
+from .jobs import check_cores, parallel_results
 from .stages import checked_call
 from .structure_files import recipe
 
@@ -77,7 +77,7 @@ def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: P
     True
     """
     call = call_of_one("r37.campbell", blade, [], {}, {"fidelity": fidelity, "config": config})
-    return _of_structure(call, "campbell_of_blade")
+    return _structure_dataset(call, "campbell_of_blade")
 
 
 @checked_call
@@ -119,7 +119,7 @@ def reduced_model(
     scenes = [] if scene is None else [scene]
     call = call_of_one("r37.reduced_model", blade, scenes, {}, {"fidelity": fidelity, "config": config})
     tip_line = call.settings.scenes[call.scenes[0].name].tip_line if call.scenes else None
-    return _of_structure(call, "reduced_model", tip_line)
+    return _structure_dataset(call, "reduced_model", tip_line)
 
 
 @checked_call
@@ -175,7 +175,7 @@ def simulate(
         # the one speed stands in a list of them
         raise ConfigError(re.sub(r"\bspeeds(_rpm)?\.0\b", r"speed\1", str(error))) from None
     try:
-        motion = InitialMotion.from_arrays(options.get("initial_displacement"), options.get("initial_velocity"))
+        motion = InitialMotion.read_motion(options.get("initial_displacement"), options.get("initial_velocity"))
         response = _response(call, 1, motion)
     except InitialMotionError as error:
         raise ConfigError(str(error)) from None
@@ -222,11 +222,11 @@ def sweep(
     return _response(call_of_one("r37.sweep", blade, [scene], keys, options), cores)
 
 
-def _of_structure(call: Call, stage: str, tip_line: str | None = None) -> xr.Dataset:
+def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> xr.Dataset:
     """A dataset of the structure of the call's one blade."""
     settings, (blade,) = call.settings, call.blades
     tell(remarks_on_materials(settings))
-    (file,) = in_parallel([recipe(settings, blade.name, stage, tip_line).file], 1)
+    (file,) = parallel_results([recipe(settings, blade.name, stage, tip_line).file], 1)
     made = Provenance(settings).structure(Named(blade=blade.name))
     return read_dataset(file).assign_attrs(FILE_ATTRIBUTES | dict(made) | blade.told)
 

@@ -53,7 +53,7 @@ def dataset_of(
     `labels`: of dimensions that are counted by names; `along`: dimensions of all variables, before their own.
     """
 
-    def of(table: Mapping[str, Variable], first: Sequence[str]) -> dict[str, Any]:
+    def described(table: Mapping[str, Variable], first: Sequence[str]) -> dict[str, Any]:
         return {
             name: ((*first, *entry.dims), np.asarray(values[name], entry.dtype), entry.attributes)
             for name, entry in table.items()
@@ -61,8 +61,8 @@ def dataset_of(
         }
 
     speed_rpm = SPEED_RPM.dims, RPM * np.asarray(values["speed"]), SPEED_RPM.attributes
-    speeds = of({"speed": coordinates["speed"]}, ()) | {"speed_rpm": speed_rpm}
-    return xr.Dataset(of(variables, along), {**labels, **speeds, **of(coordinates, ())})
+    speeds = described({"speed": coordinates["speed"]}, ()) | {"speed_rpm": speed_rpm}
+    return xr.Dataset(described(variables, along), {**labels, **speeds, **described(coordinates, ())})
 
 
 def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:

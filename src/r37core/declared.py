@@ -55,11 +55,11 @@ class DeclaredKey:
 
 
 @cache
-def declared_keys(of: type) -> tuple[DeclaredKey, ...]:
+def declared_keys(kind: type) -> tuple[DeclaredKey, ...]:
     """All keys that the fields of a dataclass declare, in their order."""
-    hints = get_type_hints(of, include_extras=True)
+    hints = get_type_hints(kind, include_extras=True)
     declared = []
-    for field in fields(of):
+    for field in fields(kind):
         if get_origin(hints[field.name]) is Annotated:
             kind, *metadata = get_args(hints[field.name])
             keys = [part for part in metadata if isinstance(part, Key)]

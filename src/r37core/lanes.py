@@ -60,7 +60,7 @@ def _shuffle(builder: Any, a: Any, b: Any, numbers: list[int]) -> Any:
     return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(_INTEGER, LANES), numbers))
 
 
-def _in_every_lane(builder: Any, kind: ir.VectorType, number: Any) -> Any:
+def _broadcast(builder: Any, kind: ir.VectorType, number: Any) -> Any:
     single = builder.insert_element(ir.Constant(kind, ir.Undefined), number, _INTEGER(0))
     return _shuffle(builder, single, single, [0] * LANES)
 
@@ -69,10 +69,10 @@ def _spread(context: Any, builder: Any, kind: types.Type, value: Any) -> Any:
     """Lanes as they are, a number in every lane."""
     if kind == _lanes:
         return value
-    return _in_every_lane(builder, _NUMBERS, context.cast(builder, value, kind, types.float64))
+    return _broadcast(builder, _NUMBERS, context.cast(builder, value, kind, types.float64))
 
 
-def _of_lanes(symbol: Callable, result: types.Type, count: int, build: Callable) -> None:
+def _overload(symbol: Callable, result: types.Type, count: int, build: Callable) -> None:
     """Let `symbol` act on `count` arguments, lanes or numbers but not numbers alone, by `build(builder, *lanes)`."""
 
     @type_callable(symbol)
@@ -130,13 +130,13 @@ for _symbols, _build in {
     (operator.truediv,): lambda builder, a, b: builder.fdiv(a, b),
 }.items():
     for _symbol in _symbols:
-        _of_lanes(_symbol, _lanes, 2, _build)
-_of_lanes(operator.neg, _lanes, 1, lambda builder, a: builder.fneg(a))
-_of_lanes(operator.lt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered("<", a, b))
-_of_lanes(operator.gt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered(">", a, b))
-_of_lanes(np.maximum, _lanes, 2, _larger)
-_of_lanes(np.sqrt, _lanes, 1, lambda builder, a: _call_llvm(builder, "sqrt", a))
-_of_lanes(np.abs, _lanes, 1, lambda builder, a: _call_llvm(builder, "fabs", a))
+        _overload(_symbol, _lanes, 2, _build)
+_overload(operator.neg, _lanes, 1, lambda builder, a: builder.fneg(a))
+_overload(operator.lt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered("<", a, b))
+_overload(operator.gt, _flags, 2, lambda builder, a, b: builder.fcmp_ordered(">", a, b))
+_overload(np.maximum, _lanes, 2, _larger)
+_overload(np.sqrt, _lanes, 1, lambda builder, a: _call_llvm(builder, "sqrt", a))
+_overload(np.abs, _lanes, 1, lambda builder, a: _call_llvm(builder, "fabs", a))
 
 
 @type_callable(np.where)
@@ -228,7 +228,7 @@ def flag_at(typingctx, number):
     def build(context, builder, sig, args):
         kind = ir.VectorType(ir.IntType(64), LANES)
         lane = context.cast(builder, args[0], sig.args[0], types.int64)
-        return builder.icmp_signed("==", _in_every_lane(builder, kind, lane), ir.Constant(kind, list(range(LANES))))
+        return builder.icmp_signed("==", _broadcast(builder, kind, lane), ir.Constant(kind, list(range(LANES))))
 
     return _flags(number), build
 

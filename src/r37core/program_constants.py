@@ -17,7 +17,7 @@ from .lanes import inlined
 _copies = dict[tuple[Any, ...], Any]()
 
 
-def with_constants(function: Any, constants: Mapping[str, int]) -> Any:
+def specialised(function: Any, constants: Mapping[str, int]) -> Any:
     """A compiled function and all that it calls, with `constants` as the globals of these names.
 
     Choices of constants that agree in those that a function uses share its copy; a function that uses none stays what it is.
@@ -28,7 +28,7 @@ def with_constants(function: Any, constants: Mapping[str, int]) -> Any:
     key = (function, *used.items())
     if key not in _copies:
         python = function.py_func
-        called = {name: with_constants(other, constants) for name, other in _called(function).items()}
+        called = {name: specialised(other, constants) for name, other in _called(function).items()}
         copy = FunctionType(python.__code__, python.__globals__ | called | used, python.__name__)
         _copies[key] = inlined(copy)
     return _copies[key]

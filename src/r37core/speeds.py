@@ -58,7 +58,7 @@ class SpeedPlan:
     certain: tuple[float, ...]
     refined: tuple[RefinedRange, ...] = ()
 
-    def at_most(self, largest_share: float) -> int:
+    def speed_count(self, largest_share: float) -> int:
         """Number of speeds that are run when so large a share of each grid may be, as a rule at most."""
         grids = sum(max(len(grid.coarse_indices()), int(largest_share * (grid.last + 1))) for grid in self.refined)
         return len(self.certain) - sum(len(grid.coarse_indices()) for grid in self.refined) + grids

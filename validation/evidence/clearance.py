@@ -24,7 +24,7 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.clearance import growth
-from r37core.time_integration.kept_numbers import with_rotation
+from r37core.time_integration.kept_numbers import append_rotation
 
 from .configuration import settings_of
 from .pages import write_table
@@ -47,7 +47,7 @@ def tip(input: Any, output: Any, params: Any) -> None:
         speed, material = _crossing(campbell, blade), settings.blades[blade].material
         contact, reduced = read_contact_model(contact_file), read_reduced_model(model_file)
         linear = growth(contact, np.array([speed]), contact.tip_cone_angle)[0]
-        still = with_rotation(np.zeros((1, reduced.size)), contact, speed)
+        still = append_rotation(np.zeros((1, reduced.size)), contact, speed)
         stress = stress_operator(reduced, material).max_von_mises(still)[0]
         nodes = reduced.contact_nodes
         displacement = nodes.cylindrical(_in_calculix(mesh, material, speed)[nodes.nodes]).T

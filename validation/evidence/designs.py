@@ -36,6 +36,6 @@ def correlations(input: Any, output: Any, params: Any) -> None:
     """Rank correlation of what a design is with its lengths above yield. Input: designs."""
     designs, rows = read_table(input.designs), []
     for name, words in LEFT.items():
-        in_scene = (designs[designs["scene"] == scene] for scene in SCENES)
-        rows.append([words, *(f"{spearmanr(of[name], of['length_certain_rad_s']).statistic:.2f}" for of in in_scene)])
+        scene_refinement = (designs[designs["scene"] == scene] for scene in SCENES)
+        rows.append([words, *(f"{spearmanr(of[name], of['length_certain_rad_s']).statistic:.2f}" for of in scene_refinement)])
     write_table(["rank correlation with the length", *SCENES.values()], rows, output.table)

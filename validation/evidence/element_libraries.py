@@ -38,7 +38,7 @@ Matrices = tuple[sp.csr_array, sp.csr_array]
 
 def ours(mesh: BladeMesh, name: str) -> Matrices:
     """Matrices by r37."""
-    pattern = NodePattern.of(mesh.blocks, len(mesh.points))
+    pattern = NodePattern.build(mesh.blocks, len(mesh.points))
     stiffness = assemble_stiffness(pattern, mesh.blocks, mesh.points, STEEL)
     mass = assemble_mass(pattern, mesh.blocks, mesh.points, STEEL.density)
     blocks = mass[:, None, None] * np.eye(3)

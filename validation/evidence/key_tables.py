@@ -19,7 +19,7 @@ from r37core.units import SUFFIXES
 
 from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
 from .keys_again import Shown, ShownModels
-from .pages import with_part
+from .pages import replace_part
 
 UNIT_OF_SUFFIX = {
     "_m": "m",
@@ -168,7 +168,7 @@ def _text(description: str) -> str:
 def filled(page: str) -> str:
     """The page with the tables between its markers."""
     for name, text in tables().items():
-        page = with_part(page, name, text)
+        page = replace_part(page, name, text)
     return page
 
 
@@ -188,7 +188,7 @@ def main(docs: Path = Path("docs")) -> None:
     page = docs / "results.md"
     text = page.read_text(encoding="utf-8")
     for name, words in COLUMN_LISTS.items():
-        text = with_part(text, name, column_list(words))
+        text = replace_part(text, name, column_list(words))
     write_text(text, page)
 
 

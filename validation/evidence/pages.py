@@ -15,7 +15,7 @@ _LINK = re.compile(r"(?<=/)validation/tables/\w+\.csv|(?<=\()validation/tables/\
 _PICTURE = re.compile(r"!\[[^\]]*\]\(([\w/]+\.png)\)")
 
 
-def with_part(text: str, name: str, part: str) -> str:
+def replace_part(text: str, name: str, part: str) -> str:
     """The text with another part between <!-- name --> and <!-- end -->; ValueError where these markers are missing."""
     markers = re.search(rf"(<!-- {re.escape(name)} -->\n).*?<!-- end -->", text, re.DOTALL)
     if markers is None:
@@ -77,7 +77,7 @@ class Pages:
 def renewed(page: str, files: Iterable[Path | str]) -> str:
     """Text of a page with its tables taken from their files."""
     for file in files:
-        page = with_part(page, f"table {Path(file).stem}", markdown(read_table(file)))
+        page = replace_part(page, f"table {Path(file).stem}", markdown(read_table(file)))
     return page
 
 

@@ -68,11 +68,11 @@ def rates(input: Any, output: Any, params: Any) -> None:
     summary = pd.read_csv(input.summary).query("scene == @SCENE and mode == @MODE and engine_order == @ORDER")
     runs, needed = (pd.read_csv(file).query("scene == @SCENE") for file in (input.run_ups, input.rates))
     slowest, rows = float(needed["slowest_rate_rad_s2"].min()), []
-    for blade, of_blade in runs.groupby("blade", sort=False):
-        share = of_blade["max_von_mises_pa"] / of_blade["yield_stress_pa"]
-        upwards = of_blade["direction"] == "up"
+    for blade, resolved in runs.groupby("blade", sort=False):
+        share = resolved["max_von_mises_pa"] / resolved["yield_stress_pa"]
+        upwards = resolved["direction"] == "up"
         # whole samples make rates that are nearly those asked for
-        stress = [float(share[upwards & np.isclose(of_blade["rate_rad_s2"], rate, rtol=1e-3)].max()) for rate in SHOWN]
+        stress = [float(share[upwards & np.isclose(resolved["rate_rad_s2"], rate, rtol=1e-3)].max()) for rate in SHOWN]
         safe = needed[needed["blade"] == blade].set_index("direction")["rate_at_yield_rad_s2"]
         width = float(summary[summary["blade"] == blade]["width_above_yield_rad_s"].max())
         rows.append((blade, _crossing(campbell, blade), width, *stress, float(safe["up"]), float(safe["down"])))
@@ -157,7 +157,9 @@ def _needed_rate(blade: str, files: tuple[str, str], settings: Settings, campbel
     model, recovery = read_contact_model(files[0]), stress_operator(read_reduced_model(files[1]), material)
     rows = []
     for rate in RATES:
-        run_up = replace(choice_of_run_up, rate=rate).of_blade(choice.samples_per_revolution, campbell.sel(blade=blade), VARIED)
+        run_up = replace(choice_of_run_up, rate=rate).blade_run_up(
+            choice.samples_per_revolution, campbell.sel(blade=blade), VARIED
+        )
         integration = RunUpIntegration(model, scene, choice, run_up)
         result = record_run_up(integration, (), highest_order=20, stress=recovery, yield_stress=material.yield_stress)
         stress = float(result["max_von_mises"][choice_of_run_up.before :].max())

@@ -6,7 +6,7 @@ from snakemake.exceptions import WorkflowError
 
 from r37core.config import plain, si_fields
 from r37core.console.snakemake_run import PYTHON, begin
-from r37core.explorer import parts_hash, with_programs
+from r37core.explorer import parts_hash, page_parts
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes, EngineNumbers
 from r37core.plans.sweep_plan import Datasets

@@ -119,21 +119,21 @@ use rule figure as clearance_figure with:
 
 use rule step as blade_shapes_figure with:
     input:
-        meshes=expand(paths.nominal(paths.MESH), blade=imported.with_mesh),
+        meshes=expand(paths.nominal(paths.MESH), blade=imported.meshed_blades),
     output:
         **pictures("blades", TOGETHER, EVERY_SCENE, "shapes"),
     log:
         "<logs>/figures/blades.log",
     params:
         **step("figures.steps.blade_shapes"),
-        blades=imported.with_mesh,
+        blades=imported.meshed_blades,
         caption=captioned("blades"),
 
 
 rule campbell:
     input:
         rules.campbell_of_all.output,
-        expand([paths.nominal(rules.mesh.output.msh), *rules.abaqus_deck.output], blade=imported.with_mesh),
+        expand([paths.nominal(rules.mesh.output.msh), *rules.abaqus_deck.output], blade=imported.meshed_blades),
         expand(rules.campbell_figure.output, blade=settings.blades),
         rules.campbell_overview.output,
-        rules.blade_shapes_figure.output if imported.with_mesh else [],
+        rules.blade_shapes_figure.output if imported.meshed_blades else [],

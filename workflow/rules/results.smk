@@ -18,7 +18,7 @@ use rule step as configuration with:
 rule responses:
     input:
         expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),
-        paths.filled({paths.RESPONSE: paths.of_runs(sweep.runs_with("rms"))}),
+        paths.filled({paths.RESPONSE: paths.run_keys(sweep.runs_with("rms"))}),
         rounds.first_rounds,
         simulated(sweep),
 
@@ -102,4 +102,4 @@ use rule step as explorer with:
         **shown_by_extensions,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         shapes=sweep.runs_with("shapes"),
-        parts=parts_hash(with_programs(shown_by_extensions["programs"])),
+        parts=parts_hash(page_parts(shown_by_extensions["programs"])),

@@ -18,7 +18,7 @@ use rule step as rotor_of_run with:
 
 use rule step as rotors_dataset with:
     input:
-        rotors=paths.filled({ROTOR_OF_RUN: paths.of_runs(rotor_runs(sweep))}),
+        rotors=paths.filled({ROTOR_OF_RUN: paths.run_keys(rotor_runs(sweep))}),
     output:
         dataset="<results>/rotor.nc",
         table=shown("<results>/rotors.csv", PACKAGE / "rotors/report.rst", TOGETHER, "whole rotors"),

@@ -26,7 +26,7 @@ use rule step as signals_of_run with:
 
 use rule step as signals_dataset with:
     input:
-        signals=paths.filled({rules.signals_of_run.output[0]: paths.of_runs(recorded.runs)}),
+        signals=paths.filled({rules.signals_of_run.output[0]: paths.run_keys(recorded.runs)}),
     output:
         dataset="<results>/signals.nc",
     log:

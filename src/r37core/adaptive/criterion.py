@@ -45,8 +45,8 @@ def dense_ranges(campbell: xr.Dataset, windows: Sequence[Window]) -> list[DenseR
     windowed = []
     for window in windows:
         crossings = campbell["crossing_speed"].sel(mode=window.mode)
-        in_window = crossings["engine_order"] <= window.highest_engine_order
-        for crossing in crossings.sel(engine_order=in_window).dropna("engine_order").values.tolist():
+        window_orders = crossings["engine_order"] <= window.highest_engine_order
+        for crossing in crossings.sel(engine_order=window_orders).dropna("engine_order").values.tolist():
             windowed.append(DenseRange((1.0 + window.first) * crossing, (1.0 + window.last) * crossing, window.step))
     return windowed
 
@@ -59,7 +59,8 @@ def window_speeds(grid: RefinedRange, expected: Sequence[DenseRange]) -> list[fl
         first, last = waiting.pop()
         length = (last - first) * grid.interval
         too_long = any(
-            of.low < grid.speed(last) and grid.speed(first) < of.high and length > (1.0 + 1e-9) * of.step for of in expected
+            dense.low < grid.speed(last) and grid.speed(first) < dense.high and length > (1.0 + 1e-9) * dense.step
+            for dense in expected
         )
         if too_long and last - first > 1:
             middle = (first + last) // 2
@@ -76,10 +77,12 @@ def next_speeds(grid: RefinedRange, members: Sequence[KnownSpeeds], choice: Refi
     arguments.
     """
     indices = _grid_indices(grid, members[0].speeds)
-    on_grid = np.flatnonzero(indices >= 0)
-    indices = indices[on_grid]
+    grid_places = np.flatnonzero(indices >= 0)
+    indices = indices[grid_places]
     room = int(choice.largest_share * (grid.last + 1)) - len(indices)
-    worth = np.mean([_worth(run.curves[:, on_grid], run.status[on_grid], _scale(run), choice) for run in members], axis=0)
+    worth = np.mean(
+        [_worth(run.curves[:, grid_places], run.status[grid_places], _scale(run), choice) for run in members], axis=0
+    )
     open_intervals = np.flatnonzero((np.diff(indices) > 1) & (worth > 0.0))
     # the largest first; half of the room, so that later rounds can follow what this one finds
     most = max(-(-room // 2), min(room, LEAST_OF_A_ROUND), 0)
@@ -90,10 +93,10 @@ def next_speeds(grid: RefinedRange, members: Sequence[KnownSpeeds], choice: Refi
 def _grid_indices(grid: RefinedRange, speeds: np.ndarray) -> np.ndarray:
     """Index on the grid of each speed, -1 for one that is not on it."""
     nearest = np.rint((speeds / grid.unit - grid.start) / grid.refine_to).astype(int)
-    on_grid = [
+    grid_places = [
         0 <= index <= grid.last and grid.speed(int(index)) == speed for index, speed in zip(nearest, speeds, strict=True)
     ]
-    return np.where(on_grid, nearest, -1)
+    return np.where(grid_places, nearest, -1)
 
 
 def _scale(known: KnownSpeeds) -> np.ndarray:

@@ -83,8 +83,8 @@ class Blade:
             for edge, end in ((profile.leading_edge, 0.0), (profile.trailing_edge, 1.0)):
                 length = profile.surfaces[PRESSURE].length
                 fade = np.clip(1.0 - np.abs(chord - end) * length / (_BULGE_REACH * edge.radius), 0.0, None) ** 2
-                at_pressure, at_suction = (np.array(edge.point(side))[:, None] for side in (-1.0, 1.0))
-                straight = (1.0 - share) * at_pressure + share * at_suction
+                pressure_side, suction_side = (np.array(edge.point(side))[:, None] for side in (-1.0, 1.0))
+                straight = (1.0 - share) * pressure_side + share * suction_side
                 point = point + fade * (np.array(edge.point(thickness)) - straight)
         return point
 
@@ -104,10 +104,10 @@ class Blade:
         chord, span, thickness = (a.ravel() for a in np.meshgrid(*axes, indexing="ij"))
         determinant = self._determinant(chord, span, thickness)
         if np.any(determinant <= 0.0):
-            at = int(np.argmin(determinant))
+            position = int(np.argmin(determinant))
             raise BladeShapeError(
-                f"span {100 * span[at]:.1f}%: profiles or the two sides of the blade cross here "
-                f"(chord {100 * chord[at]:.0f}%); check thickness, radii, sweep and lean near this span"
+                f"span {100 * span[position]:.1f}%: profiles or the two sides of the blade cross here "
+                f"(chord {100 * chord[position]:.0f}%); check thickness, radii, sweep and lean near this span"
             )
 
 

@@ -87,10 +87,10 @@ class DoubleArc:
     def point(self, chord):
         """(m, theta) at the fraction `chord` (0 leading, 1 trailing edge) of the length."""
         s = np.asarray(chord, dtype=float) * self.length
-        in_front = s <= self.front_length
-        front = self.front.point(np.where(in_front, s, self.front_length))
-        rear = self.rear.point(np.where(in_front, 0.0, s - self.front_length))
-        return tuple(np.where(in_front, f, r) for f, r in zip(front, rear, strict=True))
+        is_front = s <= self.front_length
+        front = self.front.point(np.where(is_front, s, self.front_length))
+        rear = self.rear.point(np.where(is_front, 0.0, s - self.front_length))
+        return tuple(np.where(is_front, f, r) for f, r in zip(front, rear, strict=True))
 
     def angle(self, chord: float) -> float:
         """Angle to the local ruling (rad) at the fraction `chord`."""
@@ -158,12 +158,12 @@ class Profile:
         m, theta = self.cone.offset(m_centre, theta_centre, kappa + side * _QUARTER_TURN, p.maximum_thickness / 2.0)
         start = ConstantRatePath(self.cone, float(m), float(theta), kappa, 0.0)
 
-        to_inlet = (0.0, 0.0, p.inlet_thickness / 2.0)
-        to_outlet = (self._m_outlet, self._theta_outlet, p.outlet_thickness / 2.0)
-        first, first_end = self._path_tangent_to(start, side, *(to_inlet if thickest_in_front else to_outlet))
+        inlet_turn = (0.0, 0.0, p.inlet_thickness / 2.0)
+        outlet_turn = (self._m_outlet, self._theta_outlet, p.outlet_thickness / 2.0)
+        first, first_end = self._path_tangent_to(start, side, *(inlet_turn if thickest_in_front else outlet_turn))
         junction = self._length_to_transition_normal(first, side)
         beyond = first.started_at(junction)
-        second, second_end = self._path_tangent_to(beyond, side, *(to_outlet if thickest_in_front else to_inlet))
+        second, second_end = self._path_tangent_to(beyond, side, *(outlet_turn if thickest_in_front else inlet_turn))
         if thickest_in_front:
             return DoubleArc(first.started_at(first_end), junction - first_end, second, second_end)
         return DoubleArc(second.started_at(second_end), -second_end, beyond, first_end - junction)

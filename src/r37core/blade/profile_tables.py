@@ -53,7 +53,9 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
 def _profiles(text: str) -> tuple[ProfileParameters, ...]:
     """Profiles of a table's text, read once for all designs of a family."""
     rows = _rows(text, PROFILE_COLUMNS)
-    profiles = [ProfileParameters(**{name: _in_si(row, column) for column, name in PROFILE_COLUMNS.items()}) for row in rows]
+    profiles = [
+        ProfileParameters(**{name: _si_columns(row, column) for column, name in PROFILE_COLUMNS.items()}) for row in rows
+    ]
     if len(profiles) > 1 and profiles[0].span > profiles[-1].span:
         profiles.reverse()
     if len(profiles) < 4:
@@ -101,7 +103,9 @@ def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...
 
     Raises BladeShapeError for spans out of order or not reaching 0 and 100%.
     """
-    table = tuple((_in_si(row, "span_percent"), _in_si(row, "sweep_cm"), _in_si(row, "lean_deg")) for row in rows)
+    table = tuple(
+        (_si_columns(row, "span_percent"), _si_columns(row, "sweep_cm"), _si_columns(row, "lean_deg")) for row in rows
+    )
     if len(table) < 2:
         raise BladeShapeError("a sweep and lean table needs at least two rows, for 0 and 100% span")
     check_spans([row[0] for row in table])
@@ -125,7 +129,7 @@ def check_sweep(stacking: Sequence[tuple[float, float, float]], profiles: Sequen
             )
 
 
-def _in_si(row: dict, column: str) -> float:
+def _si_columns(row: dict, column: str) -> float:
     return float(row[column]) * (si_name(column)[1] or 1.0)
 
 

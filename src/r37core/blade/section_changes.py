@@ -58,7 +58,7 @@ def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, S
     if not laws:
         return tuple(profiles)
     spans = [profile.span for profile in profiles]
-    values = {name: law.at(spans) for name, law in laws.items()}
+    values = {name: law.evaluate(spans) for name, law in laws.items()}
     changes = [SectionChange(**{name: float(several[i]) for name, several in values.items()}) for i in range(len(spans))]
     changed = tuple(changed_profile(profile, change) for profile, change in zip(profiles, changes, strict=True))
     names = {name for change in changes for name in change.names} - {"thickness"}
@@ -97,12 +97,12 @@ class _Centreline:
     thickest: float
 
     @classmethod
-    def of(cls, p: ProfileParameters) -> _Centreline:
+    def build(cls, p: ProfileParameters) -> _Centreline:
         line = centreline(p)
         cone, lengths = line.front.cone, np.array([line.front_length, line.rear_length])
         m_thickest = p.maximum_thickness_axial / np.cos(cone.half_angle)
-        in_front = m_thickest < line.rear.m
-        thickest = line.front.length_to(m_thickest) if in_front else line.front_length + line.rear.length_to(m_thickest)
+        is_front = m_thickest < line.rear.m
+        thickest = line.front.length_to(m_thickest) if is_front else line.front_length + line.rear.length_to(m_thickest)
         return cls(cone, np.array([p.inlet_angle, p.transition_angle, p.outlet_angle]), lengths, thickest)
 
     def turned(self, camber: float, rotation: float, scale: float) -> _Centreline:
@@ -144,7 +144,7 @@ def _redrawn(profile: ProfileParameters, change: SectionChange) -> ProfileParame
     if not change.chord > 0.0:
         # a spline through shares may pass below them
         raise BladeShapeError(f"{profile.label}: the share of the chord is {100 * change.chord:g}%; it must be positive")
-    line = _Centreline.of(profile)
+    line = _Centreline.build(profile)
     direction, length = line.chord()
     wanted = np.array([direction + change.stagger, change.chord * length])
 

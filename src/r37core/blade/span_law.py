@@ -26,7 +26,7 @@ class SpanLaw:
         """Linear law: in proportion to the span from hub to tip."""
         return cls((0.0, 1.0), (hub, tip))
 
-    def at(self, spans: Sequence[float]) -> np.ndarray:
+    def evaluate(self, spans: Sequence[float]) -> np.ndarray:
         """Values at span fractions, shape (spans,): a spline as that of sweep and lean, at most cubic.
 
         Equal values give themselves to the last bit, so that a law of neutral values changes nothing.

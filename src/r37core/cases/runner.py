@@ -182,9 +182,9 @@ class Runs:
                 meaning = "largest von Mises stress at each instant of the last revolution"
                 stress = create_variable(dataset, "max_von_mises_of_instant", Variable(("speed", "instant"), "Pa", meaning))
                 for row, speed in enumerate(speeds):
-                    of_run = self.recovery.max_von_mises(read_speed(self.files[speed])["snapshots"])
+                    run_case_values = self.recovery.max_von_mises(read_speed(self.files[speed])["snapshots"])
                     # a run that diverged has none
-                    stress[row] = of_run if len(of_run) else np.nan
+                    stress[row] = run_case_values if len(run_case_values) else np.nan
             dataset.setncatts({"reduction_cpu_s": reducing.cpu, "peak_memory_bytes": peak_memory()})
             # text where write_response puts text alone
             dataset.setncatts({name: value for name, value in attributes.items() if isinstance(value, float)})

@@ -1,7 +1,7 @@
 """Configuration: YAML files checked by models, and the settings made of them."""
 
 from .blades import BladeSettings
-from .declaring import in_si, si_fields
+from .declaring import si_fields, si_form
 from .document import ConfigError, Document, command_line_document, read_document
 from .scenes import SceneEntry
 from .section import plain
@@ -16,8 +16,8 @@ __all__ = [
     "Settings",
     "checked_scene",
     "command_line_document",
-    "in_si",
     "plain",
     "read_document",
     "si_fields",
+    "si_form",
 ]

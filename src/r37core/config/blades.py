@@ -24,11 +24,11 @@ from r37core.speeds import spaced
 from r37core.text_file import TextFileError
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
-from .declaring import in_si, si_fields
+from .declaring import si_fields, si_form
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, Unique, left_out, plain, refused
-from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, section_laws, with_section_laws
+from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, profiles_by_laws, section_laws
 
 LARGEST_FAMILY = 10_000
 """Designs of one entry."""
@@ -213,7 +213,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
         return BladeSettings(
-            _source(entry, first, root, document), material, entries[name].contact, in_si(StressSubmesh, entry.stress_submesh)
+            _source(entry, first, root, document), material, entries[name].contact, si_form(StressSubmesh, entry.stress_submesh)
         )
     shift: dict[str, Any] = {}
     place = name, "base"
@@ -241,7 +241,7 @@ def _changed(
 ) -> tuple[ProfileParameters, ...]:
     """The profiles, which have the changes of the base, with those that the entry of a blade makes on top."""
     try:
-        return with_section_laws(profiles, section_laws(entry))
+        return profiles_by_laws(profiles, section_laws(entry))
     except SectionChangeError as error:
         keys = changed_keys(error)
         raise document.error((blade, keys[0]), f"blade {blade}: {' and '.join(keys)}: {error}") from None
@@ -266,7 +266,7 @@ def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Docume
     missing = [key for key in MaterialSection.model_fields if key not in material]
     if missing:
         raise document.error((chain[-1], "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
-    return in_si(fem_material.Material, MaterialSection(**material))
+    return si_form(fem_material.Material, MaterialSection(**material))
 
 
 def _inheritance(name: str, entries: Mapping[str, Any], document: Document) -> list[str]:

@@ -12,7 +12,7 @@ from r37core.contact.casing import Casing
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 
-from .declaring import DECLARED, declared_by, in_si, si_fields
+from .declaring import DECLARED, declared_by, si_fields, si_form
 from .section import LeftOut, Section, left_out, refused
 
 
@@ -81,7 +81,7 @@ class RingModeSection(Section):
         """The mode as the simulations take it."""
         inextensional = 1.0 / self.nodal_diameter if self.nodal_diameter else 0.0
         tangential = inextensional if self.tangential_ratio is None else self.tangential_ratio
-        return in_si(RingMode, self, frequency=2.0 * math.pi * self.frequency_hz, tangential=tangential)
+        return si_form(RingMode, self, frequency=2.0 * math.pi * self.frequency_hz, tangential=tangential)
 
 
 @declared_by(Casing)
@@ -118,16 +118,16 @@ class CasingSection(Section):
         """The flexible casing, with the waves that simulations leave out; without modes where the casing is rigid."""
         if self.ring is None:
             return ElasticCasing(tuple(mode.mode() for mode in self.ring_modes or ()))
-        ring = in_si(Ring, self.ring)
+        ring = si_form(Ring, self.ring)
         return ElasticCasing(ring.modes(), ring)
 
     def casing(self) -> Casing:
         """The casing as the simulations take it."""
         elastic = {"ring": self.elastic_casing().modes, "ring_radius": self.ring.radius_m if self.ring else None}
         if self.clearance is None:
-            return in_si(Casing, self, **elastic)
+            return si_form(Casing, self, **elastic)
         table = si_fields(self.clearance.casing_growth or ())
-        return in_si(
+        return si_form(
             Casing,
             self,
             **elastic,

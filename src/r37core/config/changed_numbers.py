@@ -18,11 +18,11 @@ from r37core.units import si_name
 
 from .blade_sections import MaterialSection
 from .blades import SHARES, BladeSettings, SweepLean
-from .families import with_value
+from .families import changed_content
 from .messages import explain
 from .scenes import SceneEntry
 from .section import Section, plain
-from .section_laws import SECTION_KEYS, Angle, AngleEnds, Share, ShareEnds, changed_keys, span_law, with_section_laws
+from .section_laws import SECTION_KEYS, Angle, AngleEnds, Share, ShareEnds, changed_keys, profiles_by_laws, span_law
 
 _MATERIAL = "material."
 
@@ -83,7 +83,7 @@ def changed_scene(entry: SceneEntry, changes: Mapping[str, float]) -> Scene:
     """The scene with values at dotted keys replaced. Raises ImpossibleValueError."""
     content = plain(entry)
     for key, value in changes.items():
-        content = with_value(content, key.split("."), value)
+        content = changed_content(content, key.split("."), value)
     return _checked(SceneEntry, content).scene()
 
 
@@ -110,7 +110,7 @@ def _changed_shape(definition: BladeDefinition, changes: Mapping[str, float]) ->
     profiles = definition.profiles
     try:
         for laws in (constant, ends):
-            profiles = with_section_laws(profiles, {key: span_law(key, law) for key, law in laws.items()})
+            profiles = profiles_by_laws(profiles, {key: span_law(key, law) for key, law in laws.items()})
     except SectionChangeError as error:
         blamed = [key for key in changes if key.split(".")[0] in changed_keys(error)]
         text = str(error) if len(blamed) == 1 else f"{' and '.join(blamed)}: {error}"

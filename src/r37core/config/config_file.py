@@ -96,7 +96,7 @@ class RefinementSection(Section):
     largest_share: Any = DECLARED
     direct: DirectRefinementSection = DirectRefinementSection()
 
-    def in_scene(self, scene: Scene) -> RefinementSection:
+    def scene_refinement(self, scene: Scene) -> RefinementSection:
         """What counts in a scene: without lining with windows and share of its own."""
         return self if scene.lining else self.model_copy(update=dict(self.direct))
 
@@ -119,7 +119,7 @@ class Run(Section):
     part: Part | LeftOut = left_out("Part of the blades for `snakemake responses` on several machines, such as 2/7")
     engine: FileName | LeftOut = left_out("File in place of the code: its changes alone make results out of date")
 
-    def of_part(self, names: list[str]) -> list[str]:
+    def part_blades(self, names: list[str]) -> list[str]:
         """The blades of this part, all without one; no two parts share one, and their numbers differ by one at most."""
         if self.part is None:
             return names
@@ -165,7 +165,7 @@ class Config(Section):
         return self
 
 
-def with_sections(sections: Iterable[ExtensionSection[Any]]) -> type[Config]:
+def config_model(sections: Iterable[ExtensionSection[Any]]) -> type[Config]:
     """config.yaml with the sections of extensions."""
     fields = {section.name: (section.kind, section.default) for section in sections}
     return create_model("Config", __base__=Config, __doc__=Config.__doc__, **fields)  # type: ignore[call-overload]

@@ -109,11 +109,11 @@ def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> N
     excess = max(size / LARGEST_TABLE, run.steps / MOST_STEPS)
     if excess > 1.0:
         lowest = run.speed * excess
-        in_rpm = f" ({rounded_up(RPM * lowest)} rpm)" if str(path[-1]).endswith("_rpm") else ""
+        rpm_hint = f" ({rounded_up(RPM * lowest)} rpm)" if str(path[-1]).endswith("_rpm") else ""
         raise settings.documents.config.refusal(
             path,
-            f"{run.speed:g} rad/s, a revolution of {run.steps_per_revolution:.3g} steps of {run.time_step:g} s, {run.in_words}",
-            f"speeds from {rounded_up(lowest)} rad/s{in_rpm} with this step and as many revolutions: a run has at most "
+            f"{run.speed:g} rad/s, a revolution of {run.steps_per_revolution:.3g} steps of {run.time_step:g} s, {run.wording}",
+            f"speeds from {rounded_up(lowest)} rad/s{rpm_hint} with this step and as many revolutions: a run has at most "
             f"{MOST_STEPS:.0e} steps, and the casing's shape at every step of a revolution takes at most "
             f"{LARGEST_TABLE / 2**20:.0f} MiB",
         )
@@ -193,8 +193,8 @@ def clearances_reach_all_speeds(settings: Settings) -> None:
     matrices = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
     for name, chosen in settings.scenes.items():
         casing, path = chosen.scene.casing, (name, "casing", "clearance")
-        of_models, run = settings.structure.maximum_speed_rad_s, fastest_of(settings, name)
-        highest, what = (run, "the fastest of its speeds") if run > of_models else (of_models, "structure.maximum_speed_rad_s")
+        modelled, run = settings.structure.maximum_speed_rad_s, fastest_of(settings, name)
+        highest, what = (run, "the fastest of its speeds") if run > modelled else (modelled, "structure.maximum_speed_rad_s")
         if not casing.knows(highest):
             allowed = f"up to {what}, {highest:g} rad/s ({highest * RPM:.6g} rpm)"
             raise document.refusal((*path, "casing_growth"), f"growth up to {casing.growth_speeds[-1]:g} rad/s", allowed)

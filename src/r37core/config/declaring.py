@@ -1,6 +1,6 @@
 """Sections of the configuration from the dataclasses of the computations, and back.
 
-A dataclass declares its keys (`r37core.declared`). `declared_by` puts them into a section; `in_si` makes the
+A dataclass declares its keys (`r37core.declared`). `declared_by` puts them into a section; `si_form` makes the
 dataclass of a section.
 """
 
@@ -45,7 +45,7 @@ def declared_by(
     return completed
 
 
-def in_si(kind: type[T], section: Section, **parts: Any) -> T:
+def si_form(kind: type[T], section: Section, **parts: Any) -> T:
     """The dataclass `kind` of what a section gives it, in SI units, and of `parts` that are made otherwise.
 
     A field has the value of a key that it declares or, without a declaration, of one that is called like it. What is left out
@@ -59,7 +59,7 @@ def in_si(kind: type[T], section: Section, **parts: Any) -> T:
         for name, key in [(declared.name, declared.key) for declared in keys] or [(field.name, Key(""))]:
             value = getattr(section, name, None)
             if value is not None and value != key.none:
-                values[field.name] = key.words[value] if key.words else to_si(value, key.factor)
+                values[field.name] = key.words[value] if key.words else si_value(value, key.factor)
     return kind(**values | parts)
 
 
@@ -118,12 +118,12 @@ def si_fields(section: Iterable[tuple[str, Any]]) -> dict[str, Any]:
         field, factor = si_name(key)
         left_out = value is None or (factor is not None and isinstance(value, str))
         if not left_out and (value or field not in fields):
-            fields[field] = to_si(value, factor)
+            fields[field] = si_value(value, factor)
     return fields
 
 
-def to_si(value: Any, factor: float | None) -> Any:
+def si_value(value: Any, factor: float | None) -> Any:
     """A value of a key whose unit is `factor` in the SI, as fields have it: a list as a tuple."""
     if isinstance(value, list):
-        return tuple(to_si(entry, factor) for entry in value)
+        return tuple(si_value(entry, factor) for entry in value)
     return value * factor if factor is not None and isinstance(value, int | float) else value

@@ -13,7 +13,7 @@ from pydantic import BaseModel, ValidationError
 from r37core.text_file import TextFileError
 from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
 
-from .messages import did_you_mean, explain_all, on_one_line
+from .messages import did_you_mean, explain_all, single_line
 from .section import Without
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -66,7 +66,7 @@ class Document:
     def error(self, path: KeyPath, text: str, key: KeyPath | None = None) -> ConfigError:
         """The error of the value at `path`: place, key (where that is not the whole path) and `text`."""
         named = path if key is None else key
-        shown = ".".join(on_one_line(str(step)) for step in named) or "top level"
+        shown = ".".join(single_line(str(step)) for step in named) or "top level"
         return ConfigError(f"{self.location(path)}: {shown}: {text}")
 
     def refusal(self, path: KeyPath, value: str, allowed: str) -> ConfigError:
@@ -125,25 +125,25 @@ def command_line_document(values: Mapping[str, Any], name: str = "--config") -> 
 
     Raises ConfigError for a key that no file can have.
     """
-    content = _with_numbers(dict(values), name)
+    content = _converted_texts(dict(values), name)
     locations: dict[KeyPath, str] = {}
     _mark(content, (), name, locations)
     return Document(name, content, locations)
 
 
-def _with_numbers(value: Any, name: str) -> Any:
+def _converted_texts(value: Any, name: str) -> Any:
     if isinstance(value, Mapping):
         content: dict[str, Any] = {}
         for key, inner in value.items():
             if not isinstance(key, str) and type(key) is not int:
-                raise ConfigError(f"{name}: found the key {on_one_line(repr(key))}; allowed: a name or a whole number")
+                raise ConfigError(f"{name}: found the key {single_line(repr(key))}; allowed: a name or a whole number")
             # a table by numbers, as a file has it
             if str(key) in content:
-                raise ConfigError(f"{name}: found the key {on_one_line(str(key))} twice, as a number and a text; allowed: one")
-            content[str(key)] = _with_numbers(inner, name)
+                raise ConfigError(f"{name}: found the key {single_line(str(key))} twice, as a number and a text; allowed: one")
+            content[str(key)] = _converted_texts(inner, name)
         return content
     if isinstance(value, list | tuple):
-        return [_with_numbers(inner, name) for inner in value]
+        return [_converted_texts(inner, name) for inner in value]
     if isinstance(value, np.generic):
         return value.item()
     return scalar(value) if isinstance(value, str) else value

@@ -21,7 +21,7 @@ from .blade_sections import MaterialSection
 from .blades import LARGEST_FAMILY, SHARES, BladeEntry, Variation
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
-from .messages import did_you_mean, explain, on_one_line
+from .messages import did_you_mean, explain, single_line
 from .scenes import SceneEntry
 from .section import check_name, check_names
 from .section_laws import SECTION_KEYS
@@ -73,7 +73,7 @@ class Designs:
         return {key: f"{self.document.location((blade, key))}: {blade}.{key}" for key in type(entry).model_fields}
 
 
-def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document) -> Designs:
+def expanded_families(entries: Mapping[str, AnyEntry], root: Path, document: Document) -> Designs:
     """The entries with every family replaced by its designs. Raises ConfigError, with the place in `document`."""
     made: dict[str, AnyEntry] = {}
     families: dict[str, Family] = {}
@@ -99,7 +99,7 @@ def with_designs(entries: Mapping[str, AnyEntry], root: Path, document: Document
 
 def _family(name: str, entry: BladeEntry, root: Path, document: Document) -> Family:
     if entry.designs is not None:
-        return _from_table(name, entry.designs, root, document)
+        return _table_family(name, entry.designs, root, document)
     assert entry.vary is not None
     values = {
         key: way.values() if isinstance(way, Variation) else [float(value) for value in way] for key, way in entry.vary.items()
@@ -121,7 +121,7 @@ def _check_size(designs: Sized, family: str, key: str, document: Document) -> No
         raise document.refusal((family, key), f"{len(designs)} designs", f"at most {LARGEST_FAMILY}")
 
 
-def _from_table(name: str, file: str, root: Path, document: Document) -> Family:
+def _table_family(name: str, file: str, root: Path, document: Document) -> Family:
     try:
         keys, rows = read_designs(root / file)
     except FileNotFoundError:
@@ -145,7 +145,7 @@ def design_entry(family: str, entry: BladeEntry, values: Mapping[str, float], de
     for key, value in values.items():
         _check_varies(key, family, design, document)
         try:
-            content = with_value(content, key.split("."), value)
+            content = changed_content(content, key.split("."), value)
         except (KeyError, IndexError, TypeError, ValueError):
             raise document.error(
                 (family,),
@@ -169,11 +169,11 @@ def _check_varies(key: str, family: str, design: str, document: Document) -> Non
     if first in SceneEntry.model_fields:
         hint = " (a number of a scene varies under tolerances.of_scenes, or as several scenes)"
     raise document.error(
-        (family,), f"design {design}: found unknown key {on_one_line(key)}; allowed keys: {', '.join(VARIED)}{hint}"
+        (family,), f"design {design}: found unknown key {single_line(key)}; allowed keys: {', '.join(VARIED)}{hint}"
     )
 
 
-def with_value(content: dict[str, Any], path: Sequence[str], value: Any) -> dict[str, Any]:
+def changed_content(content: dict[str, Any], path: Sequence[str], value: Any) -> dict[str, Any]:
     """A copy of the content with one value set; sections that are not there are made, rows of a list are not."""
     changed = copy.deepcopy(content)
     inner: Any = changed

@@ -10,7 +10,7 @@ from pydantic import Field, RootModel, model_validator
 from r37core.rom.reduction_choice import ReductionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
-from .declaring import DECLARED, declared_by, in_si
+from .declaring import DECLARED, declared_by, si_form
 from .document import Documents
 from .section import ByName, LeftOut, Section, Speed, left_out, refused
 
@@ -48,9 +48,9 @@ class Measured(Section):
     )
     cpu_s_per_run: float = Field(ge=1e-6, le=1e9, description="CPU seconds per run")
 
-    def error_of(self, on_points: bool) -> float | None:
+    def error_of(self, point_contact: bool) -> float | None:
         """The error of runs with direct contact on points, or of others; None where that was not measured."""
-        return self.error_on_points if on_points and self.error_on_points is not None else self.error
+        return self.error_on_points if point_contact and self.error_on_points is not None else self.error
 
 
 TimeStep = Annotated[float, Field(ge=1e-12, le=1e-2)]
@@ -115,14 +115,14 @@ class TimeIntegration(Section):
         return self.time_step_s
 
     @property
-    def in_words(self) -> str:
+    def wording(self) -> str:
         """The largest steps."""
         steps = self.largest_time_step_s
         return f"{self.time_step_s:g} s" if steps is None else f"{steps.lined:g} s with lining, {steps.direct:g} s without"
 
     def choice(self, lined: bool) -> IntegrationChoice:
         """Time integration in a scene with or without a lining, with stress of the last revolution and energy balance."""
-        return in_si(
+        return si_form(
             IntegrationChoice,
             self,
             time_step=self.largest_step(lined),
@@ -152,10 +152,10 @@ class Levels(RootModel[ByName[Level]]):
         return self
 
 
-def cheapest_level(levels: Mapping[str, Level], tolerance: float, on_points: bool, documents: Documents) -> str:
-    """The cheapest level within the tolerance, for contact `on_points` or not; ConfigError where there is none."""
+def cheapest_level(levels: Mapping[str, Level], tolerance: float, point_contact: bool, documents: Documents) -> str:
+    """The cheapest level within the tolerance, for contact `point_contact` or not; ConfigError where there is none."""
     measured = {name: level.measured for name, level in levels.items() if level.measured}
-    errors = {name: error for name, measure in measured.items() if (error := measure.error_of(on_points)) is not None}
+    errors = {name: error for name, measure in measured.items() if (error := measure.error_of(point_contact)) is not None}
     chosen = recommended_level(errors, {name: measure.cpu_s_per_run for name, measure in measured.items()}, tolerance)
     if chosen is None:
         known = ", ".join(f"{name} {error:g}" for name, error in errors.items()) or "none"
@@ -163,7 +163,7 @@ def cheapest_level(levels: Mapping[str, Level], tolerance: float, on_points: boo
             ("tolerance",),
             f"found {tolerance:g}; measured errors of the levels in {documents.levels.name}: {known}; "
             "accept more, or name a level under fidelity"
-            + (", or take structure.boundary.contact: patches" if on_points else ""),
+            + (", or take structure.boundary.contact: patches" if point_contact else ""),
         )
     return chosen
 

@@ -11,7 +11,7 @@ from r37core.exchange.importing.source import MatricesSource, MeshSource, Where,
 from r37core.exchange.orientation import Orientation
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, ImportedSubmesh, MaterialSection
-from .declaring import DECLARED, declared_by, in_si
+from .declaring import DECLARED, declared_by, si_form
 from .section import FileName, LeftOut, Section, left_out, refused
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
@@ -46,7 +46,7 @@ class SurfaceRule(Section):
 
     def where(self) -> Where:
         """The rule as the import takes it."""
-        return in_si(Where, self, limits=self._limits())
+        return si_form(Where, self, limits=self._limits())
 
 
 SetOrRule = Annotated[
@@ -93,7 +93,7 @@ class Oriented(Section):
 
     def orientation(self) -> Orientation:
         """Unit and axes as the import takes them."""
-        return in_si(Orientation, self)
+        return si_form(Orientation, self)
 
 
 @declared_by(MeshSource)
@@ -114,7 +114,7 @@ class MeshEntry(Oriented):
 
     def source(self, root: Path) -> MeshSource:
         """What to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
-        return in_si(
+        return si_form(
             MeshSource,
             self,
             file=self.mesh,
@@ -140,7 +140,7 @@ class MatricesEntry(Oriented):
     def source(self, root: Path) -> MatricesSource:
         """What to import, from the folder `root`; ImportRefused where files are missing."""
         digest = digest_of(matrix_files(self.matrices, root).values())
-        return in_si(MatricesSource, self, folder=self.matrices, orientation=self.orientation(), digest=digest)
+        return si_form(MatricesSource, self, folder=self.matrices, orientation=self.orientation(), digest=digest)
 
 
 def _where(rule: Any) -> Where:

@@ -42,8 +42,8 @@ def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) ->
     for refusal in errors:
         within = _within(content, refusal["loc"], missing=refusal["type"] == "missing")
         path = (*within, *refusal.get("ctx", {}).get("at", ()))
-        of_another = refusal["type"] == "missing" and refusal["loc"][:-1] in unknown
-        if not of_another and not any(path[: len(other)] == other or other[: len(path)] == path for other in explained):
+        is_implied = refusal["type"] == "missing" and refusal["loc"][:-1] in unknown
+        if not is_implied and not any(path[: len(other)] == other or other[: len(path)] == path for other in explained):
             explained[path] = _explained(refusal, path, content, model)
     return list(explained.values())
 
@@ -51,29 +51,29 @@ def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) ->
 def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: type[BaseModel]) -> tuple[KeyPath, KeyPath, str]:
     schema, variants, context = _schema(model), frozenset(map(str, error["loc"])), error.get("ctx", {})
     if error["type"] == "refused":
-        return path, path, f"found {on_one_line(context['found'])}; allowed: {context['allowed']}"
+        return path, path, f"found {single_line(context['found'])}; allowed: {context['allowed']}"
     if error["type"] in ("missing", "extra_forbidden"):
         *parent, key = path
-        known = _keys(_at(schema, tuple(parent), schema, variants), schema)
+        known = _keys(_part_at(schema, tuple(parent), schema, variants), schema)
         if error["type"] == "missing":
             return tuple(parent), tuple(parent), f"missing key {key}; allowed keys: {', '.join(known)}"
-        text = f"found unknown key {on_one_line(str(key))}; allowed keys: {', '.join(known)}{did_you_mean(str(key), known)}"
+        text = f"found unknown key {single_line(str(key))}; allowed keys: {', '.join(known)}{did_you_mean(str(key), known)}"
         return path, tuple(parent), text
     value = reduce(getitem, path, content)
-    shown = "nothing" if value is None else on_one_line(repr(value))
-    return path, path, f"found {shown}; allowed: {describe(_at(schema, path, schema, variants), schema) or error['msg']}"
+    shown = "nothing" if value is None else single_line(repr(value))
+    return path, path, f"found {shown}; allowed: {describe(_part_at(schema, path, schema, variants), schema) or error['msg']}"
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """A question in brackets for the end of a message: the known name that is most like this one, whatever its capitals."""
-    by_letters = {other.lower(): other for other in known}
-    close = difflib.get_close_matches(name.lower(), by_letters, 1)
+    lower_names = {other.lower(): other for other in known}
+    close = difflib.get_close_matches(name.lower(), lower_names, 1)
     # the beginning of a long name is enough
-    close = close or [other for other in by_letters if len(name) > 2 and other.startswith(name.lower())]
-    return f" (did you mean {by_letters[close[0]]}?)" if close else ""
+    close = close or [other for other in lower_names if len(name) > 2 and other.startswith(name.lower())]
+    return f" (did you mean {lower_names[close[0]]}?)" if close else ""
 
 
-def on_one_line(text: str) -> str:
+def single_line(text: str) -> str:
     """The text as a message shows it: control characters as in Python, and no more than 80 characters."""
     plain = text if text.isprintable() else repr(text)[1:-1]
     return plain if len(plain) <= 80 else plain[:76] + " ..."
@@ -111,9 +111,9 @@ def _within(content: Any, location: Iterable[str | int], missing: bool) -> KeyPa
     last = [steps.pop()] if missing else []
     path: list[str | int] = []
     for step in steps:
-        in_mapping = isinstance(content, Mapping) and step in content
-        in_list = isinstance(content, list) and isinstance(step, int) and step < len(content)
-        if in_mapping or in_list:
+        is_key = isinstance(content, Mapping) and step in content
+        is_entry = isinstance(content, list) and isinstance(step, int) and step < len(content)
+        if is_key or is_entry:
             content = content[step]
             path.append(step)
     return (*path, *last)
@@ -131,7 +131,7 @@ def _keys(part: Mapping[str, Any], schema: Mapping[str, Any]) -> list[str]:
     return list(part.get("properties", {})) + [key for choice in choices for key in choice.get("properties", {})]
 
 
-def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], variants: frozenset[str]) -> Mapping[str, Any]:
+def _part_at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], variants: frozenset[str]) -> Mapping[str, Any]:
     """The part of a JSON schema that is for the value at `path`; empty where there is none.
 
     Among several models that of a title in `variants` counts, which pydantic has in the place of an error.
@@ -140,15 +140,15 @@ def _at(part: Mapping[str, Any], path: KeyPath, schema: Mapping[str, Any], varia
     choices = [_resolved(choice, schema) for choice in [*part.get("anyOf", []), *part.get("oneOf", [])]]
     named = [choice for choice in choices if choice.get("title") in variants]
     if named:
-        return _at(named[0], path, schema, variants)
+        return _part_at(named[0], path, schema, variants)
     if not path:
         return part
     for choice in choices:
-        match = _at(choice, path, schema, variants)
+        match = _part_at(choice, path, schema, variants)
         if match:
             return match
     step, *rest = path
     inner = part.get("items") if isinstance(step, int) else part.get("properties", {}).get(step)
     # numbers may be the keys of a table that a call gives
     inner = inner or next(iter(part.get("patternProperties", {}).values()), None) or part.get("additionalProperties")
-    return _at(inner, tuple(rest), schema, variants) if isinstance(inner, Mapping) else {}
+    return _part_at(inner, tuple(rest), schema, variants) if isinstance(inner, Mapping) else {}

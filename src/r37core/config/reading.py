@@ -12,7 +12,7 @@ from pydantic import RootModel
 from .blades import Blades
 from .config_file import Config
 from .document import ConfigError, ConfigRefusals, Document, command_line_document, read_document
-from .families import Designs, with_designs
+from .families import Designs, expanded_families
 from .fidelity import Levels
 from .scenes import Scenes
 from .settings import Documents, Settings
@@ -39,25 +39,25 @@ class Reader:
         root: Path,
         files: Sequence[Path],
         values: Mapping[str, Any],
-        of_module: Mapping[str, Any] | None = None,
+        module_values: Mapping[str, Any] | None = None,
         only_given: bool = False,
     ) -> Settings:
         """Settings of a run of the workflow in the current folder: the configuration, `files` on top, then `values`.
 
         The configuration is config/config.yaml of the current folder or, where that has none, of `root`; it is left out if
-        `only_given`. `of_module`: on top of all, what another workflow gives its module r37. Raises ConfigError.
+        `only_given`. `module_values`: on top of all, what another workflow gives its module r37. Raises ConfigError.
         """
         here = Path.cwd()
         folder = here if (here / CONFIG_FILE).exists() else root
         first = [] if only_given and files else [_configuration(folder)]
         named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
         changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
-        if of_module:
-            if not isinstance(of_module, Mapping):
+        if module_values:
+            if not isinstance(module_values, Mapping):
                 raise ConfigError(
-                    f"config of the module r37: found {of_module!r}; allowed: keys and values, as in {CONFIG_FILE}"
+                    f"config of the module r37: found {module_values!r}; allowed: keys and values, as in {CONFIG_FILE}"
                 )
-            changes.append(command_line_document(of_module, "config of the module r37"))
+            changes.append(command_line_document(module_values, "config of the module r37"))
         return self.load_settings(together(changes[0], changes[1:]), root)
 
     def load_settings(
@@ -106,7 +106,7 @@ def _entries(
 
 def _designs(root: Path, name: str, above: Document | None) -> Designs:
     document, entries = _entries(root, name, Blades, above)
-    return with_designs(entries, root, document)
+    return expanded_families(entries, root, document)
 
 
 def _configuration(folder: Path) -> Document:
@@ -120,11 +120,11 @@ def together(below: Document, changes: Iterable[Document]) -> Document:
     for change in changes:
         if not isinstance(change.content, Mapping):
             raise change.refusal((), repr(change.content)[:60], "keys and values, as in config/config.yaml")
-        below = _with_one_unit(below, change).overlaid(change)
+        below = _single_unit(below, change).overlaid(change)
     return below
 
 
-def _with_one_unit(below: Document, change: Document) -> Document:
+def _single_unit(below: Document, change: Document) -> Document:
     """The document without speeds in the unit that a change on top does not give its own in."""
     keys = [key for key in UNITS if key in change.content]
     if len(keys) != 1:

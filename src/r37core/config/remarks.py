@@ -50,16 +50,16 @@ def remarks_on_input(settings: Settings) -> list[str]:
 def remarks_on_speeds(settings: Settings) -> list[str]:
     """What is to be said of speeds at which a run takes long, and of those beyond what models are made for: they may be rpm."""
     lines = []
-    run = max((length_of_run(settings, *of_scene) for of_scene in slowest_speeds(settings).items()), key=lambda run: run.steps)
+    run = max((length_of_run(settings, *slowest) for slowest in slowest_speeds(settings).items()), key=lambda run: run.steps)
     if run.cpu_time >= LONG_RUN:
-        lines.append(f"speeds: at {run.speed:g} rad/s {run.in_words} takes about {run.cpu_time:.2g} s of CPU time")
+        lines.append(f"speeds: at {run.speed:g} rad/s {run.wording} takes about {run.cpu_time:.2g} s of CPU time")
     fastest = max(plan.every_speed()[-1] for plan in settings.speed_plans.values())
     highest = settings.structure.maximum_speed_rad_s
     if fastest > highest:
-        in_rpm = "" if settings.config.speeds_rpm else "; speeds in rpm stand under speeds_rpm"
+        rpm_hint = "" if settings.config.speeds_rpm else "; speeds in rpm stand under speeds_rpm"
         lines.append(
             f"speeds: up to {fastest:g} rad/s, and structure.maximum_speed_rad_s is {highest:g}: reduced models and "
-            f"Campbell diagrams are made for speeds up to that; raise it to what is run{in_rpm}"
+            f"Campbell diagrams are made for speeds up to that; raise it to what is run{rpm_hint}"
         )
     return lines
 
@@ -74,7 +74,7 @@ def remarks_on_materials(settings: Settings) -> list[str]:
         if isinstance(blade.definition, MeshSource) and blade.material is not None:
             other = ignored_material(blade.definition.file, settings.root, blade.material)
             if other is not None:
-                text = f"{blade.definition.file} has a material of its own ({other.in_words}, in its units); it is not used"
+                text = f"{blade.definition.file} has a material of its own ({other.wording}, in its units); it is not used"
                 blades.setdefault(f"{text}, and differs from that of blades.yaml", []).append(name)
     return [f"{', '.join(names[:3])}{', ...' if len(names) > 3 else ''}: {text}" for text, names in blades.items()]
 

@@ -29,7 +29,7 @@ def _number(key: Any) -> str:
     return text
 
 
-def _by_number(table: Any, checked: ValidatorFunctionWrapHandler) -> dict[str, Any]:
+def _number_table(table: Any, checked: ValidatorFunctionWrapHandler) -> dict[str, Any]:
     """The table as it is checked; raises the error of what is no table, and of two values of a blade."""
     if not isinstance(table, Mapping):
         raise refused((), repr(table), "a value for each number of a blade, as in {1: 0.4, 2: -0.7}")
@@ -42,7 +42,7 @@ def _by_number(table: Any, checked: ValidatorFunctionWrapHandler) -> dict[str, A
 
 _Number = Annotated[str, BeforeValidator(_number), WithJsonSchema({"type": "string", "pattern": "^[0-9]+$"})]
 
-BladeTable = Annotated[dict[_Number, T], WrapValidator(_by_number)]
+BladeTable = Annotated[dict[_Number, T], WrapValidator(_number_table)]
 """Values by numbers of blades, which are the texts "1", "2", ... of a checked table."""
 
 LEAST_APART = 0.1

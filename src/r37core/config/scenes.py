@@ -10,7 +10,7 @@ from r37core.contact.scene import Friction, Lining, Scene
 from r37core.time_integration.rotor_blades import refusal_of
 
 from .casing_section import CasingSection
-from .declaring import DECLARED, declared_by, in_si, si_fields
+from .declaring import DECLARED, declared_by, si_fields, si_form
 from .rotor_section import RotorSection
 from .section import ByName, LeftOut, Rpm, Section, Speed, left_out, refused
 from .speed_section import refuse_both_units
@@ -109,12 +109,12 @@ class SceneEntry(Section):
 
     def scene(self) -> Scene:
         """The scene as the simulations take it."""
-        return in_si(
+        return si_form(
             Scene,
             self,
             casing=self.casing.casing(),
-            lining=self.lining and in_si(Lining, self.lining),
-            friction=self.friction and in_si(Friction, self.friction),
+            lining=self.lining and si_form(Lining, self.lining),
+            friction=self.friction and si_form(Friction, self.friction),
             rotor=self.rotor and self.rotor.rotor(),
         )
 

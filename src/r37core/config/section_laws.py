@@ -92,7 +92,7 @@ def span_law(key: str, law: Any) -> SpanLaw:
     return SpanLaw(spans, tuple(row.value * factor for row in law))
 
 
-def with_section_laws(profiles: Sequence[ProfileParameters], laws: Mapping[str, SpanLaw]) -> tuple[ProfileParameters, ...]:
+def profiles_by_laws(profiles: Sequence[ProfileParameters], laws: Mapping[str, SpanLaw]) -> tuple[ProfileParameters, ...]:
     """The profiles, changed by laws of SECTION_KEYS. Raises SectionChangeError for impossible ones and for those that cross."""
     return changed_profiles(profiles, {si_name(key)[0]: law for key, law in laws.items()})
 

@@ -18,7 +18,7 @@ from r37core.yaml_file import KeyPath
 
 from .blades import BladeSettings, all_blades
 from .config_file import Config, StructureSection
-from .declaring import in_si
+from .declaring import si_form
 from .document import ConfigRefusals, Document, Documents
 from .families import Designs
 from .fidelity import Level, cheapest_level
@@ -85,7 +85,7 @@ class Settings:
         if chosen != "all":
             self.documents.known(("blades",), chosen, [*designs.entries, *designs.families], self.documents.blades)
         several = list(designs.entries) if chosen == "all" else designs.named(chosen)
-        names = self.config.run.of_part(several)
+        names = self.config.run.part_blades(several)
         if not names:
             part = f"{self.config.run.part} of {len(several)} blades"
             raise self.documents.config.refusal(("run", "part"), part, f"at most {len(several)} parts")
@@ -187,12 +187,12 @@ class Settings:
         """
         structure, contact = self.structure, self.contact_of(blade)
         boundary = structure.boundary
-        return in_si(
+        return si_form(
             ReductionChoice,
             structure,
-            boundary=in_si(BoundaryChoice, boundary, tip_line=tip_line or boundary.tip_line, contact=contact),
+            boundary=si_form(BoundaryChoice, boundary, tip_line=tip_line or boundary.tip_line, contact=contact),
             speeds=(0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s),
-            stress_submesh=self.blades[blade].stress_submesh or in_si(StressSubmesh, structure.stress_submesh),
+            stress_submesh=self.blades[blade].stress_submesh or si_form(StressSubmesh, structure.stress_submesh),
             **dict(self.fidelity.reduction),
         )
 

@@ -36,10 +36,10 @@ class RunLength:
         return self.steps * SECONDS_PER_STEP[self.engine]
 
     @property
-    def in_words(self) -> str:
+    def wording(self) -> str:
         """How many steps it has."""
-        of_blades = f" of {self.blades} blades" if self.blades > 1 else ""
-        return f"a run of {self.steps:.3g} steps ({self.revolutions:.6g} revolutions{of_blades})"
+        blade_text = f" of {self.blades} blades" if self.blades > 1 else ""
+        return f"a run of {self.steps:.3g} steps ({self.revolutions:.6g} revolutions{blade_text})"
 
 
 def length_of_run(settings: Settings, scene: str, speed: float, revolutions: float | None = None) -> RunLength:
@@ -60,8 +60,8 @@ def slowest_speeds(settings: Settings) -> dict[str, float]:
 
 def most_runs(settings: Settings, blade: str, scene: str) -> int:
     """Simulations of a blade and scene, at most where speeds are adaptive."""
-    refinement = settings.config.refinement.in_scene(settings.scenes[scene].scene)
-    return settings.speed_plans[blade, scene].at_most(refinement.largest_share)
+    refinement = settings.config.refinement.scene_refinement(settings.scenes[scene].scene)
+    return settings.speed_plans[blade, scene].speed_count(refinement.largest_share)
 
 
 def fastest_of(settings: Settings, scene: str) -> float:

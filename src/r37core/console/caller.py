@@ -28,7 +28,7 @@ class Caller(logging.Filter):
         threading.Thread(target=_end_with_caller, daemon=True).start()
 
     @classmethod
-    def of_this_run(cls) -> Caller | None:
+    def current(cls) -> Caller | None:
         """The caller of this process; None where a person has started it."""
         number = os.environ.pop(CALLER, None)
         return None if number is None else cls(open(int(number), "w", encoding="utf-8"))

@@ -15,18 +15,18 @@ from r37core.time_integration.status import RunStatus
 
 
 def closing_lines(
-    results: Path, began: float, ended: float, remarks: Iterable[str] = (), of_extensions: Iterable[str] = ()
+    results: Path, began: float, ended: float, remarks: Iterable[str] = (), extension_lines: Iterable[str] = ()
 ) -> list[str]:
     """What the folder `results` has: interactions, runs that diverged, `remarks` on them, where to look, and how long it took.
 
     Of what is older than the run's start nothing is said. `began` and `ended`: times in s, as file times are.
-    `of_extensions`: what the extensions have made in the run.
+    `extension_lines`: what the extensions have made in the run.
     """
-    lines = [*_of_sweep(results, began, remarks), *of_extensions]
+    lines = [*_sweep_lines(results, began, remarks), *extension_lines]
     return [*lines, _took(ended - began)] if lines else []
 
 
-def _of_sweep(results: Path, began: float, remarks: Iterable[str]) -> list[str]:
+def _sweep_lines(results: Path, began: float, remarks: Iterable[str]) -> list[str]:
     summary = results / "summary.csv"
     if not summary.exists() or summary.stat().st_mtime < began:
         return []
@@ -37,7 +37,7 @@ def _of_sweep(results: Path, began: float, remarks: Iterable[str]) -> list[str]:
     there = (f"{results / name}{more}" for name, more in places.items() if (results / name).exists())
     where = f"look at {', '.join(there)}"
     ranked = _ranked(results / "ranking.csv")
-    diverged, untouched = _of_runs(results / "rms.nc")
+    diverged, untouched = _run_counts(results / "rms.nc")
     return [_found(rows) + diverged, *untouched, *ranked, *remarks, where]
 
 
@@ -53,8 +53,8 @@ def _found(rows: list[dict[str, str]]) -> str:
         worst = max(above, key=_largest_stress)
         if _largest_stress(worst) > 0.0:
             title = interaction_title(worst["mode"], worst["engine_order"])
-            at = worst["max_von_mises_speed_rad_s"]
-            where = f"at {float(at):.6g}" if at else f"about {_number(worst, 'peak_speed_rad_s'):.6g}"
+            speed = worst["max_von_mises_speed_rad_s"]
+            where = f"at {float(speed):.6g}" if speed else f"about {_number(worst, 'peak_speed_rad_s'):.6g}"
             text += f"; the largest stress {_stress(worst)}, {worst['blade']} in {worst['scene']} {where} rad/s ({title})"
     return text
 
@@ -88,9 +88,9 @@ def _ranked(file: Path) -> list[str]:
         rows = [row for row in csv.DictReader(stream) if row["length_certain_rad_s"]]
     lines = []
     for scene in dict.fromkeys(row["scene"] for row in rows):
-        of_scene = [row for row in rows if row["scene"] == scene]
-        best, worst = of_scene[0], of_scene[-1]
-        names = [row["blade"] for row in of_scene if row["rank"] == best["rank"]]
+        scene_rows = [row for row in rows if row["scene"] == scene]
+        best, worst = scene_rows[0], scene_rows[-1]
+        names = [row["blade"] for row in scene_rows if row["rank"] == best["rank"]]
         apart = _number(worst, "length_certain_rad_s") - _number(best, "length_certain_rad_s")
         if apart > sum(_number(row, "length_certain_scatter_rad_s") for row in (best, worst)):
             verb = "is" if len(names) == 1 else "are"
@@ -110,7 +110,7 @@ def _length(row: dict[str, str]) -> str:
     return f"{rounded_to(length, scatter) if scatter > 0.0 else f'{length:.0f}'} rad/s"
 
 
-def _of_runs(file: Path) -> tuple[str, list[str]]:
+def _run_counts(file: Path) -> tuple[str, list[str]]:
     """How many runs diverged, and lines on blades and scenes that never touch; nothing where there are none."""
     # not at every start of Snakemake
     import netCDF4

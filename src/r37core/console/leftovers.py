@@ -19,11 +19,11 @@ from r37core.speeds import SpeedPlan, exact_text
 
 def leftovers(results: Path, settings: Settings) -> list[Path]:
     """Folders and files in `results` that the configuration no longer asks for; what no rule makes is left alone."""
-    left = {*_of_runs(results, settings), *_dropped(results, settings)} if results.is_dir() else set()
+    left = {*_run_leftovers(results, settings), *_dropped(results, settings)} if results.is_dir() else set()
     return sorted(path for path in left if left.isdisjoint(path.parents))
 
 
-def _of_runs(results: Path, settings: Settings) -> Iterator[Path]:
+def _run_leftovers(results: Path, settings: Settings) -> Iterator[Path]:
     for folder in results.iterdir():
         if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
             yield folder
@@ -65,8 +65,8 @@ def _planned(settings: Settings) -> dict[str, paths.Wildcards]:
     """Patterns of files that one configuration makes and another does not, with those of this one."""
     tip_lines = {settings.structure.boundary.tip_line, *(scene.tip_line for scene in settings.scenes.values())}
     models = [{"blade": blade, "tip_line": line} for blade in settings.blades for line in tip_lines]
-    of_models = dict.fromkeys((paths.CONTACT_MODEL, paths.STRESS_OPERATOR, paths.REDUCED_MODEL), models)
-    return everything(Sweep(settings)) | of_models
+    model_files = dict.fromkeys((paths.CONTACT_MODEL, paths.STRESS_OPERATOR, paths.REDUCED_MODEL), models)
+    return everything(Sweep(settings)) | model_files
 
 
 def _speeds(folder: Path, plan: SpeedPlan) -> list[float]:

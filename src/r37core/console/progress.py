@@ -78,7 +78,7 @@ class Progress(logging.Filter):
             self._jobs[record.jobid] = (record.rule_name, blade, str(next(iter(output))))  # type: ignore[attr-defined]
             if not self._simulated and self.stream.isatty():
                 # what takes half a minute is named when it begins, not when it has ended
-                self._write(at_once=True)
+                self._write(immediately=True)
         elif event == "job_finished":
             rule, blade, output = self._jobs.pop(record.job_id, ("", "", ""))  # type: ignore[attr-defined]
             if rule == "simulate":
@@ -86,7 +86,7 @@ class Progress(logging.Filter):
                 self._diverged += _diverged(Path(output))
         elif event == "progress":
             self._done, self._known = record.done, record.total  # type: ignore[attr-defined]
-            self._write(at_once=record.done == record.total, last=record.done == record.total)  # type: ignore[attr-defined]
+            self._write(immediately=record.done == record.total, last=record.done == record.total)  # type: ignore[attr-defined]
 
     def line(self) -> str:
         """What there is to say now."""
@@ -109,10 +109,10 @@ class Progress(logging.Filter):
             parts.append(f"now {', '.join(f'{rule} {blade}'.strip() for rule, blade, _ in last)}")
         return "; ".join(parts)
 
-    def _write(self, at_once: bool, last: bool = False) -> None:
+    def _write(self, immediately: bool, last: bool = False) -> None:
         terminal = self.stream.isatty()
         now = self.clock()
-        if not at_once and now - self._written < (_ON_TERMINAL_S if terminal else _ELSEWHERE_S):
+        if not immediately and now - self._written < (_ON_TERMINAL_S if terminal else _ELSEWHERE_S):
             return
         self._written = now
         self.stream.write(f"\r\x1b[K{self.line()}" if terminal else f"{self.line()}\n")

@@ -76,8 +76,8 @@ class Console:
         lock.release()
         if self.caller:
             return
-        of_extensions = lines_of_extensions(self.settings, self.began)
-        lines = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings), of_extensions)
+        extension_lines = lines_of_extensions(self.settings, self.began)
+        lines = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings), extension_lines)
         _say_last([*failures.taken(), *lines])
 
     def fail(self) -> None:
@@ -97,7 +97,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     `refusal` for a configuration that is not allowed.
     """
     began, config, output = time.time(), workflow.config_settings, workflow.output_settings
-    refusal, caller = without_files(refusal), Caller.of_this_run()
+    refusal, caller = without_files(refusal), Caller.current()
     for handler in logger.handlers:
         handler.addFilter(MessageAlone())
         if caller:

@@ -20,8 +20,8 @@ def displaced_position(
     grows by atan(y/R).
     """
     along_radius = radius + cosine * normal + sine * meridional
-    from_axis = np.sqrt(along_radius * along_radius + tangential * tangential)
-    excess = tangential * tangential / (from_axis + along_radius)
+    axis_distance = np.sqrt(along_radius * along_radius + tangential * tangential)
+    excess = tangential * tangential / (axis_distance + along_radius)
     return normal + cosine * excess, np.arctan2(tangential, along_radius)
 
 
@@ -66,9 +66,9 @@ def lines_of_bar(elastic_modulus: Any, lining: Any) -> tuple[Any, Any, Any]:
     through: elastic E A/e, offset and plastic E/(E + K) A times the yield stress and K/e, with the area A and the thickness e.
     `elastic_modulus` E (Pa), of the bar or in series; `lining`: as of return_mapping, with the `area` (m2) of a bar.
     """
-    with_area, per_thickness = elastic_modulus * lining.area, 1.0 / lining.thickness
-    share = with_area / (elastic_modulus + lining.plastic_modulus)
-    return with_area * per_thickness, share * lining.yield_stress, share * (lining.plastic_modulus * per_thickness)
+    axial_stiffness, per_thickness = elastic_modulus * lining.area, 1.0 / lining.thickness
+    share = axial_stiffness / (elastic_modulus + lining.plastic_modulus)
+    return axial_stiffness * per_thickness, share * lining.yield_stress, share * (lining.plastic_modulus * per_thickness)
 
 
 def worn(penetration: Any, wear: Any, lining: Any) -> Any:

@@ -52,8 +52,8 @@ def forces_of_laws(c, g, penetration, thickness, lined):
         return penetration * load(c.stiffness, g)
     elastic = load(c.elastic, g) * (penetration - load(c.wear, g))
     plastic = load(c.offset, g) + load(c.plastic, g) * penetration
-    of_bar = np.where(elastic < plastic, elastic, plastic)
-    return np.maximum(of_bar, (penetration - thickness) * load(c.stiffness, g))
+    bar_force = np.where(elastic < plastic, elastic, plastic)
+    return np.maximum(bar_force, (penetration - thickness) * load(c.stiffness, g))
 
 
 @inlined

@@ -118,7 +118,7 @@ class RingMotion:
 
     modes: tuple[RingMode, ...]
 
-    def _of_both(self, values: Sequence[float]) -> np.ndarray:
+    def _twice(self, values: Sequence[float]) -> np.ndarray:
         return np.tile(np.array(values, dtype=float), 2)
 
     @property
@@ -129,17 +129,17 @@ class RingMotion:
     @property
     def frequencies(self) -> np.ndarray:
         """Angular frequencies (rad/s), in the frame that does not turn, shape (2 modes,)."""
-        return self._of_both([mode.frequency for mode in self.modes])
+        return self._twice([mode.frequency for mode in self.modes])
 
     @property
     def damping_ratios(self) -> np.ndarray:
         """Damping ratio of each coordinate, shape (2 modes,)."""
-        return self._of_both([mode.damping_ratio for mode in self.modes])
+        return self._twice([mode.damping_ratio for mode in self.modes])
 
     @property
     def size(self) -> np.ndarray:
         """Largest radial displacement per coordinate (kg^-1/2), tangential without a radial one, shape (2 modes,)."""
-        return self._of_both([(mode.radial or mode.tangential) / np.sqrt(mode.modal_mass) for mode in self.modes])
+        return self._twice([(mode.radial or mode.tangential) / np.sqrt(mode.modal_mass) for mode in self.modes])
 
     def displacement(self, theta: np.ndarray) -> np.ndarray:
         """Radial, tangential and axial displacement (m) of the casing at angles (rad), per coordinate.

@@ -42,10 +42,10 @@ def design_table(
     """
     rows = []
     for blade, variables in designs.items():
-        of_blade: dict[str, float] = {"mass_kg": masses[blade]} | _structure(datasets["campbell"].sel(blade=blade))
+        blade_values: dict[str, float] = {"mass_kg": masses[blade]} | _structure(datasets["campbell"].sel(blade=blade))
         for scene in scenes:
-            of_scene = robustness(response_of(datasets, blade, scene)) | _shift(blade, scene, interactions)
-            rows.append({"blade": blade, "scene": scene, **variables, **of_blade, **of_scene})
+            scene_values = robustness(response_of(datasets, blade, scene)) | _shift(blade, scene, interactions)
+            rows.append({"blade": blade, "scene": scene, **variables, **blade_values, **scene_values})
     keys = list(dict.fromkeys(key for variables in designs.values() for key in variables))
     return pd.DataFrame(rows, columns=["blade", "scene", *keys, *MEASURES])
 
@@ -60,8 +60,8 @@ def _structure(campbell: xr.Dataset) -> dict[str, float]:
 
 def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, float]:
     """How far the strongest interaction of 1B lies from its crossing (rad/s); NaN without one."""
-    of_scene = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
-    bending = of_scene[of_scene["mode"] == FIRST_BENDING]
+    scene_values = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
+    bending = scene_values[scene_values["mode"] == FIRST_BENDING]
     strongest = bending["peak_rms_tangential_m"].idxmax() if len(bending) else None
     return {"shift_1b_rad_s": np.nan if strongest is None else float(bending.loc[strongest, "shift_rad_s"])}
 

@@ -15,5 +15,5 @@ EXTENSION = Extension(
         "estimate": "Core hours of the whole sweep, projected from a sample of its runs, by what they are spent on.",
     },
     closing="estimate.closing.closing",
-    on_request=True,
+    made_on_request=True,
 )

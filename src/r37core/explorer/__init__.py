@@ -19,7 +19,7 @@ _FRAME = FOLDER / "frame.html"
 """What stands round the body of every page."""
 
 
-def with_programs(programs: Sequence[Path | str]) -> tuple[Path, ...]:
+def page_parts(programs: Sequence[Path | str]) -> tuple[Path, ...]:
     """The parts of a page with panels of extensions, whose programs run before the page's own."""
     return (*PARTS[:-1], *map(Path, programs), PARTS[-1])
 

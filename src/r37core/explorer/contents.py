@@ -111,17 +111,17 @@ def _stress(stress: xr.Dataset | None, rms: xr.Dataset) -> dict[str, object]:
     if stress is None:
         return {"yield_stress": None, "stress_region": {}, "history": None}
 
-    def in_mpa(name: str, *dims: str) -> dict[str, object]:
+    def megapascals(name: str, *dims: str) -> dict[str, object]:
         values = stress[name].reindex(blade=rms["blade"], scene=rms["scene"])
         return packed(1e-6 * values.transpose("blade", "scene", *dims).values)
 
     history = None
     if "max_von_mises_history" in stress:
-        values = in_mpa("max_von_mises_history", "history_speed", "revolution")
+        values = megapascals("max_von_mises_history", "history_speed", "revolution")
         history = {"speeds": packed(stress["history_speed"].values, 64), "values": values}
     known = [blade for blade in map(str, rms["blade"].values) if blade in stress["blade"].values]
     return {
-        "yield_stress": in_mpa("yield_stress"),
+        "yield_stress": megapascals("yield_stress"),
         "stress_region": {blade: max(map(str, stress["stress_region"].sel(blade=blade).values)) for blade in known},
         "history": history,
     }
@@ -172,10 +172,10 @@ def _spread(sample: xr.Dataset, pairs: xr.DataArray, name: str) -> dict[str, obj
     members = drawn[name].where(drawn["status"] != RunStatus.DIVERGED, np.inf)
     band = sample[f"{name}_quantile"].where((sample["status"] != RunStatus.DIVERGED).any("member"), np.inf)
 
-    def of_pairs(values: xr.DataArray, axis: str) -> dict[str, object]:
+    def packed_pairs(values: xr.DataArray, axis: str) -> dict[str, object]:
         return packed(factor * values.stack(pair=("blade", "scene")).sel(pair=pairs).transpose("pair", axis, "speed").values)
 
-    return {"band": of_pairs(band, "quantile"), "members": of_pairs(members, "member")}
+    return {"band": packed_pairs(band, "quantile"), "members": packed_pairs(members, "member")}
 
 
 def packed(values: np.ndarray, bits: int = 32) -> dict[str, object]:

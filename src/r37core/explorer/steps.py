@@ -10,7 +10,7 @@ from r37core.dataset_file import read_dataset
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
-from . import with_programs, write_page
+from . import page_parts, write_page
 from .contents import explorer_contents
 
 
@@ -25,6 +25,6 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     file = Path(output.page)
-    in_report = {blade: str(params.address(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
-    contents = explorer_contents(datasets, interactions, params.shapes, in_report, ranking)
-    write_page(contents | {"panels": panels}, params.title, file, with_programs(params.programs))
+    report_addresses = {blade: str(params.address(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
+    contents = explorer_contents(datasets, interactions, params.shapes, report_addresses, ranking)
+    write_page(contents | {"panels": panels}, params.title, file, page_parts(params.programs))

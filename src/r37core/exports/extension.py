@@ -30,5 +30,5 @@ EXTENSION = Extension(
     checks=(exported_speeds_are_run,),
     targets=targets,
     look_at="<results>/exports",
-    on_request=True,
+    made_on_request=True,
 )

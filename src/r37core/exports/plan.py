@@ -54,7 +54,7 @@ class Exports:
         settings = self.imported.settings
         tip_line = settings.structure.boundary.tip_line
         files = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
-        if settings.section(SECTION).full_matrices and wildcards.blade in self.imported.with_mesh:
+        if settings.section(SECTION).full_matrices and wildcards.blade in self.imported.meshed_blades:
             files |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
         return files
 
@@ -77,9 +77,9 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     settings = sweep.settings
     imported, formats = Imported(settings), settings.section(SECTION).mesh_formats
     return {
-        EXPORTED_MESH: [{"blade": blade, "format": name} for blade in imported.with_mesh for name in formats],
-        EXPORTED_MODES: paths.of("blade", imported.with_mesh),
+        EXPORTED_MESH: [{"blade": blade, "format": name} for blade in imported.meshed_blades for name in formats],
+        EXPORTED_MODES: paths.of("blade", imported.meshed_blades),
         EXPORTED_SURFACE: paths.of("blade", imported.given_by(BladeDefinition)),
         EXPORTED_MATRICES: paths.of("blade", settings.blades),
-        EXPORTED_STRESS: paths.of_runs(sweep.runs_with("stress")),
+        EXPORTED_STRESS: paths.run_keys(sweep.runs_with("stress")),
     }

@@ -31,7 +31,7 @@ class NodePattern:
     slots: Mapping[str, np.ndarray]
 
     @classmethod
-    def of(cls, blocks: Blocks, nodes: int) -> NodePattern:
+    def build(cls, blocks: Blocks, nodes: int) -> NodePattern:
         """The pattern of a mesh with `nodes` nodes."""
         pairs = {name: block[:, :, None].astype(np.int64) * nodes + block[:, None, :] for name, block in blocks.items()}
         unique, slot = np.unique(np.concatenate([part.ravel() for part in pairs.values()]), return_inverse=True)
@@ -39,7 +39,11 @@ class NodePattern:
         indptr = np.concatenate([[0], np.cumsum(rows)]).astype(np.int32)
         ends = np.cumsum([part.size for part in pairs.values()])
         parts = zip(pairs.items(), np.split(slot.ravel(), ends[:-1]), strict=True)
-        return cls(indptr, (unique % nodes).astype(np.int32), {name: part.reshape(of.shape) for (name, of), part in parts})
+        return cls(
+            indptr,
+            (unique % nodes).astype(np.int32),
+            {name: part.reshape(pairs_of_type.shape) for (name, pairs_of_type), part in parts},
+        )
 
     def scatter(self, name: str, values: np.ndarray) -> np.ndarray:
         """Sum values of the elements of one type, shape (elements, n, n), into the pattern's entries, shape (pairs,)."""

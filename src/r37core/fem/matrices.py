@@ -89,7 +89,7 @@ def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
     The static displacement under rotation comes from the elastic stiffness at rest (linear theory).
     """
     blocks, points = mesh.blocks, mesh.points
-    pattern = NodePattern.of(blocks, len(points))
+    pattern = NodePattern.build(blocks, len(points))
     matrices = StructuralMatrices(
         indptr=pattern.indptr,
         indices=pattern.indices,

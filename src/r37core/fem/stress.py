@@ -37,8 +37,8 @@ def nodal_stress(blocks: Blocks, points: np.ndarray, displacement: np.ndarray, m
         count += np.bincount(members, minlength=len(points))
         gradients, _ = element.physical_gradients(coordinates, element.nodes)
         for j in range(displacement.shape[2]):
-            of_field = stress_at(gradients, displacement[blocks[name], :, j], material)
+            field_stress = stress_at(gradients, displacement[blocks[name], :, j], material)
             for component, (a, b) in enumerate(COMPONENTS):
-                weights = of_field[:, :, a, b].ravel()
+                weights = field_stress[:, :, a, b].ravel()
                 stress[component, :, j] += np.bincount(members, weights=weights, minlength=len(points))
     return stress / np.maximum(count, 1.0)[:, None]

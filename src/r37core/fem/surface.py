@@ -33,14 +33,14 @@ class Faces:
 
 def outer_faces(blocks: Mapping[str, np.ndarray]) -> list[Faces]:
     """Faces that belong to one element only, by shape (triangles and quadrangles, with or without mid-nodes)."""
-    by_shape: dict[tuple[int, int], list[np.ndarray]] = {}
+    shape_faces: dict[tuple[int, int], list[np.ndarray]] = {}
     for name, elements in blocks.items():
         element = ELEMENTS[name]
         for face, corners in zip(element.faces, element.shape.faces, strict=True):
-            by_shape.setdefault((len(corners), len(face)), []).append(elements[:, list(face)])
+            shape_faces.setdefault((len(corners), len(face)), []).append(elements[:, list(face)])
     outer = []
     for corner_count in (3, 4):
-        shapes = {shape: np.concatenate(parts) for shape, parts in by_shape.items() if shape[0] == corner_count}
+        shapes = {shape: np.concatenate(parts) for shape, parts in shape_faces.items() if shape[0] == corner_count}
         if not shapes:
             continue
         keys = np.concatenate([np.sort(nodes[:, :corner_count], axis=1) for nodes in shapes.values()])
@@ -103,24 +103,24 @@ def loops(faces: list[Faces]) -> list[np.ndarray]:
 
 def area_vectors(faces: list[Faces], points: np.ndarray) -> np.ndarray:
     """Outward normal of each face times its area, shape (faces, 3), of its corners at `points`, shape (nodes, 3)."""
-    of_shape = []
+    outer = []
     for part in faces:
         corners = points[part.nodes[:, : part.corners]]
         # of a quadrangle both diagonals, of a triangle two edges
         first, second = corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1]
-        of_shape.append(
+        outer.append(
             0.5 * np.cross(first, second) if part.corners == 4 else 0.5 * np.cross(corners[:, 1] - corners[:, 0], first)
         )
-    return np.concatenate(of_shape)
+    return np.concatenate(outer)
 
 
 def smooth_patches(faces: list[Faces], vectors: np.ndarray, crease: float) -> np.ndarray:
     """Patch of each face, shape (faces,), from `area_vectors`: normals of neighbours differ by less than `crease` (rad)."""
     edges = np.sort(np.concatenate([part.edges()[:, [0, 2]] for part in faces]), axis=1)
     owner = np.repeat(np.arange(len(vectors)), np.concatenate([np.full(len(part.nodes), part.corners) for part in faces]))
-    _, of_edge = np.unique(edges, axis=0, return_inverse=True)
-    order = np.argsort(of_edge.ravel(), kind="stable")
-    pairs = np.flatnonzero(np.diff(of_edge.ravel()[order]) == 0)
+    _, edge_numbers = np.unique(edges, axis=0, return_inverse=True)
+    order = np.argsort(edge_numbers.ravel(), kind="stable")
+    pairs = np.flatnonzero(np.diff(edge_numbers.ravel()[order]) == 0)
     first, second = owner[order[pairs]], owner[order[pairs + 1]]
     normals = vectors / np.linalg.norm(vectors, axis=1)[:, None]
     smooth = np.sum(normals[first] * normals[second], axis=1) > np.cos(crease)

@@ -147,8 +147,8 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
     every = np.arange(diameters.min(), diameters.max() + 1.0)
     for axes, (wave, level) in zip(panels[0], levels.items(), strict=True):
         # several modes of one nodal diameter add up; without any the row stays empty
-        of_diameter = np.array([np.sqrt(np.sum(level[diameters == diameter] ** 2, axis=0)) for diameter in every])
-        decibels = 20.0 * np.log10(np.maximum(of_diameter / largest, 1e-30))
+        diameter_levels = np.array([np.sqrt(np.sum(level[diameters == diameter] ** 2, axis=0)) for diameter in every])
+        decibels = 20.0 * np.log10(np.maximum(diameter_levels / largest, 1e-30))
         decibels[~np.isin(every, diameters)] = np.nan
         picture = draw_cells(axes, speed, every, decibels, vmin=-60.0, vmax=0.0, cmap="magma")
         axes.set_title(f"{wave}: {'with' if wave == 'forward' else 'against'} the rotor")

@@ -104,7 +104,7 @@ def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False) ->
 def legend_entries(panels: Iterable[Axes]) -> tuple[list[Any], list[str]]:
     """Handles and labels of several panels for one legend, each label once."""
     pairs = (zip(*axes.get_legend_handles_labels(), strict=True) for axes in panels)
-    entries = {label: handle for of_panel in pairs for handle, label in of_panel}
+    entries = {label: handle for panel_entries in pairs for handle, label in panel_entries}
     return list(entries.values()), list(entries)
 
 

@@ -91,6 +91,6 @@ def _draw_orders(axes: Axes, highest_order: float, low: float, high: float, high
         axes.plot(order * ends / (2 * np.pi), ends, color="0.6", linewidth=0.4, linestyle=":", zorder=4)
         end = min(high, 2.0 * np.pi * highest / order)
         if end > low:
-            at_end = (order * end / (2 * np.pi), end)
+            end_point = (order * end / (2 * np.pi), end)
             clear = {"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 0.3}
-            axes.annotate(str(order), at_end, fontsize=6, color="0.3", ha="right", zorder=5, bbox=clear)
+            axes.annotate(str(order), end_point, fontsize=6, color="0.3", ha="right", zorder=5, bbox=clear)

@@ -48,13 +48,13 @@ class BladeMesh:
 def parametric_node_sets(parameters: np.ndarray) -> dict[str, np.ndarray]:
     """Node sets of a mesh whose `parameters`, shape (nodes, 3), are exact on the faces of the blade."""
     chord, span, thickness = parameters.T
-    at_tip = span == 1.0
+    tip_mask = span == 1.0
     members = {
         "root": span == 0.0,
-        "tip": at_tip,
-        "tip_pressure_edge": at_tip & (thickness == -1.0),
-        "tip_suction_edge": at_tip & (thickness == 1.0),
-        "tip_camber_line": at_tip & (thickness == 0.0),
+        "tip": tip_mask,
+        "tip_pressure_edge": tip_mask & (thickness == -1.0),
+        "tip_suction_edge": tip_mask & (thickness == 1.0),
+        "tip_camber_line": tip_mask & (thickness == 0.0),
         "leading_edge": chord == 0.0,
         "trailing_edge": chord == 1.0,
     }

@@ -43,7 +43,7 @@ class Extension:
     `later`: of samples that are named while a run goes on, by the part of their folder below one of the extension's name; takes
     the folder of the results.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
-    `targets`: what is made of them; part of all_blades unless `on_request`.
+    `targets`: what is made of them; part of all_blades unless `made_on_request`.
     `remarks`: what a run should say of it before it starts.
     `captions`: kind of figure -> what is seen in it, with names (blade, scene) in braces.
     `panel`: what the explorer shows of it.
@@ -65,7 +65,7 @@ class Extension:
     panel: Panel | None = None
     closing: str = ""
     look_at: str = ""
-    on_request: bool = False
+    made_on_request: bool = False
 
     def all_targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """All that a run makes of it."""

@@ -28,7 +28,7 @@ class Extent:
         return self.most + self.members
 
     @property
-    def in_words(self) -> str:
+    def wording(self) -> str:
         """Numbers, for a sentence about simulations."""
         sweep = str(self.certain) if self.most == self.certain else f"{self.certain} to about {self.most}"
         return f"{sweep}, and at most {self.members} of members" if self.members else sweep
@@ -46,7 +46,7 @@ def extents(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> 
             certain=len(plan.certain),
             most=most_runs(settings, *pair),
             members=sum(
-                len(samples[pair].members) * plan.at_most(samples[pair].largest_share)
+                len(samples[pair].members) * plan.speed_count(samples[pair].largest_share)
                 for samples in beside.values()
                 if pair in samples
             ),

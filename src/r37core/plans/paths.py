@@ -49,7 +49,7 @@ def of(name: str, values: Iterable[str]) -> Wildcards:
     return [{name: value} for value in values]
 
 
-def of_runs(runs: Iterable[tuple[str, str]]) -> Wildcards:
+def run_keys(runs: Iterable[tuple[str, str]]) -> Wildcards:
     """Files of pairs of blade and scene."""
     return [{"blade": blade, "scene": scene} for blade, scene in runs]
 

@@ -69,15 +69,15 @@ class Provenance:
     def _sweep_of(self, member: str, blade: str, scene: str) -> Attributes:
         chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration
         step = steps.largest_step(chosen.scene.lining is not None)
-        of_member = self._samples.member(SimpleNamespace(member=member, blade=blade, scene=scene))
+        run_member = self._samples.member(SimpleNamespace(member=member, blade=blade, scene=scene))
         return Attributes(
             self._structure(member, blade),
             scene=scene,
-            scene_parameters=json.dumps(to_plain(of_member.scene)),
+            scene_parameters=json.dumps(to_plain(run_member.scene)),
             revolutions=chosen.revolutions,
             largest_time_step=step,
             # steps of all kinds of scenes, because datasets of one level may be joined
-            numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.in_words}",
+            numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.wording}",
         )
 
 

@@ -107,8 +107,8 @@ class Samples:
         folder, name = folder_and_name(wildcards)
         if not folder:
             return self.settings.blades[wildcards.blade]
-        of_blade = (sample for (blade, _), sample in self.beside[folder].items() if blade == wildcards.blade)
-        return next(sample.members[name].blade for sample in of_blade if name in sample.members)
+        blade_samples = (sample for (blade, _), sample in self.beside[folder].items() if blade == wildcards.blade)
+        return next(sample.members[name].blade for sample in blade_samples if name in sample.members)
 
     @cached_property
     def _nominal(self) -> Any:
@@ -120,7 +120,7 @@ class Samples:
         return Sample(
             members={NOMINAL: Member(settings.blades[blade], chosen.scene)},
             deciding=[NOMINAL],
-            largest_share=settings.config.refinement.in_scene(chosen.scene).largest_share,
+            largest_share=settings.config.refinement.scene_refinement(chosen.scene).largest_share,
             results=results,
             history_speeds=chosen.stress_history_speeds if "stress" in results else (),
         )

@@ -92,7 +92,7 @@ class Imported:
         return [name for name, blade in self.settings.blades.items() if isinstance(blade.definition, kinds)]
 
     @property
-    def with_mesh(self) -> list[str]:
+    def meshed_blades(self) -> list[str]:
         """Blades that have a mesh, ours or another program's."""
         return self.given_by(BladeDefinition, MeshSource)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
-from r37core.config import Settings, in_si
+from r37core.config import Settings, si_form
 from r37core.config.remarks import elastic_casings
 from r37core.io import as_list, read_json, readable
 from r37core.plain import to_plain
@@ -49,7 +49,7 @@ class Sweep:
 
     def contact_model(self, wildcards: Any) -> str:
         """What the simulations of a blade and scene start from."""
-        return self._of_model(wildcards, paths.CONTACT_MODEL)
+        return self._model_file(wildcards, paths.CONTACT_MODEL)
 
     def models(self, wildcards: Any) -> list[str]:
         """What the simulations of a blade and scene start from, and the operator of the stress, where that is wanted."""
@@ -57,9 +57,9 @@ class Sweep:
 
     def stress_operator(self, wildcards: Any) -> list[str]:
         """The stress of a blade per motion, for a scene whose stress is wanted."""
-        return [self._of_model(wildcards, paths.STRESS_OPERATOR)] if "stress" in self.results(wildcards) else []
+        return [self._model_file(wildcards, paths.STRESS_OPERATOR)] if "stress" in self.results(wildcards) else []
 
-    def _of_model(self, wildcards: Any, pattern: str) -> str:
+    def _model_file(self, wildcards: Any, pattern: str) -> str:
         tip_line = self.settings.scenes[wildcards.scene].tip_line
         return paths.fill(pattern, member=self.samples.member(wildcards).model, blade=wildcards.blade, tip_line=tip_line)
 
@@ -193,10 +193,10 @@ class Rounds:
         if number == 0:
             diagram = self.sweep.samples.sample(wildcards).campbell
             return {"campbell": paths.fill(paths.CAMPBELL, member=diagram, blade=wildcards.blade)}
-        of = {"member": path_part(folder), "blade": wildcards.blade, "scene": wildcards.scene}
+        where = {"member": path_part(folder), "blade": wildcards.blade, "scene": wildcards.scene}
         new, names = self.sweep.new_speeds(wildcards, number - 1), self.sweep.samples.sample(wildcards).deciding
         files = [file for name in names for file in paths.speed_files(path_part(folder, name), wildcards, new)]
-        return {"before": paths.fill(paths.ROUND, **of, round=number - 1), "speeds": files}
+        return {"before": paths.fill(paths.ROUND, **where, round=number - 1), "speeds": files}
 
     def yields_of_round(self, wildcards: Any) -> list[float]:
         """Yield stress (Pa) of the blade of each member whose runs a round looks at."""
@@ -210,10 +210,10 @@ class Rounds:
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
         settings = self.sweep.settings
-        refinement = settings.config.refinement.in_scene(settings.scenes[wildcards.scene].scene)
-        windows = tuple(in_si(Window, window) for window in refinement.windows)
+        refinement = settings.config.refinement.scene_refinement(settings.scenes[wildcards.scene].scene)
+        windows = tuple(si_form(Window, window) for window in refinement.windows)
         share, prominence = self.sweep.samples.sample(wildcards).largest_share, settings.config.interactions.prominence
-        return to_plain(in_si(RefinementChoice, refinement, windows=windows, largest_share=share, prominence=prominence))
+        return to_plain(si_form(RefinementChoice, refinement, windows=windows, largest_share=share, prominence=prominence))
 
 
 @dataclass(frozen=True)
@@ -237,12 +237,12 @@ class Datasets:
 
     def response_pictured(self, wildcards: Any) -> dict[str, str]:
         """Datasets that a blade's response is drawn from."""
-        return _drawn(with_stress=any(blade == wildcards.blade for blade, _ in self.sweep.runs_with("stress")))
+        return _drawn(includes_stress=any(blade == wildcards.blade for blade, _ in self.sweep.runs_with("stress")))
 
     def compared(self, wildcards: Any) -> dict[str, str]:
         """Datasets that the blades of a scene are compared by."""
-        return _drawn(with_stress=any(scene == wildcards.scene for _, scene in self.sweep.runs_with("stress")))
+        return _drawn(includes_stress=any(scene == wildcards.scene for _, scene in self.sweep.runs_with("stress")))
 
 
-def _drawn(with_stress: bool) -> dict[str, str]:
-    return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if with_stress else []))}
+def _drawn(includes_stress: bool) -> dict[str, str]:
+    return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if includes_stress else []))}

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from r37core.config import Settings
-from r37core.config.config_file import Config, with_sections
+from r37core.config.config_file import Config, config_model
 from r37core.config.cross_checks import CHECKS
 from r37core.config.reading import Reader
 
 from .extensions import EXTENSIONS
 
-CONFIG: type[Config] = with_sections([extension.section for extension in EXTENSIONS if extension.section])
+CONFIG: type[Config] = config_model([extension.section for extension in EXTENSIONS if extension.section])
 """config.yaml with the section of each extension."""
 
 RESERVED = ("figures", "cases", "runs", *(extension.name for extension in EXTENSIONS))

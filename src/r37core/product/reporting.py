@@ -25,10 +25,10 @@ def drawing(code: CodeHashes, function: str, figure: str | None = None, **argume
     `arguments`: what the function takes beside the datasets; `figure`: the kind that the caption is of, as in `captioned`.
     """
     step = code.step("figures.steps.draw", function.rpartition(".")[0])
-    return {**step, "draw": f"r37core.{function}", "of": _of, "caption": captioned(figure), **arguments}
+    return {**step, "draw": f"r37core.{function}", "of": _title_parts, "caption": captioned(figure), **arguments}
 
 
-def _of(wildcards: Any) -> dict[str, str]:
+def _title_parts(wildcards: Any) -> dict[str, str]:
     """What a figure is of, as its title says it and as datasets have it."""
     values = dict(wildcards.items())
     return {name: values[name] for name in ("family", "blade", "scene") if name in values}

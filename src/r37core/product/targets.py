@@ -7,7 +7,7 @@ from typing import Any
 
 from r37core.config.remarks import elastic_casings
 from r37core.plans.extension import Panel
-from r37core.plans.paths import Wildcards, filled, of, of_runs, pictures
+from r37core.plans.paths import Wildcards, filled, of, pictures, run_keys
 from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
 
 from .extensions import EXTENSIONS
@@ -15,9 +15,9 @@ from .extensions import EXTENSIONS
 
 def targets(sweep: Sweep) -> dict[str, Wildcards]:
     """Pattern of files -> wildcards of each that is asked for; none where a configuration does without."""
-    targets = _of_pipeline(sweep)
+    targets = _pipeline_targets(sweep)
     for extension in EXTENSIONS:
-        if not extension.on_request:
+        if not extension.made_on_request:
             targets |= extension.all_targets(sweep)
     return targets
 
@@ -39,15 +39,15 @@ def simulated(sweep: Sweep) -> list[str]:
     return [file for extension in EXTENSIONS for file in filled(extension.simulated(sweep))]
 
 
-def _of_pipeline(sweep: Sweep) -> dict[str, Wildcards]:
+def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
     settings = sweep.settings
     growing = [name for name, chosen in settings.scenes.items() if chosen.scene.casing.changes_with_speed]
     ranked: Wildcards = [{}] if "stress" in sweep.kinds else []
     figures = {
         "campbell_{blade}": of("blade", settings.blades),
         "response_{blade}": of("blade", settings.blades),
-        **{f"{kind}_{{blade}}__{{scene}}": of_runs(sweep.runs_with(kind)) for kind in MAPS},
-        "waterfall_{blade}__{scene}": of_runs(sweep.runs_with("spectrum")),
+        **{f"{kind}_{{blade}}__{{scene}}": run_keys(sweep.runs_with(kind)) for kind in MAPS},
+        "waterfall_{blade}__{scene}": run_keys(sweep.runs_with("spectrum")),
         "comparison_{scene}": of("scene", settings.scenes),
         "ranking": ranked,
         "clearance_{scene}": of("scene", growing),

@@ -40,7 +40,7 @@ def remarks_on_contact(runs: Sequence[tuple[str, np.ndarray]]) -> list[str]:
 
     `runs`: blade and scene in words, and the largest normal force (N) at each speed, NaN for a speed that was not run.
     """
-    apart = [of for of, force in runs if np.isfinite(force).any() and not np.any(force > 0.0)]
+    apart = [run for run, force in runs if np.isfinite(force).any() and not np.any(force > 0.0)]
     remark = (
         f"{', '.join(apart)}: the tip touched nothing at any speed, so all numbers are zero; casing.clearance_m, casing.lobes "
         "and casing.amplitude_clearances say where it can"

@@ -19,7 +19,7 @@ _OF_NORMAL = 1.4826 / np.sqrt(1.5)
 """Standard deviation per median distance of a value from the line between its neighbours, of normal scatter."""
 
 
-def with_ranges_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list[Interaction]:
+def rows_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list[Interaction]:
     """Rows by ascending speed: every range that may be above yield, and of the `peaks` those that lie in none of them.
 
     A range is where the smoothed share of the revolutions above yield is above POSSIBLE, where a speed's own share is, or where
@@ -44,7 +44,7 @@ def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> li
     return [
         _row(response, exceedance, within, note=NO_PEAK)
         for within in _ranges(response, exceedance)
-        if not any(of.possible_from_rad_s <= within.end and of.possible_to_rad_s >= within.begin for of in possible)
+        if not any(near.possible_from_rad_s <= within.end and near.possible_to_rad_s >= within.begin for near in possible)
     ]
 
 

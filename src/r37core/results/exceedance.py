@@ -59,8 +59,8 @@ class Exceedance:
         reach = np.maximum(HALF_WIDTH, _INTERVALS * np.maximum(before, after))
         distance = np.abs(self.speeds[:, None] - self.speeds)
         nearest = 0.5 * (np.concatenate([[0.0], steps]) + np.concatenate([steps, [0.0]]))
-        by_chance = (self.shares > 0.0) & (self.shares < 1.0)
-        alike = by_chance[:, None] & by_chance | (np.abs(self.shares[:, None] - self.shares) <= _BY_CHANCE)
+        is_chance = (self.shares > 0.0) & (self.shares < 1.0)
+        alike = is_chance[:, None] & is_chance | (np.abs(self.shares[:, None] - self.shares) <= _BY_CHANCE)
         weights = np.maximum(0.0, 1.0 - distance / reach[:, None]) * nearest * alike
         return weights / weights.sum(axis=1, keepdims=True)
 

@@ -14,7 +14,7 @@ from scipy.signal import find_peaks
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
-from .contact_ranges import ranges_without_peak, with_ranges_above_yield
+from .contact_ranges import ranges_without_peak, rows_above_yield
 from .datasets import response_of
 from .exceedance import SpeedRange, exceedance_of, is_lined
 from .interaction import COLUMNS, Crossing, Interaction, interaction_row, range_columns
@@ -61,7 +61,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     peaks = _interactions(response, campbell if lined else None, choice)
     if lined:
         return sorted([*peaks, *ranges_without_peak(response, peaks)], key=lambda row: row.peak.peak_speed_rad_s)
-    return with_ranges_above_yield(response, peaks)
+    return rows_above_yield(response, peaks)
 
 
 def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: InteractionChoice) -> list[Interaction]:
@@ -139,8 +139,8 @@ def _groups(peaks: list[_Peak], speed: np.ndarray, level: np.ndarray, choice: In
         one_crossing = not group[0].mode and bool(orders) and high <= choice.span * low
         return one_crossing or min(indices) < both[0].index < max(indices)
 
-    of_both_directions = _joined([[peak] for peak in ranked], lambda new, group: any(one_peak(new[0], old) for old in group))
-    return _joined(of_both_directions, one_interaction)
+    joined_directions = _joined([[peak] for peak in ranked], lambda new, group: any(one_peak(new[0], old) for old in group))
+    return _joined(joined_directions, one_interaction)
 
 
 def _joined(parts: list[list[_Peak]], belongs: Callable[[list[_Peak], list[_Peak]], bool]) -> list[list[_Peak]]:

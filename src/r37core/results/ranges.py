@@ -51,7 +51,7 @@ def as_ranges_bear(summary: pd.DataFrame) -> pd.DataFrame:
     return table
 
 
-def with_ranges(summary: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
+def ranged_summary(summary: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
     """summary.csv with the share of members and the ranges of each interaction; empty for those without members."""
     beside = table[table["peak_speed_rad_s"].notna()][[*KEY, "peak_speed_rad_s", "share_of_members", "robust", *RANGES]]
     # an empty table has columns of no type

@@ -52,10 +52,10 @@ _STEP = 1.0
 """What lengths (rad/s) are told apart by where nothing scatters: the distance of the closest speeds."""
 
 
-def robustness(response: xr.Dataset, *, with_scatter: bool = True) -> dict[str, float]:
+def robustness(response: xr.Dataset, *, chance_scatter: bool = True) -> dict[str, float]:
     """ROBUSTNESS of one blade in one scene; NaN for what is not computed, and for a first speed that there is not.
 
-    `with_scatter`: whether chance is drawn, which takes longer than all else and which members have no use for.
+    `chance_scatter`: whether chance is drawn, which takes longer than all else and which members have no use for.
     """
     response = response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
     measures = dict.fromkeys(ROBUSTNESS, np.nan)
@@ -73,7 +73,7 @@ def robustness(response: xr.Dataset, *, with_scatter: bool = True) -> dict[str, 
         for name, share in (("certain", CERTAIN), ("possible", POSSIBLE)):
             ranges = exceedance.ranges(share)
             measures[f"length_{name}_rad_s"] = exceedance.length(share)
-            if with_scatter:
+            if chance_scatter:
                 measures[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
             measures[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
         measures["widest_range_rad_s"] = max((above.length for above in exceedance.ranges(CERTAIN)), default=0.0)
@@ -83,14 +83,14 @@ def robustness(response: xr.Dataset, *, with_scatter: bool = True) -> dict[str, 
 
 def measures_of_members(members: xr.Dataset) -> MeasuresOfMembers:
     """What blades are ranked by of each blade and scene, member by member; `members`: a dataset of them."""
-    by_pair: MeasuresOfMembers = {}
+    pair_measures: MeasuresOfMembers = {}
     for blade in members["blade"].values.tolist():
         for scene in members["scene"].values.tolist():
             part = members[list(MEASURES_RANKED_BY.values())].sel(blade=blade, scene=scene).dropna("member", how="all")
             rows = part.to_dataframe()[list(MEASURES_RANKED_BY.values())].set_axis(list(RANKED_BY), axis=1)
             if len(rows):
-                by_pair[blade, scene] = {str(member): values for member, values in rows.to_dict("index").items()}
-    return by_pair
+                pair_measures[blade, scene] = {str(member): values for member, values in rows.to_dict("index").items()}
+    return pair_measures
 
 
 def ranking_table(
@@ -108,7 +108,7 @@ def ranking_table(
     # blades without stress have nothing to be ranked by
     table.insert(2, "rank", pd.Series(ranks, dtype="Int64").where(table[RANKED_BY[0]].notna()))
     if members:
-        table = pd.concat([table, pd.DataFrame([_of_members(pair, members) for pair in measures])], axis=1)
+        table = pd.concat([table, pd.DataFrame([_member_columns(pair, members) for pair in measures])], axis=1)
     scenes = list(dict.fromkeys(table["scene"]))
     return table.sort_values(
         ["scene", "rank"], key=lambda column: column.map(scenes.index) if column.name == "scene" else column
@@ -139,7 +139,7 @@ def as_scatter_bears(table: pd.DataFrame) -> pd.DataFrame:
     return rounded
 
 
-def _of_members(pair: tuple[str, str], members: MeasuresOfMembers) -> dict[str, float]:
+def _member_columns(pair: tuple[str, str], members: MeasuresOfMembers) -> dict[str, float]:
     blade, scene = pair
     own = members.get(pair, {})
     row: dict[str, float] = {"members": len(own)}

@@ -16,7 +16,7 @@ from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
-from .ranges import read_ranges, with_ranges
+from .ranges import ranged_summary, read_ranges
 from .ranking import measures_of_members, ranking_table, robustness
 from .response import write_response
 from .table_file import write_table
@@ -77,7 +77,7 @@ def summary(input: Any, output: Any, params: Any) -> None:
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     table = summarise(datasets, from_plain(InteractionChoice, params.choice))
     if ranges:
-        table = with_ranges(table, read_ranges(ranges))
+        table = ranged_summary(table, read_ranges(ranges))
     write_table(table, output.table)
 
 

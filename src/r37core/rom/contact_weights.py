@@ -71,8 +71,8 @@ def _means(choice: BoundaryChoice, chord: np.ndarray, traces: list[Trace]) -> sp
     positions = choice.chord_positions(choice.nodes)
     total = np.zeros((choice.nodes, len(chord)))
     for trace in traces:
-        at = chord[trace.nodes] @ trace.values.T
+        node_chord = chord[trace.nodes] @ trace.values.T
         for row, unit in zip(total, np.eye(choice.nodes), strict=True):
-            shares = (np.interp(at, positions, unit) * trace.measures) @ trace.values
+            shares = (np.interp(node_chord, positions, unit) * trace.measures) @ trace.values
             np.add.at(row, trace.nodes, shares)
     return sp.csr_array(total / total.sum(axis=1, keepdims=True))

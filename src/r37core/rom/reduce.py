@@ -30,24 +30,24 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     vectors = basis.vectors
     rotation_shapes, rotation_stiffening = shapes_of_rotation(stiffness, per_square, displaced, load)
 
-    def of_all_nodes(of_free: np.ndarray) -> np.ndarray:
+    def whole_field(free_field: np.ndarray) -> np.ndarray:
         """The columns over the unclamped degrees of freedom as displacements of all nodes, shape (nodes, 3, columns)."""
-        whole = np.zeros((len(mesh.points), 3, of_free.shape[1]))
-        whole[matrices.free_nodes] = of_free.reshape(-1, 3, of_free.shape[1])
+        whole = np.zeros((len(mesh.points), 3, free_field.shape[1]))
+        whole[matrices.free_nodes] = free_field.reshape(-1, 3, free_field.shape[1])
         return whole
 
-    whole, rotated = of_all_nodes(vectors), of_all_nodes(rotation_shapes)
+    whole, rotated = whole_field(vectors), whole_field(rotation_shapes)
 
-    def recovery(of: np.ndarray) -> RecoveryNodes:
-        return RecoveryNodes(of, mesh.points[of], whole[of], rotated[of])
+    def recovery(nodes: np.ndarray) -> RecoveryNodes:
+        return RecoveryNodes(nodes, mesh.points[nodes], whole[nodes], rotated[nodes])
 
     line, chord = mesh.node_set(TIP_LINES[choice.boundary.tip_line]), mesh.parameters[:, 0]
     stress_blocks = choice.stress_submesh.elements(mesh, weights.indices)
     stress_nodes = np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in stress_blocks.values())]))
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
-    mass_times_vectors, at_rest = mass @ vectors, projected(stiffness, vectors)
+    mass_times_vectors, static = mass @ vectors, projected(stiffness, vectors)
     return ReducedModel(
-        stiffness=at_rest,
+        stiffness=static,
         geometric_stiffness=projected(geometric, vectors),
         mass=_symmetric(vectors.T @ mass_times_vectors),
         spin_softening=None if softening is None else projected(softening, vectors),
@@ -58,7 +58,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
         stress_submesh=recovery(stress_nodes),
         stress_elements={name: np.searchsorted(stress_nodes, nodes) for name, nodes in stress_blocks.items()},
-        stress_region=choice.stress_submesh.in_words(),
+        stress_region=choice.stress_submesh.description(),
         whole_blade=recovery(np.arange(len(mesh.points))) if choice.recover_whole_blade else None,
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ mass_times_vectors for shape in shapes.values()]),
@@ -66,7 +66,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         tolerance=choice.basis_tolerance,
         singular_values=basis.singular_values,
         rotation_stiffening=rotation_stiffening,
-        quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, at_rest, max(choice.speeds)),
+        quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, static, max(choice.speeds)),
     )
 
 
@@ -76,7 +76,7 @@ def contact_nodes(weights: sp.csr_array, line: np.ndarray, chord: np.ndarray, ev
     `weights`: as contact_weights has them; `chord`: fraction of the chord of every node.
     """
     nearest = np.abs(chord[line] - (weights @ chord)[:, None]).argmin(axis=1)
-    fields = (mean_fields(weights, of) for of in (every.basis, every.rotation_shapes))
+    fields = (mean_fields(weights, nodes) for nodes in (every.basis, every.rotation_shapes))
     return RecoveryNodes(every.nodes[line[nearest]], mean_positions(every.points, weights), *fields)
 
 
@@ -96,15 +96,15 @@ def _symmetric(matrix: np.ndarray) -> np.ndarray:
 
 
 def _quadratic_residual(
-    stiffness: sp.csr_array, per_square: sp.csr_array, vectors: np.ndarray, at_rest: np.ndarray, highest: float
+    stiffness: sp.csr_array, per_square: sp.csr_array, vectors: np.ndarray, static: np.ndarray, highest: float
 ) -> float:
     """Largest entry of the Omega^4 term (at the highest speed) of the reduced stiffness, over that of the stiffness.
 
-    The term is fitted through the stiffness reduced at three speeds, `at_rest` among them; the linear theory makes it zero.
+    The term is fitted through the stiffness reduced at three speeds, `static` among them; the linear theory makes it zero.
     """
     if highest == 0.0:
         return 0.0
     middle, top = (projected(sp.csr_array(stiffness + (share * highest) ** 2 * per_square), vectors) for share in (0.5, 1.0))
     # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3
-    quadratic = (16.0 * middle - 4.0 * top - 12.0 * at_rest) / -3.0
-    return float(np.max(np.abs(quadratic)) / np.max(np.abs(at_rest)))
+    quadratic = (16.0 * middle - 4.0 * top - 12.0 * static) / -3.0
+    return float(np.max(np.abs(quadratic)) / np.max(np.abs(static)))

@@ -56,14 +56,14 @@ def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
     return line[nearest]
 
 
-def check_patches(choice: BoundaryChoice, chord: np.ndarray, of: str) -> None:
+def check_patches(choice: BoundaryChoice, chord: np.ndarray, place: str) -> None:
     """BoundaryError unless a node lies between any two patches; `chord`: fractions of the nodes that they are made `of`."""
     if _resolves(choice, choice.nodes, chord):
         return
     most = max((count for count in range(1, choice.nodes) if _resolves(choice, count, chord)), default=0)
     reason = "because between two patches there must be a node" if most else "because a patch is made of two or more"
     raise BoundaryError(
-        f"found {choice.nodes} contact patches on the {len(chord)} {of}; allowed: {f'at most {most}' if most else 'none'} "
+        f"found {choice.nodes} contact patches on the {len(chord)} {place}; allowed: {f'at most {most}' if most else 'none'} "
         f"(structure.boundary.nodes), {reason}; or contact: points, or a finer tip"
     )
 
@@ -81,8 +81,8 @@ def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
     """True where there are two nodes for each patch, one of them between it and the next."""
     positions = choice.chord_positions(count)
     following = np.searchsorted(positions, chord)
-    at_one = np.isclose(chord[:, None], positions).any(axis=1)
-    between = np.unique(following[~at_one & (following > 0) & (following < count)])
+    near_position = np.isclose(chord[:, None], positions).any(axis=1)
+    between = np.unique(following[~near_position & (following > 0) & (following < count)])
     return len(chord) >= max(2 * count - 1, 2) and len(between) == count - 1
 
 
@@ -102,7 +102,7 @@ class StressSubmesh:
         Key("Element layers left out round contact nodes and root, where stress grows with every finer mesh", ge=0, le=20),
     ] = 0
 
-    def in_words(self) -> str:
+    def description(self) -> str:
         """The region as results name it."""
         bounds = (("x <", self.maximum_x), ("z >", self.minimum_z), ("z <", self.maximum_z))
         box = ", ".join(f"{name} {bound:g} m" for name, bound in bounds if np.isfinite(bound)) or "whole blade"

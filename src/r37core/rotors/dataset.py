@@ -69,8 +69,8 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
     rows = [_row(read_speed(file), yield_stress) for file in files]
     data = {name: np.stack([row[name] for row in rows]) for name in VARIABLES if name in rows[0]}
     coordinates = {name: rows[0][name] for name in AXES if name in rows[0]}
-    of_speeds = {name: variable for name, variable in VARIABLES.items() if name not in OF_ALL_SPEEDS}
-    dataset = dataset_of(of_speeds, data | coordinates | {"speed": speeds}, {"speed": SPEED, **AXES}, {}, ("speed",))
+    speed_variables = {name: variable for name, variable in VARIABLES.items() if name not in OF_ALL_SPEEDS}
+    dataset = dataset_of(speed_variables, data | coordinates | {"speed": speeds}, {"speed": SPEED, **AXES}, {}, ("speed",))
     still = {name: (VARIABLES[name].dims, rows[0][name], VARIABLES[name].attributes) for name in OF_ALL_SPEEDS}
     dataset = dataset.assign(still)
     dataset["status"].attrs |= status_flags()
@@ -132,14 +132,14 @@ def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
                 "max_von_mises_pa": float(stress[worst]),
                 "blades_above_yield_at_once": float(dataset["blades_above_yield"].max() * dataset.sizes["blade_number"]),
             }
-        at = dataset.isel(speed=worst)
-        row |= {"worst_speed_rad_s": float(speeds[worst]), "leader_by_motion": int(at["leader"])}
+        worst_run = dataset.isel(speed=worst)
+        row |= {"worst_speed_rad_s": float(speeds[worst]), "leader_by_motion": int(worst_run["leader"])}
         if "blade_max_von_mises" in dataset:
-            row["leader_by_stress"] = _number_of_largest(at["blade_max_von_mises"])
-        shares = at["nodal_diameter_share"]
+            row["leader_by_stress"] = _number_of_largest(worst_run["blade_max_von_mises"])
+        shares = worst_run["nodal_diameter_share"]
         row |= {
-            "leader_motion_m": float(at["blade_rms"].max()),
-            "median_motion_m": float(at["blade_rms"].median()),
+            "leader_motion_m": float(worst_run["blade_rms"].max()),
+            "median_motion_m": float(worst_run["blade_rms"].median()),
             "nodal_diameter": _number_of_largest(shares),
             "nodal_diameter_share": float(shares.max()),
         }

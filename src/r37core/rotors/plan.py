@@ -27,7 +27,7 @@ def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the table and a figure of each blade and scene."""
-    runs = paths.of_runs(rotor_runs(sweep))
+    runs = paths.run_keys(rotor_runs(sweep))
     together = {f"<results>/{name}": runs and [{}] for name in ("rotor.nc", "rotors.csv")}
     return together | paths.pictures("rotor_{blade}__{scene}", runs)
 

@@ -20,7 +20,7 @@ def rotor_of_run(input: Any, output: Any, params: Any) -> None:
 def join(input: Any, output: Any, params: Any) -> None:
     """Join all rotors in one dataset and table. Inputs: rotors. Params: runs, fidelity. Outputs: dataset (nc), table (csv)."""
     files = as_list(input.rotors)
-    of_runs = dict(zip(map(tuple, params.runs), files, strict=True))
+    run_files = dict(zip(map(tuple, params.runs), files, strict=True))
     made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
-    write_dataset(gather_rotors(of_runs), output.dataset, made)
-    write_table(rotor_table(of_runs), output.table, digits=6)
+    write_dataset(gather_rotors(run_files), output.dataset, made)
+    write_table(rotor_table(run_files), output.table, digits=6)

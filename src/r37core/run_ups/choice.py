@@ -115,7 +115,7 @@ class RunUpChoice:
             )
         return RunUp(start, stop, revolutions, self.before, self.after, self.worn)
 
-    def of_blade(self, samples_per_revolution: int, campbell: xr.Dataset | None, name: str) -> RunUp:
+    def blade_run_up(self, samples_per_revolution: int, campbell: xr.Dataset | None, name: str) -> RunUp:
         """The run-up called `name` of a blade with this Campbell diagram, which one about a crossing needs.
 
         Raises RunUpError where there is no crossing, and for speeds beyond the diagram's.

@@ -19,7 +19,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice, revol
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.kept_numbers import energy_balance
 from r37core.time_integration.problem import Problem, stable_problem
-from r37core.time_integration.simulate import Simulation, at_rest
+from r37core.time_integration.simulate import Simulation, rest_state
 from r37core.time_integration.state import Schedule
 from r37core.time_integration.step_limit import UnstableStepError
 
@@ -65,8 +65,8 @@ class RunUpIntegration:
         self.model, self.run_up, self._scene = model, run_up, scene
         self.choice = replace(coarsest.choice, shorten=False, steps_per_sample=coarsest.grid.steps_per_sample)
         # between two speeds with a stable position there are only such
-        self._of_ends: dict[float, Problem] = {}
-        self._of_ends = {high: self._problem(high), low: coarsest}
+        self._end_problems: dict[float, Problem] = {}
+        self._end_problems = {high: self._problem(high), low: coarsest}
         stiffening = model.stiffness_per_square[0, 0] / model.squared_frequencies[0]
         self.intervals = schedule(run_up, choice.samples_per_revolution, float(stiffening))
         self.start()
@@ -74,7 +74,7 @@ class RunUpIntegration:
     def start(self, wear: np.ndarray | None = None) -> None:
         """Put the blade at rest at the first speed, in a lining with this `wear` (m), shape (rings, bars), None: as new."""
         self._simulation: Simulation | None = None
-        self.state = at_rest(self._problem(self.intervals[0].speed))
+        self.state = rest_state(self._problem(self.intervals[0].speed))
         if wear is not None:
             assert self.state.wear is not None
             self.state.wear[:] = wear
@@ -82,7 +82,7 @@ class RunUpIntegration:
         self.energy = self.stiffness_work = 0.0
 
     def _problem(self, speed: float) -> Problem:
-        return self._of_ends.get(speed) or Problem(self.model, speed, self._scene, self.choice)
+        return self._end_problems.get(speed) or Problem(self.model, speed, self._scene, self.choice)
 
     @property
     def balance(self) -> dict[str, np.ndarray]:
@@ -96,20 +96,20 @@ class RunUpIntegration:
         """Do all segments; ends with some that say so when the run diverges."""
         state, modes = self.state, None
         for interval in self.intervals:
-            problem, (distinct_speeds, of_segments) = self._problem(interval.speed), interval.distinct_speeds
+            problem, (distinct_speeds, segment_indices) = self._problem(interval.speed), interval.distinct_speeds
             # in the memory of the one before
             before = None if self._simulation is None else self._simulation.engine
-            self._simulation = simulation = Simulation.of_problem(problem, distinct_speeds, before)
+            self._simulation = simulation = Simulation.build(problem, distinct_speeds, before)
             constants, increments = simulation.segments, simulation.segments.increments
             assert increments is not None
             if modes is not None:
                 self._project(problem.blade.modes.T @ modes)
             modes = problem.blade.modes
-            simulation.engine.take(of_segments[0])
-            state.increment[:] = increments.increment(of_segments[0], state.displacement, self.velocity)
-            at_once = min(_AT_ONCE, revolutions_at_once(problem.grid.steps_per_revolution))
-            for part in interval.at_once(at_once * self.choice.samples_per_revolution):
-                indices, lasting = of_segments[part], interval.lasting[part]
+            simulation.engine.take(segment_indices[0])
+            state.increment[:] = increments.increment(segment_indices[0], state.displacement, self.velocity)
+            revolutions_in_call = min(_AT_ONCE, revolutions_at_once(problem.grid.steps_per_revolution))
+            for part in interval.parts(revolutions_in_call * self.choice.samples_per_revolution):
+                indices, lasting = segment_indices[part], interval.lasting[part]
                 call, first = Schedule(indices, lasting, len(state.displacement)), state.samples
                 record = simulation.follow(state, call)
                 lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)

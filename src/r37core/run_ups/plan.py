@@ -58,7 +58,7 @@ class RunUps:
     def choices(self) -> dict[tuple[str, str], dict[str, RunUpChoice]]:
         """Run-ups of each blade and scene, by name."""
         settings = self.sweep.settings
-        by_pair: dict[tuple[str, str], dict[str, RunUpChoice]] = {
+        pair_choices: dict[tuple[str, str], dict[str, RunUpChoice]] = {
             (blade, scene): {} for blade in settings.blade_names for scene in settings.scene_names
         }
         for name, entry in entries(settings).items():
@@ -66,9 +66,9 @@ class RunUps:
             scenes = settings.scene_names if entry.scenes == "all" else entry.scenes
             choices = {scene: entry.choice(settings.scenes[scene].revolutions) for scene in scenes if scene in settings.scenes}
             for blade, (scene, choice) in product(blades, choices.items()):
-                if (blade, scene) in by_pair:
-                    by_pair[blade, scene][name] = choice
-        return by_pair
+                if (blade, scene) in pair_choices:
+                    pair_choices[blade, scene][name] = choice
+        return pair_choices
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """Files that a run-up starts from, with the stress operator where its stress is wanted."""
@@ -121,7 +121,7 @@ def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the tables and the figures of the run-ups."""
-    pairs = paths.of_runs(RunUps(sweep).pairs)
+    pairs = paths.run_keys(RunUps(sweep).pairs)
     return {
         **{f"<results>/{name}": pairs and [{}] for name in ("run_ups.nc", "run_ups.csv", "run_up_rates.csv")},
         **paths.pictures("run_ups_{blade}__{scene}", pairs),
@@ -134,8 +134,8 @@ def remarks(settings: Settings) -> list[str]:
     lines = []
     choices = RunUps(Sweep(settings)).choices
     for name, casing in elastic_casings(settings).items():
-        of_scene = [choice for (_, scene), named in choices.items() if scene == name for choice in named.values()]
-        fastest = max((max(choice.start, choice.stop) for choice in of_scene if choice.crossing is None), default=0.0)
+        scene_choices = [choice for (_, scene), named in choices.items() if scene == name for choice in named.values()]
+        fastest = max((max(choice.start, choice.stop) for choice in scene_choices if choice.crossing is None), default=0.0)
         if fastest > fastest_of(settings, name):
             lines.append(remark_on_overtaken_waves(name, casing, fastest))
     return [line for line in lines if line]

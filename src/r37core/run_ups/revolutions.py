@@ -11,7 +11,7 @@ from scipy.linalg import block_diag
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.time_integration.kept_numbers import KEPT, amplitudes, with_rotation
+from r37core.time_integration.kept_numbers import KEPT, amplitudes, append_rotation
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
@@ -100,7 +100,7 @@ class _Revolutions:
                 self._stress_of_shapes = self.stress.max_von_mises(self._to_stressed.T)
             numbers = segments.snapshots
             if self.static_stress:
-                numbers = with_rotation(numbers, self.model, segments.snapshot_speeds)
+                numbers = append_rotation(numbers, self.model, segments.snapshot_speeds)
             # of a sum of shapes the stress is no more than the sum of theirs
             self._wait(coordinates=numbers @ self._to_stressed.T, bound=np.abs(numbers) @ self._stress_of_shapes)
         waiting = sum(map(len, self.waiting["interval"])) // self.choice.samples_per_revolution

@@ -78,7 +78,7 @@ class ModalInterval:
         """Samples of each segment."""
         return np.array([segment.samples for segment in self.segments])
 
-    def at_once(self, samples: int) -> Iterator[slice]:
+    def parts(self, samples: int) -> Iterator[slice]:
         """The segments in lots of about so many samples."""
         lots = (np.cumsum(self.lasting) - self.lasting) // samples
         for first, last in pairwise([*np.unique(lots, return_index=True)[1], len(lots)]):
@@ -126,12 +126,12 @@ def _rising(low: float, high: float, samples: int, per_revolution: int, squared_
     ends = [round(samples * part / number) for part in range(number + 1)]
     intervals = []
     for first, last in pairwise(ends):
-        segments, at = [], first
-        while at < last:
-            longest = int(lasting * speed_at(at) / (2.0 * np.pi) * per_revolution)
-            following = min(at + min(max(longest, 1), LONGEST_SEGMENT * per_revolution), last)
-            segments.append(SpeedSegment(0.5 * (speed_at(at) + speed_at(following)), following - at))
-            at = following
+        segments, first_sample = [], first
+        while first_sample < last:
+            longest = int(lasting * speed_at(first_sample) / (2.0 * np.pi) * per_revolution)
+            following = min(first_sample + min(max(longest, 1), LONGEST_SEGMENT * per_revolution), last)
+            segments.append(SpeedSegment(0.5 * (speed_at(first_sample) + speed_at(following)), following - first_sample))
+            first_sample = following
         # some at a time: the numbers of all segments of an interval are in memory together
         parts = [tuple(segments[part : part + _AT_ONCE]) for part in range(0, len(segments), _AT_ONCE)]
         intervals += [ModalInterval(speed_at(0.5 * (first + last)), part) for part in parts]

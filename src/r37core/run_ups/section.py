@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, model_validator
 
-from r37core.config.declaring import DECLARED, declared_by, in_si
+from r37core.config.declaring import DECLARED, declared_by, si_form
 from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, check_names, refused
 
 from .choice import Crossing, RunUpChoice
@@ -43,8 +43,8 @@ class RunUpEntry(Section):
         for keys in ((*_START, "crossing"), (*_STOP, "crossing"), _LENGTH):
             present = [key for key in keys if getattr(self, key) is not None]
             if len(present) != 1:
-                at = present[1] if present else keys[0]
-                raise refused((at,), " and ".join(present) if present else "nothing", f"one of {', '.join(keys)}")
+                speed_key = present[1] if present else keys[0]
+                raise refused((speed_key,), " and ".join(present) if present else "nothing", f"one of {', '.join(keys)}")
         choice = self.choice(1)
         if choice.start == choice.stop and self.revolutions is None:
             raise refused((self.key_of_length,), "a rate between equal speeds", "revolutions, for a run at constant speed")
@@ -59,8 +59,8 @@ class RunUpEntry(Section):
         """Run-up that is asked for in a scene whose runs have so many revolutions."""
         parts: dict[str, Any] = {"before": self.revolutions_before or revolutions_of_scene, "crossing": None}
         if crossing := self.crossing:
-            parts |= {"start": crossing.first, "stop": crossing.last, "crossing": in_si(Crossing, crossing)}
-        return in_si(RunUpChoice, self, **parts)
+            parts |= {"start": crossing.first, "stop": crossing.last, "crossing": si_form(Crossing, crossing)}
+        return si_form(RunUpChoice, self, **parts)
 
 
 def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:

@@ -28,7 +28,7 @@ def record(input: Any, output: Any, params: Any) -> None:
     """
     choice = from_plain(IntegrationChoice, params.choice)
     campbell = read_dataset(input.campbell) if hasattr(input, "campbell") else None
-    run_up = from_plain(RunUpChoice, params.run_up).of_blade(choice.samples_per_revolution, campbell, params.name)
+    run_up = from_plain(RunUpChoice, params.run_up).blade_run_up(choice.samples_per_revolution, campbell, params.name)
     result = record_run_up(
         RunUpIntegration(read_contact_model(input.model), from_plain(Scene, params.scene), choice, run_up),
         params.results,

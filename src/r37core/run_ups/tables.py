@@ -107,13 +107,13 @@ def safe_rates(group: pd.DataFrame) -> dict[str, float]:
     rates, ratios = ordered["rate_rad_s2"].to_numpy(), ordered["ratio"].to_numpy()
     above = np.flatnonzero(~(ratios <= 1.0))
     first = int(above[-1]) + 1 if len(above) else 0
-    at_yield = np.nan
+    yield_run = np.nan
     if 0 < first < len(rates):
         slow, fast = np.log(ratios[first - 1]), np.log(ratios[first])
         share = slow / (slow - fast) if np.isfinite(slow) else 1.0
-        at_yield = float(rates[first - 1] * (rates[first] / rates[first - 1]) ** share)
+        yield_run = float(rates[first - 1] * (rates[first] / rates[first - 1]) ** share)
     lowest = float(rates[first]) if first < len(rates) else np.nan
-    values = (len(rates), float(rates[0]), float(rates[-1]), lowest, at_yield, float(np.max(ratios)))
+    values = (len(rates), float(rates[0]), float(rates[-1]), lowest, yield_run, float(np.max(ratios)))
     return dict(zip(_RATES, values, strict=True))
 
 

@@ -9,7 +9,7 @@ from r37core.config import ConfigError, Settings
 from r37core.config.blades import SHARES, BladeEntry
 from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, blade_number, scene_numbers
 from r37core.config.document import Document
-from r37core.config.messages import on_one_line
+from r37core.config.messages import single_line
 from r37core.rom.naming import NAMED_MODES
 from r37core.yaml_file import KeyPath
 
@@ -50,7 +50,7 @@ def search_can_be_run(settings: Settings) -> None:
 def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, values: dict[str, float]) -> None:
     """ConfigError, at `path`, where the entry cannot have these values of some variables."""
     try:
-        design = designs.with_values("of the search", values)
+        design = designs.varied_entry("of the search", values)
         start = designs.blade("of the search", None).definition
         if design.sweep_lean and isinstance(start, BladeDefinition):
             check_sweep(stacking_rows([row.model_dump() for row in design.sweep_lean]), start.profiles)
@@ -75,7 +75,7 @@ def _scenes_are_run(settings: Settings) -> None:
                     )
             if quantity.mode is not None and quantity.mode not in modes:
                 allowed = f"one of the Campbell diagram, {', '.join(modes)} (campbell.modes)"
-                raise document.refusal((*path, "mode"), on_one_line(quantity.mode), allowed)
+                raise document.refusal((*path, "mode"), single_line(quantity.mode), allowed)
             if quantity.engine_order is not None and quantity.engine_order > highest:
                 allowed = f"at most campbell.highest_engine_order ({highest})"
                 raise document.refusal((*path, "engine_order"), f"{quantity.engine_order}", allowed)
@@ -92,7 +92,7 @@ def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None
     for where, allowed in (("of_blades", BLADE_KEYS), ("of_scenes", sorted(known))):
         for key in getattr(tolerances, where):
             if key not in allowed:
-                raise document.refusal((*path, where, key), on_one_line(key), f"one of {', '.join(allowed)}")
+                raise document.refusal((*path, where, key), single_line(key), f"one of {', '.join(allowed)}")
     blade = settings.blades[designs.entry.blade]
     for key in tolerances.of_blades:
         try:

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.config.families import with_value
+from r37core.config.families import changed_content
 from r37core.dataset_file import about, read_dataset
 from r37core.io import write_text
 from r37core.results.closing import counted
@@ -36,11 +36,11 @@ def search_dataset(last: SearchRound, choice: SearchChoice, start_values: Sequen
     tried = [each for each in evaluated.values() if each.name != START]
     order, front = _best(tried, evaluated[START]), {each.name for each in not_dominated(list(evaluated.values()))}
     dataset = xr.Dataset(coords=_coordinates(list(designs), choice))
-    dataset = dataset.assign(_of_designs(designs, evaluated, choice)).assign(_of_bounds(choice, last))
+    dataset = dataset.assign(_design_variables(designs, evaluated, choice)).assign(_bound_variables(choice, last))
     dataset["not_dominated"] = ("design", np.array([name in front for name in designs], "i1"), _NOT_DOMINATED)
     places = [order.index(name) + 1 if name in order else 0 for name in designs]
     dataset["order"] = ("design", np.array(places, "i4"), _ORDER)
-    return dataset.assign(_of_surrogate(known, choice, last.tried[order[0]].values)) if order else dataset
+    return dataset.assign(_surrogate_variables(known, choice, last.tried[order[0]].values)) if order else dataset
 
 
 def _best(tried: Sequence[Evaluated], start: Evaluated) -> list[str]:
@@ -74,7 +74,7 @@ def _coordinates(designs: list[str], choice: SearchChoice) -> dict[str, object]:
     }
 
 
-def _of_designs(designs: dict[str, Design], evaluated: dict[str, Evaluated], choice: SearchChoice) -> dict[str, object]:
+def _design_variables(designs: dict[str, Design], evaluated: dict[str, Evaluated], choice: SearchChoice) -> dict[str, object]:
     def quantities(names: Sequence[str], place: int) -> np.ndarray:
         rows = [[number(design.quantities.get(name, (None, None))[place]) for name in names] for design in designs.values()]
         return np.array(rows, float).reshape(len(designs), len(names))
@@ -92,7 +92,7 @@ def _of_designs(designs: dict[str, Design], evaluated: dict[str, Evaluated], cho
     }
 
 
-def _of_bounds(choice: SearchChoice, last: SearchRound) -> dict[str, object]:
+def _bound_variables(choice: SearchChoice, last: SearchRound) -> dict[str, object]:
     bounds = [constraint.bounds(number(last.start[name][0])) for name, constraint in choice.constraints.items()]
     lowest, highest = np.array(bounds, float).reshape(-1, 2).T
     return {
@@ -103,7 +103,7 @@ def _of_bounds(choice: SearchChoice, last: SearchRound) -> dict[str, object]:
     }
 
 
-def _of_surrogate(known: list[Evaluated], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
+def _surrogate_variables(known: list[Evaluated], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
     """Slices through the best design, and what each variable does."""
     cut = slices(choice.variables, known, at, POINTS, choice.seed)
     indices = sensitivity(choice.variables, known, choice.seed)
@@ -147,7 +147,7 @@ def entries_of(search: xr.Dataset, designs: Sequence[str], start: str, entries: 
     for place, design in enumerate(designs, 1):
         content = dict(entries[start])
         for key, value in zip(search["variable"].values, search["value"].sel(design=design).values, strict=True):
-            content = with_value(content, str(key).split("."), float(value))
+            content = changed_content(content, str(key).split("."), float(value))
         made[f"{start}_best{place}"] = content
     return made
 

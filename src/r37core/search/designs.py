@@ -67,7 +67,7 @@ class SearchDesigns:
         """Values of the variables that the start has; None where neither its entry says nor a key that is left out."""
         return [start_value(self.start, key) for key in self.entry.variables]
 
-    def with_values(self, name: str, values: Mapping[str, float]) -> BladeEntry:
+    def varied_entry(self, name: str, values: Mapping[str, float]) -> BladeEntry:
         """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
         return design_entry(self.entry.blade, self.start, values, name, self.settings.designs.document)
 
@@ -76,7 +76,7 @@ class SearchDesigns:
         blade, designs = self.entry.blade, self.settings.designs
         if values is None:
             return self.settings.blades[blade]
-        changed = self.with_values(name, dict(zip(self.entry.variables, values, strict=True)))
+        changed = self.varied_entry(name, dict(zip(self.entry.variables, values, strict=True)))
         # the name is that of the start, by which tables of sweep and lean know it
         return blade_settings(blade, {**designs.entries, blade: changed}, self.settings.root, designs.document)
 
@@ -95,7 +95,7 @@ class SearchDesigns:
         return Sample(
             members=members,
             deciding=list(members),
-            largest_share=settings.config.refinement.in_scene(chosen).largest_share,
+            largest_share=settings.config.refinement.scene_refinement(chosen).largest_share,
             results=tuple(result for result in settings.results_of(self.entry.blade, scene) if result in _KEPT),
             campbell=own,
         )
@@ -105,8 +105,8 @@ class SearchDesigns:
         tolerances, scene_entry = self.entry.tolerances, self.settings.scene_entries[scene]
         if tolerances is None:
             return {}
-        of_scene, spreads = scene_numbers(scene_entry), tolerances.spreads
-        nominal = [blade_number(blade, key) if where == "of_blades" else of_scene.get(key) for where, key in spreads]
+        scene_values, spreads = scene_numbers(scene_entry), tolerances.spreads
+        nominal = [blade_number(blade, key) if where == "of_blades" else scene_values.get(key) for where, key in spreads]
         points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
         members = {}
         for member in filter(is_of_sample, points):

@@ -16,7 +16,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from r37core.figures import style
 from r37core.units import shown_unit
 
-from .panel import in_lines, with_unit
+from .panel import broken_key, unit_label
 from .problem import START
 
 _START_LOOK: dict[str, Any] = {"color": "0.15", "marker": "s", "markersize": 5, "linestyle": "none", "zorder": 5}
@@ -84,7 +84,7 @@ def draw_slices(search: xr.Dataset) -> Figure:
             else:
                 axes.set_ylabel(objective.label + _quality(search, name))
             if rows_of_one > 1 or number == len(names) - 1:
-                axes.set_xlabel(in_lines(str(key)), fontsize=7)
+                axes.set_xlabel(broken_key(str(key)), fontsize=7)
             else:
                 axes.tick_params(labelbottom=False)
         for axes in panels[len(variables) :]:
@@ -96,10 +96,10 @@ def draw_slices(search: xr.Dataset) -> Figure:
 
 
 def _objective(search: xr.Dataset, name: str) -> _Objective:
-    of_objective = search.sel(objective=name)
-    unit, factor = shown_unit(of_objective["objective_unit"].item())
-    values, scatter = (factor * of_objective[f"objective_{part}"].values for part in ("value", "scatter"))
-    return _Objective(with_unit(str(name), unit), values, scatter)
+    objective_data = search.sel(objective=name)
+    unit, factor = shown_unit(objective_data["objective_unit"].item())
+    values, scatter = (factor * objective_data[f"objective_{part}"].values for part in ("value", "scatter"))
+    return _Objective(unit_label(str(name), unit), values, scatter)
 
 
 def _title(search: xr.Dataset) -> str:

@@ -17,7 +17,7 @@ def search_contents(search: xr.Dataset) -> dict[str, object]:
         "objectives": [_quantity(search, "objective", name) for name in search["objective"].values],
         "constraints": [_quantity(search, "constraint", name) for name in search["constraint"].values],
         "variables": [
-            {"label": in_lines(str(key)), "values": _numbers(search["value"].sel(variable=key).values)}
+            {"label": broken_key(str(key)), "values": _numbers(search["value"].sel(variable=key).values)}
             for key in search["variable"].values
         ],
         "feasible": search["feasible"].values.astype(bool).tolist(),
@@ -29,10 +29,10 @@ def search_contents(search: xr.Dataset) -> dict[str, object]:
 
 
 def _quantity(search: xr.Dataset, kind: str, name: str) -> dict[str, object]:
-    of = search.sel({kind: name})
-    unit, factor = shown_unit(of[f"{kind}_unit"].item())
-    scatter = {"scatter": _numbers(factor * of["objective_scatter"].values)} if kind == "objective" else {}
-    return {"label": with_unit(str(name), unit), "values": _numbers(factor * of[f"{kind}_value"].values), **scatter}
+    chosen = search.sel({kind: name})
+    unit, factor = shown_unit(chosen[f"{kind}_unit"].item())
+    scatter = {"scatter": _numbers(factor * chosen["objective_scatter"].values)} if kind == "objective" else {}
+    return {"label": unit_label(str(name), unit), "values": _numbers(factor * chosen[f"{kind}_value"].values), **scatter}
 
 
 def _numbers(values: np.ndarray) -> list[float | None]:
@@ -43,12 +43,12 @@ _LONGEST = 14
 """Characters of a name in one line."""
 
 
-def with_unit(name: str, unit: str) -> str:
+def unit_label(name: str, unit: str) -> str:
     """A quantity's name with the unit it is shown in."""
     return f"{name} ({unit})" if unit else name
 
 
-def in_lines(key: str) -> str:
+def broken_key(key: str) -> str:
     """A dotted key; a long one with its last part in a second line."""
     before, dot, last = key.rpartition(".")
     return key if len(key) <= _LONGEST or not dot else f"{before}.\n{last}"

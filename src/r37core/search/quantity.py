@@ -68,7 +68,7 @@ class Quantity:
     quantile: float | None = None
 
     @property
-    def of_contact(self) -> bool:
+    def needs_contact(self) -> bool:
         """Whether simulations are needed for it."""
         return self.measure in CONTACT_MEASURES
 
@@ -99,7 +99,7 @@ def static_stress(stress: StressOperator, stiffening: np.ndarray, speeds: Sequen
     return dict(zip(speeds, stress.max_von_mises(np.concatenate([still, amplitudes], axis=1)).tolist(), strict=True))
 
 
-def of_structure(quantity: Quantity, structure: DesignStructure, highest_speed: float) -> float:
+def structure_value(quantity: Quantity, structure: DesignStructure, highest_speed: float) -> float:
     """The value of a quantity without contact; `highest_speed` (rad/s): where the static stress is taken that names no speed.
 
     Raises KeyError for a mode or engine order that the Campbell diagram does not have.
@@ -108,15 +108,15 @@ def of_structure(quantity: Quantity, structure: DesignStructure, highest_speed: 
         return structure.density * structure.volume
     if quantity.measure == "static_stress_pa":
         return structure.static_stress[quantity.speed or highest_speed]
-    of_mode = structure.campbell.sel(mode=quantity.mode)
+    mode_data = structure.campbell.sel(mode=quantity.mode)
     if quantity.measure == "clearance_loss_m":
-        return -float(of_mode["dynamic_clearance"].min())
+        return -float(mode_data["dynamic_clearance"].min())
     speed = quantity.speed or 0.0
     if quantity.measure == "crossing_margin_percent":
-        crossing = float(of_mode["crossing_speed"].sel(engine_order=quantity.engine_order))
+        crossing = float(mode_data["crossing_speed"].sel(engine_order=quantity.engine_order))
         # a mode that never meets the engine order is as far from it as can be
         return 100.0 * abs(crossing / speed - 1.0) if math.isfinite(crossing) else 100.0
-    frequency = float(np.interp(speed, of_mode["speed"], of_mode["frequency"]))
+    frequency = float(np.interp(speed, mode_data["speed"], mode_data["frequency"]))
     if quantity.measure == "frequency_hz":
         return frequency
     assert quantity.engine_order is not None
@@ -124,7 +124,7 @@ def of_structure(quantity: Quantity, structure: DesignStructure, highest_speed: 
     return 100.0 * abs(frequency / excitation - 1.0)
 
 
-def of_contact(
+def contact_value(
     quantity: Quantity, nominal: Mapping[str, Mapping[str, float]], members: Mapping[str, Sequence[Mapping[str, float]]]
 ) -> tuple[float, float]:
     """Value of a quantity of contact and its standard deviation, NaN where that is not known: of the worst scene.
@@ -132,18 +132,18 @@ def of_contact(
     `nominal`: scene -> its robustness; `members`: scene -> those of each member under tolerances. A quantile's standard
     deviation is that over samples drawn from the members.
     """
-    of_scenes = []
+    scene_values = []
     for scene in quantity.scenes:
         if quantity.quantile is None:
             scatter = f"{quantity.measure.removesuffix('_rad_s')}_scatter_rad_s"
-            of_scenes.append((_of_run(quantity.measure, nominal[scene]), nominal[scene].get(scatter, math.nan)))
+            scene_values.append((_run_value(quantity.measure, nominal[scene]), nominal[scene].get(scatter, math.nan)))
         else:
-            of_members = [_of_run(quantity.measure, member) for member in members[scene]]
-            of_scenes.append(_quantile(of_members, quantity.quantile))
-    return max(of_scenes, key=lambda value: value[0])
+            member_values = [_run_value(quantity.measure, member) for member in members[scene]]
+            scene_values.append(_quantile(member_values, quantity.quantile))
+    return max(scene_values, key=lambda value: value[0])
 
 
-def _of_run(measure: str, robustness: Mapping[str, float]) -> float:
+def _run_value(measure: str, robustness: Mapping[str, float]) -> float:
     return math.inf if measure in OF_ENDED_RUNS and robustness["diverged_runs"] else robustness[measure]
 
 

@@ -24,7 +24,7 @@ from r37core.stress.operator import read_stress_operator
 
 from .dataset import entries_of, search_dataset, search_table, write_entries
 from .problem import SearchChoice
-from .quantity import DesignStructure, Quantity, of_contact, of_structure, static_stress
+from .quantity import DesignStructure, Quantity, contact_value, static_stress, structure_value
 from .rounds import first_round, progress, read_round, round_after, tried_after, write_round
 
 
@@ -61,7 +61,7 @@ def shape(input: Any, output: Any, params: Any) -> None:
             submesh = from_plain(StressSubmesh, params.stress_submesh)
             # elements next to contact nodes, which are known with the model, count here
             if not submesh.elements(mesh, np.empty(0, dtype=int)):
-                raise ValueError(f"the stress submesh ({submesh.in_words()}) has no elements")
+                raise ValueError(f"the stress submesh ({submesh.description()}) has no elements")
         except ValueError as error:
             refused = str(error)
     write_json({"refused": refused}, output.shape)
@@ -91,11 +91,11 @@ def measure(input: Any, output: Any, params: Any) -> None:
     nominal, members = {}, {}
     for scene, number in params.scenes.items():
         nominal[scene] = robustness(read_dataset(next(files)))
-        members[scene] = [robustness(read_dataset(file), with_scatter=False) for file in islice(files, number - 1)]
+        members[scene] = [robustness(read_dataset(file), chance_scatter=False) for file in islice(files, number - 1)]
     values = {
-        name: of_contact(quantity, nominal, members)
-        if quantity.of_contact
-        else (of_structure(quantity, structure, params.highest_speed), 0.0)
+        name: contact_value(quantity, nominal, members)
+        if quantity.needs_contact
+        else (structure_value(quantity, structure, params.highest_speed), 0.0)
         for name, quantity in quantities.items()
     }
     known = {name: [number if math.isfinite(number) else None for number in value] for name, value in values.items()}

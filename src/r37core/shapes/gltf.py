@@ -29,7 +29,7 @@ class MovingSurface:
 
     `points` (m), shape (points, 3), in the blade's frame; `triangles`, shape (triangles, 3), counter-clockwise seen from
     outside; `values`, shape (points,), of what the colours show; `colours`, shape (points, 3), sRGB from 0 to 1; `targets` (m),
-    shape (targets, points, 3); `times` (s), shape (times,), from 0; `weights`, shape (times, targets); `at_rest`, shape
+    shape (targets, points, 3); `times` (s), shape (times,), from 0; `weights`, shape (times, targets); `rest_weights`, shape
     (targets,): the weights of a viewer that does not move; `about`: what the file says of itself.
     """
 
@@ -40,7 +40,7 @@ class MovingSurface:
     targets: np.ndarray
     times: np.ndarray
     weights: np.ndarray
-    at_rest: np.ndarray
+    rest_weights: np.ndarray
     about: Mapping[str, object] = field(default_factory=dict)
 
 
@@ -69,7 +69,9 @@ def write_glb(surface: MovingSurface, name: str, file: Path | str) -> None:
         "scene": 0,
         "scenes": [{"nodes": [0], "name": name}],
         "nodes": [{"mesh": 0, "name": name}],
-        "meshes": [{"primitives": [primitive], "weights": np.asarray(surface.at_rest, dtype=float).tolist(), "name": name}],
+        "meshes": [
+            {"primitives": [primitive], "weights": np.asarray(surface.rest_weights, dtype=float).tolist(), "name": name}
+        ],
         "materials": [material],
         "animations": [
             {"channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}], "samplers": [sampler], "name": name}

@@ -98,9 +98,11 @@ def write_worst_shapes(
             "magnification": magnified,
             "worst_s": float(times[instant.number]),
         }
-        at_rest = weights[instant.number]
+        rest_weights = weights[instant.number]
         colours = _colours(stress[nodes], largest)
-        surface = MovingSurface(mesh.points[nodes], triangles, stress[nodes], colours, targets, times, weights, at_rest, about)
+        surface = MovingSurface(
+            mesh.points[nodes], triangles, stress[nodes], colours, targets, times, weights, rest_weights, about
+        )
         write_glb(surface, name, folder / f"{name}.glb")
         entries.append(about)
     write_json(entries, folder / INDEX)

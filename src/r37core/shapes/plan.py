@@ -51,7 +51,7 @@ class Shapes:
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Folders of shapes, the page of each blade, and the figures."""
-    runs = paths.of_runs(Shapes(sweep).runs)
+    runs = paths.run_keys(Shapes(sweep).runs)
     blades = paths.of("blade", dict.fromkeys(run["blade"] for run in runs))
     return {
         MODE_SHAPES: blades,

@@ -51,13 +51,13 @@ def draw_shapes(folder: Path) -> Figure:
 
 def _draw(axes: Axes, folder: Path, entry: Mapping[str, Any]) -> None:
     name = str(entry["shape"])
-    of_mode = name.startswith("mode_")
-    file = folder / ("modes_0.vtu" if of_mode else f"{name}.vtu")
+    is_mode = name.startswith("mode_")
+    file = folder / ("modes_0.vtu" if is_mode else f"{name}.vtu")
     with readable(file):
         grid = pyvista.read(file)
-    moved = f"mode {name.removeprefix('mode_')}" if of_mode else "displacement"
+    moved = f"mode {name.removeprefix('mode_')}" if is_mode else "displacement"
     size = np.linalg.norm(grid.point_data[moved], axis=1)
-    if of_mode:
+    if is_mode:
         values, label, largest = size / size.max(), "share of the largest", 1.0
         factor = LARGEST_SHOWN * float(np.ptp(np.hypot(*grid.points[:, :2].T))) / float(size.max())
     else:

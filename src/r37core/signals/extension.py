@@ -22,14 +22,14 @@ def signals_have_runs(settings: Settings) -> None:
     if isinstance(speeds, list):
         for name in settings.scenes:
             slow_run_can_be_done(length_of_run(settings, name, speeds[0]), settings, key)
-    with_signal = {name: scene for name, scene in settings.scenes.items() if "signal" in scene.results}
-    if not with_signal:
+    signal_runs = {name: scene for name, scene in settings.scenes.items() if "signal" in scene.results}
+    if not signal_runs:
         raise documents.config.refusal(
             key,
             "speeds, though no scene that is run has signal among its results",
             f"such a scene ({', '.join(settings.scenes)} of {documents.scenes.name} are run), or no speeds",
         )
-    for name, scene in with_signal.items():
+    for name, scene in signal_runs.items():
         if wanted.revolutions is not None and wanted.revolutions > scene.revolutions:
             allowed = f"at most those of a run, {scene.revolutions} in '{name}'"
             raise documents.config.refusal(("signals", "revolutions"), f"{wanted.revolutions}", allowed)

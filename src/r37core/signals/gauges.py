@@ -41,7 +41,7 @@ def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> n
 def gauge_points(mesh: BladeMesh, gauges: Sequence[Gauge]) -> np.ndarray:
     """Places of the gauges (m), shape (gauges, 3)."""
     points = [_surface_point(mesh, gauge) for gauge in gauges]
-    return np.array([at.element.shape_functions(at.local[None])[0] @ mesh.points[at.nodes] for at in points])
+    return np.array([point.element.shape_functions(point.local[None])[0] @ mesh.points[point.nodes] for point in points])
 
 
 def _row(mesh: BladeMesh, basis: np.ndarray, gauge: Gauge) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from r37core.config import in_si
+from r37core.config import si_form
 from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.structure_plan import Imported
@@ -38,8 +38,8 @@ class Signals:
 
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """Gauges of a blade as plain values; a blade given by matrices has none."""
-        gauges = self._section.gauges if wildcards.blade in self.imported.with_mesh else {}
-        return {name: to_plain(in_si(Gauge, entry)) for name, entry in gauges.items()}
+        gauges = self._section.gauges if wildcards.blade in self.imported.meshed_blades else {}
+        return {name: to_plain(si_form(Gauge, entry)) for name, entry in gauges.items()}
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """Inputs of signals, with those of gauges and of the speeds of interactions."""
@@ -79,12 +79,12 @@ class Signals:
 
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Signals of each blade and scene."""
-    return {SIGNALS_OF_RUN: paths.of_runs(_runs(sweep))}
+    return {SIGNALS_OF_RUN: paths.run_keys(_runs(sweep))}
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """All signals in one file, and the figures."""
-    runs = paths.of_runs(_runs(sweep))
+    runs = paths.run_keys(_runs(sweep))
     return {
         "<results>/signals.nc": runs and [{}],
         **paths.pictures("spectrogram_{blade}__{scene}", runs),

@@ -51,10 +51,10 @@ def record_signals(
     for revolution in range(choice.revolutions):
         record = simulation.advance(state, 1)
         good = len(record.samples) - (1 if record.diverged else 0)
-        at = slice(revolution * per_revolution, revolution * per_revolution + good)
-        tip[at] = record.samples[:good].reshape(-1, *tip.shape[1:])
+        reached = slice(revolution * per_revolution, revolution * per_revolution + good)
+        tip[reached] = record.samples[:good].reshape(-1, *tip.shape[1:])
         if len(rows):
-            strain[at] = record.snapshots[:good] @ rows.T
+            strain[reached] = record.snapshots[:good] @ rows.T
         if record.diverged:
             status = RunStatus.DIVERGED
             break

@@ -20,5 +20,5 @@ EXTENSION = Extension(
         )
     },
     closing="stability.closing.closing",
-    on_request=True,
+    made_on_request=True,
 )

@@ -21,9 +21,9 @@ def draw_stability(table: pd.DataFrame) -> Figure:
     for axes, scene in zip(panels[0], scenes, strict=True):
         for outcome, colour in COLOURS.items():
             rows = table[(table["scene"] == scene) & (table["outcome"] == outcome)]
-            at = [names.index(name) for name in rows["what"]]
-            axes.scatter(places[rows.index], at, marker="s", s=70, color=colour, label=outcome)
-            for x, y, value in zip(places[rows.index], at, rows["value"], strict=True):
+            heights = [names.index(name) for name in rows["what"]]
+            axes.scatter(places[rows.index], heights, marker="s", s=70, color=colour, label=outcome)
+            for x, y, value in zip(places[rows.index], heights, rows["value"], strict=True):
                 axes.annotate(f"{value:g}", (x, y), xytext=(7, 0), textcoords="offset points", fontsize=5.5, va="center")
         axes.set(title=scene, xticks=[], xlim=(-0.5, places.max() + 1.0), ylim=(len(names) - 0.5, -0.5))
         axes.set_yticks(range(len(names)), [name.replace("_", " ") for name in names])

@@ -134,7 +134,7 @@ def _case(settings: Settings, extreme: Extreme) -> Case:
     assert blade is not None
     scene, refused = None, _refusal(settings, blade, extreme)
     try:
-        scene = None if refused else checked_scene(changed(entry, _of_scene(entry, extreme.changes)))
+        scene = None if refused else checked_scene(changed(entry, _scene_case(entry, extreme.changes)))
     except ConfigError as error:
         refused = str(error)
     choice = replace(integration_of_level(settings, base, scene), revolutions=extreme.revolutions)
@@ -166,7 +166,7 @@ def _refusal(settings: Settings, blade: str, extreme: Extreme) -> str:
     return ""
 
 
-def _of_scene(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def _scene_case(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """The changes, of the cold clearance in a scene that has one."""
     cold = "casing.clearance.cold_m" if "clearance" in entry["casing"] else "casing.clearance_m"
     return {cold if path == "casing.clearance_m" else path: value for path, value in changes.items()}

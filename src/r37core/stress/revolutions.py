@@ -24,8 +24,8 @@ def largest_of_revolutions(
     each revolution that is the worst so far, until neither gives another one. A node that is the worst at another instant
     alone is missed. In single precision.
     """
-    of_vibration, of_rotation = np.split(stress.deviatoric[:, :, : len(shapes) + len(rotation)], [len(shapes)], axis=2)
-    per_number, still = of_vibration @ shapes.astype(np.float32), of_rotation @ rotation.astype(np.float32)
+    vibration_part, rotation_part = np.split(stress.deviatoric[:, :, : len(shapes) + len(rotation)], [len(shapes)], axis=2)
+    per_number, still = vibration_part @ shapes.astype(np.float32), rotation_part @ rotation.astype(np.float32)
     states = states.astype(np.float32)
 
     def squares(instants: np.ndarray | slice, nodes: np.ndarray | slice) -> np.ndarray:
@@ -42,8 +42,8 @@ def largest_of_revolutions(
         worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions * per_revolution
         worst = worst[~seen[worst]]
         seen[worst] = True
-        at_worst = squares(worst, everything)
-        largest[worst] = at_worst.max(axis=1)
-        new = np.setdiff1d(at_worst.argmax(axis=1), nodes)
+        worst_squares = squares(worst, everything)
+        largest[worst] = worst_squares.max(axis=1)
+        new = np.setdiff1d(worst_squares.argmax(axis=1), nodes)
         nodes = np.union1d(nodes, new)
     return np.sqrt(largest.reshape(-1, per_revolution).max(axis=1).astype(float))

@@ -29,8 +29,8 @@ class ContactOperators:
     @property
     def highest_frequency(self) -> float:
         """Highest frequency of all modes that are stepped (rad/s), the casing's among them."""
-        of_ring = self.casing.ring.frequencies.max() if self.casing.ring is not None else 0.0
-        return float(max(self.blade.frequencies[-1], of_ring))
+        ring_part = self.casing.ring.frequencies.max() if self.casing.ring is not None else 0.0
+        return float(max(self.blade.frequencies[-1], ring_part))
 
     @cached_property
     def recursion(self) -> Recursion:
@@ -38,8 +38,8 @@ class ContactOperators:
         own = self.blade.recursion
         if self.casing.ring is not None:
             ring, grid = self.casing.ring, self.blade.grid
-            of_ring = recursion(grid.choice.integrator, ring.frequencies, ring.damping_ratios, grid.time_step)
-            own = joined(own, of_ring)
+            ring_part = recursion(grid.choice.integrator, ring.frequencies, ring.damping_ratios, grid.time_step)
+            own = joined(own, ring_part)
         return own if self.blade.complex_modes is None else ComplexRecursion(own.keep, own.pull, own.inverse, own.lost)
 
     @cached_property
@@ -51,8 +51,8 @@ class ContactOperators:
         none = np.zeros((len(self.blade.modes), len(self._ring_rows[0, 0])))
         if self.blade.complex_modes is None:
             return np.hstack([self.blade.modes, none]), np.empty((len(self.blade.modes), 0))
-        by_u, by_d = self.blade.complex_modes.real_shapes(self.blade.recursion)
-        return np.hstack([self.blade.modes @ by_u, none]), np.hstack([self.blade.modes @ by_d, none])
+        u_factor, d_factor = self.blade.complex_modes.real_shapes(self.blade.recursion)
+        return np.hstack([self.blade.modes @ u_factor, none]), np.hstack([self.blade.modes @ d_factor, none])
 
     @cached_property
     def _ring_rows(self) -> np.ndarray:
@@ -124,16 +124,18 @@ class ContactOperators:
         It is all the work that the forces have done on them: what follows at once is elastic.
         """
         frequencies, modes = self.blade.static_modes
-        of_modes = np.einsum("dk,dkm->m", forces, self.operator_at_rest @ modes) / frequencies
-        return 0.5 * float(of_modes @ of_modes)
+        modal_forces = np.einsum("dk,dkm->m", forces, self.operator_at_rest @ modes) / frequencies
+        return 0.5 * float(modal_forces @ modal_forces)
 
     @property
     def _half_kick(self) -> np.ndarray:
         """Half of what a kick moves the stepped modes by, in the shape of `static_shapes`; see ComplexRecursion."""
-        by_u, by_d = self._shapes
+        u_factor, d_factor = self._shapes
         size = 0.5 * self.recursion.inverse / self.recursion.keep
-        rows, increment_rows = (of.reshape(-1, len(size)) for of in (self.displacement_operator, self.increment_operator))
-        return (by_d * size) @ rows.T - (by_u * size) @ increment_rows.T
+        rows, increment_rows = (
+            rows_of_one.reshape(-1, len(size)) for rows_of_one in (self.displacement_operator, self.increment_operator)
+        )
+        return (d_factor * size) @ rows.T - (u_factor * size) @ increment_rows.T
 
     @property
     def state_shapes(self) -> np.ndarray:
@@ -155,9 +157,9 @@ class ContactOperators:
         outputs = rows.reshape(-1, rows.shape[-1]) @ self.state_shapes
         if self.casing.ring is None:
             return outputs
-        of_ring = np.zeros((len(self.casing.ring.size), outputs.shape[1]))
-        np.fill_diagonal(of_ring[:, len(self.blade.frequencies) :], self.casing.ring.size)
-        return np.concatenate([outputs, of_ring])
+        ring_part = np.zeros((len(self.casing.ring.size), outputs.shape[1]))
+        np.fill_diagonal(ring_part[:, len(self.blade.frequencies) :], self.casing.ring.size)
+        return np.concatenate([outputs, ring_part])
 
     @cached_property
     def contact_flexibility(self) -> np.ndarray:

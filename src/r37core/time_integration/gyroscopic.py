@@ -35,11 +35,11 @@ class ComplexModes:
 
     def real_shapes(self, recursion: Recursion) -> tuple[np.ndarray, np.ndarray]:
         """Displacement of the real modes per u_j and per d_j, where u_n = Re zeta and d_n = u_n - u_{n-1} of free motion."""
-        by_u, by_d = imaginary_part(recursion)
+        u_factor, d_factor = imaginary_part(recursion)
         turned = self.shapes.imag
         # none where the shape is real, however fast the mode
-        by_u, by_d = (np.where(turned.any(axis=0), values, 0.0) for values in (by_u, by_d))
-        return self.shapes.real - turned * by_u, -turned * by_d
+        u_factor, d_factor = (np.where(turned.any(axis=0), values, 0.0) for values in (u_factor, d_factor))
+        return self.shapes.real - turned * u_factor, -turned * d_factor
 
     def begun(
         self, frequencies: np.ndarray, displacement: np.ndarray, velocity: np.ndarray, damping_ratio: float, step: float

@@ -37,7 +37,7 @@ class InitialMotion:
     velocity: np.ndarray | None
 
     @classmethod
-    def from_arrays(cls, displacement: ArrayLike | None, velocity: ArrayLike | None) -> InitialMotion | None:
+    def read_motion(cls, displacement: ArrayLike | None, velocity: ArrayLike | None) -> InitialMotion | None:
         """The motion with these; None where there is neither."""
         if displacement is None and velocity is None:
             return None
@@ -50,7 +50,7 @@ class InitialMotion:
         named = {name: part for name, part in parts.items() if part is not None and part.any()}
         return {"initial_state": "in motion", **named} if named else {}
 
-    def at_rest(self, model: ContactModel) -> np.ndarray:
+    def rest_coordinates(self, model: ContactModel) -> np.ndarray:
         """Displacement and velocity in the modes at rest, shape (2, modes); InitialMotionError if the model has others."""
         size = len(model.to_reduced)
         motion = np.zeros((2, size))
@@ -67,7 +67,7 @@ class InitialMotion:
 
     def left_out(self, problem: Problem) -> float:
         """Share of its energy that a run leaves out, because it lies in modes that are not stepped."""
-        whole, model = self.at_rest(problem.model), problem.model
+        whole, model = self.rest_coordinates(problem.model), problem.model
         rest = whole - (whole @ problem.blade.modes) @ problem.blade.modes.T
 
         def energy(motion: np.ndarray) -> float:
@@ -88,7 +88,7 @@ class InitialMotion:
         with central differences the velocity is (u_1 - u_{-1})/(2h). Static modes follow contact forces, and there are none.
         Raises InitialMotionError for a displacement that does not fit, and for one that reaches into casing or lining.
         """
-        displacement, velocity = self.at_rest(problem.model) @ problem.blade.modes
+        displacement, velocity = self.rest_coordinates(problem.model) @ problem.blade.modes
         if self.displacement is not None:
             _check_room(problem, displacement, state)
         blade = slice(len(displacement))
@@ -96,8 +96,8 @@ class InitialMotion:
         if problem.blade.complex_modes is not None:
             u, d = problem.blade.complex_modes.begun(problem.blade.frequencies, displacement, velocity, ratio, step)
         else:
-            of = increments(problem.choice.integrator, problem.blade.frequencies, ratio, step)
-            u, d = displacement, of.by_displacement * displacement + of.by_velocity * velocity
+            factors = increments(problem.choice.integrator, problem.blade.frequencies, ratio, step)
+            u, d = displacement, factors.displacement_factor * displacement + factors.velocity_factor * velocity
         state.displacement[blade], state.increment[blade] = u, d
 
 

@@ -94,24 +94,24 @@ def recursion(
     integrator: str, frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray
 ) -> Recursion:
     """The recursion of one of INTEGRATORS; of several with steps of shape (recursions, 1)."""
-    of = {CENTRAL_DIFFERENCE: central_difference, EXACT_MODAL: exact_modal}
-    return of[integrator](frequencies, damping_ratio, step)
+    stepping = {CENTRAL_DIFFERENCE: central_difference, EXACT_MODAL: exact_modal}
+    return stepping[integrator](frequencies, damping_ratio, step)
 
 
 @dataclass(frozen=True)
 class Increments:
     """Increment u_n - u_{n-1} of free modes per displacement u_n and per velocity at t_n, in the shape of a recursion."""
 
-    by_displacement: np.ndarray
-    by_velocity: np.ndarray
+    displacement_factor: np.ndarray
+    velocity_factor: np.ndarray
 
     def increment(self, row: int, displacement: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         """Increment of the modes of one of several recursions."""
-        return self.by_displacement[row] * displacement + self.by_velocity[row] * velocity
+        return self.displacement_factor[row] * displacement + self.velocity_factor[row] * velocity
 
     def velocity(self, row: int, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
         """Velocity of the modes of one of several recursions."""
-        return (increment - self.by_displacement[row] * displacement) / self.by_velocity[row]
+        return (increment - self.displacement_factor[row] * displacement) / self.velocity_factor[row]
 
 
 def increments(
@@ -123,8 +123,8 @@ def increments(
     recursion. Of modes that turn by less than half a turn in a step.
     """
     if integrator == CENTRAL_DIFFERENCE:
-        of = central_difference(frequencies, damping_ratio, step)
-        return Increments(of.pull / (1.0 + of.keep), 2.0 * step / (1.0 + of.keep))
+        stepping = central_difference(frequencies, damping_ratio, step)
+        return Increments(stepping.pull / (1.0 + stepping.keep), 2.0 * step / (1.0 + stepping.keep))
     decay, damped = damping_ratio * frequencies * step, frequencies * np.sqrt(1.0 - damping_ratio**2)
     grown, sine = np.exp(decay), np.sin(damped * step)
     # 1 - e^decay (cos - xi omega/omega_d sin), without the cancellation of small steps

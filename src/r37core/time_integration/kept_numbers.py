@@ -64,7 +64,7 @@ def snapshot_numbers(
     shapes = problem.model.to_reduced @ problem.contact.state_shapes
     coordinates = record.snapshots[-problem.choice.snapshots_per_revolution :] @ shapes.T
     if static_stress:
-        coordinates = with_rotation(coordinates, problem.model, problem.speed)
+        coordinates = append_rotation(coordinates, problem.model, problem.speed)
     # a stress of them differs by 1e-7 of the largest, in two thirds of the file
     coordinates = coordinates.astype(np.float32)
     if stress is None:
@@ -123,7 +123,7 @@ def casing_numbers(problem: Problem, record: SimulationRecord, highest_order: in
     return casing_waves(half, ring, problem.speed, choice.revolutions_in_statistic, highest_order)
 
 
-def with_rotation(coordinates: np.ndarray, model: ContactModel, speeds: float | np.ndarray) -> np.ndarray:
+def append_rotation(coordinates: np.ndarray, model: ContactModel, speeds: float | np.ndarray) -> np.ndarray:
     """Coordinates of the vibration, shape (instants, coordinates), and after them the amplitudes of rotation's shapes.
 
     `speeds` (rad/s): one of all, or that of each instant.

@@ -49,13 +49,15 @@ def blade_problems(
     steps = max(problem(*blade).grid.steps_per_sample for blade in blades)
 
     @cache
-    def with_steps(factor: float, longer: float, angle: float) -> Problem:
-        own = problem(factor, longer, on_steps(angle, steps * choice.samples_per_revolution) if scene.lining else angle)
+    def rounded_problem(factor: float, longer: float, angle: float) -> Problem:
+        own = problem(
+            factor, longer, nearest_step_angle(angle, steps * choice.samples_per_revolution) if scene.lining else angle
+        )
         if own.grid.steps_per_sample == steps:
             return own
         return Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))
 
-    problems = tuple(with_steps(*blade) for blade in blades)
+    problems = tuple(rounded_problem(*blade) for blade in blades)
     if scene.casing.ring:
         try:
             check_rotor_step([problem.contact for problem in problems])
@@ -71,7 +73,7 @@ def turned(model: ContactModel, angle: float) -> ContactModel:
     return replace(model, theta=model.theta + angle) if angle else model
 
 
-def on_steps(angle: float, steps_per_revolution: int) -> float:
+def nearest_step_angle(angle: float, steps_per_revolution: int) -> float:
     """The angle (rad) of the nearest whole step, where blades that go on together meet bars at the same places of them.
 
     At other places the deepest of all wears a bar for all, and 36 blades wear a lining that no blade alone wears so.

@@ -32,7 +32,7 @@ def rotor_numbers(
     motion = np.array([np.linalg.norm(part[:, 0, KEPT], axis=-1) for part in samples])
     maxima = motion.reshape(len(motion), choice.revolutions, -1).max(axis=2)
     rms = np.sqrt(np.mean(np.linalg.norm(half, axis=-1) ** 2, axis=1))
-    growth, span = in_spans(maxima)
+    growth, span = span_maxima(maxima)
     return {
         "blade_number": np.array(rotor.numbers),
         "blade_angle": np.array(rotor.angles),
@@ -51,15 +51,15 @@ def rotor_numbers(
 
 def stress_of_blades(history: np.ndarray) -> dict[str, np.ndarray]:
     """Largest stress of each blade in the last revolution and in spans; `history` (Pa), shape (blades, revolutions)."""
-    of_blades, span = in_spans(history)
+    blade_maxima, span = span_maxima(history)
     return {
         "blade_max_von_mises": history[:, -1],
-        "blade_von_mises": of_blades,
+        "blade_von_mises": blade_maxima,
         "stress_span_revolutions": np.array(span),
     }
 
 
-def in_spans(values: np.ndarray) -> tuple[np.ndarray, int]:
+def span_maxima(values: np.ndarray) -> tuple[np.ndarray, int]:
     """The largest of every span of revolutions along the last axis, in single precision, and how many revolutions it has.
 
     There are at most MOST_GROWTH spans; the last one may be shorter.
@@ -86,6 +86,6 @@ def nodal_diameters(displacement: np.ndarray, late: np.ndarray, rotor: Rotor) ->
     waves = waves * np.exp(-2j * np.pi / samples * late[:, None] * np.arange(1, waves.shape[1] + 1))[..., None]
     with np.errstate(invalid="ignore"):  # blades that stand still have no share
         power = np.sum(np.abs(waves) ** 2)
-        of_diameter = np.exp(1j * np.outer(diameters, rotor.angles)) @ waves.reshape(blades, -1)
-        share = np.sum(np.abs(of_diameter) ** 2, axis=1) / (blades * power)
+        diameter_waves = np.exp(1j * np.outer(diameters, rotor.angles)) @ waves.reshape(blades, -1)
+        share = np.sum(np.abs(diameter_waves) ** 2, axis=1) / (blades * power)
     return {"nodal_diameter": diameters, "nodal_diameter_share": share}

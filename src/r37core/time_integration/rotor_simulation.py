@@ -23,7 +23,7 @@ from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
 from .problem import Problem
 from .reference.engine import advance_together
-from .rotor_blades import blade_problems, on_steps
+from .rotor_blades import blade_problems, nearest_step_angle
 from .simulate import Simulation
 from .state import SimulationRecord, SimulationState
 
@@ -108,7 +108,7 @@ class BladesSimulation:
         if self.problem.choice.engine == "reference":
             # in an elastic casing the problems have the angles
             steps = self.problem.grid.steps_per_revolution
-            angles = [0.0 if self.elastic else on_steps(angle, steps) for angle in self.rotor.angles]
+            angles = [0.0 if self.elastic else nearest_step_angle(angle, steps) for angle in self.rotor.angles]
             done, worn = advance_together(engines, states, outs, angles, self.rotor.order)
         elif self.elastic:
             done, worn = advance_in_lockstep(engines, states, outs, self.rotor.order)
@@ -171,8 +171,7 @@ class BladesSimulation:
 def _beside_each_other(problems: Sequence[Problem]) -> list[Simulation]:
     """Simulations, one for each problem; that of the most modes is made first, so that the others have room in its capacity."""
     largest = int(np.argmax([len(problem.blade.frequencies) for problem in problems]))
-    first = Simulation.of_problem(problems[largest])
+    first = Simulation.build(problems[largest])
     return [
-        first if place == largest else Simulation.of_problem(problem, beside=first.engine)
-        for place, problem in enumerate(problems)
+        first if place == largest else Simulation.build(problem, beside=first.engine) for place, problem in enumerate(problems)
     ]

@@ -46,9 +46,9 @@ def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
     motion = _motion_at(problem, speeds)
     several = recursion(problem.choice.integrator, *motion)
     rooms = clearances(problem.model, problem.scene, speeds)
-    of_modes = increments(problem.choice.integrator, *motion)
+    modal_increments = increments(problem.choice.integrator, *motion)
     coupling = None if problem.choice.second_order else problem.contact.coupling_of(several.inverse)
-    return Segments(speeds, several, coupling, _jumps(problem, several), rooms, of_modes)
+    return Segments(speeds, several, coupling, _jumps(problem, several), rooms, modal_increments)
 
 
 def _jumps(problem: Problem, recursion: Recursion) -> JumpPlan | None:
@@ -68,6 +68,6 @@ def _motion_at(problem: Problem, speeds: np.ndarray) -> tuple[np.ndarray, float 
     frequencies, damping = blade.frequencies * np.sqrt(ratio), problem.scene.damping_ratio
     if ring is None:
         return frequencies, damping, steps
-    of_ring = np.tile(ring.frequencies, (len(speeds), 1))
+    ring_part = np.tile(ring.frequencies, (len(speeds), 1))
     dampings = np.concatenate([np.full(len(blade.frequencies), damping), ring.damping_ratios])
-    return np.hstack([frequencies, of_ring]), dampings, steps
+    return np.hstack([frequencies, ring_part]), dampings, steps

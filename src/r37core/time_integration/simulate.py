@@ -35,9 +35,7 @@ class Simulation:
         self._take(stable_problem(model, speed, scene, choice))
 
     @classmethod
-    def of_problem(
-        cls, problem: Problem, speeds: np.ndarray | None = None, before: Any = None, beside: Any = None
-    ) -> Simulation:
+    def build(cls, problem: Problem, speeds: np.ndarray | None = None, before: Any = None, beside: Any = None) -> Simulation:
         """Simulation of a problem; with `speeds` (rad/s), shape (speeds,), its engine goes at these in the problem's modes.
 
         `before`, `beside`: engines of the same scene and choice, see CompiledEngine.
@@ -56,7 +54,7 @@ class Simulation:
 
         Raises what InitialMotion.put raises.
         """
-        state = at_rest(self.problem)
+        state = rest_state(self.problem)
         if motion is not None:
             motion.put(self.problem, state)
         return state
@@ -69,9 +67,9 @@ class Simulation:
         """Go on by a number of samples from `state`, which is changed."""
         first, done, reached, per_revolution = state.samples, 0, True, self.problem.choice.samples_per_revolution
         out = self.room(first, samples)
-        at_once = revolutions_at_once(self.problem.grid.steps_per_revolution) * per_revolution
+        samples_at_once = revolutions_at_once(self.problem.grid.steps_per_revolution) * per_revolution
         while done < samples and reached:
-            part = min(samples - done, at_once - (first + done) % per_revolution)
+            part = min(samples - done, samples_at_once - (first + done) % per_revolution)
             kept = self._snapshots(first, done)
             rows = SimulationRecord(out.samples[done : done + part], out.snapshots[kept : self._snapshots(first, done + part)])
             state.samples = first + done
@@ -95,10 +93,10 @@ class Simulation:
 
     def recorded(self, first: int, out: SimulationRecord, done: int) -> SimulationRecord:
         """Record of what an engine has left in the room `out` when it has `done` so many samples."""
-        of_tip = len(TIP_POINTS) * len(DIRECTIONS)
-        casing = None if self.problem.casing.ring is None else out.samples[:done, of_tip:]
+        tip_outputs = len(TIP_POINTS) * len(DIRECTIONS)
+        casing = None if self.problem.casing.ring is None else out.samples[:done, tip_outputs:]
         return SimulationRecord(
-            out.samples[:done, :of_tip], out.snapshots[: self._snapshots(first, done)], self.diverged(out, done), casing
+            out.samples[:done, :tip_outputs], out.snapshots[: self._snapshots(first, done)], self.diverged(out, done), casing
         )
 
     def diverged(self, out: SimulationRecord, done: int) -> bool:
@@ -119,7 +117,7 @@ class Simulation:
         return float(state.totals["work"]) + self.problem.contact.static_energy(state.contact_force)
 
 
-def at_rest(problem: Problem) -> SimulationState:
+def rest_state(problem: Problem) -> SimulationState:
     """A blade at rest, in an unworn lining, or in one that it has cut its way into."""
     directions, nodes, modes = problem.contact.displacement_operator.shape
     wear = None if problem.scene.lining is None else np.zeros((nodes, problem.casing.bars))

@@ -27,14 +27,14 @@ class SimulationState:
     """State of a run; a run may be stopped after any of its `samples` and go on from its state.
 
     `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
-    `on_casing`, shape (nodes,): whether a node touched the casing in the last step; `contact_force` (N), shape (3, nodes): what
+    `touched`, shape (nodes,): whether a node touched the casing in the last step; `contact_force` (N), shape (3, nodes): what
     presses the nodes at t_n with exact_modal, along normal, tangent and meridian; `totals`: see TOTALS.
     """
 
     displacement: np.ndarray
     increment: np.ndarray
     wear: np.ndarray | None
-    on_casing: np.ndarray
+    touched: np.ndarray
     contact_force: np.ndarray
     samples: int = 0
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))

@@ -100,25 +100,25 @@ def stepped_modes(
     """
     modes = len(frequencies)
 
-    def of_static(stepped: int) -> np.ndarray:
+    def static_flexibility(stepped: int) -> np.ndarray:
         return residual_flexibility(frequencies[stepped:], rows[..., stepped:])
 
     def settles_soon(stepped: int) -> bool:
-        return definiteness(of_static(stepped), coefficient) > SETTLES_SOON
+        return definiteness(static_flexibility(stepped), coefficient) > SETTLES_SOON
 
     def is_unique(stepped: int, friction: float = coefficient) -> bool:
-        flexibility = of_static(stepped)
+        flexibility = static_flexibility(stepped)
         least = max(SMALLEST_DEFINITENESS, SHARE_WITH_FRICTION * definiteness(flexibility, 0.0))
         return definiteness(flexibility, friction) > least
 
     turns = frequencies * step / static_above
-    slow, at_most = (int(np.count_nonzero(turns <= largest)) for largest in (1.0, _LARGEST_TURN))
+    slow, largest_count = (int(np.count_nonzero(turns <= largest)) for largest in (1.0, _LARGEST_TURN))
     # at least one: a blade of static modes alone would not vibrate
-    wanted = max(min(padded(slow), at_most, most), 1)
+    wanted = max(min(padded(slow), largest_count, most), 1)
     counts = sorted({wanted, *range(1, LANES), *range(LANES, modes, LANES)})
-    more = [count for count in counts if wanted <= count <= max(at_most, 1)]
+    more = [count for count in counts if wanted <= count <= max(largest_count, 1)]
     fewer = [count for count in reversed(counts) if count < wanted]
-    too_fast = [count for count in counts if count > max(at_most, 1)]
+    too_fast = [count for count in counts if count > max(largest_count, 1)]
     unstable = None
     for is_enough in (settles_soon, is_unique):
         for stepped in filter(is_enough, (*more, *fewer)):

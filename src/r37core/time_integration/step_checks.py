@@ -65,11 +65,11 @@ def pressed_ratio(contact: ContactOperators) -> float:
     A coupled mode counts as two, with the real and the imaginary part of its shape: the limit is where a motion changes its
     sign in every step, and there the two are not coupled.
     """
-    of, normal, flexibility = contact.recursion, contact.displacement_operator[0], contact.contact_flexibility[0]
+    stepping, normal, flexibility = contact.recursion, contact.displacement_operator[0], contact.contact_flexibility[0]
     if contact.complex_operator is not None:
         normal = np.hstack([contact.complex_operator[0].real, contact.complex_operator[0].imag])
-        of = Recursion(*(np.tile(part, 2) for part in (of.keep, of.pull, of.inverse, of.lost)))
-    return ratio_of_pressed_nodes(of, normal, flexibility)
+        stepping = Recursion(*(np.tile(part, 2) for part in (stepping.keep, stepping.pull, stepping.inverse, stepping.lost)))
+    return ratio_of_pressed_nodes(stepping, normal, flexibility)
 
 
 def check_rotor_step(contacts: Sequence[ContactOperators]) -> None:
@@ -91,24 +91,24 @@ def pressed_ratio_of_rotor(contacts: Sequence[ContactOperators]) -> float:
     M of all modes has a block A for the blades, D for the casing and C between them. Its largest eigenvalue is at most that of
     [[a, c], [c, d]], with a and d the largest eigenvalues of A and D, and c the largest singular value of C.
     """
-    of_blades, keep, of_casing, between = 0.0, 1.0, 0.0, 0.0
+    blades_part, keep, casing_part, between = 0.0, 1.0, 0.0, 0.0
     for contact in contacts:
-        stepped, of = len(contact.blade.frequencies), contact.recursion
+        stepped, stepping = len(contact.blade.frequencies), contact.recursion
         rows = contact.displacement_operator[0] if contact.complex_operator is None else contact.complex_operator[0]
-        pressed, shares = rows * np.sqrt(of.inverse), np.split(of.pull, [stepped])
+        pressed, shares = rows * np.sqrt(stepping.inverse), np.split(stepping.pull, [stepped])
         blade, casing = np.split(pressed, [stepped], axis=1)
         pulls = shares[0]
         if contact.complex_operator is not None:
             blade, pulls = np.hstack([blade.real, blade.imag]), np.tile(pulls, 2)
         casing, flexibility = casing.real, contact.contact_flexibility[0]
         solved = np.linalg.solve(0.5 * (flexibility + flexibility.T), np.hstack([blade, casing]))
-        on_blade, on_casing = np.split(solved, [blade.shape[1]], axis=1)
-        of_blades = max(of_blades, float(np.linalg.eigvalsh(np.diag(pulls) + blade.T @ on_blade)[-1]))
+        blade_solution, casing_solution = np.split(solved, [blade.shape[1]], axis=1)
+        blades_part = max(blades_part, float(np.linalg.eigvalsh(np.diag(pulls) + blade.T @ blade_solution)[-1]))
         # the casing's own part once, not once per blade
-        of_casing = of_casing + casing.T @ on_casing + np.diag(shares[1]) / len(contacts)
-        across = blade.T @ on_casing
+        casing_part = casing_part + casing.T @ casing_solution + np.diag(shares[1]) / len(contacts)
+        across = blade.T @ casing_solution
         between = between + across.T @ across
-        keep = min(keep, float(of.keep.min()))
-    of_ring, coupled = (float(np.linalg.eigvalsh(matrix)[-1]) for matrix in (of_casing, between))
-    largest = 0.5 * (of_blades + of_ring) + np.hypot(0.5 * (of_blades - of_ring), np.sqrt(coupled))
+        keep = min(keep, float(stepping.keep.min()))
+    ring_part, coupled = (float(np.linalg.eigvalsh(matrix)[-1]) for matrix in (casing_part, between))
+    largest = 0.5 * (blades_part + ring_part) + np.hypot(0.5 * (blades_part - ring_part), np.sqrt(coupled))
     return float(largest) / (2.0 * (1.0 + keep))

@@ -70,13 +70,13 @@ class SteppedBlade:
             )
         if not self.grid.choice.second_order:
             return below
-        frequencies, rows = self._at_rest
+        frequencies, rows = self._rest_modes
         choice = self.grid.choice
 
         def is_stable(stepped: int) -> bool:
-            of = recursion(choice.integrator, frequencies[:stepped], self.scene.damping_ratio, choice.time_step)
+            stepping = recursion(choice.integrator, frequencies[:stepped], self.scene.damping_ratio, choice.time_step)
             flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])[0]
-            ratio = ratio_of_pressed_nodes(of, rows[0, :, :stepped], flexibility)
+            ratio = ratio_of_pressed_nodes(stepping, rows[0, :, :stepped], flexibility)
             return ratio < largest_pressed_ratio(self.scene)
 
         step, above = choice.time_step, choice.static_above
@@ -87,12 +87,12 @@ class SteppedBlade:
         """Relaxation of the sweeps over the nodes, one at all speeds: see static_modes; 1 with central differences."""
         if not self.grid.choice.second_order:
             return 1.0
-        frequencies, rows = self._at_rest
+        frequencies, rows = self._rest_modes
         flexibility = residual_flexibility(frequencies[self._stepped :], rows[..., self._stepped :])
         return relaxation(flexibility, self.friction_coefficient)
 
     @property
-    def _at_rest(self) -> tuple[np.ndarray, np.ndarray]:
+    def _rest_modes(self) -> tuple[np.ndarray, np.ndarray]:
         """Frequencies (rad/s) of all modes at rest, and the contact nodes' displacement by them, shape (3, nodes, modes)."""
         return np.sqrt(self.model.squared_frequencies), casing_axes(self.model.displacement_operator, self.cone_angle)
 

@@ -71,7 +71,7 @@ def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.
             measured.setdefault(pair, {}).setdefault(name, {})[run.member] = value
         if is_of_sample(run.member):
             groups.setdefault(pair, []).append(_kept(response, run, numbers, values))
-    parts = [_of_pair(pair, members, measured[pair], numbers) for pair, members in groups.items()]
+    parts = [_pair_dataset(pair, members, measured[pair], numbers) for pair, members in groups.items()]
     joined = xr.merge(parts, join="outer", compat="no_conflicts", combine_attrs="override")
     joined["status"] = joined["status"].fillna(RunStatus.NOT_RUN).astype("i1")
     joined = joined.assign_coords(speed_rpm=("speed", RPM * joined["speed"].values, SPEED_RPM.attributes))
@@ -85,7 +85,7 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
     if "max_von_mises" in response:
         above, (largest, _) = speeds_above_yield(response), largest_stress(response)
         measures |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
-        ranked = robustness(response, with_scatter=False)
+        ranked = robustness(response, chance_scatter=False)
         measures |= {measure: ranked[column] for column, measure in MEASURES_RANKED_BY.items()}
     return measures
 
@@ -100,7 +100,7 @@ def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: 
     return member.assign_coords(number=list(numbers)).expand_dims(member=[int(run.member)])
 
 
-def _of_pair(
+def _pair_dataset(
     pair: tuple[str, str], members: Sequence[xr.Dataset], measured: Mapping[str, Mapping[str, float]], numbers: Sequence[str]
 ) -> xr.Dataset:
     """One blade in one scene."""
@@ -146,8 +146,8 @@ def _rankings(sample: xr.Dataset) -> dict[str, xr.DataArray]:
         "rank_coefficient_low": _index([measure.low for measure in rankings], f"lower end of the rank coefficient, {sure}"),
         "rank_coefficient_high": _index([measure.high for measure in rankings], f"upper end of the rank coefficient, {sure}"),
         **_places("rank", [measure.places for measure in rankings], "rank coefficients, of numbers that have one beyond zero"),
-        "rank_explained": _of_measures([each.explained for each in rankings], "share of the ranks' variance that they explain"),
-        "rank_members": _of_measures([measure.members for measure in rankings], "members that the coefficients are made of"),
+        "rank_explained": _per_measure([each.explained for each in rankings], "share of the ranks' variance that they explain"),
+        "rank_members": _per_measure([measure.members for measure in rankings], "members that the coefficients are made of"),
     }
 
 
@@ -163,7 +163,7 @@ def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequenc
         indices[f"sobol_{order}_low"] = _index([measure.low[place] for measure in sobol], f"lower end of {ends}: {meaning}")
         indices[f"sobol_{order}_high"] = _index([measure.high[place] for measure in sobol], f"upper end of {ends}: {meaning}")
     indices |= _places("sobol", [measure.places for measure in sobol], "total indices")
-    indices["sobol_members"] = _of_measures([measure.members for measure in sobol], "members that the indices are made of")
+    indices["sobol_members"] = _per_measure([measure.members for measure in sobol], "members that the indices are made of")
     return indices
 
 
@@ -176,7 +176,7 @@ def _places(name: str, ends: Sequence[tuple[np.ndarray, np.ndarray]], of: str) -
     }
 
 
-def _of_measures(values: Sequence[float], meaning: str) -> xr.DataArray:
+def _per_measure(values: Sequence[float], meaning: str) -> xr.DataArray:
     return xr.DataArray(list(values), {"measure": list(INDEXED)}, "measure", attrs=about("1", meaning))
 
 

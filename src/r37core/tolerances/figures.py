@@ -67,8 +67,8 @@ def _band(axes: Axes, tolerances: xr.Dataset, nominal: xr.Dataset, name: str) ->
     )
     axes.plot(speed, median, color=style.COLOURS[0], label="median")
     if name in nominal:
-        at = nominal[name].sel(speed=slice(speed.min(), speed.max())).dropna("speed")
-        axes.plot(at["speed"], scale * at, color=style.COLOURS[1], linewidth=0.8, linestyle="--", label="nominal")
+        curve = nominal[name].sel(speed=slice(speed.min(), speed.max())).dropna("speed")
+        axes.plot(curve["speed"], scale * curve, color=style.COLOURS[1], linewidth=0.8, linestyle="--", label="nominal")
     axes.set_ylabel(label)
     axes.set_ylim(0.0, None)
 
@@ -91,17 +91,16 @@ def _numbers(axes: Axes, tolerances: xr.Dataset, size: str, rank: str) -> None:
     # a number that may have any place has none
     known = low.notnull() & (high - low + 1 < tolerances[size].notnull().sum("number"))
     for row, (measure, label) in enumerate(_MEASURES.items()):
-        at = np.arange(len(numbers)) + (row - 0.5 * (len(_MEASURES) - 1)) * width
+        places = np.arange(len(numbers)) + (row - 0.5 * (len(_MEASURES) - 1)) * width
         bottom, value, top = (tolerances[f"{size}{end}"].sel(measure=measure).values for end in ("_low", "", "_high"))
         clear = known.sel(measure=measure).values
         look: dict[str, Any] = {"color": style.COLOURS[row], "error_kw": {"linewidth": 0.6, "ecolor": "0.3"}}
         for chosen, alpha in ((clear, 0.7), (~clear, 0.15)):
             ends = np.abs(np.array([bottom, top]) - value)[:, chosen]
-            axes.bar(
-                at[chosen], value[chosen], 0.9 * width, yerr=ends, alpha=alpha, label=label if chosen is clear else None, **look
-            )
+            shown = label if chosen is clear else None
+            axes.bar(places[chosen], value[chosen], 0.9 * width, yerr=ends, alpha=alpha, label=shown, **look)
         for x, height, first, last in zip(
-            at[clear], top[clear], *(of.sel(measure=measure).values[clear] for of in (low, high)), strict=True
+            places[clear], top[clear], *(of.sel(measure=measure).values[clear] for of in (low, high)), strict=True
         ):
             text = f"{first:.0f}" if first == last else f"{first:.0f}-{last:.0f}"
             axes.annotate(text, (x, max(height, 0.0)), (0, 1), textcoords="offset points", ha="center", fontsize=5)

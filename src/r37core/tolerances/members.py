@@ -17,7 +17,7 @@ from r37core.config.changed_numbers import (
     scene_numbers,
 )
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
-from r37core.config.messages import on_one_line
+from r37core.config.messages import single_line
 from r37core.contact.scene import Scene
 from r37core.plans.member_values import drawn, is_of_sample, number_of, sobol_points
 
@@ -74,7 +74,7 @@ class Members:
         return {pair: [self._nominal(*number, *pair) for number in self.numbers] for pair in pairs}
 
     @cached_property
-    def _of_scenes(self) -> dict[str, dict[str, float]]:
+    def _scene_numbers(self) -> dict[str, dict[str, float]]:
         """Numbers of the scenes that are run, by dotted key."""
         return {name: scene_numbers(self._settings.scene_entries[name]) for name in self._settings.scene_names}
 
@@ -84,13 +84,13 @@ class Members:
 
         Raises ConfigError for a number that is not there, and for a value that is impossible.
         """
-        return {pair: self._of(*pair) for pair in self.pairs}
+        return {pair: self._run_members(*pair) for pair in self.pairs}
 
     @cached_property
     def _points(self) -> dict[str, tuple[float, ...]]:
         return sobol_points(len(self.numbers), self._entry.members, self._entry.seed)
 
-    def _of(self, blade: str, scene: str) -> dict[str, Member]:
+    def _run_members(self, blade: str, scene: str) -> dict[str, Member]:
         nominal = self._nominals[blade, scene]
         self._check_ends(blade, scene, nominal)
         varied = (number for number, value in enumerate(nominal) if value is not None)
@@ -109,18 +109,18 @@ class Members:
         path = (section, key)
         if section == "of_blades":
             if key not in BLADE_KEYS:
-                raise self._refusal(path, on_one_line(key), f"one of {', '.join(BLADE_KEYS)}")
-            of = self._settings.blades[blade]
+                raise self._refusal(path, single_line(key), f"one of {', '.join(BLADE_KEYS)}")
+            entry = self._settings.blades[blade]
             try:
-                nominal = blade_number(of, key)
+                nominal = blade_number(entry, key)
             except ValueError as error:
                 raise self._refusal(path, str(error), "blades with a table of sweep and lean, or none") from None
         else:
-            known = list(dict.fromkeys(key for numbers in self._of_scenes.values() for key in numbers))
+            known = list(dict.fromkeys(key for numbers in self._scene_numbers.values() for key in numbers))
             if key not in known:
                 allowed = f"a number of the scenes that are run, by its dotted key: {', '.join(known)}"
-                raise self._refusal(path, on_one_line(key), allowed)
-            nominal = self._of_scenes[scene].get(key)
+                raise self._refusal(path, single_line(key), allowed)
+            nominal = self._scene_numbers[scene].get(key)
         if nominal == 0.0 and self.numbers[path].percent:
             raise self._refusal(path, f"percent of {key}, which is 0", "uniform, normal, between or values")
         return nominal
@@ -135,13 +135,13 @@ class Members:
     ) -> tuple[BladeSettings, Scene]:
         """A blade and a scene with other values of some numbers."""
         settings = self._settings
-        of_blade, of_scene = (
+        blade_changes, scene_changes = (
             {key: value for (section, key), value in values.items() if section == wanted}
             for wanted in ("of_blades", "of_scenes")
         )
         return (
-            self._possible("of_blades", who, lambda: changed_blade(settings.blades[blade], of_blade)),
-            self._possible("of_scenes", who, lambda: changed_scene(settings.scene_entries[scene], of_scene)),
+            self._possible("of_blades", who, lambda: changed_blade(settings.blades[blade], blade_changes)),
+            self._possible("of_scenes", who, lambda: changed_scene(settings.scene_entries[scene], scene_changes)),
         )
 
     def _possible(self, section: str, who: str, change: Callable[[], T]) -> T:
@@ -150,8 +150,8 @@ class Members:
         except ImpossibleValueError as error:
             known = (section, error.key) in self.numbers
             path, text = (error.key,) if known else (), str(error) if known else f"{error.key}: {error}"
-            at = ("tolerances", section, *path)
-            raise self._settings.documents.config.error(at, f"{who}: {text}; or a narrower tolerance") from None
+            path_of_key = ("tolerances", section, *path)
+            raise self._settings.documents.config.error(path_of_key, f"{who}: {text}; or a narrower tolerance") from None
 
     def _refusal(self, path: tuple[str, ...], value: str, allowed: str) -> ConfigError:
         return self._settings.documents.config.refusal(("tolerances", *path), value, allowed)

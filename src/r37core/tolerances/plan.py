@@ -87,13 +87,13 @@ class Tolerances:
     def nominal(self) -> dict[str, list[str]]:
         """Responses and Campbell diagrams of the nominal runs."""
         pairs = self._members.pairs
-        runs, blades = paths.of_runs(pairs), paths.of("blade", [blade for blade, _ in pairs])
+        runs, blades = paths.run_keys(pairs), paths.of("blade", [blade for blade, _ in pairs])
         return {"nominal": paths.filled({paths.RESPONSE: runs}), "nominal_campbells": paths.filled({paths.CAMPBELL: blades})}
 
     @property
     def adaptive(self) -> paths.Wildcards:
         """Blades and scenes whose members share rounds of refinement."""
-        return paths.of_runs(pair for pair in self._members.pairs if self.settings.speed_plans[pair].refined)
+        return paths.run_keys(pair for pair in self._members.pairs if self.settings.speed_plans[pair].refined)
 
     @property
     def first_rounds(self) -> list[str]:
@@ -129,7 +129,7 @@ def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the table and the figures of the members."""
-    pairs = paths.of_runs(members_of(sweep.settings).pairs)
+    pairs = paths.run_keys(members_of(sweep.settings).pairs)
     return dict.fromkeys((DATASET, TABLE), pairs and [{}]) | paths.pictures("tolerances_{blade}__{scene}", pairs)
 
 

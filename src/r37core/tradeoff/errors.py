@@ -61,27 +61,27 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[i
     shape = (len(cases), len(scenes), len(speeds))
     data = {name: np.full(shape, np.nan) for name in (*QUANTITIES, "status", "energy_residual")}
     data |= {name: np.full(shape[:2], np.nan) for name in COSTS}
-    of_model = {name: np.full(shape[:1], np.nan) for name in COSTS_OF_MODEL}
+    model_error = {name: np.full(shape[:1], np.nan) for name in COSTS_OF_MODEL}
     refused = np.full(shape[:2], "", dtype=object)
     for name, (case, scene) in names.items():
-        response, at = responses[name], (cases.index(case), scenes.index(scene))
-        refused[at] = response.attrs.get("refused", "")
+        response, index = responses[name], (cases.index(case), scenes.index(scene))
+        refused[index] = response.attrs.get("refused", "")
         for cost in COSTS_OF_MODEL:
-            of_model[cost][at[0]] = response.attrs.get(cost, np.nan)
-        if not refused[at]:
+            model_error[cost][index[0]] = response.attrs.get(cost, np.nan)
+        if not refused[index]:
             response = response.isel(speed=rows)
             edge = leading_edge(response)
             if "max_von_mises_of_instant" in edge:
                 edge = edge.assign(high_von_mises=edge["max_von_mises_of_instant"].quantile(_HIGH, "instant"))
             for quantity in {*QUANTITIES, "status"} & set(map(str, edge.data_vars)):
-                data[quantity][at] = edge[quantity].values
-            data["energy_residual"][at] = energy_share(response)
+                data[quantity][index] = edge[quantity].values
+            data["energy_residual"][index] = energy_share(response)
             for cost in COSTS:
-                data[cost][at] = response[cost].mean() if cost in response else response.attrs[cost]
+                data[cost][index] = response[cost].mean() if cost in response else response.attrs[cost]
     units = {**QUANTITIES, **COSTS}
     together = xr.Dataset(
         {name: (dims[: array.ndim], array, about(units.get(name, "1"), name.replace("_", " "))) for name, array in data.items()}
-        | {name: ("case", array) for name, array in of_model.items()}
+        | {name: ("case", array) for name, array in model_error.items()}
         | {"refused": (dims[:2], refused)},
         {"scene": scenes, "place": ("speed_number", [place for place, several in places.items() for _ in several])},
     )
@@ -92,10 +92,10 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[i
 
 def compare(ours: xr.Dataset, theirs: xr.Dataset, place: str) -> tuple[np.ndarray, np.ndarray]:
     """Errors and scatter at one place, shape (cases, scenes, QUANTITIES); NaN where the reference has nothing."""
-    at = ours["place"].values == place
+    rows = ours["place"].values == place
     errors, scatters = [], []
     for name in QUANTITIES:
-        x, y = (np.compress(at, each[name].values, axis=-1) for each in (ours, theirs))
+        x, y = (np.compress(rows, each[name].values, axis=-1) for each in (ours, theirs))
         mean, positive = y.mean(axis=-1), np.all(y > 0.0, axis=-1, keepdims=True)
         errors.append(abs(x.mean(axis=-1) / np.where(mean > 0.0, mean, np.nan) - 1.0))
         scatters.append(np.sqrt(np.mean((x / np.where(positive, y, np.nan) - 1.0) ** 2, axis=-1)))
@@ -107,6 +107,6 @@ def centre_of_peak(cases: xr.Dataset) -> np.ndarray:
 
     Shape (cases, scenes).
     """
-    at = np.isin(cases["place"].values, ["peak", "jump"])
-    weight = np.compress(at, cases["rms_normal"].values ** 2 + cases["rms_tangential"].values ** 2, axis=-1)
-    return (cases["speed"].values[at] * weight).sum(axis=-1) / weight.sum(axis=-1)
+    rows = np.isin(cases["place"].values, ["peak", "jump"])
+    weight = np.compress(rows, cases["rms_normal"].values ** 2 + cases["rms_tangential"].values ** 2, axis=-1)
+    return (cases["speed"].values[rows] * weight).sum(axis=-1) / weight.sum(axis=-1)

@@ -29,5 +29,5 @@ EXTENSION = Extension(
     captions=_CAPTIONS,
     closing="tradeoff.closing.closing",
     look_at="<results>/figures/tradeoff.png",
-    on_request=True,
+    made_on_request=True,
 )

@@ -24,12 +24,12 @@ COLUMNS = ("parameter", "cost", "of", "first_value", "last_value", "first_cost",
 def growth_table(table: pd.DataFrame) -> pd.DataFrame:
     """First and last value and cost of each pair of parameter and cost, and the exponent of a power law between them."""
     rows = []
-    for parameter, cost, of in PAIRS:
+    for parameter, cost, purpose in PAIRS:
         costs = costs_of(table, parameter, cost)
         if len(costs) >= 3:
             values, several = costs.index.to_numpy(), costs.to_numpy()
             ends = (values[0], values[-1], several[0], several[-1])
-            rows.append((parameter, cost, of, *ends, exponent_of(values, several)))
+            rows.append((parameter, cost, purpose, *ends, exponent_of(values, several)))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

@@ -41,13 +41,13 @@ Change = Callable[[Case, str], Case]
 def _change(path: str, value_of: Callable[[str], Any], **others: Any) -> Change:
     """Sets the field of a case at a dotted path, and `others` next to it; without that part the case stays as it is."""
     *parts, field = path.split(".")
-    return lambda case, value: _with(case, parts, {field: value_of(value), **others})
+    return lambda case, value: _changed(case, parts, {field: value_of(value), **others})
 
 
-def _with(whole: Any, parts: list[str], fields: Mapping[str, Any]) -> Any:
+def _changed(whole: Any, parts: list[str], fields: Mapping[str, Any]) -> Any:
     if whole is None or not parts:
         return whole and replace(whole, **fields)
-    return replace(whole, **{parts[0]: _with(getattr(whole, parts[0]), parts[1:], fields)})
+    return replace(whole, **{parts[0]: _changed(getattr(whole, parts[0]), parts[1:], fields)})
 
 
 CHANGES: Mapping[str, Change] = {

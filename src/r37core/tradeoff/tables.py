@@ -27,14 +27,14 @@ def _rows(together: xr.Dataset, references: Mapping[str, str]) -> Iterator[dict[
     for number, (parameter, value) in enumerate(zip(together["parameter"].values, together["value"].values, strict=True)):
         for scene in together["scene"].values:
             case = together.isel(case=number).sel(scene=scene)
-            at_peak, off = (case["error"].sel(at=place) for place in ("peak", "off_resonance"))
+            peak_row, off = (case["error"].sel(at=place) for place in ("peak", "off_resonance"))
             yield {
                 "parameter": parameter,
                 "value": value,
                 "reference": references[parameter],
                 "scene": scene,
                 "refused": str(case["refused"].item()),
-                **{f"error_{name}": float(at_peak.sel(quantity=name)) for name in QUANTITIES},
+                **{f"error_{name}": float(peak_row.sel(quantity=name)) for name in QUANTITIES},
                 "error_peak_speed": float(case["peak_speed_error"]),
                 "error_rms_normal_off_resonance": float(off.sel(quantity="rms_normal")),
                 **{name: float(case[name]) for name in (*COSTS, *COSTS_OF_MODEL)},

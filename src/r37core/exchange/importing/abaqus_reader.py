@@ -119,7 +119,7 @@ def _take(deck: _Deck, keyword: str, options: dict[str, str], rows: list[list[st
     elif keyword in ("NSET", "ELSET"):
         sets = deck.node_sets if keyword == "NSET" else deck.element_sets
         _add(sets, options.get(keyword), _members(sets, "GENERATE" in options, rows))
-    elif keyword == "BOUNDARY" and _of_displacement(options):
+    elif keyword == "BOUNDARY" and _prescribes_displacement(options):
         deck.held += [(row[0], _directions_held(row)) for row in rows]
     elif keyword == "SURFACE" and options.get("TYPE", "ELEMENT").upper() == "ELEMENT":
         deck.surfaces[options.get("NAME", "")] = [(row[0], row[1].upper() if len(row) > 1 else "") for row in rows]
@@ -212,10 +212,10 @@ def _named(sets: dict[str, list[int]], cell: str) -> list[int]:
     return [int(plain)] if plain.isdigit() else sets.get(_found(sets, plain), [])
 
 
-def _of_displacement(options: dict[str, str]) -> bool:
+def _prescribes_displacement(options: dict[str, str]) -> bool:
     """Whether a block *BOUNDARY prescribes displacements, not velocities or those of another model."""
-    of_type = options.get("TYPE", "DISPLACEMENT").upper() == "DISPLACEMENT"
-    return of_type and options.keys().isdisjoint(("SUBMODEL", "USER", "AMPLITUDE"))
+    same_type = options.get("TYPE", "DISPLACEMENT").upper() == "DISPLACEMENT"
+    return same_type and options.keys().isdisjoint(("SUBMODEL", "USER", "AMPLITUDE"))
 
 
 def _directions_held(row: list[str]) -> range:
@@ -230,17 +230,17 @@ def _directions_held(row: list[str]) -> range:
 
 def _clamped(held: list[tuple[str, range]], node_sets: dict[str, list[int]]) -> list[int]:
     """Labels of the nodes that are held in all three directions."""
-    by_direction = [{n for cell, of in held if direction in of for n in _named(node_sets, cell)} for direction in (1, 2, 3)]
-    return sorted(set.intersection(*by_direction))
+    held_nodes = [{n for cell, of in held if direction in of for n in _named(node_sets, cell)} for direction in (1, 2, 3)]
+    return sorted(set.intersection(*held_nodes))
 
 
 def _node_lists(deck: _Deck) -> Iterator[tuple[str, list[int]]]:
     """Every set as node labels: of nodes, of elements (their nodes), of element faces, of clamped nodes."""
-    solids = {label: nodes for of_type in deck.solids.values() for label, nodes in of_type.items()}
+    solids = {label: nodes for same_type in deck.solids.values() for label, nodes in same_type.items()}
     elements = solids | deck.others
-    of_elements = {name: [n for e in members for n in elements.get(e, [])] for name, members in deck.element_sets.items()}
-    yield from of_elements.items()
-    node_sets = {name: of_elements.get(_found(deck.element_sets, of), []) for name, of in deck.nodes_of_elements}
+    element_nodes = {name: [n for e in members for n in elements.get(e, [])] for name, members in deck.element_sets.items()}
+    yield from element_nodes.items()
+    node_sets = {name: element_nodes.get(_found(deck.element_sets, of), []) for name, of in deck.nodes_of_elements}
     for name, faces in deck.surfaces.items():
         nodes: list[int] = []
         for of, face in faces:

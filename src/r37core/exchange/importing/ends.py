@@ -82,9 +82,9 @@ def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> C
     if what == "root" and where.set_name is not None and members.any():
         return Caught(np.flatnonzero(members), faces, mask)
     if not mask.any():
-        of_set = "" if where.set_name is None else f", which has {members.sum()} nodes"
+        remark = "" if where.set_name is None else f", which has {members.sum()} nodes"
         raise ImportRefused(
-            f"{what}: no outer face has all its nodes within {where.describe()}{of_set}; give another set or rule, or a wider "
+            f"{what}: no outer face has all its nodes within {where.describe()}{remark}; give another set or rule, or a wider "
             f"tolerance_m"
         )
     return Caught(nodes_of(faces), faces, mask)
@@ -128,7 +128,7 @@ def _cone(points: np.ndarray) -> Where:
     flat = np.ptp(z) < 1e-6 * np.ptp(points, axis=0).max()
     line = np.polynomial.Polynomial.fit(z, radius, 0 if flat else 1)
     first, last = z.min(), z.max() if not flat else z.min() + 1.0
-    start, end = ((round(float(at), _ROUNDED), round(float(line(at)), _ROUNDED)) for at in (first, last))
+    start, end = ((round(float(position), _ROUNDED), round(float(line(position)), _ROUNDED)) for position in (first, last))
     off = np.abs(Where(cone_zr=(start, end), tolerance=0.0).off_cone(points)).max()
     # twice what is needed, and a round number
     tolerance = next(step for step in _TOLERANCES if step >= 2.0 * off)

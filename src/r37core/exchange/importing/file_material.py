@@ -36,7 +36,7 @@ class FileMaterial:
         return any(np.allclose((own * factor)[present], blade[present], rtol=_ALIKE, atol=0.0) for factor in factors)
 
     @property
-    def in_words(self) -> str:
+    def wording(self) -> str:
         """Numbers of the material, as the file has them."""
         numbers = zip(("Young's modulus", "Poisson's ratio", "density"), astuple(self), strict=True)
         return ", ".join(f"{name} {value:g}" for name, value in numbers if np.isfinite(value))

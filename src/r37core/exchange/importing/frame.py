@@ -24,9 +24,9 @@ def blade_parameters(
     mechanics only the weights of area patches, along the chord. `pressure_forward`: whether the pressure side looks towards the
     rotation. Raises ImportRefused for a mesh with too few nodes for sections.
     """
-    to_root, _ = cKDTree(points[root]).query(points)
-    to_tip, _ = cKDTree(points[tip]).query(points)
-    span = to_root / (to_root + to_tip)
+    root_distance, _ = cKDTree(points[root]).query(points)
+    tip_distance, _ = cKDTree(points[tip]).query(points)
+    span = root_distance / (root_distance + tip_distance)
     levels = np.linspace(0.0, 1.0, _SECTIONS)
     members = [_members(span, level) for level in levels]
     centres = np.array([0.5 * (points[m].max(axis=0) + points[m].min(axis=0)) for m in members])
@@ -43,8 +43,14 @@ def blade_parameters(
     for m, centre, chord, normal in zip(members, centres, chords, normals, strict=True):
         along, across = (points[m] - centre) @ chord, (points[m] - centre) @ normal
         extremes.append([along.min(), np.ptp(along), across.min(), np.ptp(across)])
-    at = np.stack([np.interp(span, levels, column) for column in np.hstack([centres, chords, normals, extremes]).T], axis=1)
-    centre, chord, normal, (along_low, along_size, across_low, across_size) = at[:, :3], at[:, 3:6], at[:, 6:9], at[:, 9:].T
+    columns = np.hstack([centres, chords, normals, extremes]).T
+    rows = np.stack([np.interp(span, levels, column) for column in columns], axis=1)
+    centre, chord, normal, (along_low, along_size, across_low, across_size) = (
+        rows[:, :3],
+        rows[:, 3:6],
+        rows[:, 6:9],
+        rows[:, 9:].T,
+    )
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     chord_fraction = (np.sum((points - centre) * chord, axis=1) - along_low) / along_size
     thickness = 2.0 * (np.sum((points - centre) * normal, axis=1) - across_low) / across_size - 1.0

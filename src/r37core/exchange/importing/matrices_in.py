@@ -295,7 +295,7 @@ _POSSIBLE = (0.02, 50e3)
 """A hundred times less and more."""
 
 
-def in_words(model: ReducedModel) -> str:
+def wording(model: ReducedModel) -> str:
     """The first frequency, for who imports matrices to see."""
     return f"the first frequency at rest is {_first_frequency(model):.4g} Hz"
 
@@ -309,7 +309,7 @@ def check_frequency(model: ReducedModel, chord: float) -> None:
     if not chord > 0.0 or _USUAL[0] <= frequency * chord <= _USUAL[1]:
         return
     text = (
-        f"{in_words(model)}, with a tip of {1e3 * chord:.3g} mm; blades of that size have {_USUAL[0] / chord:.2g} to "
+        f"{wording(model)}, with a tip of {1e3 * chord:.3g} mm; blades of that size have {_USUAL[0] / chord:.2g} to "
         f"{_USUAL[1] / chord:.2g} Hz: look at mass_unit, stiffness_unit and length_unit"
     )
     if not _POSSIBLE[0] <= frequency * chord <= _POSSIBLE[1]:

@@ -40,9 +40,9 @@ def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.
         _check_midside(mesh, name, nodes)
     blocks, quality = {}, []
     for name, nodes in mesh.blocks.items():
-        blocks[name], of_block = _right_way_out(mesh, name, nodes)
-        _check_shape(mesh, name, of_block, minimum_scaled_jacobian)
-        quality.append(of_block)
+        blocks[name], block_quality = _right_way_out(mesh, name, nodes)
+        _check_shape(mesh, name, block_quality, minimum_scaled_jacobian)
+        quality.append(block_quality)
     _check_one_order(mesh)
     _tell_holes(mesh.points, outer_faces(blocks))
     linear = [name for name in blocks if not ELEMENTS[name].quadratic]

@@ -106,16 +106,16 @@ def matrix_files(name: str, root: Path) -> dict[str, Path]:
         raise ImportRefused(f"there is no folder {name}", "matrices")
     ours = (file for file in sorted(folder.glob("*")) if file.suffix in (".mtx", ".npz") or file.name == "boundary.csv")
     files = [file for file in ours if os.path.isfile(file)]
-    by_stem = {file.stem: file for file in files}
-    speeds = [stem for stem in by_stem if stem.startswith("K_")]
-    missing = [stem for stem in ("M", "boundary") if stem not in by_stem]
-    if missing or len(speeds) != 3 or len(by_stem) != len(files):
+    files_of_stem = {file.stem: file for file in files}
+    speeds = [stem for stem in files_of_stem if stem.startswith("K_")]
+    missing = [stem for stem in ("M", "boundary") if stem not in files_of_stem]
+    if missing or len(speeds) != 3 or len(files_of_stem) != len(files):
         raise ImportRefused(
             f"{name}: found {', '.join(file.name for file in files) or 'no files'}; needed: M and K_<speed> at three speeds in "
             "rad/s, one of them 0 (each .mtx or .npz), and boundary.csv",
             "matrices",
         )
-    return by_stem
+    return files_of_stem
 
 
 def digest_of(files: Iterable[Path]) -> str:
@@ -151,7 +151,7 @@ class Where:
         """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
         if self.set_name is None:
             return self.within(mesh.points)
-        return _with_mid_nodes(what, self.set_name, mesh, _of_set(what, self.set_name, mesh))
+        return _edge_nodes(what, self.set_name, mesh, _set_members(what, self.set_name, mesh))
 
     def within(self, points: np.ndarray) -> np.ndarray:
         """Mask over `points` (m), shape (n, 3), that keep limits and cone."""
@@ -193,7 +193,7 @@ def _plain(number: float) -> str:
     return np.format_float_positional(number, trim="-")
 
 
-def _of_set(what: str, name: str, mesh: RawMesh) -> np.ndarray:
+def _set_members(what: str, name: str, mesh: RawMesh) -> np.ndarray:
     """Mask over the nodes of a set, whose name may differ in capitals."""
     names = {known.upper(): known for known in mesh.sets}
     if name.upper() not in names:
@@ -205,7 +205,7 @@ def _of_set(what: str, name: str, mesh: RawMesh) -> np.ndarray:
     return members
 
 
-def _with_mid_nodes(what: str, name: str, mesh: RawMesh, members: np.ndarray) -> np.ndarray:
+def _edge_nodes(what: str, name: str, mesh: RawMesh, members: np.ndarray) -> np.ndarray:
     """The nodes of a set; where it has corners of elements alone, with the mid-nodes of edges between them."""
     middle = np.zeros(len(members), dtype=bool)
     between = np.zeros(len(members), dtype=bool)

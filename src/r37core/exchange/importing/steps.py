@@ -13,7 +13,7 @@ from r37core.rom.reduction_choice import ReductionChoice, boundary_located
 from r37core.rom.rom_file import write_reduced_model
 
 from .import_mesh import import_mesh, size_in_words
-from .matrices_in import import_matrices, in_words
+from .matrices_in import import_matrices, wording
 from .source import MatricesSource, MeshSource
 
 
@@ -42,4 +42,4 @@ def imported_matrices(input: Any, output: Any, params: Any) -> str:
         model = import_matrices(from_plain(MatricesSource, params.source), choice, params.folder["folder"])
     JOB_LOG.debug(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
     write_reduced_model(model, output.rom, params.provenance)
-    return f"{params.locations['matrices']}: {in_words(model)}"
+    return f"{params.locations['matrices']}: {wording(model)}"

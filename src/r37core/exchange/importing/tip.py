@@ -91,7 +91,7 @@ def check_sense(points: np.ndarray, lines: TipLines, pressure_forward: bool) -> 
     `points`: shape (nodes, 3), in the blade's frame; `pressure_forward`: whether the pressure side looks along the rotation.
     What the tip does not tell is warned of.
     """
-    sides = [_at(points[lines[name][0]], _STEPS) for name in ("tip_pressure_edge", "tip_suction_edge")]
+    sides = [_section_at(points[lines[name][0]], _STEPS) for name in ("tip_pressure_edge", "tip_suction_edge")]
     sense = sense_of_line(0.5 * (sides[0] + sides[1]))
     fits = sense.fits(pressure_forward)
     _check_lead(sides[0][[0, -1]], sense, fits)
@@ -183,7 +183,7 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
 
 def _camber(points: np.ndarray, tip: np.ndarray, pressure: np.ndarray, suction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Tip nodes near the line half-way between the edges, and their fractions along it."""
-    sides = [_at(points[line], _STEPS) for line in (pressure, suction)]
+    sides = [_section_at(points[line], _STEPS) for line in (pressure, suction)]
     middle, across = 0.5 * (sides[0] + sides[1]), np.linalg.norm(sides[1] - sides[0], axis=1)
     distance, nearest = cKDTree(middle).query(points[tip])
     spacing = np.linalg.norm(np.diff(middle, axis=0), axis=1).max()
@@ -206,7 +206,7 @@ def _between_corners(points: np.ndarray, line: np.ndarray, thickness: float) -> 
 
 
 def _middle_angle(points: np.ndarray, line: np.ndarray) -> float:
-    x, y, _ = _at(points[line], np.linspace(0.3, 0.7, 9)).T
+    x, y, _ = _section_at(points[line], np.linspace(0.3, 0.7, 9)).T
     return float(np.mean(np.arctan2(y, x)))
 
 
@@ -225,7 +225,7 @@ def _fractions(path: np.ndarray) -> np.ndarray:
     return length / length[-1]
 
 
-def _at(path: np.ndarray, fractions: np.ndarray) -> np.ndarray:
+def _section_at(path: np.ndarray, fractions: np.ndarray) -> np.ndarray:
     """Points at fractions of the path's length, shape (fractions, 3)."""
     own = _fractions(path)
     return np.stack([np.interp(fractions, own, column) for column in path.T], axis=1)

@@ -16,7 +16,7 @@ from r37core.contact.node_sweeps import set_laws, sweep_nodes, wear_bars
 from r37core.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
 from .layout import LINED
-from .steps import bar_at, leave_casing, node_lanes, set_friction_of_listed, with_friction
+from .steps import bar_at, friction_response, leave_casing, node_lanes, set_friction_of_listed
 
 
 @inlined
@@ -89,7 +89,7 @@ def list_beyond(m, count, place):
 def set_column(m, k):
     """Opening of the gaps, at once, by a normal force on a node with its friction."""
     for g in range(0, node_lanes(m), LANES):
-        store(m.contact.columns, (k, g), with_friction(m, m.flexibility, k, g))
+        store(m.contact.columns, (k, g), friction_response(m, m.flexibility, k, g))
 
 
 @inlined
@@ -105,8 +105,8 @@ def keep_forces(m, count):
         pressed = bits_of(normal < 0.0)
         any_pressed |= pressed
         touching = wear_bars(c, g, m.lining) if LINED else pressed
-        onsets = touching & ~m.on_casing[g // LANES]
-        m.on_casing[g // LANES] = touching
+        onsets = touching & ~m.touched[g // LANES]
+        m.touched[g // LANES] = touching
         while onsets:
             m.totals.casing_hits += 1.0
             onsets &= onsets - 1

@@ -79,10 +79,10 @@ class CompiledEngine:
         self._pairs, self._node_lanes = padded(pairs), padded(self._nodes)
         self.mode_lanes = padded(blade) + 2 * self._pairs
         firsts = (self.mode_lanes - 2 * self._pairs, self.mode_lanes - self._pairs)
-        of_ring = [first + np.arange(pairs) for first in firsts]
+        ring_columns = [first + np.arange(pairs) for first in firsts]
         self.casing_lanes = slice(firsts[0], self.mode_lanes)
         # an array of indices costs more in every segment of a run-up
-        self.mode_columns = np.concatenate([np.arange(blade), *of_ring]) if pairs else slice(blade)
+        self.mode_columns = np.concatenate([np.arange(blade), *ring_columns]) if pairs else slice(blade)
         scene, choice = problem.scene, problem.choice
         self.capacity = capacity_of(self.mode_lanes, self._node_lanes)
         if beside is not None:
@@ -135,17 +135,17 @@ class CompiledEngine:
         fields = {"clearance": clearance}
         if coupling is not None:
             fields["coupling"] = coupling
-        of_modes = {name: getattr(recursion, name) for name in ("keep", "pull", "inverse", "loss")}
+        modal_fields = {name: getattr(recursion, name) for name in ("keep", "pull", "inverse", "loss")}
         if self.kind.coriolis:
-            of_modes["inverse_keep"] = 1.0 / recursion.keep
+            modal_fields["inverse_keep"] = 1.0 / recursion.keep
         if increments is not None:
-            of_modes["increment_by_displacement"] = increments.by_displacement
-            of_modes["increment_by_velocity"] = increments.by_velocity
-            of_modes["velocity_by_increment"] = 1.0 / increments.by_velocity
+            modal_fields["increment_by_displacement"] = increments.displacement_factor
+            modal_fields["increment_by_velocity"] = increments.velocity_factor
+            modal_fields["velocity_by_increment"] = 1.0 / increments.velocity_factor
         if plan is not None:
-            fields["slow_modes"], of_modes["jumps"] = plan.slow_modes, plan.jumps
-            of_modes |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
-        fields |= {name: self._spread(values) for name, values in of_modes.items()}
+            fields["slow_modes"], modal_fields["jumps"] = plan.slow_modes, plan.jumps
+            modal_fields |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
+        fields |= {name: self._spread(values) for name, values in modal_fields.items()}
         table = aligned_zeros((len(clearance),), constants_record(self.mode_lanes, self.capacity.nodes))
         # a node that only pads the vector must not touch
         table["clearance"] = 1.0
@@ -292,7 +292,7 @@ class _CasingTables:
     """f(theta) of the casing at every step of a revolution, for whole vectors of nodes."""
 
     def __init__(self, problem: Problem, nodes: int):
-        steps, self._of = problem.grid.steps_per_revolution, problem
+        steps, self._problem = problem.grid.steps_per_revolution, problem
         self.shape = aligned_zeros((steps, nodes))
         # in parts, between which Python sees an interrupt
         for first in range(0, steps, _ROWS_AT_ONCE):
@@ -302,16 +302,16 @@ class _CasingTables:
     @cached_property
     def nearest(self) -> np.ndarray:
         """The nearest of each interval, for jumps; see nearest_casing."""
-        nearest = nearest_casing(self.shape, self._of.grid.steps_per_sample)
+        nearest = nearest_casing(self.shape, self._problem.grid.steps_per_sample)
         return aligned_copy(nearest, self.shape.shape[1])
 
     def fits(self, problem: Problem) -> bool:
         """True where this problem has the same tables."""
         mine, other = (
-            (of.grid.steps_per_revolution, of.grid.steps_per_sample, of.scene.casing.lobes, of.scene.casing.width)
-            for of in (self._of, problem)
+            (each.grid.steps_per_revolution, each.grid.steps_per_sample, each.scene.casing.lobes, each.scene.casing.width)
+            for each in (self._problem, problem)
         )
-        return mine == other and np.array_equal(self._of.casing.tip.theta, problem.casing.tip.theta)
+        return mine == other and np.array_equal(self._problem.casing.tip.theta, problem.casing.tip.theta)
 
 
 @cache

@@ -211,7 +211,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
             *_fields("bar_position", nodes),  # angle at step 0, in bars
             *_fields("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", complementarity_record(nodes), ()),
-            *_fields("beyond on_casing", groups, kind=np.int64),
+            *_fields("beyond touched", groups, kind=np.int64),
             # by how much pairs of the casing's modes turn in a jump and, in the last row, in a step
             *_fields("turn_cosine turn_sine", STRIDES + 1, modes // 2),
             ("flight", _flight_record(modes, nodes), ()),

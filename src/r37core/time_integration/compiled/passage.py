@@ -50,7 +50,7 @@ class Passage:
         self.done = 0
         m = engine.record[0]
         engine.put_modes(u=state.displacement, increment=state.increment)
-        engine.put(worn=0.0, on_casing=np.packbits(state.on_casing, bitorder="little"), totals=state.totals)
+        engine.put(worn=0.0, touched=np.packbits(state.touched, bitorder="little"), totals=state.totals)
         if self._grid.choice.second_order:
             engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         addresses = {
@@ -95,10 +95,10 @@ class Passage:
     def end(self) -> None:
         """Read the state that is reached, but for the number of samples."""
         engine, state, m = self._engine, self._state, self._engine.record[0]
-        modes, nodes, columns = engine.mode_lanes, len(state.on_casing), engine.mode_columns
+        modes, nodes, columns = engine.mode_lanes, len(state.touched), engine.mode_columns
         state.displacement[:], state.increment[:] = m["u"][columns], m["increment"][columns]
         self._schedule.ends[:] = self._ends[..., columns]
-        state.on_casing[:] = np.unpackbits(m["on_casing"].astype(np.uint8), bitorder="little")[:nodes]
+        state.touched[:] = np.unpackbits(m["touched"].astype(np.uint8), bitorder="little")[:nodes]
         state.totals[()] = m["totals"]
         if self._grid.choice.second_order:
             state.contact_force[NORMAL] = m["force"][:nodes]
@@ -106,10 +106,10 @@ class Passage:
         snapshots, out = self._snapshots, self._out.snapshots
         if snapshots is out:
             return
-        of_mode = engine.numbers_of_mode
-        numbers, kept = of_mode * modes, of_mode * len(state.displacement)
-        of_modes = snapshots[:, :numbers].reshape(len(snapshots), of_mode, modes)[:, :, columns]
-        out[:, :kept] = of_modes.reshape(len(snapshots), kept)
+        per_mode = engine.numbers_of_mode
+        numbers, kept = per_mode * modes, per_mode * len(state.displacement)
+        modal_numbers = snapshots[:, :numbers].reshape(len(snapshots), per_mode, modes)[:, :, columns]
+        out[:, :kept] = modal_numbers.reshape(len(snapshots), kept)
         if self._grid.choice.second_order:
             forces = snapshots[:, numbers:].reshape(len(snapshots), 3, (snapshots.shape[1] - numbers) // 3)
             out[:, kept:] = forces[:, :, :nodes].reshape(len(snapshots), 3 * nodes)

@@ -15,7 +15,7 @@ from numba import types
 from r37core.alignment import LANES
 from r37core.lanes import OPTIONS, inlined, load, pointed_at, spread, store, sum_of_lanes
 from r37core.native import object_code
-from r37core.program_constants import with_constants
+from r37core.program_constants import specialised
 
 from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, release_contact
@@ -172,8 +172,8 @@ def _end_block(addresses, blades, block, row):
 def _integrate(addresses, blades):
     """Do the blocks of steps asked for; returns how many were done, fewer when an output passed the limit or is NaN."""
     first = pointed_at(addresses[0])
-    at_once = np.isinf(first.casing.rise)
-    decay = 0.0 if at_once else np.exp(-first.casing.rise)
+    immediate = np.isinf(first.casing.rise)
+    decay = 0.0 if immediate else np.exp(-first.casing.rise)
     steps_per_block = first.steps_per_block
     coarse_per_block = (steps_per_block + COARSE - 1) // COARSE
     # any integers for numba: what it gives a plain 0 or 1 to is compiled for just that, too
@@ -190,7 +190,7 @@ def _integrate(addresses, blades):
         if begins:
             until += _begin_segment(addresses, blades, segment)
         start = first.call.first_step + done * steps_per_block
-        remaining = 0.0 if at_once else np.exp(-first.casing.rise * (start + first.call.ahead))
+        remaining = 0.0 if immediate else np.exp(-first.casing.rise * (start + first.call.ahead))
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
             busy, bounded, first_stride = False, False, shortest
@@ -250,7 +250,7 @@ def compile_integration(capacity: Capacity, kind: Kind) -> bytes:
     """Object code of `advance(records, count)`: a function of the records' addresses that returns the blocks of steps done."""
     records = types.CPointer(types.CPointer(numba.from_dtype(integration_record(capacity))))
     others = constants_record(*capacity).itemsize // 8 - MODAL_ROWS * capacity.modes
-    integrate = with_constants(_integrate, kind.constants | {"OTHERS": others})
+    integrate = specialised(_integrate, kind.constants | {"OTHERS": others})
     # the loop itself, not a function around it: what a compiled function calls was optimised and emitted once already
     advance = numba.cfunc(types.int64(records, types.int64), **OPTIONS)(integrate.py_func)
     return object_code(advance.inspect_llvm(), advance.native_name, "advance")

@@ -29,8 +29,8 @@ def begin_segment(m, segment):
 def take_speed(m, index):
     """Take the constants of another speed, and write the motion's velocity as an increment at it."""
     for i in range(0, mode_lanes(m), LANES):
-        of_displacement = load(m.speed.increment_by_displacement, i) * load(m.u, i)
-        store(m.increment, i, (load(m.increment, i) - of_displacement) * load(m.speed.velocity_by_increment, i))
+        displacement_share = load(m.speed.increment_by_displacement, i) * load(m.u, i)
+        store(m.increment, i, (load(m.increment, i) - displacement_share) * load(m.speed.velocity_by_increment, i))
     own, table, modes, most = numbers_of(m), numbers_at(m.call.constants), mode_lanes(m), len(m.u)
     first = index * (MODAL_ROWS * modes + OTHERS)
     for row in range(MODAL_ROWS):
@@ -41,8 +41,8 @@ def take_speed(m, index):
     for k in range(m.nodes):
         m.problem.diagonal[k] = m.speed.coupling[NORMAL, k, k]
     for i in range(0, mode_lanes(m), LANES):
-        of_displacement = load(m.speed.increment_by_displacement, i) * load(m.u, i)
-        store(m.increment, i, of_displacement + load(m.speed.increment_by_velocity, i) * load(m.increment, i))
+        displacement_share = load(m.speed.increment_by_displacement, i) * load(m.u, i)
+        store(m.increment, i, displacement_share + load(m.speed.increment_by_velocity, i) * load(m.increment, i))
     m.call.speed_index = index
 
 

@@ -178,7 +178,7 @@ def set_friction_against_last(m):
 
 
 @inlined
-def with_friction(m, table, k, g):
+def friction_response(m, table, k, g):
     """Effect of a unit normal force on a node on the nodes from g on, with the vector friction that comes with it.
 
     `table`: what forces along the normal, the tangent and the meridian do.
@@ -226,7 +226,7 @@ def press_lining(m, place):
         gap = load(p.gap, g) + lining.thickness
         for j in range(count):
             k = p.listed[j]
-            gap -= with_friction(m, m.speed.coupling, k, g) * m.force[k]
+            gap -= friction_response(m, m.speed.coupling, k, g) * m.force[k]
         store(p.gap, g, gap)
         any_closed |= bits_of(gap < 0.0)
     return any_closed != 0
@@ -241,11 +241,11 @@ def press_casing(m):
         set_friction_against_last(m)
     for k in range(m.nodes):
         for g in range(0, node_lanes(m), LANES):
-            store(m.response, (k, g), with_friction(m, m.speed.coupling, k, g))
+            store(m.response, (k, g), friction_response(m, m.speed.coupling, k, g))
     guessed = 0
     for g in range(node_lanes(m) // LANES):
-        p.touching[g] = m.on_casing[g]
-        guessed |= m.on_casing[g]
+        p.touching[g] = m.touched[g]
+        guessed |= m.touched[g]
     if guessed == 0:
         for g in range(0, node_lanes(m), LANES):
             p.touching[g // LANES] = bits_of(load(p.gap, g) < 0.0)
@@ -255,8 +255,8 @@ def press_casing(m):
         multiplier = load(p.multiplier, g)
         store(m.force, g, load(m.force, g) - multiplier)
         touching = bits_of(multiplier > 0.0)
-        p.wrong[g // LANES] = touching & ~m.on_casing[g // LANES]
-        m.on_casing[g // LANES] = touching
+        p.wrong[g // LANES] = touching & ~m.touched[g // LANES]
+        m.touched[g // LANES] = touching
     m.totals.casing_hits += list_nodes(p.wrong, p.listed)
 
 
@@ -325,17 +325,17 @@ def add_pushes(m, first, second, both):
     Two at once, because a sum that is kept in memory waits for its last store.
     """
     # loaded once: a store may change them, for all that the compiler knows
-    of_first = m.force[first], m.friction_force[0, first], m.friction_force[1, first]
-    of_second = m.force[second], m.friction_force[0, second], m.friction_force[1, second]
+    first_force = m.force[first], m.friction_force[0, first], m.friction_force[1, first]
+    second_force = m.force[second], m.friction_force[0, second], m.friction_force[1, second]
     for i in range(0, mode_lanes(m), LANES):
-        push = pushed(m.displacement_operator, first, i, of_first, load(m.push, i))
+        push = pushed(m.displacement_operator, first, i, first_force, load(m.push, i))
         if both:
-            push = pushed(m.displacement_operator, second, i, of_second, push)
+            push = pushed(m.displacement_operator, second, i, second_force, push)
         store(m.push, i, push)
         if CORIOLIS:
-            push = pushed(m.increment_operator, first, i, of_first, load(m.increment_push, i))
+            push = pushed(m.increment_operator, first, i, first_force, load(m.increment_push, i))
             if both:
-                push = pushed(m.increment_operator, second, i, of_second, push)
+                push = pushed(m.increment_operator, second, i, second_force, push)
             store(m.increment_push, i, push)
 
 
@@ -370,12 +370,12 @@ def kick_complex_modes(m, i, push, increment_push, work, lost):
     displacement = before + before - kicked
     increment = 2.0 * (d + pull * before) + inverse * push
     sense = 0.5 * (1.0 - keep - pull)
-    of_push = push * (increment + sense * displacement)
-    of_push -= increment_push * (sense * inverse_keep * increment + pull * displacement)
+    push_work = push * (increment + sense * displacement)
+    push_work -= increment_push * (sense * inverse_keep * increment + pull * displacement)
     pushed = inverse * push + pull * kicked
     store(m.increment, i, d + pushed)
     store(m.u, i, before + d + pushed - kicked)
-    return work + of_push, lost + 0.5 * (1.0 - keep) * of_push
+    return work + push_work, lost + 0.5 * (1.0 - keep) * push_work
 
 
 @inlined
@@ -395,7 +395,7 @@ def meet(m, place, work, lost):
 def leave_casing(m):
     """Note that no node touches the casing."""
     for g in range(node_lanes(m) // LANES):
-        m.on_casing[g] = 0
+        m.touched[g] = 0
 
 
 @inlined

@@ -60,8 +60,8 @@ class ReferenceEngine:
         """Take the rows of the nodes where they are at t_n: of the blade's modes at rest, and of an elastic casing's."""
         problem, self.rows = self.problem, self._blade_rows
         if problem.casing.ring is not None:
-            of_casing = -casing_axes(problem.casing.ring.displacement(problem.casing.theta(n)), problem.casing.cone_angle)
-            self.rows = np.concatenate([self._blade_rows, of_casing], axis=-1)
+            casing_rows = -casing_axes(problem.casing.ring.displacement(problem.casing.theta(n)), problem.casing.cone_angle)
+            self.rows = np.concatenate([self._blade_rows, casing_rows], axis=-1)
         self.normal, self.tangential, self.meridional = self.rows
 
     def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
@@ -161,18 +161,18 @@ class ReferenceEngine:
         return after
 
     def _add_up(
-        self, state: SimulationState, work_and_loss: tuple[float, float], normal_force: np.ndarray, on_casing: np.ndarray
+        self, state: SimulationState, work_and_loss: tuple[float, float], normal_force: np.ndarray, touched: np.ndarray
     ) -> None:
-        """Totals of a step, pushed by a `normal_force` (N) on each node; `on_casing`: which of them touch the casing."""
+        """Totals of a step, pushed by a `normal_force` (N) on each node; `touched`: which of them touch the casing."""
         totals = state.totals
         totals["steps"] += 1
         totals["steps_in_contact"] += np.any(normal_force > 0.0)
-        totals["casing_hits"] += np.sum(on_casing & ~state.on_casing)
+        totals["casing_hits"] += np.sum(touched & ~state.touched)
         totals["largest_force"] = max(totals["largest_force"], normal_force.max())
         work, loss = work_and_loss
         totals["work"] += work
         totals["loss"] += loss
-        state.on_casing[:] = on_casing
+        state.touched[:] = touched
 
     def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it."""

@@ -124,12 +124,12 @@ class CoupledMotion:
         self._back = np.linalg.inv(self._flight)
         # of the two roots of the recursion that of the motion, which may turn by more than half a turn in a step
         sense = np.sign(np.sin(step * np.sqrt(1.0 - ratio**2) * coupled.frequencies))
-        self._by_u, self._by_d = sense * imaginary_part(recursion[:modes])
+        self._u_factor, self._d_factor = sense * imaginary_part(recursion[:modes])
         self.response = self._modes @ (self._flight @ self._kick / np.tile(self._root, 2)[:, None])[:modes] @ self._modes.T
 
     def read(self, state: SimulationState) -> np.ndarray:
         """y, shape (2 stepped modes,)."""
-        amplitude = state.displacement + 1j * (self._by_u * state.displacement + self._by_d * state.increment)
+        amplitude = state.displacement + 1j * (self._u_factor * state.displacement + self._d_factor * state.increment)
         moving = self._coupled.shapes * amplitude
         return np.concatenate([self._root * moving.real.sum(axis=1), -(moving @ self._coupled.frequencies).imag])
 
@@ -143,7 +143,7 @@ class CoupledMotion:
         frequencies = self._coupled.frequencies
         amplitude = self._coupled.shapes.conj().T @ (self._root * elastic) / frequencies**2
         amplitude = amplitude - 1j * (self._coupled.shapes.conj().T @ velocity) / frequencies
-        return np.concatenate([amplitude.real, (amplitude.imag - self._by_u * amplitude.real) / self._by_d])
+        return np.concatenate([amplitude.real, (amplitude.imag - self._u_factor * amplitude.real) / self._d_factor])
 
     def flown(self, motion: np.ndarray) -> np.ndarray:
         """Motion one step on, without force."""
@@ -185,18 +185,18 @@ class MotionWithCasing:
         self._blade, self._problem, self._ring = blade, problem, problem.casing.ring
         self._stepped = len(problem.blade.frequencies)
         self._casing = recursion[self._stepped :]
-        at_rest = len(problem.blade.modes)
-        self.response = np.zeros((at_rest + len(self._casing.keep),) * 2)
-        self.response[:at_rest, :at_rest] = blade.response
-        self.response[at_rest:, at_rest:] = np.diag(self._casing.inverse)
-        self._at_rest = at_rest
+        rest_modes = len(problem.blade.modes)
+        self.response = np.zeros((rest_modes + len(self._casing.keep),) * 2)
+        self.response[:rest_modes, :rest_modes] = blade.response
+        self.response[rest_modes:, rest_modes:] = np.diag(self._casing.inverse)
+        self._rest_modes = rest_modes
 
     def pressed_by_all(self, forces: Sequence[np.ndarray]) -> list[np.ndarray]:
         """Forces of several blades in one casing: on its modes the sum over blades, which each of them has then."""
-        on_casing = np.sum([force[self._at_rest :] for force in forces], axis=0)
-        return [np.append(force[: self._at_rest], on_casing) for force in forces]
+        casing_force = np.sum([force[self._rest_modes :] for force in forces], axis=0)
+        return [np.append(force[: self._rest_modes], casing_force) for force in forces]
 
-    def _of_blade(self, state: SimulationState) -> SimulationState:
+    def _blade_state(self, state: SimulationState) -> SimulationState:
         """The state of the blade's modes alone: what is written into it is written into the whole."""
         return replace(state, displacement=state.displacement[: self._stepped], increment=state.increment[: self._stepped])
 
@@ -207,11 +207,11 @@ class MotionWithCasing:
         """Motion of a state, which is in the rotor's frame."""
         step = state.samples * self._problem.grid.steps_per_sample
         both = np.array([state.displacement[self._stepped :], state.increment[self._stepped :]])
-        return self._blade.read(self._of_blade(state)), self._turned(both, -step), step
+        return self._blade.read(self._blade_state(state)), self._turned(both, -step), step
 
     def write(self, motion: tuple, state: SimulationState) -> None:
         """Put the motion back into the state."""
-        self._blade.write(motion[0], self._of_blade(state))
+        self._blade.write(motion[0], self._blade_state(state))
         state.displacement[self._stepped :], state.increment[self._stepped :] = self._turned(*motion[1:])
 
     def numbers(self, motion: tuple) -> np.ndarray:
@@ -229,8 +229,8 @@ class MotionWithCasing:
     def pushed(self, motion: tuple, force: np.ndarray) -> tuple:
         """Motion with what a force adds at the end of a step."""
         blade, casing, step = motion
-        pushed = casing + self._casing.inverse * force[self._at_rest :]
-        return self._blade.pushed(blade, force[: self._at_rest]), pushed, step
+        pushed = casing + self._casing.inverse * force[self._rest_modes :]
+        return self._blade.pushed(blade, force[: self._rest_modes]), pushed, step
 
     def displacement(self, motion: tuple) -> np.ndarray:
         """Displacement of the modes at rest, then of the casing's."""
@@ -242,14 +242,14 @@ class MotionWithCasing:
 
     def work_and_loss(self, before: tuple, after: tuple, force: np.ndarray) -> tuple[float, float]:
         """Work and loss of a step under a force: see Recursion, and of a kick, with a Coriolis force, ComplexRecursion."""
-        work, loss = self._blade.work_and_loss(before[0], after[0], force[: self._at_rest])
+        work, loss = self._blade.work_and_loss(before[0], after[0], force[: self._rest_modes])
         if not self.counted:
             return work, loss
-        of, on_casing, (u, d) = self._casing, force[self._at_rest :], before[1]
-        if isinstance(of, ComplexRecursion):
-            kicked = d + of.inverse / of.keep * on_casing
-            uu, ud, dd = of.loss_form
+        own, casing_force, (u, d) = self._casing, force[self._rest_modes :], before[1]
+        if isinstance(own, ComplexRecursion):
+            kicked = d + own.inverse / own.keep * casing_force
+            uu, ud, dd = own.loss_form
             lost = float(np.sum(uu * u**2 + ud * u * kicked + dd * kicked**2))
-            return work + of.energy(*after[1]) - of.energy(u, d) + lost, loss + lost
+            return work + own.energy(*after[1]) - own.energy(u, d) + lost, loss + lost
         moved = d + after[1][1]
-        return work + float(0.5 * on_casing @ moved), loss + float(of.loss @ moved**2)
+        return work + float(0.5 * casing_force @ moved), loss + float(own.loss @ moved**2)
