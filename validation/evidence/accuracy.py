@@ -126,7 +126,7 @@ class Runs:
         return self._places[key]
 
 
-_NONE = pd.Series(dtype=float, index=pd.MultiIndex.read_motion([[], []], names=["blade", "speed"]))
+_NONE = pd.Series(dtype=float, index=pd.MultiIndex.from_arrays([[], []], names=["blade", "speed"]))
 
 
 def _jumps(speeds: np.ndarray, rms: np.ndarray) -> np.ndarray:
