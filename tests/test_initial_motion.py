@@ -29,7 +29,7 @@ def choice(integrator, step=2e-7, revolutions=1, engine="compiled", **others):
 
 
 def motion(displacement=None, velocity=None):
-    return InitialMotion.read_motion(displacement, velocity)
+    return InitialMotion.from_arrays(displacement, velocity)
 
 
 def times(problem, count):

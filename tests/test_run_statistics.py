@@ -23,7 +23,7 @@ FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
 SPEED = 1000.0
 
 
-SWINGING = InitialMotion.read_motion([1e-4], None)
+SWINGING = InitialMotion.from_arrays([1e-4], None)
 """Displacement (m) of the one mode as its run starts."""
 
 

@@ -175,7 +175,7 @@ def simulate(
         # the one speed stands in a list of them
         raise ConfigError(re.sub(r"\bspeeds(_rpm)?\.0\b", r"speed\1", str(error))) from None
     try:
-        motion = InitialMotion.read_motion(options.get("initial_displacement"), options.get("initial_velocity"))
+        motion = InitialMotion.from_arrays(options.get("initial_displacement"), options.get("initial_velocity"))
         response = _response(call, 1, motion)
     except InitialMotionError as error:
         raise ConfigError(str(error)) from None

@@ -37,7 +37,7 @@ class InitialMotion:
     velocity: np.ndarray | None
 
     @classmethod
-    def read_motion(cls, displacement: ArrayLike | None, velocity: ArrayLike | None) -> InitialMotion | None:
+    def from_arrays(cls, displacement: ArrayLike | None, velocity: ArrayLike | None) -> InitialMotion | None:
         """The motion with these; None where there is neither."""
         if displacement is None and velocity is None:
             return None
