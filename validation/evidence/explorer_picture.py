@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-import sys
+import shutil
 from pathlib import Path
 from typing import Any
 
-_TESTS = Path(__file__).parents[2] / "tests"
+from r37core.io import InputFileError
+
+_WITHOUT_GRAPHICS_CARD = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
 
 
 def picture(input: Any, output: Any, params: Any) -> None:
-    """Picture of the first screen, in light, at the interaction that the page opens at. Input: the page."""
-    sys.path.insert(0, str(_TESTS))
-    from browser import opened
+    """Picture of the first screen, in light, at the interaction that the page opens at. Input: the page.
 
-    with opened(Path(input[0]).resolve(), {"width": 1200, "height": 1000}, color_scheme="light") as page:
+    Raises InputFileError without Chromium.
+    """
+    # of the tests' packages, which only this step needs
+    from playwright.sync_api import sync_playwright
+
+    chromium = shutil.which("chromium")
+    if chromium is None:
+        raise InputFileError("chromium: not found; this picture needs it (on Debian: apt-get install chromium)")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=list(_WITHOUT_GRAPHICS_CARD))
+        page = browser.new_page(viewport={"width": 1200, "height": 1000}, color_scheme="light")
+        page.goto(Path(input[0]).resolve().as_uri())
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         page.wait_for_timeout(1000)
         page.screenshot(path=output[0])
+        browser.close()
