@@ -12,15 +12,16 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.config import Settings
 from r37core.config.document import read_document
 from r37core.dataset_file import read_dataset
+from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups import schedule
 from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.integration import RunUpIntegration
+from r37core.run_ups.plan import RunUps
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
 from r37core.run_ups.tables import safe_rates
@@ -130,23 +131,24 @@ def segments(input: Any, output: Any, params: Any) -> None:
 
 def variants(input: Any, output: Any, params: Any) -> None:
     """Table of the rates that three blades need upwards when one thing is varied. Inputs: campbell, contacts, models."""
-    settings = read_settings(Path.cwd(), read_document(Path.cwd(), "config/run_ups.yaml"))
+    plan = RunUps(Sweep(read_settings(Path.cwd(), read_document(Path.cwd(), "config/run_ups.yaml"))))
     campbell = read_dataset(input.campbell)
     files = dict(zip(BLADES, zip(input.contacts, input.models, strict=True), strict=True))
     rows = [
-        [name, *(_needed_rate(blade, files[blade], settings, campbell, changes) for blade in BLADES)]
+        [name, *(_needed_rate(blade, files[blade], plan, campbell, changes) for blade in BLADES)]
         for name, changes in VARIANTS.items()
     ]
     write_table(["rate needed upwards (rad/s²)", *BLADES], rows, output.table)
 
 
-def _needed_rate(blade: str, files: tuple[str, str], settings: Settings, campbell: xr.Dataset, changes: dict[str, Any]) -> str:
+def _needed_rate(blade: str, files: tuple[str, str], plan: RunUps, campbell: xr.Dataset, changes: dict[str, Any]) -> str:
     """Rate (rad/s2) that a blade needs upwards, interpolated between RATES; a bound where it is outside of them."""
+    settings = plan.sweep.settings
     scene, material = settings.scenes[SCENE].scene, settings.blades[blade].material
-    choice_of_run_up = settings.run_ups[blade, SCENE][VARIED]
+    choice_of_run_up = plan.choices[blade, SCENE][VARIED]
     own = {name: value for name, value in changes.items() if hasattr(choice_of_run_up, name)}
     choice_of_run_up = replace(choice_of_run_up, **own)
-    choice = settings.run_up_choice(blade, SCENE, VARIED)
+    choice = plan.integration_choice(blade, SCENE, VARIED)
     choice = replace(choice, revolutions=choice_of_run_up.before, snapshot_revolutions=choice_of_run_up.before)
     if "time_step" in changes:
         choice = replace(choice, time_step=changes["time_step"] * choice.time_step)
