@@ -1,13 +1,19 @@
-"""Figures of docs/user_code.md: each is drawn by a program of examples/figures, whose lines stand on the page."""
+"""Figures of programs that stand on a page: those of examples/figures, and the worked example of docs/your_blade.md."""
 
 from __future__ import annotations
 
 import ast
+import contextlib
+import re
 import runpy
+import shutil
+import tempfile
 from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
+
+import r37
 
 
 def part(program: Path) -> str:
@@ -24,3 +30,19 @@ def picture(input: Any, output: Any, params: Any) -> None:
     with plt.rc_context():
         runpy.run_path(input[0])["figure"].savefig(output[0], dpi=110)
         plt.close("all")
+
+
+def worked_example(input: Any, output: Any, params: Any) -> None:
+    """Figures of the example of docs/your_blade.md, drawn, meshed and run as that page says. Input: page."""
+    text = Path(input.page).read_text(encoding="utf-8")
+    program, entry = (re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)[0] for language in ("python", "yaml"))
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "draw.py").write_text(program, encoding="utf-8")
+        (folder / "blades.yaml").write_text(entry, encoding="utf-8")
+        with contextlib.chdir(folder):
+            runpy.run_path("draw.py")
+        blade = r37.blade("Fan", file=folder / "blades.yaml")
+        r37.run(blade, "abradable", cores=2, folder=folder / "run", targets="all_blades")
+        for figure in ("campbell", "response"):
+            shutil.copy(folder / f"run/results/figures/{figure}_Fan.png", output[figure])

@@ -19,3 +19,53 @@ use rule evidence as explorer_picture with:
         "logs/validation/explorer_picture.log",
     params:
         **evidence("explorer_picture.picture"),
+
+
+# the worked example of docs/your_blade.md, as the page has it
+use rule evidence as your_blade_pictures with:
+    input:
+        unpack(lambda wildcards: behind_engine(page=ancient("docs/your_blade.md"))(wildcards)),
+    output:
+        campbell="docs/your_blade_campbell.png",
+        response="docs/your_blade_response.png",
+    log:
+        "logs/validation/your_blade_pictures.log",
+    threads: workflow.cores
+    params:
+        **evidence("user_code.worked_example"),
+
+
+# shapes and signals of Ref with abradable lining, which a scene has where it asks for them
+module shapes_and_signals:
+    snakefile:
+        "../../Snakefile"
+    config:
+        run(
+            "shapes_and_signals",
+            blades=["Ref"],
+            scenes_file="validation/shapes_and_signals.yaml",
+            scenes=["abradable"],
+            signals={"speeds_rad_s": "interactions"},
+        )
+
+
+use rule * from shapes_and_signals as shapes_and_signals_*
+
+
+PAGE_PICTURES = {
+    "blades": "results/figures/blades.png",
+    "response_Ref": "results/figures/response_Ref.png",
+    "shapes": "results/runs/shapes_and_signals/figures/shapes_Ref__abradable.png",
+    "signals": "results/runs/shapes_and_signals/figures/orders_Ref__abradable.png",
+}
+
+
+use rule copy as picture_of_a_run with:
+    input:
+        unpack(lambda wildcards: behind_engine(PAGE_PICTURES[wildcards.picture])(wildcards)),
+    output:
+        "docs/{picture}.png",
+    log:
+        "logs/validation/{picture}.log",
+    wildcard_constraints:
+        picture="|".join(PAGE_PICTURES),
