@@ -2,10 +2,12 @@
 
 import ast
 import re
+import shutil
 
 import pytest
 from conftest import CHECKOUT
 from evidence.pages import Pages, markdown, read_table, renewed, write_table
+from workflow_runs import snakemake
 
 PAGES = Pages(CHECKOUT)
 
@@ -54,3 +56,21 @@ def test_mutants_are_of_modules_and_tests_that_are_there():
     modules = ast.literal_eval(re.search(r"^TESTS = (\{.*?^\})", text, re.MULTILINE | re.DOTALL)[1])
     assert [name for name in modules if not (CHECKOUT / "src/r37core" / name).exists()] == []
     assert [name for names in modules.values() for name in names.split() if not (CHECKOUT / "tests" / name).exists()] == []
+
+
+NOT_MADE_HERE = {"modelling_choices_v0_2", "other_programs_histories", "other_programs_rms"}
+"""Tables of an older tag, and of a program that one has to bring (docs/validation.md)."""
+
+
+@pytest.mark.slow
+def test_every_table_and_picture_has_a_rule(tmp_path):
+    """A plan without any of them asks for nothing that no rule makes."""
+    made = {*PAGES.pictures, *PAGES.all_tables} - {f"validation/tables/{name}.csv" for name in NOT_MADE_HERE}
+    for folder in ("config", "docs", "envs", "examples", "profiles", "validation", "workflow"):
+        shutil.copytree(CHECKOUT / folder, tmp_path / folder, ignore=shutil.ignore_patterns("__pycache__"))
+    for name in ("README.md", "Snakefile"):
+        shutil.copy(CHECKOUT / name, tmp_path)
+    (tmp_path / "src").symlink_to(CHECKOUT / "src")
+    for file in made:
+        (tmp_path / file).unlink(missing_ok=True)
+    snakemake(tmp_path, "-s", "validation/Snakefile", "-n", "--quiet", "all")
