@@ -18,7 +18,6 @@ from r37core.config.changed_numbers import ImpossibleValueError, blade_number, c
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.mesh.generate import generate_mesh
-from r37core.product.reading import read_settings
 
 
 def changed(profiles, **change):
@@ -194,33 +193,20 @@ NEUTRAL = """
 """
 
 
-@pytest.fixture
-def read(config_copy):
-    """Blades of settings with some text added to blades.yaml and, if given, a table of designs."""
-
-    def add(text, table=""):
-        with open(config_copy / "config/blades.yaml", "a") as stream:
-            stream.write("\n" + text)
-        (config_copy / "config/designs.csv").write_text(table)
-        return read_settings(config_copy).blades
-
-    return add
-
-
 def shapes(blade):
     return [Profile(parameters) for parameters in blade.definition.profiles]
 
 
-def test_neutral_values_change_no_bit(read):
-    blades = read(f"Same:\n  base: S100{NEUTRAL}")
+def test_neutral_values_change_no_bit(with_blades):
+    blades = with_blades(f"Same:\n  base: S100{NEUTRAL}").blades
     assert replace(blades["Same"].definition, name="S100") == blades["S100"].definition
 
 
-def test_an_entry_gives_laws_in_three_forms(read):
-    blades = read(
+def test_an_entry_gives_laws_in_three_forms(with_blades):
+    blades = with_blades(
         "Mine:\n  base: S100\n  stagger_deg: { tip: 2 }\n  chord_percent: 105\n  camber_deg: [{ span_percent: 0, value: 0 }, "
         "{ span_percent: 50, value: 1 }, { span_percent: 100, value: 4 }]\n"
-    )
+    ).blades
     mine, base = shapes(blades["Mine"]), shapes(blades["S100"])
     spans = of_each(base, lambda profile: profile.parameters.span)
     np.testing.assert_allclose(stagger(mine) - stagger(base), 2.0 * spans, atol=0.011)
@@ -229,27 +215,27 @@ def test_an_entry_gives_laws_in_three_forms(read):
     assert blades["Mine"].definition.stacking == blades["S100"].definition.stacking
 
 
-def test_changes_are_made_on_top_of_those_of_the_base(read):
-    blades = read(
+def test_changes_are_made_on_top_of_those_of_the_base(with_blades):
+    blades = with_blades(
         "First: { base: Ref, stagger_deg: 2, thickness_percent: 110 }\n"
         "Second: { base: First, stagger_deg: { tip: 1 }, thickness_percent: 50 }\n"
-    )
+    ).blades
     second, base = shapes(blades["Second"]), shapes(blades["Ref"])
     spans = of_each(base, lambda profile: profile.parameters.span)
     np.testing.assert_allclose(stagger(second) - stagger(base), 2.0 + spans, atol=0.02)
     np.testing.assert_allclose(thickness(second), 0.55 * thickness(base), rtol=1e-12)
 
 
-def test_laws_vary_in_families_and_tables(read):
+def test_laws_vary_in_families_and_tables(with_blades):
     table = "blade,stagger_deg.tip,thickness_percent.hub,chord_percent\nA,2,120,100\nB,0,100,90\n"
-    blades = read(
+    blades = with_blades(
         "Turned: { base: Ref, vary: { stagger_deg: [-1, 2] } }\n"
         "Tip: { base: Ref, vary: { stagger_deg.tip: [3], thickness_percent.hub: [110] } }\n"
         "Rows:\n  base: Ref\n  camber_deg: [{ span_percent: 0, value: 0 }, { span_percent: 100, value: 0 }]\n"
         "  vary: { camber_deg.1.value: [2, 4] }\n"
         "Table: { base: Ref, designs: config/designs.csv }\n",
         table,
-    )
+    ).blades
     base = shapes(blades["Ref"])
     assert stagger(shapes(blades["Turned_2"]))[0] - stagger(base)[0] == pytest.approx(2.0, abs=0.011)
     tip = shapes(blades["Tip_3_110"])
@@ -277,9 +263,9 @@ def test_laws_vary_in_families_and_tables(read):
         ("stagger_deg: 1, vary: { stagger_deg.tip: [1] }", "design Mine_1: found no stagger_deg.tip to vary; rows of a table"),
     ],
 )  # fmt: skip
-def test_refusals_name_blade_key_and_span(read, text, message):
+def test_refusals_name_blade_key_and_span(with_blades, text, message):
     with pytest.raises(ConfigError, match=re.escape(message)):
-        read(f"Mine: {{ base: Ref, {text} }}\n")
+        with_blades(f"Mine: {{ base: Ref, {text} }}\n")
 
 
 def test_python_takes_laws_as_yaml_does(root):
