@@ -18,23 +18,10 @@ from r37core.product import schemas
 from r37core.units import SUFFIXES
 
 IN_SI = {
-    "_m": (0.3, 0.3),
-    "_cm": (30.0, 0.3),
-    "_m2": (0.3, 0.3),
-    "_s": (0.3, 0.3),
-    "_hz": (0.3, 0.3),
-    "_pa": (0.3, 0.3),
-    "_kg": (0.3, 0.3),
-    "_kg_m3": (0.3, 0.3),
-    "_n_m2": (0.3, 0.3),
-    "_rad_s": (0.3, 0.3),
-    "_rad_s2": (0.3, 0.3),
-    "_rpm": (60.0, 2.0 * math.pi),
-    "_rpm_s": (60.0, 2.0 * math.pi),
-    "_deg": (90.0, 0.5 * math.pi),
-    "_percent": (30.0, 0.3),
-    "_clearances": (0.3, 0.3),
+    f"_{unit}": (0.3, 0.3) for unit in ("m", "m2", "s", "hz", "pa", "kg", "kg_m3", "n_m2", "rad_s", "rad_s2", "clearances")
 }
+IN_SI |= {"_cm": (30.0, 0.3), "_percent": (30.0, 0.3), "_deg": (90.0, 0.5 * math.pi)}
+IN_SI |= {"_rpm": (60.0, 2.0 * math.pi), "_rpm_s": (60.0, 2.0 * math.pi)}
 """Suffix -> a number in its unit, and the same in that of the SI."""
 
 UNIT = re.compile(
