@@ -12,8 +12,6 @@ from r37core.config import ConfigError, Settings, command_line_document, read_do
 from r37core.product.reading import read_settings
 from r37core.product.schemas import schemas
 
-FILES = ("config", "blades", "scenes", "fidelity")
-
 
 def test_schemas_are_fresh(root):
     """`python -m r37core.product.schemas` renews them."""
@@ -21,7 +19,7 @@ def test_schemas_are_fresh(root):
     assert {file.name: file.read_text() for file in folder.iterdir()} == schemas()
 
 
-@pytest.mark.parametrize("name", [*FILES, "physical"])
+@pytest.mark.parametrize("name", ["config", "blades", "scenes", "fidelity", "physical"])
 def test_files_name_their_schema(root, name):
     first = (root / f"config/{name}.yaml").read_text().splitlines()[0]
     schema = re.fullmatch(r"# yaml-language-server: \$schema=(schemas/[\w.]+)", first)[1]

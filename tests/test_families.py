@@ -63,11 +63,8 @@ def test_profiles_of_a_design_are_changed_once(with_blades, config_copy, monkeyp
 def test_run_ups_of_a_family_are_those_of_its_designs(with_blades):
     run_ups = {"up": {"from_rad_s": 900, "to_rad_s": 1000, "revolutions": 50, "blades": ["Sweep"]}}
     settings = with_blades(SWEEP, blades=["Ref", "Sweep"], run_ups=run_ups)
-    assert [name for name in settings.blades if RunUps(Sweep(settings)).choices[name, "direct"]] == [
-        "Sweep_-50",
-        "Sweep_50",
-        "Sweep_150",
-    ]
+    choices = RunUps(Sweep(settings)).choices
+    assert [name for name in settings.blades if choices[name, "direct"]] == ["Sweep_-50", "Sweep_50", "Sweep_150"]
 
 
 def test_lean_is_scaled_apart_from_sweep(with_blades):

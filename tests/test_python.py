@@ -50,11 +50,9 @@ def finished(small_sweep, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def config(root, tmp_path_factory):
-    """The config.yaml that the workflow's sweep has and that calls name."""
-    folder = tmp_path_factory.mktemp("study")
-    copy_project(root, folder)
-    return folder / "config/config.yaml"
+def config(finished):
+    """The config.yaml of that sweep, which calls name."""
+    return finished / "config/config.yaml"
 
 
 @pytest.mark.slow

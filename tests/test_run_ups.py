@@ -382,44 +382,45 @@ def test_crossings_that_a_blade_does_not_have():
     assert replace(choice, stop=0.05).blade_run_up(496, campbell, "up").stop == pytest.approx(1995.0)
 
 
+def written(found, folder):
+    """Dataset of one run-up."""
+    write_speed(found, folder / "up.npz", {})
+    write_run_ups({("Ref", "abradable", "up"): folder / "up.npz"}, folder / "run_ups.nc", {})
+    return xr.load_dataset(folder / "run_ups.nc")
+
+
 def test_files_that_are_no_run_ups_are_named(contact, tmp_path):
     found = recorded(contact, NARROW, LONG, RunUp(1500.0, 1600.0, 1.0, 1, 0, worn=False))
-    write_speed(found, tmp_path / "good.npz", {})
-    write_speed(found | {"rms": found["rms"][:1]}, tmp_path / "short.npz", {})
-    write_speed({"status": found["status"]}, tmp_path / "other.npz", {})
-    for name in ("short", "other"):
-        with pytest.raises(InputFileError, match=rf"{name}\.npz: cannot be read .* delete it and run again"):
-            write_run_ups({("Ref", "abradable", "up"): tmp_path / f"{name}.npz"}, tmp_path / "run_ups.nc", {})
-    write_run_ups({("Ref", "abradable", "up"): tmp_path / "good.npz"}, tmp_path / "run_ups.nc", {})
-    with xr.open_dataset(tmp_path / "run_ups.nc") as dataset:
-        assert list(dataset.data_vars)[:3] == ["start_speed", "stop_speed", "rate"]
-        assert dataset["amplitude"].dims == ("run", "revolution", "engine_order")
-        np.testing.assert_array_equal(dataset["speed"][0], found["speed"])
-        # without stress there is nothing to say of it
-        table = run_up_table(dataset.load())
-        assert "max_von_mises_pa" not in table
-        assert len(rate_table(table)) == 0
-        figures = [draw_run_ups(dataset, "", blade="Ref", scene="abradable"), draw_rates(table, "", scene="abradable")]
-        rate, *others = [text.get_text() for text in figures[0].legends[0].texts]
-        assert rate == f"{abs(dataset['rate'].item()):.4g} rad/s²" and others == ["run-up"]
-        dataset["worn"][:] = 1
-        worn = draw_run_ups(dataset, "", blade="Ref", scene="abradable")
-        assert [text.get_text() for text in worn.legends[0].texts] == [rate, "run-up", "worn before"]
-        for figure in (*figures, worn):
-            plt.close(figure)
+    for broken in (found | {"rms": found["rms"][:1]}, {"status": found["status"]}):
+        with pytest.raises(InputFileError, match=r"up\.npz: cannot be read .* delete it and run again"):
+            written(broken, tmp_path)
+    dataset = written(found, tmp_path)
+    assert list(dataset.data_vars)[:3] == ["start_speed", "stop_speed", "rate"]
+    assert dataset["amplitude"].dims == ("run", "revolution", "engine_order")
+    np.testing.assert_array_equal(dataset["speed"][0], found["speed"])
+    # without stress there is nothing to say of it
+    table = run_up_table(dataset)
+    assert "max_von_mises_pa" not in table
+    assert len(rate_table(table)) == 0
+    draw_rates(table, "", scene="abradable")
+    rate = f"{abs(dataset['rate'].item()):.4g} rad/s²"
+    for worn, legend in ((0, [rate, "run-up"]), (1, [rate, "run-up", "worn before"])):
+        dataset["worn"][:] = worn
+        figure = draw_run_ups(dataset, "", blade="Ref", scene="abradable")
+        assert [text.get_text() for text in figure.legends[0].texts] == legend
+    plt.close("all")
 
 
 def test_figures_of_runs_that_diverged_at_once(contact, tmp_path):
     scene = replace(NARROW, divergence_limit=1e-12)
     found = recorded(contact, scene, LONG, RunUp(1500.0, 1600.0, 1.0, 1, 0, worn=False))
-    write_speed(found | {"max_von_mises": np.empty(0)}, tmp_path / "a.npz", {})
-    write_run_ups({("Ref", "abradable", "up"): tmp_path / "a.npz"}, tmp_path / "run_ups.nc", {})
-    with xr.open_dataset(tmp_path / "run_ups.nc") as dataset:
-        table = run_up_table(dataset.load())
-        assert list(table["status"]) == ["diverged"]
-        assert np.isnan(rate_table(table)["lowest_safe_rate_rad_s2"].item())
-        for figure in (draw_run_ups(dataset, "", blade="Ref", scene="abradable"), draw_rates(table, "", scene="abradable")):
-            plt.close(figure)
+    dataset = written(found | {"max_von_mises": np.empty(0)}, tmp_path)
+    table = run_up_table(dataset)
+    assert list(table["status"]) == ["diverged"]
+    assert np.isnan(rate_table(table)["lowest_safe_rate_rad_s2"].item())
+    draw_run_ups(dataset, "", blade="Ref", scene="abradable")
+    draw_rates(table, "", scene="abradable")
+    plt.close("all")
 
 
 def runs_at(rates, shares, **others):

@@ -2,6 +2,8 @@
 
 import re
 from dataclasses import replace
+from functools import partial
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -50,22 +52,10 @@ def chord(profiles):
     return of_each(profiles, length)
 
 
-def centreline(profiles):
-    """Length of the centreline."""
-    return of_each(profiles, lambda profile: profile.centreline.length)
-
-
-def area(profiles):
-    return of_each(profiles, lambda profile: profile.area)
-
-
-def half_angle(profiles):
-    return of_each(profiles, lambda profile: profile.cone.half_angle)
-
-
-def thickness(profiles):
-    p = [profile.parameters for profile in profiles]
-    return np.array([(row.inlet_thickness, row.maximum_thickness, row.outlet_thickness) for row in p])
+centreline = partial(of_each, number=attrgetter("centreline.length"))
+area = partial(of_each, number=attrgetter("area"))
+half_angle = partial(of_each, number=attrgetter("cone.half_angle"))
+thickness = partial(of_each, number=attrgetter(*(f"parameters.{of}_thickness" for of in ("inlet", "maximum", "outlet"))))
 
 
 @pytest.mark.parametrize("degrees", [2.0, -5.0])
