@@ -49,7 +49,6 @@ def test_defaults_are_filled_in(config_copy):
     ("changes", "message"),
     [
         ({"blades": []}, r"config\.yaml: blades: found \[\]"),
-        ({"bladez": 1}, r"config\.yaml: top level: found unknown key bladez; allowed keys: blades_file"),
         ({"structure": {"edges": "sharp"}}, r"structure\.edges: found 'sharp'; allowed: one of round, blunt"),
         ({"structure": {"maximum_speed_rad_s": -5}}, r"maximum_speed_rad_s: found -5; allowed: .*at least"),
         ({"structure": {"stress_submesh": {"minimum_z_m": 1}}}, r"stress_submesh\.minimum_z_m: found 1; allowed: less than"),

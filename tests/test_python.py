@@ -191,11 +191,9 @@ def test_free_flight_from_outside(config):
 
 
 REFUSED = {
-    r"blade: found 'Ref2'; allowed: Ref, L50, L100": lambda: r37.campbell("Ref2"),
-    r"\(did you mean CS100\?\)": lambda: r37.campbell("cs10"),
+    r"blade: found 'cs10'; allowed: Ref, L50, L100, .* \(did you mean CS100\?\)": lambda: r37.campbell("cs10"),
     r"blade: found \['Ref'\]; allowed: the name": lambda: r37.campbell(["Ref"]),
-    r"r37.campbell: fidelity: found 'rough'; allowed: draft, standard": lambda: r37.campbell("Ref", fidelity="rough"),
-    r"\(did you mean draft\?\)": lambda: r37.campbell("Ref", fidelity="drft"),
+    r"r37.campbell: fidelity: found 'drft'; allowed: .* \(did you mean draft\?\)": lambda: r37.campbell("Ref", fidelity="drft"),
     "config: found missing.yaml": lambda: r37.campbell("Ref", config="missing.yaml"),
     "file: found missing.yaml": lambda: r37.blade("Ref", file="missing.yaml"),
     "name: found 3; allowed: a name": lambda: r37.blade("Ref", name=3),
@@ -220,8 +218,7 @@ REFUSED = {
     r"found the key \(1, 2\); allowed: a name or a whole number": lambda: r37.scene(
         "direct", rotor={"blades": 3, "longer_m": {(1, 2): 1e-5}}
     ),
-    "scene: found 'rub'; allowed: abradable": lambda: r37.simulate("Ref", "rub", 1000),
-    r"\(did you mean abradable\?\)": lambda: r37.simulate("Ref", "abrasable", 1000),
+    r"scene: found 'dirct'; allowed: abradable, .* \(did you mean direct\?\)": lambda: r37.simulate("Ref", "dirct", 1000),
     "scene: found None; allowed: the name of a scene": lambda: r37.simulate("Ref", None, 1200),
     "r37.simulate: speed: found -5; allowed: number, at least 0.001": lambda: r37.simulate("Ref", "direct", -5),
     "speed: found 'fast'; allowed: num": lambda: r37.simulate("Ref", "direct", "fast"),

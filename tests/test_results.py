@@ -158,15 +158,10 @@ def test_datasets_join_blades_and_scenes(sweep, kind):
     folder, files = sweep
     files = {key: file for key, file in files.items() if kind != "wear" or key[1] == "abradable"}
     write_sweep_dataset(kind, files, folder / f"{kind}.nc", {"fidelity": "draft"})
-    if kind == "stress":
-        with xr.open_dataset(folder / "stress.nc") as joined:
-            assert joined["stress_region"].dims == ("blade", "scene")
-            assert set(joined["stress_region"].values.ravel()) == {"x < 0.197 m, z > 0.0165 m, z < 0.0265 m"}
     with xr.open_dataset(folder / f"{kind}.nc") as dataset:
         assert dataset.attrs["fidelity"] == "draft"
         assert list(dataset["blade"].values) == ["Ref"]
         np.testing.assert_array_equal(dataset["speed"], SPEEDS)
-        assert "speed_rpm" in dataset.coords
         np.testing.assert_allclose(dataset["speed_rpm"], 60.0 * np.array(SPEEDS) / (2.0 * np.pi))
         for (blade, scene), file in files.items():
             with xr.open_dataset(file) as response:

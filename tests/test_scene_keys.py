@@ -66,11 +66,8 @@ def test_every_field_has_a_key():
     assert {field for _, field, _ in REACHES.values()} | elsewhere == set(flat(checked_scene(ENTRY)))
 
 
-def test_the_tip_decides_the_cone_angle_by_default():
-    assert checked_scene(ENTRY).casing.cone_angle is None
-    assert checked_scene(ENTRY).casing.angle(-0.26) == -0.26
+def test_the_tip_decides_the_cone_angle_by_default_and_bars_are_a_millimetre_wide():
+    scene = checked_scene(ENTRY)
+    assert (scene.casing.cone_angle, scene.lining.bar_width) == (None, 1e-3)
+    assert scene.casing.angle(-0.26) == -0.26
     assert checked_scene(with_key("casing.cone_angle_deg", 3.0)).casing.angle(-0.26) == np.radians(3.0)
-
-
-def test_bars_are_a_millimetre_wide_by_default():
-    assert checked_scene(ENTRY).lining.bar_width == 1e-3

@@ -287,10 +287,7 @@ def test_an_impossible_member_names_its_number(root, changes, key, message):
     ("changes", "message"),
     [
         ({"stagger_deg": 25}, "blade Ref: span 100%: no suction-side arc .*; where the blade's entry has stagger_deg, "),
-        (
-            {"chord_percent": {"tip": 200}},
-            "blade Ref: span 100%: the plane section .* or thickness_percent, a smaller",
-        ),
+        ({"chord_percent": {"tip": 200}}, "blade Ref: span 100%: the plane section .* or thickness_percent, a smaller"),
     ],
 )
 def test_a_shape_that_cannot_be_built_names_span_and_remedy(root, changes, message):
