@@ -25,6 +25,7 @@ from r37core.run_ups.integration import IntegratedSegments, RunUpIntegration, re
 from r37core.run_ups.revolutions import largest_stress, record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
 from r37core.run_ups.tables import rate_table, run_up_table
+from r37core.time_integration import integration_choice
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
@@ -116,20 +117,22 @@ def test_compiled_run_up_is_that_of_the_reference(contact, scene, ends, interval
     assert ours.stiffness_work != 0.0
 
 
-@pytest.mark.parametrize("ends", [(1600.0, 1605.0), (1600.0, 1650.0)])
-def test_it_does_not_matter_how_much_the_engine_does_at_once(contact, monkeypatch, ends):
-    found = []
-    for revolutions in (64, 1):
-        monkeypatch.setattr(integration_module, "_AT_ONCE", revolutions)
-        integration = RunUpIntegration(contact, NARROW, LONG, RunUp(*ends, 5.3, 4, 1, worn=False))
-        stages = list(integration.segments())
-        found.append({name: np.concatenate([getattr(one, name) for one in stages]) for name in ("samples", "speeds", "wear")})
-    assert len(stages) > len(integration.intervals)
-    one, other = found
-    for name, values in one.items():
-        np.testing.assert_array_equal(values, other[name], err_msg=name)
-    assert np.all(np.diff(one["wear"]) >= 0.0)
-    assert one["wear"][-1] > 0.0
+@pytest.mark.parametrize(
+    ("module", "limit", "stop"), [(integration_module, "_AT_ONCE", 1650.0), (integration_choice, "STEPS_AT_ONCE", 1605.0)]
+)
+def test_it_does_not_matter_how_much_the_engine_does_at_once(contact, monkeypatch, module, limit, stop):
+    """Many segments in a call, and many steps of a long one."""
+    whole, parts = (RunUpIntegration(contact, NARROW, LONG, RunUp(1600.0, stop, 8.5, 4, 1, worn=False)) for _ in range(2))
+    few = list(whole.segments())
+    monkeypatch.setattr(module, limit, 1)
+    many = list(parts.segments())
+    assert len(many) > max(len(few), len(parts.intervals))
+    for name in ("samples", "speeds", "wear"):
+        found, expected = (np.concatenate([getattr(stage, name) for stage in each]) for each in (many, few))
+        np.testing.assert_array_equal(found, expected, err_msg=name)
+    # the wear of each sample
+    assert np.all(np.diff(found) >= 0.0)
+    assert found[-1] > 0.0
 
 
 @pytest.mark.parametrize("scene", [NARROW, replace(ABRADABLE, lining=None)], ids=["abradable", "direct"])
