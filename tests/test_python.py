@@ -236,7 +236,7 @@ REFUSED = {
     "initial_velocity: found nan at place 1, counted from 0; allowed: finite numbers": lambda: r37.simulate(
         "Ref", "direct", 9, initial_velocity=[0.0, np.nan]
     ),
-    "r37.sweep: speeds: found 5 rad/s twice": lambda: r37.sweep("Ref", "direct", [5, 5.0]),
+    "r37.sweep: speeds: found 5 rad/s twice": lambda: r37.sweep("Ref", "direct", [5, {"start": 4, "stop": 5, "step": 1}]),
     "speeds: found .*; allowed: .* at least 1": lambda: r37.sweep("Ref", "direct", []),
     "speeds: found neither; allowed: speeds, in rad/s, or speeds_rpm": lambda: r37.sweep("Ref", "direct"),
     "speeds: found more than 100000 values; allowed: at most as many": lambda: r37.sweep("Ref", "direct", itertools.count(1)),
