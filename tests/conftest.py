@@ -218,6 +218,21 @@ def config_copy(root, tmp_path):
 
 
 @pytest.fixture
+def with_blades(config_copy):
+    """Settings of a copy, with some text added to blades.yaml and, if given, a table of designs and other changes."""
+    from r37core.config import command_line_document
+    from r37core.product.reading import read_settings
+
+    def read(text, table="", **changes):
+        with open(config_copy / "config/blades.yaml", "a") as stream:
+            stream.write(f"\n{text}\n")
+        (config_copy / "config/designs.csv").write_text(table)
+        return read_settings(config_copy, command_line_document(changes))
+
+    return read
+
+
+@pytest.fixture
 def project(root, tmp_path):
     """A copy of the project with a small sweep."""
     from workflow_runs import copy_project

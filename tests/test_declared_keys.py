@@ -35,25 +35,12 @@ class SealSection(Section):
 
 def test_the_dataclass_decides_what_the_schema_has():
     schema = SealSection.model_json_schema()
-    assert list(schema["properties"]) == [
-        "face",
-        "swirl",
-        "clearance_m",
-        "slope_deg",
-        "teeth",
-        "stiffness_n_m2",
-        "speed_rad_s",
-        "speed_rpm",
-    ]
+    keys = ["face", "swirl", "clearance_m", "slope_deg", "teeth", "stiffness_n_m2", "speed_rad_s", "speed_rpm"]
+    assert list(schema["properties"]) == keys
     assert schema["required"] == ["clearance_m"]
     assert schema["description"] == "A seal."
-    assert schema["properties"]["clearance_m"] == {
-        "description": "at rest",
-        "maximum": 0.1,
-        "minimum": 1e-6,
-        "title": "Clearance M",
-        "type": "number",
-    }
+    number = {"description": "at rest", "maximum": 0.1, "minimum": 1e-6, "title": "Clearance M", "type": "number"}
+    assert schema["properties"]["clearance_m"] == number
     assert schema["properties"]["face"]["enum"] == ["plain", "brush"]
     defaults = {key: part.get("default") for key, part in schema["properties"].items()}
     assert (defaults["face"], defaults["teeth"], defaults["slope_deg"], defaults["stiffness_n_m2"]) == ("plain", 5, "tip", None)

@@ -24,22 +24,8 @@ SWEEP = "Sweep:\n  base: S100\n  vary:\n    sweep_percent: { start: -50, stop: 1
 GRID = "Grid:\n  base: Ref\n  vary:\n    chordwise_sweep_deg: [-2.5, 5]\n    material.density_kg_m3: [8000, 4500]\n"
 
 
-@pytest.fixture
-def read(config_copy):
-    """Settings with some text added to blades.yaml and, if given, a table of designs."""
-
-    def add(text, table=None, **changes):
-        with open(config_copy / "config/blades.yaml", "a") as stream:
-            stream.write("\n" + text)
-        if table:
-            (config_copy / "config/designs.csv").write_text(table)
-        return read_settings(config_copy, command_line_document(changes))
-
-    return add
-
-
-def test_a_range_becomes_blades_with_readable_names(read):
-    settings = read(SWEEP)
+def test_a_range_becomes_blades_with_readable_names(with_blades):
+    settings = with_blades(SWEEP)
     assert list(settings.blades)[7:] == ["Sweep_-50", "Sweep_50", "Sweep_150"]
     tips = [settings.blades[name].definition.stacking[-1] for name in list(settings.blades)[7:]]
     np.testing.assert_allclose(tips, [(1.0, -0.003, 0.0), (1.0, 0.003, 0.0), (1.0, 0.009, 0.0)])
@@ -47,10 +33,10 @@ def test_a_range_becomes_blades_with_readable_names(read):
     np.testing.assert_allclose(settings.blades["Sweep_50"].definition.stacking, settings.blades["S50"].definition.stacking)
 
 
-def test_a_family_is_refused_once(read):
+def test_a_family_is_refused_once(with_blades):
     rows = "".join(f"D{number},{number / 100}\n" for number in range(200))
     with pytest.raises(ConfigError) as refusal:
-        read(
+        with_blades(
             "Mine: { base: L50, chord_percent: 1000, designs: config/designs.csv }\n",
             f"blade,stagger_deg\n{rows}",
             blades=["Mine"],
@@ -58,67 +44,64 @@ def test_a_family_is_refused_once(read):
     assert len(str(refusal.value).splitlines()) == 1 and "D0" in str(refusal.value)
 
 
-def test_the_tables_of_a_family_are_read_once(read, monkeypatch):
+def test_the_tables_of_a_family_are_read_once(with_blades, monkeypatch):
     rows = "".join(f"D{number},80{number / 100}\n" for number in range(200))
     checked, profiles = [], ProfileParameters.check
     monkeypatch.setattr(ProfileParameters, "check", lambda profile: checked.append(profile) or profiles(profile))
     table = f"blade,material.density_kg_m3\n{rows}"
-    assert len(read("Mine: { base: S50, designs: config/designs.csv }\n", table, blades=["Mine"]).blades) == 200
+    assert len(with_blades("Mine: { base: S50, designs: config/designs.csv }\n", table, blades=["Mine"]).blades) == 200
     assert len(checked) < 100
 
 
-def test_profiles_of_a_design_are_changed_once(read, config_copy, monkeypatch):
+def test_profiles_of_a_design_are_changed_once(with_blades, config_copy, monkeypatch):
     text = "Turned: { base: Ref, vary: { stagger_deg: [1.125, 2.125] } }\n"
-    first = read(text, blades=["Turned"]).blades
+    first = with_blades(text, blades=["Turned"]).blades
     monkeypatch.setattr(section_changes, "_redrawn", None)
     assert read_settings(config_copy, command_line_document({"blades": ["Turned"]})).blades == first
 
 
-def test_run_ups_of_a_family_are_those_of_its_designs(read):
+def test_run_ups_of_a_family_are_those_of_its_designs(with_blades):
     run_ups = {"up": {"from_rad_s": 900, "to_rad_s": 1000, "revolutions": 50, "blades": ["Sweep"]}}
-    settings = read(SWEEP, blades=["Ref", "Sweep"], run_ups=run_ups)
-    assert [name for name in settings.blades if RunUps(Sweep(settings)).choices[name, "direct"]] == [
-        "Sweep_-50",
-        "Sweep_50",
-        "Sweep_150",
-    ]
+    settings = with_blades(SWEEP, blades=["Ref", "Sweep"], run_ups=run_ups)
+    choices = RunUps(Sweep(settings)).choices
+    assert [name for name in settings.blades if choices[name, "direct"]] == ["Sweep_-50", "Sweep_50", "Sweep_150"]
 
 
-def test_lean_is_scaled_apart_from_sweep(read):
-    table = read("Lean: { base: L100, vary: { lean_percent: [50, 200] } }\n").blades["Lean_200"].definition.stacking
+def test_lean_is_scaled_apart_from_sweep(with_blades):
+    table = with_blades("Lean: { base: L100, vary: { lean_percent: [50, 200] } }\n").blades["Lean_200"].definition.stacking
     assert table[1] == pytest.approx((0.33, 0.001, 0.0))
     assert table[3] == pytest.approx((1.0, 0.0, np.radians(3.0)))
 
 
-def test_a_grid_has_every_value_with_every_other(read):
-    settings = read(GRID)
+def test_a_grid_has_every_value_with_every_other(with_blades):
+    settings = with_blades(GRID)
     assert list(families(settings)["Grid"].designs) == ["Grid_-2p5_8000", "Grid_-2p5_4500", "Grid_5_8000", "Grid_5_4500"]
     assert settings.blades["Grid_5_4500"].material.density == 4500.0
     assert settings.blades["Grid_5_4500"].material.youngs_modulus == 180e9
     assert settings.blades["Grid_-2p5_8000"].definition.chordwise_sweep_angle == pytest.approx(np.radians(-2.5))
 
 
-def test_pairs_go_side_by_side(read):
-    assert list(read(GRID + "  combine: pairs\n", blades=["Grid"]).blades) == ["Grid_-2p5_8000", "Grid_5_4500"]
+def test_pairs_go_side_by_side(with_blades):
+    assert list(with_blades(GRID + "  combine: pairs\n", blades=["Grid"]).blades) == ["Grid_-2p5_8000", "Grid_5_4500"]
 
 
-def test_rows_of_sweep_and_lean_vary(read):
+def test_rows_of_sweep_and_lean_vary(with_blades):
     rows = ("{ span_percent: 0, sweep_cm: 0, lean_deg: 0 }", "{ span_percent: 100, sweep_cm: 1, lean_deg: 1 }")
     text = f"  sweep_lean: [{', '.join(rows)}]\n"
-    blades = read(f"Rows:\n  base: Ref\n{text}  vary: {{ sweep_lean.1.sweep_cm: [0.1, 0.25] }}\n").blades
+    blades = with_blades(f"Rows:\n  base: Ref\n{text}  vary: {{ sweep_lean.1.sweep_cm: [0.1, 0.25] }}\n").blades
     assert blades["Rows_0p25"].definition.stacking[1] == pytest.approx((1.0, 0.0025, np.radians(1.0)))
 
 
-def test_a_table_has_one_design_a_row(read):
+def test_a_table_has_one_design_a_row(with_blades):
     table = "blade,chordwise_sweep_deg,material.density_kg_m3\nForward,5,8000\nBack-1,-5,7.5e3\n"
-    settings = read("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])
+    settings = with_blades("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])
     assert list(settings.blades) == ["Forward", "Back-1", "Ref"]
     assert families(settings)["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
     assert settings.blades["Back-1"].material.density == 7500.0
 
 
-def test_a_family_of_which_nothing_is_run_is_not_compared(read):
-    settings = read(SWEEP, blades=["Ref"])
+def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
+    settings = with_blades(SWEEP, blades=["Ref"])
     assert families(settings) == {}
     assert Families(settings).designs == {}
 
@@ -148,9 +131,9 @@ def test_a_family_of_which_nothing_is_run_is_not_compared(read):
         ("Mine: { base: Ref, designs: config/none.csv }\n", r"yaml:\d+: Mine\.designs: there is no file config/none\.csv"),
     ],
 )  # fmt: skip
-def test_family_refusals(read, text, message):
+def test_family_refusals(with_blades, text, message):
     with pytest.raises(ConfigError, match=message):
-        read(text)
+        with_blades(text)
 
 
 @pytest.mark.parametrize(
@@ -169,9 +152,9 @@ def test_family_refusals(read, text, message):
         ("blade,chordwise_sweep_deg\nfigures,1\n", r"Mine: found the design 'figures'"),
     ],
 )  # fmt: skip
-def test_table_refusals(read, table, message):
+def test_table_refusals(with_blades, table, message):
     with pytest.raises(ConfigError, match=message):
-        read("Mine: { base: Ref, designs: config/designs.csv }\n", table)
+        with_blades("Mine: { base: Ref, designs: config/designs.csv }\n", table)
 
 
 def test_names_tell_numbers_apart():

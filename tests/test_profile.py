@@ -69,31 +69,20 @@ def test_edge_arcs_pass_the_nose(profiles):
 
 
 @pytest.mark.parametrize(
-    "change",
+    ("name", "value", "message"),
     [
-        {"maximum_thickness": -0.001},
-        {"inlet_thickness": 0.0},
-        {"inlet_angle": np.radians(95.0)},
-        {"transition_axial": 0.06},
-        {"outlet_radius": 0.0},
+        ("maximum_thickness", -0.001, ".*maximum_thickness"),
+        ("inlet_thickness", 0.0, ".*inlet_thickness"),
+        ("inlet_angle", np.radians(95.0), ".*inlet_angle"),
+        ("transition_axial", 0.06, ".*transition_axial"),
+        ("outlet_radius", 0.0, ".*outlet_radius"),
+        # surfaces that cannot close
+        ("maximum_thickness", 0.04, ": (no|the) (suction|pressure)"),
+        ("inlet_angle", np.radians(89.0), ": (no|the) (suction|pressure)"),
+        ("outlet_angle", np.radians(-89.0), ": (no|the) (suction|pressure)"),
+        ("maximum_thickness_axial", 0.0003, ": (no|the) (suction|pressure)"),
     ],
 )
-def test_impossible_rows_are_refused_with_the_span(profiles, change):
-    row = replace(at_span(profiles, 50).parameters, **change)
-    with pytest.raises(BladeShapeError, match=r"span 50%.*" + next(iter(change))):
-        Profile(row)
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"maximum_thickness": 0.04},
-        {"inlet_angle": np.radians(89.0)},
-        {"outlet_angle": np.radians(-89.0)},
-        {"maximum_thickness_axial": 0.0003},
-    ],
-)
-def test_surfaces_that_cannot_close_are_refused(profiles, change):
-    row = replace(at_span(profiles, 50).parameters, **change)
-    with pytest.raises(BladeShapeError, match=r"span 50%: (no|the) (suction|pressure)"):
-        Profile(row)
+def test_impossible_profiles_are_refused_with_the_span(profiles, name, value, message):
+    with pytest.raises(BladeShapeError, match=f"span 50%{message}"):
+        Profile(replace(at_span(profiles, 50).parameters, **{name: value}))

@@ -60,217 +60,109 @@ def test_what_cannot_be_zero_cannot_be_almost_zero(name):
     assert not re.search(r"'exclusiveMinimum': 0(\.0)?\b", schema)
 
 
-GAUGE = "{ chord: 0.5, span: 0.5, side: suction }"
-
-
-def with_section(text, message):
+def section(text, message):
     """config.yaml with one more section."""
     return "exports: #", f"{text}\n\nexports: #", message
 
 
-def with_parameter(text, message):
-    return with_section(f"tradeoff: {{ parameters: {{ {text} }} }}", message)
+def signals(text, message):
+    return section(f"signals: {{ {text} }}", rf"signals\.{message}")
+
+
+def run_up(text, message):
+    return section(f"run_ups: {{ a: {{ {text} }} }}", rf"run_ups\.a{message}")
+
+
+def between(first, last, key, value, message):
+    """A run-up between two speeds (rad/s); the key is refused."""
+    return run_up(f"from_rad_s: {first}, to_rad_s: {last}, {key}: {value}", rf"\.{key}: {message}")
+
+
+def parameter(text, message):
+    return section(f"tradeoff: {{ parameters: {{ {text} }} }}", rf"tradeoff\.parameters{message}")
+
+
+def values(text, message):
+    return parameter(f"boundary_nodes: {{ values: {text} }}", rf"\.boundary_nodes\.{message}")
+
+
+def rule(text, message):
+    return "speeds_for: []", f"speeds_for: [{{ {text} }}]", message
+
+
+def speeds(text, message):
+    return "start: 750, stop: 2000, step: 20, refine_to: 1", f"start: {text}", rf"speeds{message}"
 
 
 CONFIG_REFUSALS = [
-    (
-        "speeds_for: []",
-        "signals: { probes_deg: [10] }",
-        r"signals\.probes_deg: found probes_deg without speeds; allowed: speeds_rad_s",
+    signals("probes_deg: [10]", "probes_deg: found probes_deg without speeds; allowed: speeds_rad_s"),
+    signals("gauges: { a: { chord: 0.5, span: 0.5, side: suction } }", r"gauges: found gauges without speeds"),
+    signals("speeds_rad_s: [9], probes_deg: [1, 2, 1.0]", r"probes_deg\.2: found a probe at 1 degrees twice; allowed: each"),
+    signals("speeds_rad_s: [9], probes_deg: [360]", r"probes_deg\.0: found 360; allowed: number, at least 0, less than 360"),
+    signals("gauges: { a: { chord: 1.2, span: 0, side: suction } }", r"gauges\.a\.chord: found 1\.2; .* at least 0, at most 1"),
+    signals("gauges: { a: { chord: 1, span: 0, side: top } }", r"gauges\.a\.side: found 'top'; allowed: one of pressure, su"),
+    signals("speeds_rad_s: [900, 900]", r"speeds_rad_s\.1: found 900(\.0)? twice; allowed: each once"),
+    signals("speeds_rad_s: peaks", r"speeds_rad_s: found 'peaks'; allowed: .*interactions"),
+    signals("speeds_rad_s: [900], revolutions: 500", "revolutions: found 500; allowed: at most those of a run, 200 in 'abrad"),
+    signals("speeds_rad_s: [900], blades: [Reff]", "blades: found 'Reff'; allowed: Ref, L50"),
+    signals("speeds_rad_s: [0.02]", r"speeds_rad_s: found 0\.02 rad/s, a revolution of"),
+    run_up("from_rad_s: 9, to_rad_s: 10", r"\.rate_rad_s2: found nothing; allowed: one of rate_rad_s2, rate_rpm_s, rev"),
+    run_up("from_rad_s: 9, from_rpm: 9, to_rad_s: 10", r"\.from_rpm: found from_rad_s and from_rpm; allowed: one of"),
+    between(900, 900, "rate_rpm_s", 5, "found a rate between equal speeds; allowed: revolutions"),
+    between(900, 1000, "rate_rad_s2", 1e-3, r"found a change from 900 .* 1\.512e\+07 revolutions; allowed: .* from 0\.151"),
+    between(900, 1000, "rate_rad_s2", -10, r"found -10; allowed: number, at least 0\.001"),
+    between(900, 1000, "rate_rpm_s", 5e-324, r"found 5e-324; allowed: number, at least 0\.01"),
+    between(900, 1900, "revolutions", 0.1, r"found a change from 900 to 1900 .* within 0\.1 revolutions; allowed: 0\.347 to 1"),
+    between(1999, 1999.0000001, "rate_rad_s2", 10, r"found a change from 1999 to 1999\.0000001 rad/s within"),
+    between(1900, 2100, "revolutions", 5, r"found 2100 rad/s; allowed: up to structure\.maximum_speed_rad_s, 2000"),
+    run_up("from_rad_s: 0.02, to_rad_s: 0.022, revolutions: 1", r": found 0\.02 rad/s, a revolution of"),
+    run_up("from_rad_s: 9, to_rad_s: 10, revolutions: 5, blades: [Reff]", r"\.blades: found 'Reff'; allowed: Ref, L50"),
+    run_up(
+        "from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 10, lining: worn",
+        r"\.lining: found worn in the scene 'direct', which has no lining; allowed: new, or scenes with a lining",
     ),
-    ("speeds_for: []", f"signals: {{ gauges: {{ a: {GAUGE} }} }}", r"signals\.gauges: found gauges without speeds"),
-    (
-        "speeds_for: []",
-        "signals: { speeds_rad_s: [900], probes_deg: [10, 20, 10.0] }",
-        r"signals\.probes_deg\.2: found a probe at 10 degrees twice; allowed: each angle once",
+    run_up(
+        "crossing: { mode: 1B, engine_order: 4, first: 0, last: 0.1 }, from_rad_s: 900, revolutions: 5",
+        r"\.crossing: found from_rad_s and crossing; allowed: one of from_rad_s, from_rpm, crossing",
     ),
-    (
-        "speeds_for: []",
-        "signals: { speeds_rad_s: [900], probes_deg: [360] }",
-        r"signals\.probes_deg\.0: found 360; allowed: number, at least 0, less than 360",
+    run_up(
+        "crossing: { mode: 1B, engine_order: 4, first: -0.5, last: 1 }, revolutions: 0.1",
+        r"\.revolutions: found a change from 1000 to 4000 rad/s within 0\.1 revolutions; allowed: 1\.5",
     ),
-    (
-        "speeds_for: []",
-        "signals: { speeds_rad_s: [900], gauges: { a: { chord: 1.2, span: 0.5, side: suction } } }",
-        r"signals\.gauges\.a\.chord: found 1\.2; allowed: number, at least 0, at most 1",
+    run_up(
+        "crossing: { mode: 1B, engine_order: 40, first: 0, last: 0.1 }, revolutions: 5",
+        r"\.crossing\.engine_order: found 40; allowed: at most campbell\.highest_engine_order \(20\)",
     ),
-    (
-        "speeds_for: []",
-        "signals: { speeds_rad_s: [900], gauges: { a: { chord: 1.0, span: 0.5, side: top } } }",
-        r"signals\.gauges\.a\.side: found 'top'; allowed: one of pressure, suction",
-    ),
-    (
-        "speeds_for: []",
-        "signals: { speeds_rad_s: [900, 900] }",
-        r"signals\.speeds_rad_s\.1: found 900(\.0)? twice; allowed: each once",
-    ),
-    ("speeds_for: []", "signals: { speeds_rad_s: peaks }", r"signals\.speeds_rad_s: found 'peaks'; allowed: .*interactions"),
-    (
-        "speeds_for: []",
-        "signals: { speeds_rad_s: [900], revolutions: 500 }",
-        r"signals\.revolutions: found 500; allowed: at most those of a run, 200 in 'abradable'",
-    ),
-    (
-        "speeds_for: []",
-        "signals: { speeds_rad_s: [900], blades: [Reff] }",
-        r"signals\.blades: found 'Reff'; allowed: Ref, L50",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000 } }",
-        r"run_ups\.a\.rate_rad_s2: found nothing; allowed: one of rate_rad_s2, rate_rpm_s, revolutions",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 900, from_rpm: 9000, to_rad_s: 1000, revolutions: 5 } }",
-        r"run_ups\.a\.from_rpm: found from_rad_s and from_rpm; allowed: one of",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 900, to_rad_s: 900, rate_rpm_s: 5 } }",
-        r"run_ups\.a\.rate_rpm_s: found a rate between equal speeds; allowed: revolutions",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 1.0e-3 } }",
-        r"run_ups\.a\.rate_rad_s2: found a change from 900 to 1000 .* 1\.512e\+07 revolutions; allowed: .* from 0\.151",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1900, revolutions: 0.1 } }",
-        r"run_ups\.a\.revolutions: found a change from 900 to 1900 rad/s within 0\.1 revolutions; allowed: 0\.347 to 1",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: -10 } }",
-        r"run_ups\.a\.rate_rad_s2: found -10; allowed: number, at least 0\.001",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 1999, to_rad_s: 1999.0000001, rate_rad_s2: 10 } }",
-        r"run_ups\.a\.rate_rad_s2: found a change from 1999 to 1999\.0000001 rad/s within",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rpm_s: 5e-324 } }",
-        r"run_ups\.a\.rate_rpm_s: found 5e-324; allowed: number, at least 0\.01",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 10, blades: [Reff] } }",
-        r"run_ups\.a\.blades: found 'Reff'; allowed: Ref, L50",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 900, to_rad_s: 1000, rate_rad_s2: 10, lining: worn } }",
-        r"run_ups\.a\.lining: found worn in the scene 'direct', which has no lining; allowed: new, or scenes with a lining",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { crossing: { mode: 1B, engine_order: 4, first: 0, last: 0.1 }, from_rad_s: 900, revolutions: 5 } }",
-        r"run_ups\.a\.crossing: found from_rad_s and crossing; allowed: one of from_rad_s, from_rpm, crossing",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 1900, to_rad_s: 2100, revolutions: 5 } }",
-        r"run_ups\.a\.revolutions: found 2100 rad/s; allowed: up to structure\.maximum_speed_rad_s, 2000",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { crossing: { mode: 1B, engine_order: 4, first: -0.5, last: 1 }, revolutions: 0.1 } }",
-        r"run_ups\.a\.revolutions: found a change from 1000 to 4000 rad/s within 0\.1 revolutions; allowed: 1\.5",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { crossing: { mode: 1B, engine_order: 40, first: 0, last: 0.1 }, revolutions: 5 } }",
-        r"run_ups\.a\.crossing\.engine_order: found 40; allowed: at most campbell\.highest_engine_order \(20\)",
-    ),
-    (
-        "speeds_for: []",
-        "run_ups: { a: { from_rad_s: 0.02, to_rad_s: 0.022, revolutions: 1 } }",
-        r"run_ups\.a: found 0\.02 rad/s, a revolution of",
-    ),
-    (
-        "speeds_for: []",
+    section(
         "run_ups: { a: { from_rad_s: 9, to_rad_s: 10, revolutions: 1 }, A: { from_rad_s: 9, to_rad_s: 10, revolutions: 1 } }",
         r"run_ups\.A: found 'A' beside 'a'",
     ),
+    section("tradeoff: { blade: Reff }", r"tradeoff\.blade: found 'Reff'; allowed: Ref, L50"),
+    section("tradeoff: { scenes: [wet] }", r"tradeoff\.scenes: found 'wet'; allowed: abradable"),
+    section("tradeoff: { engine_order: 21 }", r"engine_order: found 21; allowed: at most campbell"),
+    section("tradeoff: { base: standart }", r"tradeoff\.base: found 'standart'; allowed: draft"),
+    section("stability: { extremes: [lobe] }", r"stability\.extremes\.0: found 'lobe'; allowed: all, or some of .*lobes"),
+    section("studies: { estimate: {} }", r"found unknown key studies"),
+    parameter("level: { values: [draft, refrence], reference: draft }", r"\.level: found 'refrence'; allowed: draft"),
+    parameter("levell: {}", r": found unknown key levell; allowed keys: level, .*did you mean level"),
+    parameter("bars:", r"\.bars: found nothing"),
+    values("[2, 4, 8], reference: 15", r"reference: found 15; allowed: one of the values, 2, 4, 8"),
+    values("[2, 4, 4], reference: 2", r"values\.2: found 4 twice"),
+    values("[2, 4.5], reference: 2", r"values\.1: found 4\.5; allowed: integer"),
+    values("[0, 4], reference: 4", r"values\.0: found 0; allowed: integer, at least 1"),
+    values("[], reference: 4", r"values: found \[\]; allowed: list of integer, entries: at least 1"),
+    parameter("stress_region: { values: [submesh, all], reference: submesh }", ".* found 'all'; .*one of submesh, whole"),
+    rule("blades: [Reff], speeds: [900]", r"speeds_for\.0\.blades: found 'Reff'; allowed: Ref, L50"),
+    rule("scenes: [dirct], speeds: [900]", r"speeds_for\.0\.scenes: found 'dirct'; allowed: abrad"),
+    rule("blades: [Ref, Ref], speeds: [900]", r"speeds_for\.0\.blades\.1: found 'Ref' twice"),
+    rule("scenes: [direct], speeds: [0.01]", r"speeds: found 0\.01 .* of 1\.31e\+08 steps .* from 0\.313 rad/s with"),
+    speeds("0", r"\.0\.start: found 0; allowed: number, at least 0\.001"),
+    speeds("750, stop: 1e12", r"\.0\.stop: found 1000000000000\.0; allowed: .*at most 1e\+06"),
+    speeds("750, stop: 700", r"\.0: found a range from 750 to 700; allowed: stop not below start"),
+    speeds("750, stop: 2000, step: 1e-3", r": found 1\.25e\+06 speeds from 750 to 2000 .*; allowed: at most 100000"),
+    speeds("750, stop: 2000, step: 0.02", ": found 875014 simulations of 7 blades in 2 scenes; allowed: at most 200000"),
+    speeds("750, strt: 1", r"\.0: found unknown key strt; allowed keys: start, stop, step, refine_to \(did you mean start\?\)"),
     ("shapes: { modes: 6 }", "shapes: { modes: 0 }", r"shapes\.modes: found 0; allowed: integer, at least 1, at most 30"),
-    ("speeds_for: []", "signals: { speeds_rad_s: [0.02] }", r"signals\.speeds_rad_s: found 0\.02 rad/s, a revolution of"),
-    (
-        "speeds_for: []",
-        "speeds_for: [{ blades: [Reff], speeds: [900] }]",
-        r"speeds_for\.0\.blades: found 'Reff'; allowed: Ref, L50",
-    ),
-    (
-        "speeds_for: []",
-        "speeds_for: [{ scenes: [dirct], speeds: [900] }]",
-        r"speeds_for\.0\.scenes: found 'dirct'; allowed: abrad",
-    ),
-    ("speeds_for: []", "speeds_for: [{ blades: [Ref, Ref], speeds: [900] }]", r"speeds_for\.0\.blades\.1: found 'Ref' twice"),
-    with_section("tradeoff: { blade: Reff }", r"tradeoff\.blade: found 'Reff'; allowed: Ref, L50"),
-    with_section("tradeoff: { scenes: [wet] }", r"tradeoff\.scenes: found 'wet'; allowed: abradable"),
-    with_section("tradeoff: { engine_order: 21 }", r"engine_order: found 21; allowed: at most campbell"),
-    with_section("tradeoff: { base: standart }", r"tradeoff\.base: found 'standart'; allowed: draft"),
-    with_section("stability: { extremes: [lobe] }", r"stability\.extremes\.0: found 'lobe'; allowed: all, or some of .*lobes"),
-    with_section("studies: { estimate: {} }", r"found unknown key studies"),
-    with_parameter(
-        "level: { values: [draft, refrence], reference: draft }", r"parameters\.level: found 'refrence'; allowed: draft"
-    ),
-    with_parameter("levell: {}", r"parameters: found unknown key levell; allowed keys: level, .*did you mean level"),
-    with_parameter("bars:", r"parameters\.bars: found nothing"),
-    with_parameter(
-        "boundary_nodes: { values: [2, 4, 8], reference: 15 }",
-        r"boundary_nodes\.reference: found 15; allowed: one of the values, 2, 4, 8",
-    ),
-    with_parameter("boundary_nodes: { values: [2, 4, 4], reference: 2 }", r"boundary_nodes\.values\.2: found 4 twice"),
-    with_parameter(
-        "boundary_nodes: { values: [2, 4.5], reference: 2 }", r"boundary_nodes\.values\.1: found 4\.5; allowed: integer"
-    ),
-    with_parameter(
-        "boundary_nodes: { values: [0, 4], reference: 4 }",
-        r"boundary_nodes\.values\.0: found 0; allowed: integer, at least 1",
-    ),
-    with_parameter(
-        "boundary_nodes: { values: [], reference: 4 }",
-        r"boundary_nodes\.values: found \[\]; allowed: list of integer, entries: at least 1",
-    ),
-    with_parameter(
-        "stress_region: { values: [submesh, everywhere], reference: submesh }",
-        r"found 'everywhere'; allowed: one of submesh, whole",
-    ),
-    ("stop: 2000, step: 20, refine_to: 1 }", "stop: .inf }", r"speeds\.0\.stop: found inf; allowed: number, at least 0\.001"),
-    (
-        "stop: 2000, step: 20, refine_to: 1 }",
-        "stop: 1e12 }",
-        r"speeds\.0\.stop: found 1000000000000\.0; allowed: .*at most 1e\+06",
-    ),
-    (
-        "stop: 2000, step: 20, refine_to: 1 }",
-        "stop: 2000, step: 1e-3 }",
-        r"speeds: found 1\.25e\+06 speeds from 750 to 2000 .*; allowed: at most 100000",
-    ),
-    (
-        "stop: 2000, step: 20, refine_to: 1 }",
-        "stop: 2000, step: 0.02 }",
-        r"speeds: found 875014 simulations of 7 blades in 2 scenes; allowed: at most 200000",
-    ),
-    (
-        "speeds_for: []",
-        "speeds_for: [{ scenes: [direct], speeds: [0.01] }]",
-        r"speeds: found 0\.01 rad/s, a revolution of 1\.31e\+08 steps .*; allowed: speeds from 0\.313 rad/s with",
-    ),
-    ("start: 750, ", "start: 0, ", r"speeds\.0\.start: found 0; allowed: number, at least 0\.001"),
-    (
-        "stop: 2000, step: 20, refine_to: 1 }",
-        "stop: 700 }",
-        r"speeds\.0: found a range from 750 to 700; allowed: stop not below start",
-    ),
-    (
-        "start: 750, ",
-        "start: 750, strt: 1, ",
-        r"speeds\.0: found unknown key strt; allowed keys: start, stop, step, refine_to \(did you mean start\?\)",
-    ),
     ("blades: all", "blades: [Ref, Ref]", r"blades\.1: found 'Ref' twice; allowed: each once"),
     ("blades: all", "blades: [50]", r"blades\.0: found 50; allowed: string"),
     ("blades: all", "blades:", r"blades: found nothing"),
@@ -291,6 +183,13 @@ def test_what_is_refused_in_config_yaml(config_copy, old, new, message):
     edit(config_copy / "config/config.yaml", old, new)
     with pytest.raises(ConfigError, match=rf"^config/config\.yaml:\d+: .*{message}"):
         read_settings(config_copy)
+
+
+def with_rows(first_span, first_sweep, last_span, last_sweep, message):
+    """A blade with two rows of sweep (cm) at some spans (%)."""
+    spans = ((first_span, first_sweep), (last_span, last_sweep))
+    rows = ", ".join(f"{{span_percent: {span}, sweep_cm: {sweep}, lean_deg: 0}}" for span, sweep in spans)
+    return f"X: {{base: Ref, sweep_lean: [{rows}]}}", rf"X\.sweep_lean{message}"
 
 
 BLADE_REFUSALS = [
@@ -316,42 +215,33 @@ BLADE_REFUSALS = [
         r"X\.vary\.sweep_percent\.step: found 1e\+12; allowed: at most stop - start \(10\)",
     ),
     ("X: null", r"X: found nothing; allowed: mapping with the keys profiles, base"),
+    ("X: {}", r"X: found neither profiles nor base"),
+    ("X: {base: Nope}", r"X\.base: found 'Nope'; allowed: another blade"),
+    ("X: {base: Y}\nY: {base: X}", r"Y\.base: found 'X'; allowed: another blade"),
+    ("X: {base: Ref}\nX: {base: L50}", r"not readable as YAML: .*the key 'X' is given twice"),
+    ("X: {base: Ref, chordwise_sweep_deg: 5, stacking_table: t.csv}", r"X: found stacking_table and chordwise_sweep_deg"),
+    ("X: {base: Ref, chordwise_sweep_deg: 80}", r"X\.chordwise_sweep_deg: found 80; allowed: .*less than 60"),
+    ("X: {base: Ref, stacking_table: config/stacking/rotor37.csv}", r"blade X: no row of the table has 'X'"),
+    ("X: {profiles: config/profiles/rotor37.csv}", r"X\.material: missing key youngs_modulus_pa"),
     ("X: &x {base: Ref, <<: *x}", r"not readable as YAML"),
     ("X: {base: Ref, material: {density_kg_m3: 1e30}}", r"X\.material\.density_kg_m3: found 1e\+30; allowed: .*at most 100000"),
-    (
-        "X: {base: Ref, sweep_lean: [{span_percent: 0, sweep_cm: 0, lean_deg: 0}, "
-        "{span_percent: 100, sweep_cm: 1e9, lean_deg: 0}]}",
-        r"X\.sweep_lean\.1\.sweep_cm: found 1000000000\.0; allowed: number, at least -100",
-    ),
-    (
-        "X: {base: Ref, sweep_lean: [{span_percent: 0, sweep_cm: 100, lean_deg: 0}, "
-        "{span_percent: 100, sweep_cm: 0, lean_deg: 0}]}",
-        r"X\.sweep_lean: blade X: span 0%: found a sweep of 100 cm; allowed: up to the height of the blade, 7\.",
-    ),
+    with_rows(0, 0, 90, 0, r": blade X: the spans run from 0% to 90%"),
+    with_rows(0, 0, 100, 1e9, r"\.1\.sweep_cm: found 1000000000\.0; allowed: number, at least -100"),
+    with_rows(0, 100, 100, 0, r": blade X: span 0%: found a sweep of 100 cm; allowed: up to the height of the blade, 7\."),
 ]
 
 
 @pytest.mark.parametrize(("text", "message"), BLADE_REFUSALS)
-def test_what_is_refused_in_blades_yaml(config_copy, text, message):
-    with open(config_copy / "config/blades.yaml", "a") as stream:
-        stream.write("\n" + text + "\n")
-    with pytest.raises(ConfigError, match=rf"^config/blades\.yaml:\d+: .*{message}"):
-        read_settings(config_copy)
+def test_what_is_refused_in_blades_yaml(with_blades, text, message):
+    with pytest.raises(ConfigError, match=rf"^config/(blades\.yaml:\d+|stacking/rotor37\.csv): .*{message}"):
+        with_blades(text)
 
 
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        (
-            "results: [spectrum, signal, stress, wear, energy]",
-            "results: [stress, stress]",
-            r"abradable\.results\.1: found stress twice",
-        ),
-        (
-            "results: [spectrum, signal, stress, wear, energy]",
-            "results: [spectrum, shapes]",
-            r"abradable\.results: found shapes; allowed: only with stress among the results",
-        ),
+        ("[spectrum, signal, stress, wear, energy]", "[stress, stress]", r"abradable\.results\.1: found stress twice"),
+        ("[spectrum, signal, stress, wear, energy]", "[shapes]", r"\.results: found shapes; allowed: only with stress among"),
         ("abradable:", "abradable__x:", r"abradable__x: found 'abradable__x'"),
         ("abradable:", '"abradable\\n":', r"abradable\\n: found 'abradable\\n'; allowed: a name of letters"),
         ("    bars: 10000", "    bars: 10_000", r"lining\.bars: found '10_000'; allowed: integer"),
@@ -406,18 +296,15 @@ def test_texts_that_are_not_utf8(config_copy, name):
     text = file.read_text()
     file.write_bytes(b"\xef\xbb\xbf" + text.encode())
     read_settings(config_copy)
-    file.write_bytes(("# one\n# größe\n" + text).encode("latin-1"))
-    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:2: found the byte 0xf6, which is not UTF-8"):
-        read_settings(config_copy)
-    file.write_bytes(text.encode("utf-16"))
-    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:1: found the byte 0xff, which is not UTF-8"):
-        read_settings(config_copy)
-    file.write_text("")
-    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:1: the file is empty"):
-        read_settings(config_copy)
-    file.write_text("[1, 2]\n")
-    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:1: top level: found \[1, 2\]; allowed: (mapping|object)"):
-        read_settings(config_copy)
+    for content, message in (
+        (("# one\n# größe\n" + text).encode("latin-1"), "2: found the byte 0xf6, which is not UTF-8"),
+        (text.encode("utf-16"), "1: found the byte 0xff, which is not UTF-8"),
+        (b"", "1: the file is empty"),
+        (b"[1, 2]\n", r"1: top level: found \[1, 2\]; allowed: (mapping|object)"),
+    ):
+        file.write_bytes(content)
+        with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:{message}"):
+            read_settings(config_copy)
 
 
 TABLES = ["config/profiles/rotor37.csv", "config/stacking/rotor37.csv"]
@@ -436,29 +323,23 @@ def test_tables_as_spreadsheets_write_them(config_copy, name):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (
-            lambda text: text.replace("\n", "\n<<<<<<< HEAD\n", 1),
-            r": blade \w+: line 2: the row has more or fewer cells",
-        ),
-        (lambda text: text.replace(",", ";"), r": blade \w+: line 1: the table lacks the columns .* separated by commas"),
-        (
-            lambda text: text.replace("\n", ",7\n").replace(",7\n", "\n", 1),
-            r": blade \w+: line 2: the row has more or fewer cells",
-        ),
-        (lambda text: "", r": blade \w+: line 1: the table lacks the columns"),
+        (lambda text: text.replace("\n", "\n<<<<<<< HEAD\n", 1), "2: the row has more or fewer cells"),
+        (lambda text: text.replace(",", ";"), "1: the table lacks the columns .* separated by commas"),
+        (lambda text: text.replace("\n", ",7\n").replace(",7\n", "\n", 1), "2: the row has more or fewer cells"),
+        (lambda text: "", "1: the table lacks the columns"),
     ],
 )
 def test_tables_that_cannot_be_read(config_copy, name, change, message):
     file = config_copy / name
     file.write_text(change(file.read_text()))
-    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}{message}"):
+    with pytest.raises(ConfigError, match=rf"^{re.escape(name)}: blade \w+: line {message}"):
         read_settings(config_copy)
 
 
 def test_numbers_are_read_alike_everywhere(tmp_path):
     file = tmp_path / "a.yaml"
-    file.write_text("[1e-1, 010, .5, -3., 1E+3, 12:30, 1_000, 0x10, 2020-01-01, +7]")
-    assert load_yaml(file) == [0.1, 10, 0.5, -3.0, 1000.0, "12:30", "1_000", "0x10", "2020-01-01", 7]
+    file.write_text("[1e-1, 2.5E-3, 1e9, 010, .5, -3., 1E+3, 12:30, 1_000, 0x10, 2020-01-01, +7]")
+    assert load_yaml(file) == [0.1, 0.0025, 1e9, 10, 0.5, -3.0, 1000.0, "12:30", "1_000", "0x10", "2020-01-01", 7]
 
 
 def test_a_whole_number_as_a_key_is_its_text(tmp_path):
@@ -470,21 +351,19 @@ def test_a_whole_number_as_a_key_is_its_text(tmp_path):
         load_yaml(file)
 
 
-@pytest.mark.parametrize("text", ["a: [" * 2000, "a: \x07", "a: &a [*a]", "a: 1\n---\nb: 2", "a: !!python/name:os.x"])
+ALIASES = ["a0: &a0 [1, 1]", *(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]" for i in range(1, 40))]
+ODD = dict.fromkeys(["a: [" * 2000, "a: \x07", "a: &a [*a]", "a: 1\n---\nb: 2", "a: !!python/name:os.x"])
+ODD |= {"\n".join(ALIASES): "more than 100000 values"}
+
+
+@pytest.mark.parametrize("text", ODD)
 def test_odd_yaml_ends_in_one_line(tmp_path, text):
     file = tmp_path / "a.yaml"
     file.write_text(text)
-    with pytest.raises(TextFileError) as caught:
+    with pytest.raises(TextFileError, match=ODD[text]) as caught:
         load_yaml(file)
     assert "\n" not in str(caught.value)
     assert caught.value.line >= 1
-
-
-def test_aliases_that_multiply_are_refused(tmp_path):
-    file = tmp_path / "a.yaml"
-    file.write_text("\n".join(["a0: &a0 [1, 1]", *(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]" for i in range(1, 40))]))
-    with pytest.raises(TextFileError, match="more than 100000 values"):
-        load_yaml(file)
 
 
 def test_lists_of_numbers_on_the_command_line(config_copy):
@@ -500,8 +379,6 @@ def test_lists_of_numbers_on_the_command_line(config_copy):
 
 
 def test_the_number_of_speeds_is_bounded_before_any_is_made():
-    with pytest.raises(SpeedError, match="found 1e\\+12 speeds from 1 to 1e\\+12"):
-        plan_speeds([{"start": 1.0, "stop": 1e12, "step": 1.0}], 1.0)
     with pytest.raises(SpeedError, match="allowed: at most"):
         plan_speeds([{"start": 1.0, "stop": 1e300, "step": 1e-300}], 1.0)
     half = 0.75 * LARGEST_NUMBER
@@ -510,9 +387,7 @@ def test_the_number_of_speeds_is_bounded_before_any_is_made():
 
 
 def test_speeds_stand_exactly_in_file_names():
-    near = 1000.0
-    while (near := np.nextafter(near, 2000.0)) < 1000.0000000001:
-        break
+    near = np.nextafter(1000.0, 2000.0)
     for speed in (750.0, 1000.5, 0.1, 1e-3, 1e6, 123456.123456789, near, 1000.0 / 3.0):
         text = exact_text(speed)
         assert float(text) == speed

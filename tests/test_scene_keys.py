@@ -7,30 +7,10 @@ import pytest
 
 from r37core.config import checked_scene
 
-CASING = {
-    "cone_angle_deg": 3.0,
-    "clearance_m": 2e-4,
-    "lobes": 3,
-    "width": 0.2,
-    "amplitude_clearances": 1.5,
-    "rise_fraction": 0.3,
-}
-LINING = {
-    "thickness_m": 4e-3,
-    "elastic_modulus_pa": 1e10,
-    "plastic_modulus_pa": 2e9,
-    "yield_stress_pa": 3.0,
-    "bars": 500,
-    "bar_width_m": 2e-3,
-}
-FRICTION = {"form": "vector", "coefficient": 0.2}
 ENTRY = {
-    "casing": CASING,
-    "lining": LINING,
-    "friction": FRICTION,
-    "damping_ratio": 1e-3,
-    "gap": "linear",
-    "divergence_limit_m": 0.03,
+    "casing": {"clearance_m": 2e-4},
+    "lining": {"thickness_m": 4e-3, "elastic_modulus_pa": 1e10, "plastic_modulus_pa": 2e9, "yield_stress_pa": 3.0},
+    "friction": {"form": "vector", "coefficient": 0.2},
 }
 
 REACHES = {
@@ -86,14 +66,8 @@ def test_every_field_has_a_key():
     assert {field for _, field, _ in REACHES.values()} | elsewhere == set(flat(checked_scene(ENTRY)))
 
 
-def test_the_tip_decides_the_cone_angle_by_default():
-    casing = {key: value for key, value in CASING.items() if key != "cone_angle_deg"}
-    scene = checked_scene(ENTRY | {"casing": casing})
-    assert scene.casing.cone_angle is None
+def test_the_tip_decides_the_cone_angle_by_default_and_bars_are_a_millimetre_wide():
+    scene = checked_scene(ENTRY)
+    assert (scene.casing.cone_angle, scene.lining.bar_width) == (None, 1e-3)
     assert scene.casing.angle(-0.26) == -0.26
-    assert checked_scene(ENTRY).casing.angle(-0.26) == np.radians(3.0)
-
-
-def test_bars_are_a_millimetre_wide_by_default():
-    lining = {key: value for key, value in LINING.items() if key != "bar_width_m"}
-    assert checked_scene(ENTRY | {"lining": lining}).lining.bar_width == 1e-3
+    assert checked_scene(with_key("casing.cone_angle_deg", 3.0)).casing.angle(-0.26) == np.radians(3.0)

@@ -93,6 +93,7 @@ def test_designs_that_cannot_be_built_are_results(config, caplog):
         ({"objectives": "lined"}, "objectives: found 'lined'; allowed: names and what is read off, as in"),
         ({"constraints": 3}, "constraints: found 3; allowed: names and what is kept"),
         ({"tolerances": 5}, "tolerances: found 5; allowed: of_scenes, of_blades and members"),
+        ({"variables": {"casing.clearance_m": [1, 2]}}, "unknown key casing.clearance_m; .* under tolerances.of_scenes"),
         ({"variables": {"stagger_deg.tip": [2, -2]}}, "r37.search: search.variables.stagger_deg.tip: found .*a lower and a h"),
         ({"objectives": {"lined": {"scenes": ["direct"]}}}, "r37.search: search.objectives.lined.scenes: found 'direct'"),
         ({"designs": 1, "first": 1}, "r37.search: search.designs: found 1; allowed"),
