@@ -3,7 +3,6 @@
 import warnings
 from contextlib import nullcontext
 from dataclasses import replace
-from types import SimpleNamespace
 
 import meshio
 import numpy as np
@@ -12,7 +11,7 @@ from box_mesh import box_mesh, plate
 from defaults import Orientation
 
 from r37core.blade.sense import sense_of_line
-from r37core.exchange.importing import ends, meshio_reader, source, tip
+from r37core.exchange.importing import ends, meshio_reader, tip
 from r37core.exchange.importing.fitting_entry import find_axes
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.exchange.importing.raw_mesh import RawMesh
@@ -116,15 +115,6 @@ def test_a_folder_of_matrices_has_each_file_once(tmp_path, names):
         (tmp_path / name).write_text("")
     with pytest.raises(ImportRefused, match="needed: M and K_<speed> at three speeds"):
         matrix_files("", tmp_path)
-
-
-def test_thirty_names_of_sets_are_shown():
-    for number, more in ((30, ""), (31, ", and 1 more")):
-        sets = {f"s{i:02}": np.arange(3) for i in range(number)}
-        mesh = SimpleNamespace(sets=sets, points=np.zeros((5, 3)))
-        with pytest.raises(ImportRefused) as refused:
-            source._set_members("root", "none", mesh)
-        assert str(refused.value).endswith(f"s29 (3 nodes){more}")
 
 
 def test_the_sides_of_a_tip_are_told_by_their_middle_and_angles_by_their_place():

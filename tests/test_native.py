@@ -141,7 +141,6 @@ def test_a_job_does_not_import_numba(contact, tmp_path):
 
 
 def test_sources_of_the_compiled_code_are_all_that_it_is_compiled_from(root):
-    """What the compiled modules import of the package is itself among the sources."""
     core = root / "src/r37core"
     for source in compiled.SOURCES.files:
         package = ".".join(["r37core", *Path(source).parent.parts])
