@@ -4,8 +4,12 @@ from itertools import permutations, product
 
 import numpy as np
 
+from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
+from r37core.fem.material import Material
 from r37core.mesh.blade_mesh import BladeMesh, parametric_node_sets
+
+TITANIUM = Material(115e9, 4400.0, 0.32, 9e8)
 
 _SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 _TRIANGLES = [[_SQUARE[0], _SQUARE[1], _SQUARE[2]], [_SQUARE[0], _SQUARE[2], _SQUARE[3]]]
@@ -60,3 +64,9 @@ def box_mesh(length, width, height, counts, origin=(0.0, 0.0, 0.0), warp=0.0, el
 def plate(element="hexahedron20", counts=(6, 1, 3)):
     """A plate 60 mm high, 4 mm thick, 30 mm along the axis, on a radius of 200 mm: x radial, y tangential, z axial."""
     return box_mesh(0.06, 0.004, 0.03, counts, origin=(0.2, -0.002, 0.0), element=element)
+
+
+def write_deck(file, change=lambda text: text, element="hexahedron20"):
+    """The plate's deck, changed as text."""
+    write_abaqus(plate(element), file, TITANIUM, "plate")
+    file.write_text(change(file.read_text()))

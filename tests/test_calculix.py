@@ -43,11 +43,14 @@ def von_mises(s):
     return np.sqrt(1.5 * np.sum(deviator**2, axis=(-2, -1)))
 
 
+def check_frequencies(folder, mesh, matrices, material, count, within):
+    calculix = printed(run_calculix(folder, mesh, material), 5)[:count, 3]
+    values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), count)
+    np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), calculix, rtol=within)
+
+
 def test_frequencies(mesh, matrices, steel, tmp_path):
-    rows = run_calculix(tmp_path, mesh, steel)
-    calculix = printed(rows, 5)[:10, 3]
-    values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), 10)
-    np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), calculix, rtol=1e-4)
+    check_frequencies(tmp_path, mesh, matrices, steel, 10, 1e-4)
 
 
 def test_static_tip_load(mesh, matrices, steel, tmp_path):
@@ -89,11 +92,6 @@ def test_centrifugal_displacement_and_stress(mesh, matrices, steel, tmp_path):
     assert check_centrifugal(tmp_path, mesh, matrices, steel) > 1e8
 
 
-def plate(kind):
-    """A thick plate with curved faces, off the axis."""
-    return box_mesh(0.08, 0.04, 0.012, (4, 3, 2), origin=(0.17, -0.02, -0.004), warp=1.0, element=kind)
-
-
 def test_blade_that_rotation_holds(model, mesh, steel, tmp_path):
     """Linear: the displacement of the contact nodes at low speed, per squared speed, within 1e-5.
 
@@ -122,18 +120,14 @@ def test_each_element(kind, steel, tmp_path, monkeypatch):
     """With CalculiX's quadrature: it integrates the mass with the stiffness rule, and C3D6 at two points in all."""
     rule = wedge_rule(1, 2) if kind == "wedge" else ELEMENTS[kind].stiffness_rule
     monkeypatch.setitem(ELEMENTS, kind, replace(ELEMENTS[kind], stiffness_rule=rule, mass_rule=rule))
-    mesh = plate(kind)
+    # thick, with curved faces, off the axis
+    mesh = box_mesh(0.08, 0.04, 0.012, (4, 3, 2), origin=(0.17, -0.02, -0.004), warp=1.0, element=kind)
     matrices = assemble(mesh, steel)
-    rows = run_calculix(tmp_path, mesh, steel)
-    values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), 10)
-    np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), printed(rows, 5)[:10, 3], rtol=1e-6)
+    check_frequencies(tmp_path, mesh, matrices, steel, 10, 1e-6)
     check_centrifugal(tmp_path, mesh, matrices, steel)
 
 
 @pytest.mark.parametrize("kind", ["tetra10", "wedge15", "hexahedron20"])
 def test_exact_mass_makes_little_difference(kind, steel, tmp_path):
     mesh = box_mesh(0.08, 0.03, 0.003, (18, 8, 1), origin=(0.17, -0.02, -0.004), warp=1.0, element=kind)
-    matrices = assemble(mesh, steel)
-    rows = run_calculix(tmp_path, mesh, steel)
-    values, _ = lowest_modes(matrices.stiffness(), matrices.mass(), 5)
-    np.testing.assert_allclose(np.sqrt(values) / (2 * np.pi), printed(rows, 5)[:5, 3], rtol=1e-4)
+    check_frequencies(tmp_path, mesh, assemble(mesh, steel), steel, 5, 1e-4)

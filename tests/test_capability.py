@@ -68,14 +68,8 @@ def test_a_stranger_adds_a_capability_by_the_page_alone(root, sweep_copy):
     first, second = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     code = CALLS.format(page=first.replace("[1150],", '[1150], config="config/config.yaml",') + second)
     environment = {**os.environ, "PYTHONPATH": str(sweep_copy / "src"), "R37_CACHE": str(sweep_copy / "cache")}
-    printed = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", code],
-        cwd=sweep_copy,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    command = [sys.executable, "-W", "ignore", "-c", code]
+    printed = subprocess.run(command, cwd=sweep_copy, env=environment, capture_output=True, text=True, check=False)
     assert printed.returncode == 0, printed.stderr
     from_call, from_step, refused = printed.stdout.strip().split("\n\n")
     direct = float(stress["max_von_mises_ever"].sel(blade="Ref", scene="direct", speed=1150))

@@ -57,7 +57,17 @@ def moved(nodes, size=2e-5, stiffening=(0.0, 2e-7), blade=random_blade):
     return replace(blade(nodes), rotation_shapes=shapes, rotation_stiffening=np.array(stiffening))
 
 
-# where rotation holds the blade
+def run_of(model, scene, choice=SHORT):
+    """Samples and totals of a run at 1000 rad/s."""
+    simulation = Simulation(model, 1000.0, scene, choice)
+    state = simulation.start()
+    return simulation.advance(state, choice.revolutions).samples, state.totals
+
+
+def assert_alike(found, expected, within):
+    """Samples of two runs, `within` a part of the largest, which is a motion."""
+    assert np.abs(expected).max() > 1e-9
+    np.testing.assert_allclose(found, expected, rtol=0, atol=within * np.abs(expected).max())
 
 
 def test_a_bar_on_the_axis_is_stretched_as_in_closed_form():
@@ -118,9 +128,6 @@ def test_rotation_that_leaves_no_stiffness_is_refused():
         rotation_amplitudes(np.array([1e-7, -1e-6]), np.array([900.0, 1000.0, 2000.0]))
 
 
-# contact
-
-
 @pytest.mark.parametrize("exact_gap", [False, True])
 @pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
 def test_a_growing_blade_is_the_grown_one(scene, exact_gap):
@@ -133,26 +140,16 @@ def test_a_growing_blade_is_the_grown_one(scene, exact_gap):
     cold = scene.casing.clearance
     casing = replace(scene.casing, clearance=cold - nearer, amplitude=scene.casing.amplitude * cold / (cold - nearer))
     scene = replace(scene, exact_gap=exact_gap)
-    found, expected = (
-        Simulation(blade, speed, one, SHORT) for blade, one in ((model, growing(scene)), (grown, replace(scene, casing=casing)))
-    )
-    runs = [one.advance(one.start(), 3).samples for one in (found, expected)]
-    assert np.abs(runs[0]).max() > 1e-9
-    np.testing.assert_allclose(*runs, rtol=0, atol=1e-9 * np.abs(runs[1]).max())
+    assert_alike(run_of(model, growing(scene))[0], run_of(grown, replace(scene, casing=casing))[0], 1e-9)
 
 
 @pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
 def test_a_growing_casing_is_the_wider_one(scene):
-    model, speed = random_blade(3), 1000.0
+    model = random_blade(3)
     wide = replace(scene.casing, growth_speeds=(0.0, 800.0, 1200.0), growth=(0.0, 2e-5, 6e-5))
     same = replace(scene.casing, clearance=scene.casing.clearance + 4e-5)
     same = replace(same, amplitude=scene.casing.lobe_height / same.clearance)
-    runs = []
-    for casing in (wide, same):
-        simulation = Simulation(model, speed, replace(scene, casing=casing), SHORT)
-        runs.append(simulation.advance(simulation.start(), 3).samples)
-    assert np.abs(runs[0]).max() > 1e-9
-    np.testing.assert_allclose(*runs, rtol=0, atol=1e-9 * np.abs(runs[1]).max())
+    assert_alike(*(run_of(model, replace(scene, casing=casing))[0] for casing in (wide, same)), 1e-9)
 
 
 SCENES = {
@@ -172,26 +169,19 @@ def test_compiled_engine_is_the_reference(scene, integrator):
     blade = random_blade if integrator == "exact_modal" else random_model
     model, choice = moved(5, size=4e-5, blade=blade), replace(SHORT, time_step=6e-7, integrator=integrator, revolutions=1)
     assert np.ptp(clearances(model, scene, np.array([1000.0]))) > 1e-5
-    records = []
-    for engine in ("compiled", "reference"):
-        simulation = Simulation(model, 1000.0, scene, replace(choice, engine=engine))
-        state = simulation.start()
-        records.append((simulation.advance(state, 1).samples, state.totals["steps_in_contact"]))
-    assert records[0][1] == records[1][1] > 0
-    np.testing.assert_allclose(records[0][0], records[1][0], rtol=0, atol=1e-7 * np.abs(records[1][0]).max())
+    runs = [run_of(model, scene, replace(choice, engine=engine)) for engine in ("compiled", "reference")]
+    (found, totals), (expected, expected_totals) = runs
+    assert totals["steps_in_contact"] == expected_totals["steps_in_contact"] > 0
+    assert_alike(found, expected, 1e-7)
 
 
 @pytest.mark.parametrize("scene", [growing(NARROW), growing(DIRECT), growing(replace(DIRECT, exact_gap=True))])
 def test_jumps_pass_no_contact_over(scene):
     """The largest room is at the first node, the least at another one: jumps must look at each."""
     model = moved(8, size=6e-5)
-    records = []
-    for jumps in (True, False):
-        simulation = Simulation(model, 1000.0, scene, replace(SHORT, jumps=jumps))
-        state = simulation.start()
-        records.append((simulation.advance(state, 3).samples, state.totals["steps_jumped"]))
-    assert records[0][1] > 0 == records[1][1]
-    np.testing.assert_allclose(records[0][0], records[1][0], rtol=0, atol=1e-8 * np.abs(records[1][0]).max())
+    (found, totals), (expected, stepped) = (run_of(model, scene, replace(SHORT, jumps=jumps)) for jumps in (True, False))
+    assert totals["steps_jumped"] > 0 == stepped["steps_jumped"]
+    assert_alike(found, expected, 1e-8)
 
 
 def test_energy_closes_where_the_tip_is_pressed_in():
@@ -233,14 +223,10 @@ def test_a_tip_inside_of_the_casing_is_refused():
         Problem(model, 1000.0, replace(lined, lining=replace(LINING, thickness=1e-6)), SHORT)
 
 
-# run-ups
-
-
 @pytest.mark.parametrize("engine", ["compiled", "reference"])
 def test_at_one_speed_a_run_up_is_the_run_at_that_speed(engine):
     model, choice = moved(3), replace(SHORT, time_step=2e-6, engine=engine)
-    simulation = Simulation(model, 1000.0, growing(NARROW), choice)
-    expected = simulation.advance(simulation.start(), 3).samples
+    expected, _ = run_of(model, growing(NARROW), choice)
     integration = RunUpIntegration(model, growing(NARROW), choice, RunUp(1000.0, 1000.0, 1.0, 1, 1, worn=False))
     np.testing.assert_array_equal(np.concatenate([stage.samples for stage in integration.segments()]), expected)
 
@@ -249,16 +235,12 @@ def test_the_clearance_follows_the_speed():
     """A blade that nothing but its growth brings to the round lining begins to press it at the speed that closes the gap."""
     model = replace(random_blade(1), rotation_shapes=np.array([[[1e-10]], [[0.0]], [[0.0]]]), tip_cone_angle=0.0)
     scene = growing(NARROW, clearance=1.21e-4, lobes=0)
-    integration = RunUpIntegration(model, scene, replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False))
+    choice, run_up = replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False)
+    integration = RunUpIntegration(model, scene, choice, run_up)
     touching = np.concatenate([stage.speeds[stage.wear > 0.0] for stage in integration.segments()])
     assert touching.min() == pytest.approx(1100.0, abs=2.0)
     with pytest.raises(NoRoomError, match="at 1200 rad/s"):
-        RunUpIntegration(
-            model, replace(scene, lining=None), replace(SHORT, time_step=2e-6), RunUp(1000.0, 1200.0, 20.0, 1, 1, worn=False)
-        )
-
-
-# stress of rotation
+        RunUpIntegration(model, replace(scene, lining=None), choice, run_up)
 
 
 def test_stress_is_that_of_both_displacements_together(whole, mesh, steel):
@@ -296,14 +278,7 @@ def test_responses_have_the_clearance_and_the_stress_of_rotation(whole, steel, t
     for speed, file in zip(speeds, files, strict=True):
         kept = run_speed(contact, speed, scene, choice, results, spectrum_highest_order=5, wear_angles=60, stress=recovery)
         write_speed(kept, file, {})
-    write_response(
-        files,
-        speeds,
-        tmp_path / "response.nc",
-        stress_history_speeds=(),
-        yield_stress=1e9,
-        provenance={},
-    )
+    write_response(files, speeds, tmp_path / "response.nc", stress_history_speeds=(), yield_stress=1e9, provenance={})
     with netCDF4.Dataset(tmp_path / "response.nc") as response:
         assert response["static_stress"][...] == 1.0
         assert response["clearance"].dimensions == ("speed", "contact_node")
@@ -332,29 +307,24 @@ def test_a_run_up_leaves_no_instant_out_that_has_the_largest_stress(whole, steel
 
     for largest in (shipped, of_all):
         monkeypatch.setattr(revolutions, "largest_stress", largest)
-        kept = record_run_up(
-            RunUpIntegration(contact, growing(NARROW), choice, run_up),
-            ["stress", "static_stress"],
-            highest_order=5,
-            stress=recovery,
-            yield_stress=1e9,
-        )
+        integration = RunUpIntegration(contact, growing(NARROW), choice, run_up)
+        kept = record_run_up(integration, ["stress", "static_stress"], highest_order=5, stress=recovery, yield_stress=1e9)
         found.append(kept["max_von_mises"])
     np.testing.assert_allclose(*found, rtol=1e-10)
-
-
-# configuration
 
 
 def casing_of(**clearance):
     return checked_scene({"casing": {"lobes": 0} | clearance}).casing
 
 
+def growth_of(**table):
+    return {"clearance": COLD | {"casing_growth": table}}
+
+
 def test_keys_reach_their_fields():
     assert casing_of(clearance=COLD) == replace(casing_of(clearance_m=3.56e-4), centrifugal=True)
     assert not casing_of(clearance=COLD | {"centrifugal": False}).changes_with_speed
-    table = {"speeds_rpm": [0, 30.0, 60.0], "growth_m": [0.0, 1e-5, -2e-5]}
-    growth = casing_of(clearance=COLD | {"casing_growth": table})
+    growth = casing_of(**growth_of(speeds_rpm=[0, 30.0, 60.0], growth_m=[0.0, 1e-5, -2e-5]))
     assert growth.growth_speeds == pytest.approx((0.0, np.pi, 2.0 * np.pi))
     assert growth.opening(np.array([0.5 * np.pi, 1.5 * np.pi])) == pytest.approx([0.5e-5, -0.5e-5])
     with pytest.raises(ValueError, match=r"casing_growth: given up to 6\.28\d* rad/s; needed up to 7 rad/s"):
@@ -367,30 +337,12 @@ def test_keys_reach_their_fields():
         ({}, r"casing: found neither of clearance_m and clearance; allowed: one of"),
         ({"clearance_m": 1e-4, "clearance": COLD}, r"casing: found clearance_m and clearance; allowed: one of"),
         ({"clearance": {"centrifugal": True}}, r"casing\.clearance: missing key cold_m"),
-        (
-            {"clearance": COLD | {"casing_growth": {"growth_m": [0, 1e-5]}}},
-            r"casing_growth: found no speeds; allowed: speeds_rad_s",
-        ),
-        (
-            {"clearance": COLD | {"casing_growth": {"speeds_rad_s": [0, 9], "speeds_rpm": [0, 9], "growth_m": [0, 1e-5]}}},
-            r"casing_growth: found speeds_rad_s and speeds_rpm",
-        ),
-        (
-            {"clearance": COLD | {"casing_growth": {"speeds_rad_s": [5, 9], "growth_m": [0, 1e-5]}}},
-            r"casing_growth\.speeds_rad_s: found \[5.*\]; allowed: ascending speeds, the first of them 0",
-        ),
-        (
-            {"clearance": COLD | {"casing_growth": {"speeds_rpm": [0, 9, 9], "growth_m": [0, 1e-5, 0]}}},
-            r"casing_growth\.speeds_rpm: found .*ascending",
-        ),
-        (
-            {"clearance": COLD | {"casing_growth": {"speeds_rpm": [0, 9], "growth_m": [0, 1e-5, 0]}}},
-            r"casing_growth\.growth_m: found 3 numbers for 2 speeds; allowed: one for each speed",
-        ),
-        (
-            {"clearance": COLD | {"casing_growth": {"speeds_rpm": [0, 9], "growth_m": [1e-5, 0]}}},
-            r"casing_growth\.growth_m\.0: found 1e-05 at speed 0; allowed: 0",
-        ),
+        (growth_of(growth_m=[0, 1e-5]), "casing_growth: found no speeds; allowed: speeds_rad_s"),
+        (growth_of(speeds_rad_s=[0, 9], speeds_rpm=[0, 9], growth_m=[0, 1e-5]), "found speeds_rad_s and speeds_rpm"),
+        (growth_of(speeds_rad_s=[5, 9], growth_m=[0, 1e-5]), r"speeds_rad_s: found \[5.*: ascending .* first of them 0"),
+        (growth_of(speeds_rpm=[0, 9, 9], growth_m=[0, 1e-5, 0]), r"casing_growth\.speeds_rpm: found .*ascending"),
+        (growth_of(speeds_rpm=[0, 9], growth_m=[0, 1e-5, 0]), r"growth\.growth_m: found 3 .* for 2 .*: one for each speed"),
+        (growth_of(speeds_rpm=[0, 9], growth_m=[1e-5, 0]), r"casing_growth\.growth_m\.0: found 1e-05 at speed 0; allowed: 0"),
     ],
 )
 def test_a_clearance_that_is_none_is_refused(casing, message):

@@ -2,6 +2,7 @@
 
 import itertools
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -138,19 +139,12 @@ def test_complementarity_against_brute_force(seed, n, skew):
     part = generator.standard_normal((n, n))
     matrix = matrix + skew * np.diag(matrix).min() * (part - part.T) / n  # friction makes it unsymmetric, still a P-matrix
     gap = generator.standard_normal(n)
-    multipliers, violation = solve_complementarity(matrix, gap)
-    assert violation == 0.0
-    np.testing.assert_allclose(multipliers, brute_force(matrix, gap), rtol=1e-7, atol=1e-9)
-    opened = gap + matrix @ multipliers
-    assert np.all(multipliers >= 0.0)
-    assert np.all(opened >= -1e-9)
-    assert np.abs(opened * multipliers).max() < 1e-8
-
-
-def test_open_gaps_need_no_force():
-    multipliers, violation = solve_complementarity(np.eye(3), np.array([1.0, 0.0, 2.0]))
-    assert violation == 0.0
-    np.testing.assert_array_equal(multipliers, 0.0)
+    expected = brute_force(matrix, gap)
+    # whatever is guessed of the nodes that touch
+    for guess in (None, generator.random(n) < 0.5):
+        multipliers, violation = solve_complementarity(matrix, gap, guess)
+        assert violation == 0.0 and np.all(multipliers >= 0.0)
+        np.testing.assert_allclose(multipliers, expected, rtol=1e-7, atol=1e-9)
 
 
 def test_more_nodes_than_a_vector_holds():
@@ -172,19 +166,6 @@ def test_a_pivot_that_all_but_cancels(nodes):
     multipliers, violation = solve_complementarity(matrix, -matrix.sum(axis=1))
     assert violation == 0.0
     np.testing.assert_allclose(multipliers, 1.0, rtol=1e-6)
-
-
-@settings(max_examples=100)
-@given(st.integers(0, 2**31 - 1), st.integers(1, 6))
-def test_a_guess_does_not_change_the_answer(seed, n):
-    generator = np.random.default_rng(seed)
-    factor = generator.standard_normal((n, n + 2))
-    matrix, gap = factor @ factor.T, generator.standard_normal(n)
-    plain, violation = solve_complementarity(matrix, gap)
-    assert violation == 0.0
-    guessed, violation = solve_complementarity(matrix, gap, generator.random(n) < 0.5)
-    assert violation == 0.0
-    np.testing.assert_allclose(guessed, plain, rtol=1e-7, atol=1e-9)
 
 
 def opening_of_nodes(generator, n, friction=0.2):
@@ -236,20 +217,16 @@ LAW = {
     "flexibility": st.floats(0.0, 1e-6),
     "pushes": st.lists(st.floats(-1e-3, 4.9e-3), min_size=1, max_size=10),
 }
+DEEP = st.lists(st.floats(-1e-3, 3e-2).map(lambda push: round(push, 9)), min_size=1, max_size=10)
 AREA = 1e-6
-
-
-class Bar:
-    """A lining's numbers with the area (m2) of a bar, as the compiled time integration has them."""
-
-    def __init__(self, lining):
-        self.__dict__ = {**vars(lining), "area": AREA}
 
 
 @given(**LAW)
 def test_lines_of_a_bar_are_its_return_mapping_in_series(elastic, plastic, yield_stress, flexibility, pushes):
     """Pushed again and again, with a flexibility behind it, never worn through."""
-    bar, wear = Bar(Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3)), 0.0
+    lining, wear = Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3), 0.0
+    # the area in place of the method, as the compiled time integration has it
+    bar = SimpleNamespace(**vars(lining) | {"area": AREA})
     series = laws.series_modulus(elastic, elastic * AREA / bar.thickness, flexibility)
     line, offset, slope = laws.lines_of_bar(series, bar)
     for push in pushes:
@@ -263,9 +240,6 @@ def test_lines_of_a_bar_are_its_return_mapping_in_series(elastic, plastic, yield
         assert worn == pytest.approx(expected, rel=1e-9, abs=1e-13 * bar.thickness)
         assert worn >= wear
         wear = float(worn)
-
-
-DEEP = st.lists(st.floats(-1e-3, 3e-2).map(lambda push: round(push, 9)), min_size=1, max_size=10)
 
 
 @settings(max_examples=200)

@@ -1,5 +1,6 @@
 """Patches of the tip in place of mesh nodes: weights, closed forms, and models with all nodes of the edge kept."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -24,7 +25,6 @@ from r37core.rom.contact_weights import contact_weights, mean_positions, weights
 from r37core.rom.reduce import mean_fields, reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import BoundaryError, boundary_located
-from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.simulate import Simulation
 
@@ -46,8 +46,11 @@ def patched(mesh, matrices, choice):
     return reduce_blade(mesh, matrices, replace(choice, boundary=replace(PATCHES, nodes=5)))
 
 
-def reduced_bar(mesh, boundary, choice, material=STEEL):
-    return reduce_blade(mesh, assemble(mesh, material), replace(choice, boundary=boundary, speeds=(0.0,)))
+@pytest.fixture(scope="module")
+def every(mesh, matrices, choice):
+    """The same blade on all nodes of its edge."""
+    count = len(mesh.node_set("tip_pressure_edge"))
+    return reduce_blade(mesh, matrices, replace(choice, boundary=BoundaryChoice("pressure_edge", count, True)))
 
 
 @pytest.mark.parametrize("contact", KINDS)
@@ -68,16 +71,14 @@ def test_weights_are_means(mesh, contact, tip_line, count, corners):
 @pytest.mark.parametrize("contact", KINDS)
 def test_hats_on_a_straight_tip(element, contact):
     """Mean places are those of hats: inside at their positions, of the half ones at a third of their width."""
-    weights = contact_weights(bar(element=element), replace(PATCHES, contact=contact))
-    places = weights @ bar(element=element).parameters[:, 0]
-    np.testing.assert_allclose(places, [1 / 9, 1 / 3, 2 / 3, 8 / 9], atol=1e-12)
-    without_corners = contact_weights(bar(element=element), replace(PATCHES, corners=False, contact=contact))
-    # at the ends half a hat and a piece of one height: (1/8 * 1/16 + 1/8 * (1/8 + 1/12)) / (1/4) of the chord
-    np.testing.assert_allclose(
-        (without_corners @ bar(element=element).parameters[:, 0])[[0, 1]],
-        [(0.125 / 16 + 0.125 * 5 / 24) / 0.25, 0.375],
-        atol=2e-4,
+    mesh = bar(element=element)
+    with_corners, without = (
+        contact_weights(mesh, replace(PATCHES, corners=corners, contact=contact)) @ mesh.parameters[:, 0]
+        for corners in (True, False)
     )
+    np.testing.assert_allclose(with_corners, [1 / 9, 1 / 3, 2 / 3, 8 / 9], atol=1e-12)
+    # at the ends half a hat and a piece of one height: (1/8 * 1/16 + 1/8 * (1/8 + 1/12)) / (1/4) of the chord
+    np.testing.assert_allclose(without[:2], [(0.125 / 16 + 0.125 * 5 / 24) / 0.25, 0.375], atol=2e-4)
 
 
 @pytest.mark.parametrize("element", ["hexahedron20", "wedge15", "tetra10"])
@@ -136,10 +137,9 @@ def test_static_response_to_patches_is_exact_and_reciprocal(mesh, matrices, patc
     np.testing.assert_allclose(reduced, exact, atol=1e-9 * np.abs(exact).max())
 
 
-def test_against_a_model_with_all_nodes_of_the_edge(mesh, matrices, choice, patched):
+def test_against_a_model_with_all_nodes_of_the_edge(mesh, patched, every):
     """The same means of a model that keeps every node: frequencies, static and dynamic flexibility of the patches."""
     line = mesh.node_set("tip_pressure_edge")
-    every = reduce_blade(mesh, matrices, replace(choice, boundary=BoundaryChoice("pressure_edge", len(line), True)))
     np.testing.assert_array_equal(every.contact_nodes.nodes, line)
     weights = contact_weights(mesh, replace(PATCHES, nodes=5))[:, line]
     rows = mean_fields(weights, every.contact_nodes.basis).reshape(15, -1)
@@ -155,7 +155,8 @@ def test_a_beam_of_one_patch_bends_as_a_beam(choice):
     """One patch over the whole tip: the deflection of Timoshenko's cantilever, F L^3/(3 E I) + F L/(kappa G A)."""
     mesh = bar(4, height=0.012)
     boundary = BoundaryChoice("pressure_edge", 1, True, "area_patches")
-    found = la.inv(reduced_bar(mesh, boundary, choice, BEAM).stiffness)[2, 2]
+    reduced = reduce_blade(mesh, assemble(mesh, BEAM), replace(choice, boundary=boundary, speeds=(0.0,)))
+    found = la.inv(reduced.stiffness)[2, 2]
     area, inertia = 0.03 * 0.012, 0.03 * 0.012**3 / 12.0
     beam = 0.1**3 / (3.0 * 2.1e11 * inertia) + 0.1 / (5.0 / 6.0 * 2.1e11 / 2.0 * area)
     assert found == pytest.approx(beam, rel=0.005)
@@ -184,10 +185,7 @@ def test_patches_have_a_limit_in_the_mesh_and_points_have_none(choice):
 @pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
 def test_no_energy_is_made(patched, scene):
     """Forces on patches, coupled through the mesh between them: the balance closes, in either engine, and both agree."""
-    model, choice = (
-        contact_model(patched, "pressure_edge"),
-        IntegrationChoice(3.2e-6, 3, 62, integrator=EXACT_MODAL),
-    )
+    model, choice = contact_model(patched, "pressure_edge"), IntegrationChoice(3.2e-6, 3, 62, integrator=EXACT_MODAL)
     samples = []
     for engine in ("compiled", "reference"):
         simulation = Simulation(model, 1600.0, scene, replace(choice, engine=engine))
@@ -197,15 +195,6 @@ def test_no_energy_is_made(patched, scene):
         assert loss > 0.0
         assert abs(simulation.energy(state) - work + loss) <= 1e-9 * (np.abs(work) + loss)
     np.testing.assert_allclose(samples[0], samples[1], atol=1e-7 * np.abs(samples[1]).max())
-
-
-def test_the_file_holds_them(patched, tmp_path):
-    write_reduced_model(patched, tmp_path / "rom.nc")
-    again = read_reduced_model(tmp_path / "rom.nc")
-    assert again.contact == "patches"
-    np.testing.assert_array_equal(again.contact_chord, patched.contact_chord)
-    np.testing.assert_array_equal(again.contact_nodes.points, patched.contact_nodes.points)
-    np.testing.assert_array_equal(again.contact_nodes.basis, patched.contact_nodes.basis)
 
 
 def test_the_stress_region_leaves_out_every_element_that_contact_acts_on(mesh, matrices, choice):
@@ -236,34 +225,24 @@ def test_patches_of_full_matrices(directory, patched, choice):
     np.testing.assert_allclose(again.contact_chord, patched.contact_chord, atol=0.02)
 
 
-def test_patches_of_reduced_matrices_keep_every_motion(mesh, matrices, choice, tmp_path):
+def test_patches_of_reduced_matrices_keep_every_motion(every, choice, tmp_path):
     """A small model on all nodes of the edge, taken with other coordinates: its modes are the same, its patches means."""
-    line = mesh.node_set("tip_pressure_edge")
-    every = reduce_blade(mesh, matrices, replace(choice, boundary=BoundaryChoice("pressure_edge", len(line), True)))
     write_reduced_matrices(every, SPEEDS, tmp_path)
     again = import_matrices(MatricesSource(str(tmp_path), OURS), replace(choice, boundary=PATCHES))
     assert again.size == every.size
     np.testing.assert_allclose(again.modes(1500.0)[0][:40], every.modes(1500.0)[0][:40], rtol=1e-7)
-    weights = weights_along(every.contact_nodes.points, again.tip_lines["pressure_edge"].nodes / (len(line) - 1), PATCHES)
+    chord = np.linspace(0.0, 1.0, len(every.contact_nodes.nodes))
+    weights = weights_along(every.contact_nodes.points, chord, PATCHES)
     rows = mean_fields(weights, every.contact_nodes.basis).reshape(12, -1)
     np.testing.assert_allclose(again.contact_nodes.basis.reshape(12, -1)[:, :12], np.eye(12), atol=1e-8)
     flexibility = rows @ la.solve(every.stiffness, rows.T)
     np.testing.assert_allclose(la.inv(again.stiffness)[:12, :12], flexibility, atol=2e-3 * np.abs(flexibility).max())
 
 
-@pytest.mark.parametrize(
-    ("count", "message"),
-    [
-        (
-            16,
-            r"found 16 contact patches on the 29 mesh nodes of the tip line 'pressure_edge'; allowed: at most 15 "
-            r"\(structure\.boundary\.nodes\), because between two patches there must be a node; or contact: points, or a",
-        ),
-        (200, "found 200 contact patches .* allowed: at most 15"),
-    ],
-)
-def test_more_patches_than_the_edge_has_nodes_for(mesh, count, message):
-    with pytest.raises(BoundaryError, match=message):
+@pytest.mark.parametrize("count", [16, 200])
+def test_more_patches_than_the_edge_has_nodes_for(mesh, count):
+    found = rf"found {count} contact patches on the 29 mesh nodes of the tip line 'pressure_edge'; allowed: at most 15 "
+    with pytest.raises(BoundaryError, match=rf"{found}\(structure\.boundary\.nodes\), because .*; or contact: points, or a"):
         contact_weights(mesh, replace(PATCHES, nodes=count))
     with pytest.raises(BoundaryError, match="on the 29 mesh nodes, one behind the other, of the tip; allowed: at most 15"):
         contact_weights(mesh, replace(PATCHES, nodes=count, contact="area_patches"))
@@ -298,46 +277,44 @@ Sweep: { base: Ref, vary: { chordwise_sweep_deg: [5, 10] } }
 """
 
 
-def chosen(folder, **changes):
-    """What contact acts on, by blade."""
-    settings = read_settings(folder, command_line_document(changes))
-    return {name: settings.reduction_choice(name).boundary.contact for name in settings.blades}
-
-
 @pytest.fixture
-def with_blades(config_copy):
+def settings_with(config_copy):
+    """Settings of a project with those blades, and with changes by the command line."""
     with open(config_copy / "config/blades.yaml", "a") as stream:
         stream.write(BLADES)
-    return config_copy
+
+    def read(boundary=None, **changes):
+        return read_settings(config_copy, command_line_document({"structure": {"boundary": boundary or {}}} | changes))
+
+    return read
 
 
-def test_the_benchmark_has_points_and_every_other_blade_patches(with_blades):
-    found = chosen(with_blades)
+def test_the_benchmark_has_points_and_every_other_blade_patches(settings_with):
+    def chosen(settings):
+        return {name: settings.reduction_choice(name).boundary.contact for name in settings.blades}
+
+    settings, point_contact = settings_with(), settings_with({"contact": "points"})
     own = {"Mine": "patches", "Kept": "points", "Sweep_5": "patches", "Sweep_10": "patches"}
-    assert found == dict.fromkeys(("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100"), "points") | own
-    assert set(chosen(with_blades, structure={"boundary": {"contact": "area_patches"}}).values()) == {"area_patches"}
-    settings = read_settings(with_blades)
-    point_contact = read_settings(with_blades, command_line_document({"structure": {"boundary": {"contact": "points"}}}))
+    assert chosen(settings) == dict.fromkeys(("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100"), "points") | own
+    assert set(chosen(settings_with({"contact": "area_patches"})).values()) == {"area_patches"}
     assert structure_hash(settings, "Mine") != structure_hash(point_contact, "Mine")
 
 
-def test_direct_contact_on_points_is_told_at_the_end(with_blades):
-    def told(**changes):
-        return remarks_on_points(read_settings(with_blades, command_line_document(changes)))
+def test_direct_contact_on_points_is_told_at_the_end(settings_with):
+    def told(*boundary, **changes):
+        return remarks_on_points(settings_with(*boundary, **changes))
 
     (remark,) = told(blades=["Ref", "S50", "Mine"])
     assert remark.startswith("direct: contact of 2 blades acts on points, as published, and changes with every finer mesh")
     assert "structure.boundary.contact: patches" in remark
     assert told(blades=["Ref"])[0].startswith("direct: contact of Ref acts")
     assert told(blades=["Ref"], scenes=["abradable"]) == told(blades=["Mine"]) == []
-    assert told(structure={"boundary": {"contact": "patches"}}) == []
+    assert told({"contact": "patches"}) == []
 
 
-def test_the_place_that_chose_is_blamed(with_blades):
-    settings = read_settings(with_blades)
-    assert location_of_contact(settings, "Kept").endswith(": Kept.contact")
-    assert location_of_contact(settings, "Kept").startswith("config/blades.yaml:")
-    given = read_settings(with_blades, command_line_document({"structure": {"boundary": {"contact": "patches"}}}))
+def test_the_place_that_chose_is_blamed(settings_with):
+    own, given = settings_with(), settings_with({"contact": "patches"})
+    assert re.fullmatch(r"config/blades\.yaml:\d+: Kept\.contact", location_of_contact(own, "Kept"))
     assert location_of_contact(given, "Kept") == "--config: structure.boundary.contact"
     with (
         pytest.raises(BoundaryError, match=r"^--config: structure\.boundary\.contact: no room"),
@@ -347,26 +324,17 @@ def test_the_place_that_chose_is_blamed(with_blades):
 
 
 @pytest.mark.parametrize(
-    ("changes", "message"),
+    ("blade", "boundary", "message"),
     [
-        ({"structure": {"boundary": {"nodes": 60}}, "blades": ["Mine"]}, r"nodes: blade 'Mine': found 60 .* at most 43 \("),
-        (
-            {"structure": {"boundary": {"nodes": 44, "contact": "patches"}}},
-            r"blade 'Ref': found 44 contact patches on the 85 mesh",
-        ),
-        (
-            {"structure": {"boundary": {"nodes": 23, "contact": "patches", "tip_line": "camber"}}},
-            r"found 23 contact patches on the 43 mesh nodes of the tip line 'camber'; allowed: at most 22",
-        ),
-        (
-            {"structure": {"boundary": {"contact": "mortar"}}},
-            r"contact: found 'mortar'; allowed: one of points, patches, area_p",
-        ),
+        ("Mine", {"nodes": 60}, r"nodes: blade 'Mine': found 60 .* at most 43 \("),
+        ("Ref", {"nodes": 44, "contact": "patches"}, "blade 'Ref': found 44 contact patches on the 85 mesh"),
+        ("Ref", {"nodes": 23, "contact": "patches", "tip_line": "camber"}, "found 23 .* the tip line 'camber'; .* at most 22"),
+        ("Ref", {"contact": "mortar"}, "contact: found 'mortar'; allowed: one of points, patches, area_p"),
     ],
 )
-def test_what_is_refused_before_anything_is_made(with_blades, changes, message):
+def test_what_is_refused_before_anything_is_made(settings_with, blade, boundary, message):
     with pytest.raises(ConfigError, match=message) as refusal:
-        read_settings(with_blades, command_line_document(changes))
+        settings_with(boundary, blades=[blade])
     assert "\n" not in str(refusal.value)
     # as many as there is room for
-    read_settings(with_blades, command_line_document({"structure": {"boundary": {"nodes": 43, "contact": "patches"}}}))
+    settings_with({"nodes": 43, "contact": "patches"})

@@ -85,10 +85,3 @@ def test_box_quadrature_is_exact_to_its_degree():
     points, weights = box_rule(3)
     assert weights @ np.prod(points ** [4, 2, 4], axis=1) == pytest.approx(2 / 5 * 2 / 3 * 2 / 5)
     assert weights @ np.prod(points ** [5, 0, 2], axis=1) == pytest.approx(0.0)
-
-
-def test_unknown_rule():
-    with pytest.raises(KeyError):
-        wedge_rule(4, 3)
-    with pytest.raises(KeyError):
-        tetrahedron_rule(5)

@@ -1,5 +1,6 @@
 """Meshes from other programs: read, checked, turned, refused with a reason."""
 
+import re
 import subprocess
 import sys
 import warnings
@@ -8,7 +9,7 @@ from dataclasses import replace
 import gmsh
 import numpy as np
 import pytest
-from box_mesh import plate
+from box_mesh import TITANIUM, plate, write_deck
 from defaults import MeshSource, Orientation, Where
 from pydantic import TypeAdapter, ValidationError
 from scipy import constants
@@ -17,12 +18,12 @@ from r37core.config.imported_entry import LengthUnit
 from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.import_mesh import _READERS, import_mesh
 from r37core.exchange.importing.meshio_reader import quietly, read_with_meshio
-from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, digest_of, mesh_files
+from r37core.exchange.importing.source import MASS_UNITS, STIFFNESS_UNITS, SUFFIXES, mesh_files
+from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning, located
 from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
-from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
 from r37core.fem.solver import lowest_modes
@@ -31,9 +32,6 @@ from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.rom.naming import ideal_shapes
 from r37core.units import LENGTH_UNITS
-
-OURS = Orientation("m", rotor_axis=(0, 0, 1), radial=(1, 0, 0), rotation="negative")
-TITANIUM = Material(115e9, 4400.0, 0.32, 9e8)
 
 
 def source(file, **changes):
@@ -117,25 +115,30 @@ def test_archives_of_ansys_need_the_extra_package(tmp_path, monkeypatch):
         import_mesh(source("mesh.cdb"), tmp_path)
 
 
-@pytest.mark.parametrize("suffix", ["msh", "inp", "bdf", "med"])
-def test_files_written_by_gmsh(tmp_path, suffix):
-    """Millimetres, rotor axis along x, blade along z, and gmsh's own way to write each format."""
-    file = tmp_path / f"plate.{suffix}"
+def write_with_gmsh(file, size, grouped=True):
+    """A plate in millimetres, rotor axis along x, blade along z, in gmsh's own way to write a format."""
     gmsh.initialize(interruptible=False)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
         gmsh.model.occ.addBox(0, -2, 200, 30, 4, 60)
         gmsh.model.occ.synchronize()
-        gmsh.model.addPhysicalGroup(3, [1], name="blade")
-        for height, name in ((200, "root"), (260, "tip")):
-            tags = [t for _, t in gmsh.model.getEntities(2) if abs(gmsh.model.occ.getCenterOfMass(2, t)[2] - height) < 1e-6]
-            gmsh.model.addPhysicalGroup(2, tags, name=name)
+        if grouped:
+            gmsh.model.addPhysicalGroup(3, [1], name="blade")
+            for height, name in ((200, "root"), (260, "tip")):
+                tags = [t for _, t in gmsh.model.getEntities(2) if abs(gmsh.model.occ.getCenterOfMass(2, t)[2] - height) < 1e-6]
+                gmsh.model.addPhysicalGroup(2, tags, name=name)
         gmsh.option.setNumber("Mesh.ElementOrder", 2)
-        gmsh.option.setNumber("Mesh.MeshSizeMax", 6)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", size)
         gmsh.model.mesh.generate(3)
         gmsh.write(str(file))
     finally:
         gmsh.finalize()
+
+
+@pytest.mark.parametrize("suffix", ["msh", "inp", "bdf", "med"])
+def test_files_written_by_gmsh(tmp_path, suffix):
+    file = tmp_path / f"plate.{suffix}"
+    write_with_gmsh(file, 6)
     rules = {"root": Where(limits=(("x", "at_most", 0.2),)), "tip": Where(limits=(("r", "at_least", 0.26),))}
     orientation = Orientation("mm", rotor_axis=(1, 0, 0), radial=(0, 0, 1), rotation="negative")
     given = source(file, orientation=orientation, **rules if suffix == "bdf" else {})
@@ -153,19 +156,7 @@ def test_files_written_by_gmsh(tmp_path, suffix):
 @pytest.mark.parametrize("grouped", [False, True])
 def test_meshes_of_gmsh_have_no_set_of_bounding_entities(tmp_path, grouped):
     """meshio has one of a 4.1 file, with gmsh's own numbers of surfaces in it."""
-    gmsh.initialize(interruptible=False)
-    try:
-        gmsh.option.setNumber("General.Terminal", 0)
-        gmsh.model.occ.addBox(0, -2, 200, 30, 4, 60)
-        gmsh.model.occ.synchronize()
-        if grouped:
-            gmsh.model.addPhysicalGroup(3, [1], name="blade")
-        gmsh.option.setNumber("Mesh.ElementOrder", 2)
-        gmsh.option.setNumber("Mesh.MeshSizeMax", 15)
-        gmsh.model.mesh.generate(3)
-        gmsh.write(str(tmp_path / "plate.msh"))
-    finally:
-        gmsh.finalize()
+    write_with_gmsh(tmp_path / "plate.msh", 15, grouped)
     mesh = read_with_meshio(tmp_path / "plate.msh")
     assert list(mesh.blocks) == ["tetra10"] and not any("bounding" in name for name in mesh.sets)
     assert ("blade" in mesh.sets) == grouped
@@ -201,26 +192,21 @@ def test_pressure_side_of_a_turbine(files):
 
 
 def deck(tmp_path, change=lambda text: text, element="hexahedron20"):
-    """The plate's deck, changed as text."""
-    write_abaqus(plate(element), tmp_path / "mesh.inp", TITANIUM, "plate")
-    file = tmp_path / "mesh.inp"
-    file.write_text(change(file.read_text()))
-    return file
+    write_deck(tmp_path / "mesh.inp", change, element)
+    return tmp_path / "mesh.inp"
 
 
 def test_decks_as_other_programs_write_them(tmp_path):
-    """Small letters, comments inside blocks, two *NODE blocks, sets of sets, element faces, a reference point."""
+    """Small letters, comments inside blocks, two *NODE blocks, no zeros, sets of sets, element faces, a reference point."""
     expected = assemble(plate(), TITANIUM)
 
     def rewritten(text):
-        text = text.replace("*ELEMENT, TYPE=C3D20,", "** a comment\n*Element, type=c3d20R,").replace(
-            "NSET=ALL_NODES", "nset=all"
-        )
-        text = text.replace("\n20, ", "\n** half of them\n*NODE\n20, ", 1)
+        text = text.replace("*ELEMENT, TYPE=C3D20,", "** a comment\n*Element, type=c3d20R,")
+        text = text.replace("NSET=ALL_NODES", "nset=all").replace("\n20, ", "\n\n ** half of them\n*NODE\n20, ", 1)
+        text = text.replace(", 0.0\n", "\n")
         text = text.replace(", ELSET=BLADE", ",\n ELSET=BLADE").replace("NSET=TIP\n", 'NSET="TIP"\n')
-        return text.replace(
-            "*MATERIAL", "*ASSEMBLY\n*NODE\n1, 9., 9., 9.\n*END ASSEMBLY\n*Nset, nset=Clamped\nROOT,\n*MATERIAL"
-        )
+        more = "*ASSEMBLY\n*NODE\n1, 9., 9., 9.\n*END ASSEMBLY\n*Nset, nset=Clamped\nROOT,"
+        return text.replace("*MATERIAL", f"{more}\n*MATERIAL")
 
     mesh, _ = import_mesh(source(deck(tmp_path, rewritten), root=Where("CLAMPED")))
     assert difference(assemble(mesh, TITANIUM), expected) < 1e-12
@@ -255,13 +241,11 @@ def renumbered(text, element, other):
 
 
 def second_part(text):
-    rows = text.split("*NODE, NSET=ALL_NODES\n")[1].split("*ELEMENT")[0].splitlines()
-    elements = text.split("ELSET=BLADE\n")[1].split("*NSET")[0].replace("\n", " ").split(",")
-    elements = [int(cell) for cell in " ".join(elements).split()]
-    nodes = "\n".join(f"{int(row.split(',')[0]) + 5000}, " + row.split(", ", 1)[1] for row in rows)
-    blocks = [elements[i : i + 21] for i in range(0, len(elements), 21)]
-    lines = [", ".join(map(str, [block[0] + 5000, *(node + 5000 for node in block[1:])])) for block in blocks]
-    return text.replace("*MATERIAL", f"*NODE\n{nodes}\n*ELEMENT, TYPE=C3D20\n" + "\n".join(lines) + "\n*MATERIAL")
+    """The deck with its nodes and elements once more, under other numbers."""
+    nodes, elements = re.search(r"NSET=ALL_NODES\n(.*?)\*ELEMENT[^\n]*\n(.*?)\*NSET", text, re.DOTALL).groups()
+    nodes = re.sub(r"(?m)^\d+", lambda number: f"{int(number[0]) + 5000}", nodes)
+    elements = re.sub(r"\d+", lambda number: f"{int(number[0]) + 5000}", elements)
+    return text.replace("*MATERIAL", f"*NODE\n{nodes}*ELEMENT, TYPE=C3D20\n{elements}*MATERIAL")
 
 
 @pytest.mark.parametrize(
@@ -309,6 +293,13 @@ def test_free_nodes_may_be_dropped(tmp_path):
     assert difference(assemble(mesh, TITANIUM), assemble(plate(), TITANIUM)) < 1e-12
 
 
+def turned_by(**orientation):
+    return {"orientation": replace(OURS, **orientation)}
+
+
+NEAR_TIP = (("r", "at_least", 0.2495),)
+
+
 def reordered(mesh, order):
     return replace(mesh, blocks={name: nodes[:, order] for name, nodes in mesh.blocks.items()})
 
@@ -332,56 +323,50 @@ def some_twice(mesh):
         (some_twice, r"2 of 20 elements of type hexahedron20 are given twice.* \(numbers 1 and 19, 4 and 20 of their type"),
         (some_turned, r"2 of 18 elements of type hexahedron20 are inside out"),
         (lambda m: reordered(m, [*range(8), *range(16, 20), *range(8, 16)]), r"mid-nodes off their edges .* node order"),
-        (lambda m: replace(m, points=m.points + 20 * m.points[:, [1]] * [1, 0, 0]), "scaled Jacobian below minimum_scaled_jac"),
     ],
 )
 def test_bad_elements_are_refused(tmp_path, change, message):
     write_mesh(change(plate()), tmp_path / "mesh.vtu")
     with pytest.raises(ImportRefused, match=message):
-        import_mesh(source("mesh.vtu", minimum_scaled_jacobian=0.3), tmp_path)
+        import_mesh(source("mesh.vtu"), tmp_path)
 
 
-def test_all_elements_of_the_other_winding_are_turned(tmp_path):
-    mesh = reordered(plate(), ELEMENTS["hexahedron20"].mirrored)
-    write_mesh(mesh, tmp_path / "mesh.vtu")
-    again, quality = import_mesh(source("mesh.vtu"), tmp_path)
-    assert quality.min() > 0.0
+@pytest.mark.parametrize("slope", [0.0, 30.0])
+def test_all_elements_of_the_other_winding_are_turned(tmp_path, slope):
+    """However thin they are."""
+    mesh = plate()
+    mesh = replace(mesh, points=mesh.points + slope * (mesh.points[:, :1] - 0.2) * [0.0, 0.0, 1.0])
+    write_mesh(reordered(mesh, ELEMENTS["hexahedron20"].mirrored), tmp_path / "mesh.vtu")
+    again, quality = import_mesh(source("mesh.vtu", minimum_scaled_jacobian=0.0), tmp_path)
+    assert quality.min() > 0.0 and (quality.min() < 0.1) == (slope > 0.0)
     assert assemble(again, TITANIUM).total_mass == pytest.approx(4400 * 0.06 * 0.004 * 0.03)
 
 
 @pytest.mark.parametrize(
-    ("changes", "message"),
+    ("changes", "key", "message"),
     [
-        (
-            {"orientation": replace(OURS, length_unit="mm")},
-            r"length_unit mm or rotor_axis does not fit .* fitting units: m \(0\.06",
-        ),
-        ({"orientation": replace(OURS, radial=(0, 1, 0))}, r"-90 degrees round the axis from `radial`"),
-        ({"orientation": replace(OURS, radial=(0, 0, 2))}, "must be two directions, not parallel"),
-        (
-            {"orientation": replace(OURS, axis_point=(-1e6, 0, 0.0))},
-            r"would reach to 1\.\d+e\+06 m from the rotor axis \(allowed: 10 m",
-        ),
-        ({"orientation": replace(OURS, axis_point=(0.23, 0, 0.0))}, "passes through the blade|from `radial`"),
-        ({"orientation": replace(OURS, rotor_axis=(0, 1, 0))}, "revolution|tell"),
-        ({"tip": Where("root")}, r"a radius of 0\.2 m and a tip at 0\.2 m"),
-        ({"tip": Where("blade")}, "found no set 'blade'"),
-        ({"tip": Where(limits=(("r", "at_least", 0.3),))}, r"no outer face .* the rule 'r at least 0.3 m, to 0.0001 m'; give"),
-        ({"tip": Where(cone_zr=((0.0, 0.27), (0.03, 0.25)))}, r"the cone through \(z, r\) = \(0, 0.27\) and \(0.03, 0.25\) m"),
-        (
-            {"tip": Where(limits=(("r", "at_least", 0.2495),))},
-            r"caught 3 of the 3 faces .*; it also caught 8 side faces: narrow",
-        ),
-        (
-            {"tip": Where(limits=(("r", "at_least", 0.2495),)), "end_check": False},
-            "no surface of revolution about the rotor axis",
-        ),
+        ({"file": "none.vtu"}, "mesh", r"there is no file .*none\.vtu"),
+        ({"minimum_scaled_jacobian": 1.0}, "mesh", "scaled Jacobian below minimum_scaled_jac"),
+        (turned_by(length_unit="mm"), "length_unit", r"length_unit mm or rotor_axis does not fit .* fitting units: m \(0\.06"),
+        (turned_by(radial=(0, 1, 0)), "radial", "-90 degrees round the axis from `radial`"),
+        (turned_by(axis_point=(-1e6, 0, 0.0)), "axis_point", r"would reach to 1\.\d+e\+06 m from the .* \(allowed: 10 m"),
+        (turned_by(axis_point=(0.23, 0, 0.0)), "radial", "passes through the blade|from `radial`"),
+        ({"root": Where("HUB")}, "root", "found no set 'HUB'"),
+        ({"tip": Where("root")}, "root", r"a radius of 0\.2 m and a tip at 0\.2 m"),
+        ({"tip": Where("blade")}, "tip", "found no set 'blade'"),
+        ({"tip": Where(limits=(("r", "at_least", 0.3),))}, "tip", "no outer face .* the rule 'r at least 0.3 m, to 0.0001 m'"),
+        ({"tip": Where(cone_zr=((0.0, 0.27), (0.03, 0.25)))}, "tip", r"the cone through \(z, r\) = \(0, 0.27\) and \(0.03, 0"),
+        ({"tip": Where(limits=NEAR_TIP)}, "tip", "caught 3 of the 3 faces .*; it also caught 8 side faces: narrow"),
+        ({"tip": Where(limits=NEAR_TIP), "end_check": False}, "tip", "no surface of revolution about the rotor axis"),
     ],
 )
-def test_wrong_orientation_and_rules_are_refused(tmp_path, changes, message):
+def test_wrong_orientation_and_rules_are_refused(tmp_path, changes, key, message):
+    """The location of the key to blame goes in front where the configuration gives one."""
     write_mesh(plate(), tmp_path / "mesh.vtu")
-    with pytest.raises(ImportRefused, match=message):
-        import_mesh(source("mesh.vtu", **changes), tmp_path)
+    place = f"blades.yaml:3: Fan.{key}"
+    with pytest.raises(ImportRefused, match=f"^{place}: .*(?:{message})") as refusal, located({key: place}):
+        import_mesh(replace(source("mesh.vtu"), **changes), tmp_path)
+    assert refusal.value.key == key
 
 
 def test_a_unit_may_be_a_quotient():
@@ -404,14 +389,8 @@ def test_a_blade_larger_than_any_is_told():
 
 
 def test_units_are_those_of_si():
-    assert pytest.approx(LENGTH_UNITS, rel=1e-15) == {
-        "m": 1.0,
-        "cm": constants.centi,
-        "mm": constants.milli,
-        "um": constants.micro,
-        "in": constants.inch,
-        "ft": constants.foot,
-    }
+    metric = {"m": 1.0, "cm": constants.centi, "mm": constants.milli, "um": constants.micro}
+    assert pytest.approx(LENGTH_UNITS, rel=1e-15) == metric | {"in": constants.inch, "ft": constants.foot}
     assert pytest.approx(MASS_UNITS, rel=1e-15) == {"kg": 1.0, "g": constants.gram, "t": constants.metric_ton}
     assert pytest.approx(STIFFNESS_UNITS, rel=1e-15) == {"N/m": 1.0, "N/mm": 1.0 / constants.milli}
 
@@ -427,54 +406,16 @@ def test_an_included_file_is_one_of_the_mesh(tmp_path):
         mesh_files("mesh.inp", tmp_path)
     (tmp_path / "parts/more.inp").write_text("*NSET, NSET=EXTRA\n1, 2\n")
     assert [file.name for file in mesh_files("mesh.inp", tmp_path)] == ["mesh.inp", "more.inp"]
-    before = digest_of(mesh_files("mesh.inp", tmp_path))
-    (tmp_path / "parts/more.inp").write_text("*NSET, NSET=EXTRA\n1, 3\n")
-    assert digest_of(mesh_files("mesh.inp", tmp_path)) != before
     with pytest.raises(ImportRefused, match=r"found no set 'MISSING'; the file has: .*EXTRA"):
         import_mesh(source("mesh.inp", root=Where("MISSING")), tmp_path)
 
 
-@pytest.mark.parametrize(
-    ("changes", "key"),
-    [
-        ({"file": "none.vtu"}, "mesh"),
-        ({"minimum_scaled_jacobian": 1.0}, "mesh"),
-        ({"orientation": replace(OURS, length_unit="mm")}, "length_unit"),
-        ({"orientation": replace(OURS, radial=(0, 1, 0))}, "radial"),
-        ({"root": Where("HUB")}, "root"),
-        ({"tip": Where("HUB")}, "tip"),
-        ({"tip": Where(limits=(("r", "at_least", 0.2495),))}, "tip"),
-    ],
-)
-def test_a_refusal_blames_a_key(tmp_path, changes, key):
-    """The location of the key goes in front where the configuration gives one."""
-    write_mesh(plate(), tmp_path / "mesh.vtu")
-    with (
-        pytest.raises(ImportRefused, match=f"^blades.yaml:3: Fan.{key}: ") as refusal,
-        located({key: f"blades.yaml:3: Fan.{key}"}),
-    ):
-        import_mesh(replace(source("mesh.vtu"), **changes), tmp_path)
-    assert refusal.value.key == key
-
-
 def test_files_that_cannot_be_read(tmp_path):
-    for name, text in {
-        "a.med": "no HDF5",
-        "a.msh": "$MeshFormat\n9 0 8\n",
-        "a.bdf": "GRID,x\n",
-        "a.vtu": "<VTKFile",
-        "a.inp": "*NODE\nx",
-    }.items():
-        (tmp_path / name).write_text(text)
-        with pytest.raises(ImportRefused, match=name.replace(".", r"\.")):
-            import_mesh(source(name), tmp_path)
-    with pytest.raises(ImportRefused, match=r"there is no file .*none\.msh"):
-        import_mesh(source("none.msh"), tmp_path)
-    (tmp_path / "a.step").write_text("ISO-10303-21;\n")
-    with pytest.raises(
-        ImportRefused, match=r"found a file of kind '\.step' .* allowed: \.inp.*, and Abaqus text with any ending"
-    ):
-        import_mesh(source("a.step"), tmp_path)
+    texts = {"med": "no HDF5", "msh": "$MeshFormat\n9 0 8\n", "bdf": "GRID,x\n", "vtu": "<VTKFile", "inp": "*NODE\nx"}
+    for suffix, text in texts.items():
+        (tmp_path / f"a.{suffix}").write_text(text)
+        with pytest.raises(ImportRefused, match=rf"a\.{suffix}"):
+            import_mesh(source(f"a.{suffix}"), tmp_path)
 
 
 def test_a_reader_that_exits_does_not_escape(tmp_path):
@@ -490,9 +431,3 @@ def test_linear_elements_are_warned_of(tmp_path):
     file = deck(tmp_path, element="hexahedron")
     with pytest.warns(MeshWarning, match=r"first order \(hexahedron\) are too stiff in bending"):
         import_mesh(source(file))
-
-
-def test_mixed_units_of_the_material():
-    TITANIUM.check_units()
-    with pytest.raises(ValueError, match="Units seem to be mixed"):
-        replace(TITANIUM, youngs_modulus=115e3, density=4.4e-9).check_units()

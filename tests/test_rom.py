@@ -8,6 +8,7 @@ import scipy.linalg as la
 import scipy.sparse as sp
 from defaults import BoundaryChoice
 
+from r37core.fem.matrices import static_displacement
 from r37core.fem.solver import lowest_modes
 from r37core.io import InputFileError
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes
@@ -29,11 +30,6 @@ def boundary_rows(matrices, model):
     return sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), shape=(len(dofs), matrices.mass().shape[0]))
 
 
-@pytest.fixture(scope="module")
-def rich_model(mesh, matrices, choice):
-    return reduce_blade(mesh, matrices, replace(choice, fixed_interface_modes=20))
-
-
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_published_size_against_the_full_model(matrices, model, speed):
     """Ten fixed-interface modes: six frequencies within 1e-4, ten within 5e-4, all from above (Rayleigh)."""
@@ -44,10 +40,10 @@ def test_published_size_against_the_full_model(matrices, model, speed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("speed", SPEEDS)
-def test_twenty_fixed_modes_bring_ten_frequencies_within_1e_4(matrices, rich_model, speed):
-    error = rich_model.modes(speed, 10)[0] / full_frequencies(matrices, speed) - 1.0
-    assert np.all(np.abs(error) < 1e-4)
+def test_twenty_fixed_modes_bring_ten_frequencies_within_1e_4(mesh, matrices, choice):
+    rich_model = reduce_blade(mesh, matrices, replace(choice, fixed_interface_modes=20))
+    for speed in SPEEDS:
+        np.testing.assert_allclose(rich_model.modes(speed, 10)[0], full_frequencies(matrices, speed), rtol=1e-4)
 
 
 def test_columns_are_counted(model, choice):
@@ -68,19 +64,15 @@ def test_boundary_coordinates_are_the_displacements(mesh, model):
 
 
 def test_static_response_to_a_tip_load_is_exact(mesh, matrices, model):
-    from r37core.fem.matrices import static_displacement
-
     load = np.zeros_like(mesh.points)
     load[model.contact_nodes.nodes[2]] = [10.0, -40.0, 25.0]
     exact = static_displacement(matrices, load)
     force = np.zeros(model.size)
     force[6:9] = [10.0, -40.0, 25.0]
     reduced = la.solve(model.stiffness, force, assume_a="pos")
-    for line in model.tip_lines.values():
-        error = line.basis @ reduced - exact[line.nodes]
+    for part in (*model.tip_lines.values(), model.stress_submesh):
+        error = part.basis @ reduced - exact[part.nodes]
         assert np.abs(error).max() < 1e-9 * np.abs(exact).max()
-    error = model.stress_submesh.basis @ reduced - exact[model.stress_submesh.nodes]
-    assert np.abs(error).max() < 1e-9 * np.abs(exact).max()
 
 
 @pytest.mark.slow
@@ -126,25 +118,16 @@ def test_rotation_terms_only_when_asked(mesh, matrices, choice, model, tmp_path)
     assert full.whole_blade.basis.shape == (len(mesh.points), 3, full.size)
     stiffness = matrices.stiffness() + 1500.0**2 * (matrices.geometric_stiffness() + matrices.spin_softening())
     exact = np.sqrt(lowest_modes(stiffness, matrices.mass(), 10)[0])
-    without_coriolis = replace(full, coriolis=None)
-    np.testing.assert_allclose(without_coriolis.modes(1500.0, 10)[0], exact, rtol=1e-4)
-
-
-@pytest.mark.slow
-def test_coriolis_modes_satisfy_the_quadratic_eigenproblem(turning):
-    model = turning
-    speed = 1500.0
-    frequencies, shapes = model.modes(speed, 6)
-    for frequency, shape in zip(frequencies, shapes.T, strict=True):
-        elastic = model.stiffness_at(speed) @ shape
-        residual = elastic + 1j * frequency * speed * (model.coriolis @ shape) - frequency**2 * (model.mass @ shape)
-        assert np.linalg.norm(residual) < 1e-7 * np.linalg.norm(elastic)
+    np.testing.assert_allclose(replace(full, coriolis=None).modes(1500.0, 10)[0], exact, rtol=1e-4)
 
 
 def test_file_holds_the_model(model, tmp_path):
     file = tmp_path / "rom.nc"
-    write_reduced_model(model, file, {"blade": "Ref"})
+    write_reduced_model(replace(model, contact="patches"), file, {"blade": "Ref"})
     again = read_reduced_model(file)
+    assert again.contact == "patches"
+    for field in ("points", "basis"):
+        np.testing.assert_array_equal(getattr(again.contact_nodes, field), getattr(model.contact_nodes, field))
     for name in ("stiffness", "mass", "geometric_stiffness", "shape_products", "contact_chord"):
         np.testing.assert_array_equal(getattr(again, name), getattr(model, name))
     np.testing.assert_array_equal(again.stress_elements["wedge15"], model.stress_elements["wedge15"])

@@ -54,16 +54,8 @@ def test_the_seven_blades_as_they_are(exported):
     ("changes", "key", "message"),
     [
         ({"rotation": "positive"}, "rotation", rf"{ANGLES}; .*; change rotation; sense_check: false"),
-        (
-            {"rotor_axis": UPSTREAM, "rotation": "positive"},
-            "rotor_axis",
-            rf"{ANGLES}; .*; change rotor_axis if it points upstream",
-        ),
-        (
-            {"rotor_axis": UPSTREAM},
-            "pressure_side",
-            r"looks along the rotation and is convex \(camber -\d\.\d degrees, stagger \+6",
-        ),
+        ({"rotor_axis": UPSTREAM, "rotation": "positive"}, "rotor_axis", rf"{ANGLES}; .*; change rotor_axis if it points"),
+        ({"rotor_axis": UPSTREAM}, "pressure_side", r"looks along .* is convex \(camber -\d\.\d degrees, stagger \+6"),
     ],
 )
 def test_the_seven_blades_turned_the_wrong_way(exported, changes, key, message):
@@ -82,25 +74,20 @@ def test_the_wrong_pressure_side(exported):
         import_mesh(source(exported, replace(OURS, rotation="positive"), pressure_side_forward=False))
 
 
-@pytest.fixture
-def plate(tmp_path):
+def turned_plate(folder, stagger):
     """A flat plate, turned about the blade by an angle (degrees); the leading edge goes ahead with a positive one."""
-
-    def write(stagger):
-        mesh = box_mesh(0.06, 0.004, 0.03, (6, 1, 3), origin=(0.2, -0.002, -0.015), element="hexahedron20")
-        angle = np.radians(stagger)
-        x, y, z = mesh.points.T
-        turned = np.stack([x, y * np.cos(angle) + z * np.sin(angle), z * np.cos(angle) - y * np.sin(angle)], axis=1)
-        write_mesh(replace(mesh, points=turned), tmp_path / "plate.vtu")
-        return source(tmp_path / "plate.vtu", revolution_tolerance=1e-3)
-
-    return write
+    mesh = box_mesh(0.06, 0.004, 0.03, (6, 1, 3), origin=(0.2, -0.002, -0.015), element="hexahedron20")
+    angle = np.radians(stagger)
+    x, y, z = mesh.points.T
+    turned = np.stack([x, y * np.cos(angle) + z * np.sin(angle), z * np.cos(angle) - y * np.sin(angle)], axis=1)
+    write_mesh(replace(mesh, points=turned), folder / "plate.vtu")
+    return source(folder / "plate.vtu", revolution_tolerance=1e-3)
 
 
 @pytest.mark.parametrize("stagger", [0.0, 4.0, -4.0])
 @pytest.mark.parametrize("rotation", ["positive", "negative"])
-def test_a_flat_plate_along_the_axis_tells_nothing(plate, stagger, rotation):
-    given = plate(stagger)
+def test_a_flat_plate_along_the_axis_tells_nothing(tmp_path, stagger, rotation):
+    given = turned_plate(tmp_path, stagger)
     with pytest.warns(MeshWarning) as said:
         import_mesh(replace(given, orientation=replace(OURS, rotation=rotation)))
     rotation, side = (str(one.message) for one in said)
@@ -108,8 +95,8 @@ def test_a_flat_plate_along_the_axis_tells_nothing(plate, stagger, rotation):
     assert side.startswith("pressure_side is taken as given: the tip's camber of ")
 
 
-def test_a_flat_plate_at_an_angle_tells_the_rotation(plate):
-    given = plate(30.0)
+def test_a_flat_plate_at_an_angle_tells_the_rotation(tmp_path):
+    given = turned_plate(tmp_path, 30.0)
     with pytest.warns(MeshWarning, match="pressure_side is taken as given"):
         import_mesh(given)
     with pytest.raises(ImportRefused, match="change rotation, or rotor_axis if it points upstream"):
@@ -152,18 +139,14 @@ def test_a_table_of_a_turbine(settings):
 
 
 def test_a_mirrored_table(config_copy):
-    table = config_copy / "config/profiles/rotor37.csv"
+    table, blades = config_copy / "config/profiles/rotor37.csv", config_copy / "config/blades.yaml"
     head, *rows = [line.split(",") for line in table.read_text().splitlines()]
     mirrored = [[f"-{cell}" if "kappa" in name else cell for name, cell in zip(head, row, strict=True)] for row in rows]
     (table.parent / "mirrored.csv").write_text("\n".join(",".join(row) for row in [head, *mirrored]) + "\n")
-    blades = config_copy / "config/blades.yaml"
-    text = blades.read_text()
-    blades.write_text(text.replace("profiles/rotor37.csv", "profiles/mirrored.csv"))
-    with pytest.raises(
-        ConfigError,
-        match=r"^config/profiles/mirrored\.csv: blade Ref: span 100%: found a stagger of -60\.\d degrees, so the trailing edge "
-        "would lead in the rotation; change the sign of kappa_ic, kappa_tc and kappa_oc in all rows; sense_check: false",
-    ):
+    blades.write_text(blades.read_text().replace("profiles/rotor37.csv", "profiles/mirrored.csv"))
+    found = r"^config/profiles/mirrored\.csv: blade Ref: span 100%: found a stagger of -60\.\d degrees, so the trailing edge "
+    remedy = "would lead in the rotation; change the sign of kappa_ic, kappa_tc and kappa_oc in all rows; sense_check: false"
+    with pytest.raises(ConfigError, match=found + remedy):
         read_settings(config_copy)
     blades.write_text(blades.read_text().replace("\nRef:\n", "\nRef:\n  sense_check: false\n"))
     # blades with this base have the same table
@@ -173,11 +156,10 @@ def test_a_mirrored_table(config_copy):
 def test_the_picture_of_a_blade_names_the_side_in_view(mesh, tmp_path, monkeypatch):
     named = []
     monkeypatch.setattr(pyvista.Plotter, "add_point_labels", lambda self, points, labels, **how: named.append(labels))
-    swapped = mesh.node_sets | {
-        "tip_pressure_edge": mesh.node_set("tip_suction_edge"),
-        "tip_suction_edge": mesh.node_set("tip_pressure_edge"),
-    }
-    for name, shown in {"ours": mesh, "swapped": replace(mesh, node_sets=swapped)}.items():
-        write_vtu(shown, tmp_path / f"{name}.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
-    draw_blade_shapes({name: tmp_path / f"{name}.vtu" for name in ("ours", "swapped")}, tmp_path / "blades.png")
+    edges = ("tip_pressure_edge", "tip_suction_edge")
+    swapped = mesh.node_sets | {name: mesh.node_set(other) for name, other in zip(edges, reversed(edges), strict=True)}
+    files = {name: tmp_path / f"{name}.vtu" for name in ("ours", "swapped")}
+    for file, shown in zip(files.values(), (mesh, replace(mesh, node_sets=swapped)), strict=True):
+        write_vtu(shown, file, np.ones(sum(map(len, mesh.blocks.values()))))
+    draw_blade_shapes(files, tmp_path / "blades.png")
     assert named == [["LE", "TE", "pressure side", "rotation"], ["LE", "TE", "suction side", "rotation"]]

@@ -66,13 +66,6 @@ def test_the_page_shows_the_refusal_as_it_is(root, drawn):
         np.testing.assert_array_equal(again.node_set(name), ours.node_set(name))
 
 
-def test_a_first_attempt_may_ask(drawn, root):
-    (entry,) = yaml.safe_load(blocks(root, "yaml")[0]).values()
-    with pytest.raises(ImportRefused, match=r"(?s)found no set '\?'; the file has: .*hub \(.*\n  root: .*\n  tip: ") as refusal:
-        import_mesh(MeshEntry.model_validate(entry | {"root": "?", "tip": "?"}).source(drawn), drawn)
-    assert list(refusal.value.fitting) == ["root", "tip"]
-
-
 @pytest.mark.slow
 def test_the_example_runs_to_its_interactions(root, drawn, tmp_path, monkeypatch, capsys):
     project = with_example(root, drawn, tmp_path, copy_project)
@@ -138,14 +131,11 @@ class TestWhatRunsAgain:
         assert "imported_mesh" not in jobs
         assert jobs["reduced_model"] == {"Fan/rom_pressure_edge.nc"}
 
-    def test_another_line_number_runs_nothing(self, project):
-        edit(project, "blades.yaml", "Fan:", "# a comment\n\nFan:")
-        assert planned_outputs(project) == {}
-
     def test_another_level_keeps_the_mesh(self, project):
         assert "imported_mesh" not in planned_outputs(project, "all_blades", "--config", "fidelity=draft")
 
-    def test_the_project_elsewhere_runs_nothing(self, project, tmp_path):
+    def test_nothing_elsewhere_or_on_another_line(self, project, tmp_path):
+        edit(project, "blades.yaml", "Fan:", "# a comment\n\nFan:")
         project.rename(tmp_path / "elsewhere")
         assert planned_outputs(tmp_path / "elsewhere") == {}
 
