@@ -40,11 +40,6 @@ RING = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
 """Of steel, with eleven modes: more pairs than a vector has numbers."""
 
 
-def held(nodes):
-    """Contact nodes that rotation leaves where they are."""
-    return {"rotation_shapes": np.zeros((3, nodes, 1)), "rotation_stiffening": np.zeros(1)}
-
-
 def model_of_node(rows, frequencies, radius=0.25, tip_cone_angle=0.0, per_square=0.0, coriolis=None):
     """One node, which is the whole tip, moved by modes of these frequencies (rad/s): its rows have shape (3, modes).
 
@@ -61,7 +56,8 @@ def model_of_node(rows, frequencies, radius=0.25, tip_cone_angle=0.0, per_square
         tip_displacement_operator=np.repeat(rows, 2, axis=1),
         to_reduced=np.eye(modes),
         coriolis=coriolis,
-        **held(1),
+        rotation_shapes=np.zeros((3, 1, 1)),
+        rotation_stiffening=np.zeros(1),
     )
 
 
@@ -84,7 +80,8 @@ def random_model(nodes, modes=None):
         tip_cone_angle=-0.26,
         tip_displacement_operator=generator.standard_normal((3, 2, modes)),
         to_reduced=np.eye(modes),
-        **held(nodes),
+        rotation_shapes=np.zeros((3, nodes, 1)),
+        rotation_stiffening=np.zeros(1),
     )
 
 

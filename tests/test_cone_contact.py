@@ -13,7 +13,6 @@ from r37core.results.campbell import campbell_diagram, dynamic_clearance
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.initial_motion import InitialMotion
-from r37core.time_integration.reference.engine import ReferenceEngine
 from r37core.time_integration.simulate import Simulation
 
 ANGLE = np.radians(-15.24)
@@ -86,10 +85,9 @@ def test_exact_and_linear_gap_differ_by_the_square_of_the_motion(contact):
         for exact in (False, True):
             scene = Scene(replace(AT_ONCE, clearance=size * 0.356e-3), exact_gap=exact)
             simulation = Simulation(contact, speed, scene, IntegrationChoice(1e-7, 1, 62, engine="reference"))
-            twin = simulation.engine
-            assert isinstance(twin, ReferenceEngine)
             shape = simulation.problem.blade.modes[:, 0] + 0.3 * simulation.problem.blade.modes[:, 1]
-            gaps.append(twin.gap(size * 1e-3 / np.abs(contact.displacement_operator @ shape).max() * shape, step)[0])
+            shape *= size * 1e-3 / np.abs(contact.displacement_operator @ shape).max()
+            gaps.append(simulation.engine.gap(shape, step)[0])
         differences.append(np.abs(gaps[1] - gaps[0]).max())
     np.testing.assert_allclose(np.array(differences[:-1]) / differences[1:], 100.0, rtol=0.1)
 

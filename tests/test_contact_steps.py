@@ -281,8 +281,11 @@ EVERY = replace(LONG, snapshots_per_revolution=62, snapshot_revolutions=2)
 
 @pytest.mark.slow
 @pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
-def test_a_split_run_with_static_modes_is_the_whole_run(contact, scene):
-    """Stopped after a revolution it goes on with the same bits, and in the middle of contact, too."""
+def test_snapshots_and_split_runs(contact, scene):
+    """Stopped after a revolution a run goes on with the same bits, and in the middle of contact, too.
+
+    The samples are the snapshots' shapes at the tip, of which some percent are static when the blade is first pressed.
+    """
     simulation, whole_state, whole = whole_run(contact, 1600.0, scene, EVERY)
     state = simulation.start()
     parts = [simulation.advance(state, 1), simulation.advance(state, 1)]
@@ -296,17 +299,10 @@ def test_a_split_run_with_static_modes_is_the_whole_run(contact, scene):
         pressed += bool(state.contact_force.any())
         np.testing.assert_allclose(found, whole.samples[row], rtol=0, atol=1e-12 * np.abs(whole.samples).max())
     assert pressed > 5
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("scene", [NARROW, DIRECT], ids=["abradable", "direct"])
-def test_samples_and_snapshots_have_the_share_of_the_static_modes(contact, scene):
-    """The samples are the snapshots' shapes at the tip, of which some percent are static when the blade is first pressed."""
-    simulation, _, record = whole_run(contact, 1600.0, scene, EVERY)
     radial = contact.tip_displacement_operator[0, 0] @ simulation.problem.contact.state_shapes
-    assert_close(record.snapshots @ radial, record.samples[:, 1], 1e-12)
-    stepped, largest = len(simulation.problem.blade.frequencies), np.abs(record.samples[:, 1]).max()
-    static = np.abs(record.snapshots[:, stepped:] @ radial[stepped:]).max()
+    assert_close(whole.snapshots @ radial, whole.samples[:, 1], 1e-12)
+    stepped, largest = len(simulation.problem.blade.frequencies), np.abs(whole.samples[:, 1]).max()
+    static = np.abs(whole.snapshots[:, stepped:] @ radial[stepped:]).max()
     assert 1e-3 * largest < static < (0.1 if scene.lining else 0.2) * largest
 
 

@@ -205,13 +205,6 @@ def test_a_start_in_no_motion_is_the_start_at_rest(contact, scene, integrator):
     assert runs[0]["share_of_time_in_contact"] > 0.0
 
 
-def test_what_a_dataset_says_of_it():
-    said = motion(None, [0.0, 2.0]).attributes
-    assert said["initial_state"] == "in motion" and "initial_displacement" not in said
-    np.testing.assert_array_equal(said["initial_velocity"], [0.0, 2.0])
-    assert motion() is None
-
-
 @pytest.mark.parametrize(
     ("displacement", "velocity", "message"),
     [

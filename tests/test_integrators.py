@@ -2,11 +2,9 @@
 
 import numpy as np
 import pytest
-from defaults import Casing, IntegrationChoice, Scene
 from integration_runs import free_motion
 
-from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS, exact_modal, recursion
-from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.integrators import INTEGRATORS, exact_modal, recursion
 
 
 @pytest.mark.parametrize("ratio", [0.0, 5e-4, 0.3, 0.99])
@@ -30,15 +28,3 @@ def test_a_constant_force_holds_the_static_deflection(integrator):
     frequencies = np.array([4e3, 7e4, 1.2e6])
     stepping = recursion(integrator, frequencies, 0.05, 1e-6)
     np.testing.assert_allclose(stepping.inverse / stepping.pull, 1.0 / frequencies**2, rtol=1e-12)
-
-
-def test_exact_modal_steps_have_no_limit_from_the_blade(contact):
-    """Four times the limit of central differences, free of contact: the energy of a damped blade only falls."""
-    highest = contact.modes_at(1000.0)[0][-1]
-    scene = Scene(Casing(1.0, lobes=0), damping_ratio=5e-4)
-    simulation = Simulation(contact, 1000.0, scene, IntegrationChoice(8.0 / highest, 4, 62, integrator=EXACT_MODAL))
-    state = simulation.start()
-    state.displacement[:] = 1e-6 / (1.0 + np.arange(len(simulation.problem.blade.frequencies)))
-    start = simulation.energy(state)
-    simulation.advance(state, 4)
-    assert 0.0 < simulation.energy(state) < start

@@ -42,13 +42,8 @@ def a_blade():
 
 def rotor_of(blades, angles=None, factors=None, longer=None, shared=True):
     angles = 2.0 * np.pi * np.arange(blades) / blades if angles is None else angles
-    return Rotor(
-        tuple(range(1, blades + 1)),
-        tuple(map(float, angles)),
-        tuple(factors or [1.0] * blades),
-        tuple(longer or [0.0] * blades),
-        shared,
-    )
+    factors, longer = factors or [1.0] * blades, longer or [0.0] * blades
+    return Rotor(tuple(range(1, blades + 1)), tuple(map(float, angles)), tuple(factors), tuple(longer), shared)
 
 
 def run(rotor, scene=STEEP, choice=CHOICE):

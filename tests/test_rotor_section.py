@@ -35,10 +35,7 @@ def test_a_rotor_is_drawn_from_a_seed():
     assert fewer.frequency_factors[1:] == rotor.frequency_factors[2:] and fewer.angles[1] == rotor.angles[2]
 
 
-TABLES = ["{ 1: 0.4, 3: -0.7 }", '{ "1": 0.4, "3": -0.7 }', "{ 01: 0.4, '3': -0.7 }"]
-
-
-@pytest.mark.parametrize("table", TABLES)
+@pytest.mark.parametrize("table", ["{ 1: 0.4, 3: -0.7 }", '{ "1": 0.4, "3": -0.7 }', "{ 01: 0.4, '3': -0.7 }"])
 def test_tables_by_number_stand_in_a_file(config_copy, table):
     """The number of a blade is a number or a text there, and the schema for editors allows both."""
     scenes = config_copy / "config/scenes.yaml"
@@ -116,10 +113,7 @@ REFUSALS = [
     ({"longer_spread_m": {"values": [0.0, 1e12]}}, rf"longer_spread_m\.values: found 1e\+12; allowed: {BOUNDS}$"),
     ({"longer_spread_m": {"normal": 0.1}}, rf"longer_spread_m: found -?0\.1\d* of blade \d; allowed: {BOUNDS}; a narrower"),
     ({"mistuning_spread_percent": {"uniform": 96.0}}, r"mistuning_spread_percent\.uniform: found 96; allowed: at most 95$"),
-    (
-        {"mistuning_spread_percent": {"values": [1e12]}},
-        r"mistuning_spread_percent\.values: found 1e\+12; allowed: at least -95, ",
-    ),
+    ({"mistuning_spread_percent": {"values": [1e12]}}, r"mistuning_spread_percent\.values: found 1e\+12; .*: at least -95, "),
     ({"angles_deg": [5.0] * 4}, r"angles_deg\.1: found 5, and blade 1 at 5; allowed: at least 0\.1 degrees between blades"),
     ({"angles_deg": [0.0, 90.0, 180.0, 359.95]}, r"angles_deg\.0: found 0, and blade 4 at 359\.95; allowed: at least 0\.1 deg"),
     ({"angles_deg": [-180.0, 90.0, 540.0, 0.0]}, r"angles_deg\.2: found 540, and blade 1 at -180; allowed: at least 0\.1 deg"),
