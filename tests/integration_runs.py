@@ -27,7 +27,7 @@ def both_engines(model, speed, scene, choice):
 
 
 def times(simulation, count):
-    """Of so many samples (s)."""
+    """When so many samples from the start on are taken (s)."""
     grid = simulation.problem.grid
     return (1 + np.arange(count)) * grid.steps_per_sample * grid.time_step
 
@@ -40,12 +40,12 @@ def free_motion(frequency, ratio, time, start, velocity):
 
 
 def assert_close(found, expected, within):
-    """`within`: of the largest number expected."""
+    """Numbers that are off by at most a share of the largest one expected."""
     np.testing.assert_allclose(found, expected, rtol=0, atol=within * np.abs(expected).max())
 
 
 def assert_same_record(ours, theirs, within=1e-10):
-    """Of samples, snapshots and, where it is elastic, the motion of the casing."""
+    """Of the same samples, snapshots and, where it is elastic, motion of the casing."""
     for name in ("samples", "snapshots", "casing"):
         expected = getattr(theirs, name)
         if expected is not None and expected.size:
