@@ -5,7 +5,6 @@ import platform
 from dataclasses import replace
 
 import numpy as np
-import pytest
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 
 from r37core import native
@@ -23,29 +22,48 @@ LINING = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=0.03)
 AT_ONCE = Casing(0.356e-3, rise_fraction=0.0)
 ABRADABLE = Scene(AT_ONCE, LINING, Friction(0.15))
 DIRECT = Scene(AT_ONCE, None, Friction(0.15))
+NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
+SCENES = {
+    "direct": DIRECT,
+    "direct_constant": replace(DIRECT, friction=Friction(0.15, vector=False)),
+    "direct_exact": replace(DIRECT, exact_gap=True),
+    "abradable": ABRADABLE,
+    "abradable_constant": replace(ABRADABLE, friction=Friction(0.15, vector=False)),
+    "abradable_exact": replace(ABRADABLE, exact_gap=True),
+    "thin_lining": replace(ABRADABLE, lining=Lining(1e-4, 1e8, 5e7, 1e5, bar_width=0.03)),
+}
+
+ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-6)
+"""Bars that never yield."""
 
 RING = Ring(0.255, 0.002, 0.05, 2.1e11, 7850.0, 0.002, 1e7, 1e6, 11)
 """Of steel, with eleven modes: more pairs than a vector has numbers."""
 
 
-def held(nodes):
-    """Contact nodes that rotation leaves where they are."""
-    return {"rotation_shapes": np.zeros((3, nodes, 1)), "rotation_stiffening": np.zeros(1)}
+def model_of_node(rows, frequencies, radius=0.25, tip_cone_angle=0.0, per_square=0.0, coriolis=None):
+    """One node, which is the whole tip, moved by modes of these frequencies (rad/s): its rows have shape (3, modes).
+
+    `per_square`: change of every mode's stiffness per squared speed.
+    """
+    rows, modes = np.array(rows, dtype=float)[:, None], len(frequencies)
+    return ContactModel(
+        squared_frequencies=np.array(frequencies, dtype=float) ** 2,
+        stiffness_per_square=per_square * np.eye(modes),
+        displacement_operator=rows,
+        radius=np.array([radius]),
+        theta=np.array([0.0]),
+        tip_cone_angle=tip_cone_angle,
+        tip_displacement_operator=np.repeat(rows, 2, axis=1),
+        to_reduced=np.eye(modes),
+        coriolis=coriolis,
+        rotation_shapes=np.zeros((3, 1, 1)),
+        rotation_stiffening=np.zeros(1),
+    )
 
 
 def oscillator(frequency, radius=0.25):
     """One mode whose amplitude is the radial displacement of one node."""
-    return ContactModel(
-        squared_frequencies=np.array([frequency**2]),
-        stiffness_per_square=np.zeros((1, 1)),
-        displacement_operator=np.array([[[1.0]], [[0.0]], [[0.0]]]),
-        radius=np.array([radius]),
-        theta=np.array([0.0]),
-        tip_cone_angle=0.0,
-        tip_displacement_operator=np.array([[[1.0], [1.0]], [[0.0], [0.0]], [[0.0], [0.0]]]),
-        to_reduced=np.eye(1),
-        **held(1),
-    )
+    return model_of_node([[1.0], [0.0], [0.0]], [frequency], radius)
 
 
 def random_model(nodes, modes=None):
@@ -62,7 +80,8 @@ def random_model(nodes, modes=None):
         tip_cone_angle=-0.26,
         tip_displacement_operator=generator.standard_normal((3, 2, modes)),
         to_reduced=np.eye(modes),
-        **held(nodes),
+        rotation_shapes=np.zeros((3, nodes, 1)),
+        rotation_stiffening=np.zeros(1),
     )
 
 
@@ -70,11 +89,19 @@ def with_static_modes(model, flexibility, frequency=1e8):
     """The model with three modes more for each contact node, which move it alone, one in each direction.
 
     They are faster (rad/s) than any step follows, and so displace the node at once by its `flexibility` (m/N) times the force
-    on it. The tip and the reduced coordinates have none of that: samples and stress show the modes that the model had.
+    on it.
     """
     directions, nodes, _ = model.displacement_operator.shape
     more = directions * nodes
-    rows = frequency * np.sqrt(flexibility) * np.eye(more).reshape(directions, nodes, more)
+    return with_modes(model, frequency, np.sqrt(flexibility) * np.eye(more).reshape(directions, nodes, more))
+
+
+def with_modes(model, frequency, rows):
+    """The model with modes more of one frequency (rad/s), which under a static force move the nodes by `rows` (m/N^0.5).
+
+    The tip and the reduced coordinates have none of that: samples and stress show the modes that the model had.
+    """
+    more = rows.shape[-1]
 
     def last_axis(array):
         return np.pad(array, [(0, 0)] * (array.ndim - 1) + [(0, more)])
@@ -83,7 +110,7 @@ def with_static_modes(model, flexibility, frequency=1e8):
         model,
         squared_frequencies=np.append(model.squared_frequencies, np.full(more, frequency**2)),
         stiffness_per_square=np.pad(model.stiffness_per_square, (0, more)),
-        displacement_operator=np.concatenate([model.displacement_operator, rows], axis=-1),
+        displacement_operator=np.concatenate([model.displacement_operator, frequency * rows], axis=-1),
         tip_displacement_operator=last_axis(model.tip_displacement_operator),
         to_reduced=last_axis(model.to_reduced),
         coriolis=None if model.coriolis is None else np.pad(model.coriolis, (0, more)),
@@ -123,13 +150,3 @@ def _hash_of(records, states):
         for array in (record.samples, state.totals, state.wear):
             digest.update(b"" if array is None else array.tobytes())
     return digest.hexdigest()
-
-
-def assert_same_totals_and_wear(ours, theirs, within=1e-10):
-    """Of the states that two engines leave; `within`: of the largest wear, for each bar's."""
-    for total in ("steps", "steps_in_contact", "casing_hits"):
-        assert ours.totals[total] == theirs.totals[total]
-    for total in ("largest_force", "work", "loss"):
-        assert ours.totals[total] == pytest.approx(theirs.totals[total], rel=1e-8)
-    if ours.wear is not None:
-        np.testing.assert_allclose(ours.wear, theirs.wear, rtol=0, atol=within * theirs.wear.max())

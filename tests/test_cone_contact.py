@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
-from integration_cases import ABRADABLE, AT_ONCE, DIRECT, held
+from integration_cases import ABRADABLE, AT_ONCE, DIRECT, model_of_node
+from integration_runs import whole_run
 
 from r37core.contact.casing import casing_axes
 from r37core.results.campbell import campbell_diagram, dynamic_clearance
-from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
-from r37core.time_integration.reference.engine import ReferenceEngine
+from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.simulate import Simulation
 
 ANGLE = np.radians(-15.24)
@@ -20,18 +20,7 @@ ANGLE = np.radians(-15.24)
 
 def moving_along(directions, frequencies):
     """One node at the stacking line whose modes move it along the given (radial, tangential, axial) directions."""
-    rows = np.array(directions, dtype=float).T[:, None, :]
-    return ContactModel(
-        squared_frequencies=np.array(frequencies) ** 2,
-        stiffness_per_square=np.zeros((len(frequencies),) * 2),
-        displacement_operator=rows,
-        radius=np.array([0.25]),
-        theta=np.array([0.0]),
-        tip_cone_angle=ANGLE,
-        tip_displacement_operator=np.repeat(rows, 2, axis=1),
-        to_reduced=np.eye(len(frequencies)),
-        **held(1),
-    )
+    return model_of_node(np.transpose(directions), frequencies, tip_cone_angle=ANGLE)
 
 
 NORMAL, MERIDIAN = (np.cos(ANGLE), 0.0, -np.sin(ANGLE)), (np.sin(ANGLE), 0.0, np.cos(ANGLE))
@@ -62,17 +51,13 @@ def test_a_node_sliding_along_the_cone_does_not_touch(engine, cone_angle, touche
 @pytest.mark.parametrize("aside", [TANGENT, MERIDIAN], ids=["tangent", "meridian"])
 def test_the_normal_force_does_no_work_along_the_casing(aside):
     """Without friction the mode along the casing swings on as if nothing touched, while the normal one bounces."""
-    model = moving_along([NORMAL, aside], [5e3, 6e3])
-    scene = Scene(Casing(1e-4, lobes=0), damping_ratio=0.0)
-    simulation = Simulation(model, 1000.0, scene, IntegrationChoice(1e-6, 2, 62))
-    state = simulation.start()
-    state.displacement[:] = -3e-4
-    record = simulation.advance(state, 2)
+    model, choice = moving_along([NORMAL, aside], [5e3, 6e3]), IntegrationChoice(1e-6, 2, 62)
+    start = InitialMotion(np.array([-3e-4, -3e-4]), None)
+    (_, state, record), (_, alone, _) = (
+        whole_run(model, 1000.0, Scene(Casing(clearance, lobes=0), damping_ratio=0.0), choice, start)
+        for clearance in (1e-4, 1.0)
+    )
     assert state.totals["steps_in_contact"] > 0
-    free = Simulation(model, 1000.0, Scene(Casing(1.0, lobes=0), damping_ratio=0.0), simulation.problem.choice)
-    alone = free.start()
-    alone.displacement[:] = -3e-4
-    free.advance(alone, 2)
     assert state.displacement[1] == pytest.approx(alone.displacement[1], rel=1e-9)
     assert abs(state.displacement[0] - alone.displacement[0]) > 1e-5
     assert record.samples[:, 0].max() <= 1e-4 * (1 + 1e-9)
@@ -81,17 +66,14 @@ def test_the_normal_force_does_no_work_along_the_casing(aside):
 @pytest.mark.slow
 @pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
 def test_cylinder_and_cone_are_the_same_round_an_untapered_tip(contact, scene):
-    untapered = replace(contact, tip_cone_angle=0.0)
-    samples = []
-    for angle in (None, 0.0):
-        simulation = Simulation(
-            untapered, 1000.0, replace(scene, casing=replace(AT_ONCE, cone_angle=angle)), IntegrationChoice(2e-7, 1, 62)
-        )
-        samples.append(simulation.advance(simulation.start(), 1).samples)
-    np.testing.assert_array_equal(*samples)
-    assert np.abs(samples[0]).max() > 0.0
-    simulation = Simulation(contact, 1000.0, scene, IntegrationChoice(2e-7, 1, 62))
-    assert np.abs(simulation.advance(simulation.start(), 1).samples - samples[0]).max() > 1e-6
+    untapered, choice = replace(contact, tip_cone_angle=0.0), IntegrationChoice(2e-7, 1, 62)
+    cone, cylinder = (
+        whole_run(untapered, 1000.0, replace(scene, casing=replace(AT_ONCE, cone_angle=angle)), choice)[2].samples
+        for angle in (None, 0.0)
+    )
+    np.testing.assert_array_equal(cone, cylinder)
+    assert np.abs(cone).max() > 0.0
+    assert np.abs(whole_run(contact, 1000.0, scene, choice)[2].samples - cone).max() > 1e-6
 
 
 def test_exact_and_linear_gap_differ_by_the_square_of_the_motion(contact):
@@ -103,10 +85,9 @@ def test_exact_and_linear_gap_differ_by_the_square_of_the_motion(contact):
         for exact in (False, True):
             scene = Scene(replace(AT_ONCE, clearance=size * 0.356e-3), exact_gap=exact)
             simulation = Simulation(contact, speed, scene, IntegrationChoice(1e-7, 1, 62, engine="reference"))
-            twin = simulation.engine
-            assert isinstance(twin, ReferenceEngine)
             shape = simulation.problem.blade.modes[:, 0] + 0.3 * simulation.problem.blade.modes[:, 1]
-            gaps.append(twin.gap(size * 1e-3 / np.abs(contact.displacement_operator @ shape).max() * shape, step)[0])
+            shape *= size * 1e-3 / np.abs(contact.displacement_operator @ shape).max()
+            gaps.append(simulation.engine.gap(shape, step)[0])
         differences.append(np.abs(gaps[1] - gaps[0]).max())
     np.testing.assert_allclose(np.array(differences[:-1]) / differences[1:], 100.0, rtol=0.1)
 

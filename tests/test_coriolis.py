@@ -1,18 +1,17 @@
 """The Coriolis force in the time integration: exact solutions, the reference engine, energy, limits and refusals."""
 
 from dataclasses import replace
-from itertools import combinations
 
 import numpy as np
 import pytest
-from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
-from integration_cases import ABRADABLE, DIRECT, assert_same_totals_and_wear, held, random_model, with_static_modes
+from defaults import Casing, Friction, IntegrationChoice, Scene
+from integration_cases import ABRADABLE, DIRECT, ELASTIC, NARROW, SCENES, model_of_node, random_model, with_static_modes
+from integration_runs import assert_close, assert_same_record, assert_same_state, assert_stable, both_engines, times, whole_run
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from r37core.config import ConfigError, command_line_document
 from r37core.product.reading import read_settings
-from r37core.rom.contact_model import ContactModel, read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.schedule import RunUp
@@ -21,7 +20,7 @@ from r37core.time_integration import problem as problem_module
 from r37core.time_integration import step_limit
 from r37core.time_integration.gyroscopic import LARGEST_TURN
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
-from r37core.time_integration.problem import Problem, UnstableStepError, stable_problem
+from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.reference.motion import CoupledMotion
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.step_checks import pressed_ratio
@@ -32,31 +31,15 @@ FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0, divergence_limit=10.0)
 TURN = np.array([[0.0, -2.0], [2.0, 0.0]])
 """2 Omega z x velocity of a point, per Omega."""
 
-NARROW = replace(ABRADABLE, lining=replace(ABRADABLE.lining, bar_width=1e-3))
-
-ELASTIC = Lining(5e-3, 20e9, 5e9, 1e30, bar_area=1e-11)
-"""Bars that never yield."""
-
-
 STATIC = 1e-9
 """Flexibility (m/N) of static modes."""
 
 
-def point_mass(frequency, radius=0.25, softening=-1.0, coriolis=TURN):
-    """A point on a spring, alike in all directions across the axis, that turns with the rotor: radial and tangential motion."""
-    operator = np.array([[[1.0, 0.0]], [[0.0, 1.0]], [[0.0, 0.0]]])
-    return ContactModel(
-        squared_frequencies=np.full(2, frequency**2),
-        stiffness_per_square=softening * np.eye(2),
-        displacement_operator=operator,
-        radius=np.array([radius]),
-        theta=np.array([0.0]),
-        tip_cone_angle=0.0,
-        tip_displacement_operator=np.repeat(operator, 2, axis=1),
-        to_reduced=np.eye(2),
-        coriolis=coriolis,
-        **held(1),
-    )
+def pendulum(frequencies, **others):
+    """A point whose modes move it radially and tangentially in turn, alike in all directions across the axis."""
+    pairs = len(frequencies) // 2
+    others = {"coriolis": np.kron(np.eye(pairs), TURN)} | others
+    return model_of_node(np.tile(np.eye(3)[:, :2], pairs), frequencies, **others)
 
 
 def coupled_model(nodes=8, size=3.0):
@@ -71,15 +54,9 @@ def coupled_model(nodes=8, size=3.0):
 def moving(simulation, displacement, velocity):
     """A state with displacement and velocity of the speed's real modes."""
     problem, state = simulation.problem, simulation.start()
-    CoupledMotion(problem, problem.contact.recursion).write(
-        np.concatenate([problem.blade.frequencies * displacement, velocity]), state
-    )
+    motion = np.concatenate([problem.blade.frequencies * displacement, velocity])
+    CoupledMotion(problem, problem.contact.recursion).write(motion, state)
     return state
-
-
-def times(simulation, record):
-    problem = simulation.problem
-    return (1 + np.arange(len(record.samples))) * problem.grid.steps_per_sample * problem.grid.time_step
 
 
 @pytest.mark.parametrize("jumps", [True, False])
@@ -88,19 +65,17 @@ def test_foucault_pendulum(jumps, engine):
     """In the fixed frame it is a plain oscillator; the rotor's frame turns under it, hundreds of turns."""
     frequency, speed = 5000.0, 1300.0
     choice = replace(CHOICE, time_step=2e-5, revolutions=300 if engine == "compiled" else 30, jumps=jumps, engine=engine)
-    simulation = Simulation(with_static_modes(point_mass(frequency), STATIC), speed, FREE, choice)
+    simulation = Simulation(with_static_modes(pendulum([frequency, frequency], per_square=-1.0), STATIC), speed, FREE, choice)
     start, velocity = np.array([1e-3, 2e-3]), np.array([3.0, -1.0])
     state = moving(simulation, start, velocity)
     record = simulation.advance(state, choice.revolutions)
     # the velocity in the fixed frame has that of the frame, Omega z x start
     fixed = velocity + speed * np.array([-start[1], start[0]])
-    time = times(simulation, record)[:, None]
+    time = times(simulation, len(record.samples))[:, None]
     motion = start * np.cos(frequency * time) + fixed / frequency * np.sin(frequency * time)
     seen = (motion[:, 0] + 1j * motion[:, 1]) * np.exp(-1j * speed * time[:, 0])
-    largest = np.abs(seen).max()
     assert (state.totals["steps_jumped"] > 0) == (jumps and engine == "compiled")
-    np.testing.assert_allclose(record.samples[:, 1], seen.real, rtol=0, atol=1e-10 * largest)
-    np.testing.assert_allclose(record.samples[:, 2], seen.imag, rtol=0, atol=1e-10 * largest)
+    assert_close(record.samples[:, 1] + 1j * record.samples[:, 2], seen, 1e-10)
 
 
 @pytest.fixture(scope="module")
@@ -122,7 +97,7 @@ def test_free_motion_has_the_frequencies_of_the_campbell_diagram(turning, couple
         state = simulation.start()
         state.displacement[mode] = state.increment[mode] = 1e-6
         record = simulation.advance(state, 1)
-        samples, turn = record.samples, 2.0 * np.cos(frequency * times(simulation, record)[0])
+        samples, turn = record.samples, 2.0 * np.cos(frequency * times(simulation, 1)[0])
         missing = samples[2:] + samples[:-2] - turn * samples[1:-1]
         assert np.abs(missing).max() < 1e-8 * np.abs(samples).max(), mode
     # with more static modes
@@ -131,25 +106,7 @@ def test_free_motion_has_the_frequencies_of_the_campbell_diagram(turning, couple
     np.testing.assert_allclose(lined.blade.complex_modes.frequencies[:8], campbell, rtol=1e-5)
 
 
-@pytest.mark.slow
-def test_contact_model_with_coriolis(coupled_blade, contact, tmp_path):
-    np.testing.assert_array_equal(coupled_blade.coriolis, -coupled_blade.coriolis.T)
-    write_contact_model(coupled_blade, tmp_path / "contact.npz")
-    np.testing.assert_array_equal(read_contact_model(tmp_path / "contact.npz").coriolis, coupled_blade.coriolis)
-    write_contact_model(contact, tmp_path / "without.npz")
-    assert read_contact_model(tmp_path / "without.npz").coriolis is None
-
-
-SCENES = {
-    "direct": DIRECT,
-    "direct_constant": replace(DIRECT, friction=Friction(0.15, vector=False)),
-    "direct_exact": replace(DIRECT, exact_gap=True),
-    "abradable": ABRADABLE,
-    "abradable_constant": replace(ABRADABLE, friction=Friction(0.15, vector=False)),
-    "abradable_exact": replace(ABRADABLE, exact_gap=True),
-    "abradable_growing": replace(ABRADABLE, casing=replace(ABRADABLE.casing, centrifugal=True)),
-    "thin_lining": replace(ABRADABLE, lining=Lining(1e-4, 1e8, 5e7, 1e5, bar_width=0.03)),
-}
+SCENES = SCENES | {"abradable_growing": replace(ABRADABLE, casing=replace(ABRADABLE.casing, centrifugal=True))}
 
 
 @pytest.mark.slow
@@ -164,66 +121,42 @@ def test_compiled_time_integration_is_the_reference(name, step, static_above, mo
     """Against the dense exponential of displacement and velocity; in long steps modes are static, or too fast to couple."""
     # nearer to the limit than a run with friction may be
     monkeypatch.setattr(step_limit, "WITH_FRICTION", 1.0)
-    model, scene = coupled_model(), SCENES[name]
     choice = replace(CHOICE, time_step=step, static_above=static_above, snapshots_per_revolution=62, snapshot_revolutions=1)
-    found = []
-    for engine in ("compiled", "reference"):
-        simulation = Simulation(model, 12_000.0, scene, replace(choice, engine=engine))
-        state = simulation.start()
-        found.append((state, simulation.advance(state, 1)))
-    problem, ((ours, record), (theirs, plain)) = simulation.problem, found
-    assert len(problem.blade.frequencies) == (24 if step < 1e-6 else 8)
-    assert (problem.blade.frequencies[-1] * step > LARGEST_TURN) == (static_above > 2.0)
-    assert problem.blade.complex_modes.shapes.imag.any()
+    (_, ours, record), (simulation, theirs, plain) = both_engines(coupled_model(), 12_000.0, SCENES[name], choice)
+    blade = simulation.problem.blade
+    assert len(blade.frequencies) == (24 if step < 1e-6 else 8)
+    assert (blade.frequencies[-1] * step > LARGEST_TURN) == (static_above > 2.0)
+    assert blade.complex_modes.shapes.imag.any()
     assert ours.totals["steps_in_contact"] > 100 and ours.totals["steps_jumped"] > 100
-    for name in ("samples", "snapshots"):
-        largest = np.abs(getattr(plain, name)).max()
-        np.testing.assert_allclose(getattr(record, name), getattr(plain, name), rtol=0, atol=1e-10 * largest)
+    assert_same_record(record, plain)
     for name in ("displacement", "increment"):
-        largest = np.abs(getattr(theirs, name)).max()
-        np.testing.assert_allclose(getattr(ours, name), getattr(theirs, name), rtol=0, atol=1e-9 * largest)
-    assert_same_totals_and_wear(ours, theirs)
+        assert_close(getattr(ours, name), getattr(theirs, name), 1e-9)
+    assert_same_state(ours, theirs)
 
 
 @pytest.mark.parametrize("name", ["direct", "abradable", "thin_lining"])
 def test_without_a_force_to_speak_of_it_is_the_run_without(name):
     """A Coriolis matrix that tends to zero, in the program that has complex modes."""
-    samples = []
     model = coupled_model()
-    for coriolis in (None, 1e-14 * model.coriolis):
-        simulation = Simulation(replace(model, coriolis=coriolis), 3000.0, SCENES[name], CHOICE)
-        state = simulation.start()
-        samples.append(simulation.advance(state, 1).samples)
-        assert state.totals["steps_in_contact"] > 100
-    np.testing.assert_allclose(samples[1], samples[0], rtol=0, atol=1e-11 * np.abs(samples[0]).max())
+    weak, none = (replace(model, coriolis=coriolis) for coriolis in (1e-14 * model.coriolis, None))
+    (_, state, found), (_, _, expected) = (whole_run(one, 3000.0, SCENES[name], CHOICE) for one in (weak, none))
+    assert state.totals["steps_in_contact"] > 100
+    assert_close(found.samples, expected.samples, 1e-11)
 
 
 @pytest.mark.parametrize("name", ["direct", "direct_exact", "abradable", "abradable_constant", "thin_lining"])
 @pytest.mark.parametrize(("size", "ratio"), [(1.0, 5e-4), (30.0, 0.0), (30.0, 0.05)])
 def test_energy_balance_closes(name, size, ratio):
     scene = replace(SCENES[name], damping_ratio=ratio)
-    simulation = Simulation(coupled_model(8, size), 3000.0, scene, replace(CHOICE, revolutions=3))
-    state = simulation.start()
-    simulation.advance(state, 3)
+    simulation, state, _ = whole_run(coupled_model(8, size), 3000.0, scene, replace(CHOICE, revolutions=3))
     work, loss = simulation.work(state), state.totals["loss"]
     assert (loss > 0.0) == (ratio > 0.0) and work != 0.0
     assert abs(simulation.energy(state) - work + loss) < 1e-10 * (abs(work) + loss)
 
 
-def test_energy_of_free_damped_motion_falls_in_every_sample():
-    scene, choice = replace(FREE, damping_ratio=0.02), replace(CHOICE, revolutions=1, jumps=False)
-    simulation = Simulation(coupled_model(8, 30.0), 3000.0, scene, choice)
-    state, energies = simulation.start(), []
-    state.displacement[:] = 1e-5
-    for _ in range(62):
-        energies.append(simulation.energy(state))
-        simulation.advance_samples(state, 1)
-    assert np.all(np.diff(energies) < 0.0)
-
-
 PRESSED = Scene(
     Casing(-1e-4, lobes=2, amplitude=0.2, rise_fraction=0.0),
-    replace(ELASTIC, bar_area=1e-6),
+    ELASTIC,
     Friction(0.4),
     damping_ratio=0.0,
     divergence_limit=1.0,
@@ -231,18 +164,15 @@ PRESSED = Scene(
 """Lobes and a bar that the node never leaves: what happens is smooth."""
 
 
-def point_in_space(frequency, radius):
+def point_in_space(frequencies, radius=0.25):
     """A point that moves in three directions, with a Coriolis matrix between all of them."""
-    operator = np.array([[[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]], [[0.0, 0.0, -1.0]]])
-    return replace(
-        point_mass(frequency, radius),
-        squared_frequencies=np.full(3, frequency**2),
-        stiffness_per_square=np.zeros((3, 3)),
-        displacement_operator=operator,
-        tip_displacement_operator=np.repeat(operator, 2, axis=1),
-        to_reduced=np.eye(3),
-        coriolis=np.array([[0.0, -2.0, 1.5], [2.0, 0.0, 0.5], [-1.5, -0.5, 0.0]]),
-    )
+    coriolis = np.array([[0.0, -2.0, 1.5], [2.0, 0.0, 0.5], [-1.5, -0.5, 0.0]])
+    return model_of_node(np.diag([1.0, 1.0, -1.0]), frequencies, radius, coriolis=coriolis)
+
+
+def on_modes(contact, force):
+    """What a force (N), shape (3,), on the only node is on the modes, by their u and by their d."""
+    return [np.einsum("dki,d->i", rows, force) for rows in (contact.displacement_operator, contact.increment_operator)]
 
 
 # the slow one's friction turns about with the vibration
@@ -250,7 +180,7 @@ def point_in_space(frequency, radius):
 def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step(radius):
     """A node on its bar, with friction along the real sliding velocity; exact: SciPy's DOP853."""
     frequency, speed = 3000.0, 1000.0
-    casing, lining, model = PRESSED.casing, PRESSED.lining, point_in_space(frequency, radius)
+    casing, lining, model = PRESSED.casing, PRESSED.lining, point_in_space(3 * [frequency], radius)
     # with the static mode in series
     flexibility = 1e-7
     stiffness = 1.0 / (lining.thickness / lining.elastic_modulus / lining.bar_area + flexibility)
@@ -276,13 +206,10 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step(radius):
         # the lining's force at the start, against the rotation, of whose kick only the second half comes after it
         force = stiffness * (casing.clearance - casing.lobe(model.theta, np.zeros(1), 1.0)[0]) * np.array([1.0, -0.4, 0.0])
         state.contact_force[:, 0] = force
-        by_u, by_d = (
-            np.einsum("dki,d->i", one, force)
-            for one in (problem.contact.displacement_operator, problem.contact.increment_operator)
-        )
+        by_u, by_d = on_modes(problem.contact, force)
         state.displacement[:], state.increment[:] = 0.5 * problem.contact.recursion.inverse * np.array([by_d, -by_u])
         record = simulation.advance(state, 1)
-        np.testing.assert_allclose(times(simulation, record), time, rtol=1e-12)
+        np.testing.assert_allclose(times(simulation, 50), time, rtol=1e-12)
         errors.append(np.abs(record.samples[:, [1, 2]].T - exact[:2]).max() / np.abs(exact[:2]).max())
         steps.append(simulation.problem.grid.time_step)
     orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
@@ -296,12 +223,9 @@ def resting(simulation, force):
     Solution of d = d + c a - pull (u - c b), u = u - c b + d for u and d before the kick, with the kick's a and b.
     """
     problem, state = simulation.problem, simulation.start()
-    by_u, by_d = (
-        np.einsum("dki,d->i", one, force) for one in (problem.contact.displacement_operator, problem.contact.increment_operator)
-    )
-    inverse = problem.contact.recursion.inverse
-    state.displacement[:] = inverse * by_u / problem.contact.recursion.pull + inverse * by_d
-    state.increment[:] = inverse * by_d
+    recursion, (by_u, by_d) = problem.contact.recursion, on_modes(problem.contact, force)
+    state.displacement[:] = recursion.inverse * (by_u / recursion.pull + by_d)
+    state.increment[:] = recursion.inverse * by_d
     state.contact_force[:, 0] = force
     return state
 
@@ -310,7 +234,7 @@ def test_a_pressed_node_rests_where_the_stiffness_says():
     """A casing too tight for the blade, friction, and steps in which the modes turn by up to 48 degrees."""
     penetration, frequency, speed = 1e-4, 4e4, 2000.0
     scene = replace(PRESSED, casing=Casing(-penetration, lobes=0), friction=Friction(0.3))
-    model = replace(point_in_space(frequency, 0.25), squared_frequencies=np.array([4e4, 3e4, 5.6e4]) ** 2)
+    model = point_in_space([4e4, 3e4, 5.6e4])
     flexibility = 2e-7
     simulation = Simulation(with_static_modes(model, flexibility), speed, scene, replace(CHOICE, time_step=1.5e-5))
     stiffness = 1.0 / (1.0 / simulation.problem.casing.bar_stiffness + flexibility)
@@ -322,34 +246,28 @@ def test_a_pressed_node_rests_where_the_stiffness_says():
     np.testing.assert_allclose(samples[:, 2] / (force[1] / 3e4**2), 1.0, rtol=1e-8)
 
 
-def edge_of_stability(share, monkeypatch):
+@pytest.mark.parametrize("share", [0.97, 1.03])
+def test_the_limit_is_where_nodes_on_the_casing_become_unstable(monkeypatch, share):
     """Two coupled modes held on a casing too tight for them, by a static mode whose stiffness is `share` of the limit's.
 
     The casing has one lobe that is the same all round: a round one would leave no room at the start.
     """
-    frequency, speed = 2e4, 1000.0
-    model = replace(point_mass(frequency, softening=0.0, coriolis=6.0 * TURN), squared_frequencies=np.array([2e4**2, 2.2e4**2]))
-    choice = replace(CHOICE, time_step=2e-5, samples_per_revolution=314)
+    blade, choice = pendulum([2e4, 2.2e4], coriolis=6.0 * TURN), replace(CHOICE, time_step=2e-5, samples_per_revolution=314)
     casing = Casing(1e-3, lobes=1, amplitude=2.0, width=1e6, rise_fraction=0.0)
     scene = Scene(casing, damping_ratio=0.0, divergence_limit=1e300)
 
-    def ratio(stiffness):
-        return pressed_ratio(Problem(with_static_modes(model, 1.0 / stiffness), speed, scene, choice).contact)
+    def beyond(stiffness):
+        return pressed_ratio(Problem(with_static_modes(blade, 1.0 / stiffness), 1000.0, scene, choice).contact) - 1.0
 
-    with monkeypatch.context() as without:
-        without.setattr(problem_module, "check_step", lambda contact: None)
-        limit = brentq(lambda stiffness: ratio(stiffness) - 1.0, 1e6, 1e12)
-    return with_static_modes(model, 1.0 / (share * limit)), speed, scene, choice, share * limit
-
-
-@pytest.mark.parametrize("share", [0.97, 1.03])
-def test_the_limit_is_where_nodes_on_the_casing_become_unstable(monkeypatch, share):
-    model, speed, scene, choice, stiffness = edge_of_stability(share, monkeypatch)
+    with monkeypatch.context() as unchecked:
+        unchecked.setattr(problem_module, "check_step", lambda contact: None)
+        stiffness = share * brentq(beyond, 1e6, 1e12)
+    model = with_static_modes(blade, 1.0 / stiffness)
     if share > 1.0:
         with pytest.raises(UnstableStepError, match="limit for nodes pressed on the casing"):
-            Problem(model, speed, scene, choice)
+            Problem(model, 1000.0, scene, choice)
         monkeypatch.setattr(problem_module, "check_step", lambda contact: None)
-    simulation = Simulation(model, speed, scene, choice)
+    simulation = Simulation(model, 1000.0, scene, choice)
     rest = -1e-3 * stiffness / (stiffness + model.squared_frequencies[0])
     state = resting(simulation, np.array([-stiffness * (1e-3 + rest), 0.0, 0.0]))
     state.displacement[0] *= 1.0 + 1e-9
@@ -358,35 +276,13 @@ def test_the_limit_is_where_nodes_on_the_casing_become_unstable(monkeypatch, sha
     assert share > 1.0 or away.max() < 1e-6
 
 
-def _pressed_step(problem, nodes, bar):
-    """A step of u and d with `nodes` on bars of a stiffness (N/m) without friction, as a matrix.
-
-    The force at t_n is -K (N_u u_n + N_d d_n), K = (1/bar + R)^-1 of the nodes pressed, with half of its own kick in R.
-    """
-    recursion, modes = problem.contact.recursion, len(problem.blade.frequencies)
-    by_u, by_d = (one[0, nodes] for one in (problem.contact.displacement_operator, problem.contact.increment_operator))
-    held = np.linalg.inv(np.eye(len(nodes)) / bar + problem.contact.contact_flexibility[0][np.ix_(nodes, nodes)].T)
-    kick = recursion.inverse / recursion.keep
-    moved_by_force = np.vstack([-kick[:, None] * by_d.T, kick[:, None] * by_u.T])
-    kicked = np.eye(2 * modes) - moved_by_force @ held @ np.hstack([by_u, by_d])
-    increment = np.hstack([-np.diag(recursion.pull), np.diag(recursion.keep)]) @ kicked
-    return np.vstack([kicked[:modes] + increment, increment])
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("modulus", [2e10, 1e14, np.inf])
 @pytest.mark.parametrize("size", [None, 1.0, 10.0])
 def test_no_few_nodes_that_stay_pressed_grow(coupled_blade, modulus, size):
     """Eigenvalues of the step at the steps taken, for a blade and for random models with more and more coupling."""
-    lining = replace(NARROW.lining, elastic_modulus=min(modulus, 1e14))
     model = coupled_model(8, size) if size else coupled_blade
-    for step in (6.4e-6, 1.6e-6):
-        choice = replace(CHOICE, time_step=step, shorten=True)
-        problem = stable_problem(model, 1600.0, replace(ABRADABLE, lining=lining, friction=Friction(0.0)), choice)
-        bar = problem.casing.bar_stiffness if modulus < np.inf else np.inf
-        for nodes in [*combinations(range(8), 2), range(8)]:
-            largest = np.abs(np.linalg.eigvals(_pressed_step(problem, list(nodes), bar))).max()
-            assert largest**problem.grid.steps_per_revolution - 1.0 < 1e-6, (step, problem.grid.time_step, nodes)
+    assert_stable(model, CHOICE, modulus, (6.4e-6, 1.6e-6), (2, 8))
 
 
 def _meets_casing(model, start, velocity, excess):
@@ -428,11 +324,7 @@ def test_no_contact_is_missed_by_a_jump(seed, excess):
 def test_no_contact_is_missed_where_the_increment_moves_the_node(seed):
     """Two slow modes, whose shapes are imaginary along the casing's normal."""
     frequencies = np.array([5000.0, 5300.0])
-    model = point_mass(frequencies[0], softening=0.0)
-    operator = model.displacement_operator[:, :, ::-1]
-    tip = np.repeat(operator, 2, axis=1)
-    model = replace(model, squared_frequencies=frequencies**2, displacement_operator=operator, tip_displacement_operator=tip)
-    model = with_static_modes(model, STATIC)
+    model = with_static_modes(model_of_node(np.eye(3)[:, 1::-1], frequencies, coriolis=TURN), STATIC)
     start, velocity = np.random.default_rng(seed).standard_normal((2, 2)) * [[1e-3], [5.0]]
     assert _meets_casing(model, start, velocity, 1e-6)
 
@@ -440,43 +332,30 @@ def test_no_contact_is_missed_where_the_increment_moves_the_node(seed):
 @pytest.mark.parametrize("seed", range(4))
 def test_jumps_follow_the_tangent_of_slow_modes(seed):
     """Four pendulums that move one node together: so many modes are followed along their tangent towards the casing."""
-    frequencies = np.repeat([4000.0, 4700.0, 5200.0, 6100.0], 2)
-    pendulum, modes = point_mass(frequencies[0], softening=0.0), len(frequencies)
-    operator = np.tile(pendulum.displacement_operator, 4)
-    model = replace(
-        pendulum,
-        squared_frequencies=frequencies**2,
-        stiffness_per_square=np.zeros((modes, modes)),
-        displacement_operator=operator,
-        tip_displacement_operator=np.repeat(operator, 2, axis=1),
-        to_reduced=np.eye(modes),
-        coriolis=np.kron(np.eye(4), TURN),
-    )
-    model, scene = with_static_modes(model, STATIC), Scene(Casing(2e-3, lobes=0), damping_ratio=0.0)
-    start, velocity = np.random.default_rng(seed).standard_normal((2, modes)) * [[1e-3], [5.0]]
-    start -= np.maximum(operator[0, 0] @ start, 0.0) * operator[0, 0] / 4.0
+    model, scene = pendulum(np.repeat([4000.0, 4700.0, 5200.0, 6100.0], 2)), Scene(Casing(2e-3, lobes=0), damping_ratio=0.0)
+    start, velocity = np.random.default_rng(seed).standard_normal((2, 8)) * [[1e-3], [5.0]]
+    radial = model.displacement_operator[0, 0]
+    start -= np.maximum(radial @ start, 0.0) * radial / 4.0
     records = []
     for jumps in (True, False):
-        simulation = Simulation(model, 1300.0, scene, replace(CHOICE, jumps=jumps))
+        simulation = Simulation(with_static_modes(model, STATIC), 1300.0, scene, replace(CHOICE, jumps=jumps))
         state = moving(simulation, start, velocity)
         records.append(simulation.advance(state, 1).samples)
         assert (state.totals["steps_jumped"] > 0.5 * state.totals["steps"]) == jumps
         assert state.totals["casing_hits"] > 0
-    np.testing.assert_allclose(*records, rtol=0, atol=1e-9 * np.abs(records[1]).max())
+    assert_close(*records, 1e-9)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["direct", "direct_exact", "abradable"])
 def test_a_run_with_jumps_is_the_plain_run(coupled_blade, name):
     scene = replace(SCENES[name], casing=Casing(0.356e-3))
-    found = []
-    for jumps in (True, False):
-        simulation = Simulation(coupled_blade, 1600.0, scene, replace(CHOICE, time_step=4e-7, revolutions=8, jumps=jumps))
-        state = simulation.start()
-        found.append((state, simulation.advance(state, 8).samples))
-    (jumped, ours), (plain, theirs) = found
+    choice = replace(CHOICE, time_step=4e-7, revolutions=8)
+    (_, jumped, ours), (_, plain, theirs) = (
+        whole_run(coupled_blade, 1600.0, scene, replace(choice, jumps=jumps)) for jumps in (True, False)
+    )
     assert jumped.totals["steps_jumped"] > 0.1 * jumped.totals["steps"] and plain.totals["steps_jumped"] == 0
-    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-10 * np.abs(theirs).max())
+    assert_same_record(ours, theirs)
     np.testing.assert_allclose(jumped.totals["loss"], plain.totals["loss"], rtol=1e-9)
 
 
@@ -484,25 +363,20 @@ def test_snapshots_and_split_runs():
     """Samples are the snapshots' shapes at the tip, to the last number; a run that is stopped goes on with the same bits."""
     model = coupled_model()
     choice = replace(CHOICE, time_step=1.2e-6, revolutions=2, snapshots_per_revolution=62, snapshot_revolutions=2)
-    simulation = Simulation(model, 6000.0, ABRADABLE, choice)
+    simulation, whole_state, whole = whole_run(model, 6000.0, ABRADABLE, choice)
     assert len(simulation.problem.blade.frequencies) < len(model.squared_frequencies)
-    whole_state, state = simulation.start(), simulation.start()
-    whole = simulation.advance(whole_state, 2)
+    state = simulation.start()
     parts = [simulation.advance(state, 1) for _ in range(2)]
     np.testing.assert_array_equal(np.concatenate([part.snapshots for part in parts]), whole.snapshots)
     np.testing.assert_array_equal(state.increment, whole_state.increment)
     assert state.totals["steps_in_contact"] > 100
     radial = model.tip_displacement_operator[0, 0] @ simulation.problem.contact.state_shapes
-    largest = np.abs(whole.samples[:, 1]).max()
-    np.testing.assert_allclose(whole.snapshots @ radial, whole.samples[:, 1], rtol=0, atol=1e-12 * largest)
+    assert_close(whole.snapshots @ radial, whole.samples[:, 1], 1e-12)
 
 
-def test_central_differences_do_not_carry_it():
+def test_central_differences_and_run_ups_do_not_carry_it():
     with pytest.raises(ValueError, match=r"central differences do not carry the Coriolis force; use .* exact_modal"):
         Problem(coupled_model(), 1000.0, DIRECT, replace(CHOICE, integrator=CENTRAL_DIFFERENCE))
-
-
-def test_run_ups_do_not_carry_it():
     with pytest.raises(ValueError, match="run-ups do not carry the Coriolis force"):
         RunUpIntegration(coupled_model(), DIRECT, CHOICE, RunUp(1000.0, 1100.0, 5.0, 0, 0, worn=False))
 

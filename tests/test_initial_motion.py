@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
-from integration_cases import ABRADABLE, DIRECT, LINING, oscillator, with_static_modes
+from integration_cases import DIRECT, NARROW, oscillator, with_static_modes
+from integration_runs import ENGINES, assert_close, free_motion, times, whole_run
 from scipy.linalg import expm
 
 from r37core.contact.ring import RingMode
@@ -19,9 +20,7 @@ SPEED = 1000.0
 FAR = Scene(Casing(1.0, lobes=0), damping_ratio=0.02, divergence_limit=10.0)
 """A casing that nothing reaches."""
 
-NARROW = replace(ABRADABLE, lining=replace(LINING, bar_width=1e-3))
 KEPT = {"spectrum_highest_order": 5, "wear_angles": 60}
-ENGINES = ("compiled", "reference")
 
 
 def choice(integrator, step=2e-7, revolutions=1, engine="compiled", **others):
@@ -32,23 +31,12 @@ def motion(displacement=None, velocity=None):
     return InitialMotion.from_arrays(displacement, velocity)
 
 
-def times(problem, count):
-    return (1 + np.arange(count)) * problem.grid.steps_per_sample * problem.grid.time_step
-
-
-def flown(model, scene, chosen, start, speed=SPEED):
-    """Simulation, its state, and samples and snapshots of all revolutions from `start` on."""
-    simulation = Simulation(model, speed, scene, chosen)
-    state = simulation.start(start)
-    return simulation, state, simulation.advance(state, chosen.revolutions)
-
-
-def decay(time, frequency, ratio, displacement, velocity):
-    """exp(-xi omega t) (u cos omega_d t + (v + xi omega u)/omega_d sin omega_d t)."""
-    damped = frequency * np.sqrt(1.0 - ratio**2)
-    swing = displacement * np.cos(damped * time)
-    swing += (velocity + ratio * frequency * displacement) / damped * np.sin(damped * time)
-    return np.exp(-ratio * frequency * time) * swing
+def exponential(system, step, motion):
+    """Solution of x' = system x after each of fifty steps (s), shape (50, numbers), from `motion` on."""
+    power, found = expm(step * system), [motion]
+    for _ in range(50):
+        found.append(power @ found[-1])
+    return np.array(found[1:])
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -58,9 +46,9 @@ def test_one_mode_without_error(engine, displacement, velocity):
     frequency, ratio = 6000.0, FAR.damping_ratio
     given = motion(*(None if part is None else [part] for part in (displacement, velocity)))
     model = with_static_modes(oscillator(frequency), 1e-9)
-    simulation, state, record = flown(model, FAR, choice(EXACT_MODAL, 5e-5, 3, engine), given)
-    exact = decay(times(simulation.problem, 150), frequency, ratio, displacement or 0.0, velocity or 0.0)
-    np.testing.assert_allclose(record.samples[:, 0], exact, rtol=0, atol=1e-12 * np.abs(exact).max())
+    simulation, state, record = whole_run(model, SPEED, FAR, choice(EXACT_MODAL, 5e-5, 3, engine), given)
+    exact = free_motion(frequency, ratio, times(simulation, 150), displacement or 0.0, velocity or 0.0)
+    assert_close(record.samples[:, 0], exact, 1e-12)
     assert state.totals["steps_in_contact"] == 0
 
 
@@ -72,8 +60,8 @@ def test_central_differences_start_to_second_order(engine, displacement, velocit
     for steps in (32, 64, 128):
         chosen = choice(CENTRAL_DIFFERENCE, engine=engine, steps_per_sample=steps)
         scene, given = replace(FAR, damping_ratio=ratio), motion([displacement], [velocity])
-        simulation, _, record = flown(oscillator(frequency), scene, chosen, given)
-        exact = decay(times(simulation.problem, 50), frequency, ratio, displacement, velocity)
+        simulation, _, record = whole_run(oscillator(frequency), SPEED, scene, chosen, given)
+        exact = free_motion(frequency, ratio, times(simulation, 50), displacement, velocity)
         errors.append(np.abs(record.samples[:, 0] - exact).max() / np.abs(exact).max())
     assert errors[0] < 1e-3
     np.testing.assert_allclose(errors[:2], 4.0 * np.array(errors[1:]), rtol=0.01)
@@ -112,17 +100,13 @@ def test_free_flight_of_a_blade_is_that_of_its_matrices(model, contact, integrat
     start = slow_part(model, speed, modes, np.random.default_rng(1))
     chosen = choice(integrator, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)
     given = motion(*start)
-    simulation, _, record = flown(contact, scene, chosen, given, speed)
+    simulation, _, record = whole_run(contact, speed, scene, chosen, given)
     frequencies, shapes = model.modes(speed, modes)
     stiffness, damping = np.diag(frequencies**2), np.diag(2.0 * scene.damping_ratio * frequencies)
     system = np.block([[np.zeros((modes, modes)), np.eye(modes)], [-stiffness, -damping]])
-    step = expm(times(simulation.problem, 1)[0] * system)
-    now, expected = np.concatenate([shapes.T @ model.mass @ part for part in start]), []
-    for _ in range(50):
-        now = step @ now
-        expected.append(shapes @ now[:modes])
-    found = record.snapshots @ (contact.to_reduced @ simulation.problem.contact.state_shapes).T
-    np.testing.assert_allclose(found, expected, rtol=0, atol=within * np.abs(expected).max())
+    first = np.concatenate([shapes.T @ model.mass @ part for part in start])
+    expected = exponential(system, times(simulation, 1)[0], first)[:, :modes] @ shapes.T
+    assert_close(record.snapshots @ (contact.to_reduced @ simulation.problem.contact.state_shapes).T, expected, within)
     assert given.left_out(simulation.problem) < 1e-12
 
 
@@ -134,7 +118,7 @@ def test_what_is_not_stepped_is_left_out(model, contact):
     runs = {}
     for name, displacement in {"slow": slow, "fast": fast, "both": slow + fast}.items():
         given = motion(displacement)
-        simulation, state, record = flown(contact, FAR, chosen, given, speed)
+        simulation, state, record = whole_run(contact, speed, FAR, chosen, given)
         runs[name] = record.samples, given.left_out(simulation.problem), simulation.energy(state)
     assert len(simulation.problem.blade.frequencies) < len(frequencies)
     scale = np.abs(runs["slow"][0]).max()
@@ -153,20 +137,16 @@ def test_free_flight_with_the_coriolis_force(turning, engine):
     model = contact_model(turning, "pressure_edge")
     start = slow_part(replace(turning, coriolis=None), speed, modes, np.random.default_rng(2))
     chosen = choice(EXACT_MODAL, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)
-    simulation, _, record = flown(model, scene, chosen, motion(*start), speed)
+    simulation, _, record = whole_run(model, speed, scene, chosen, motion(*start))
     problem = simulation.problem
     # of the modes that are stepped: the others' part of the force is left out
     reduced = model.to_reduced @ problem.blade.modes
     coupling = speed * reduced.T @ turning.coriolis @ reduced
     size = len(problem.blade.frequencies)
     system = np.block([[np.zeros((size, size)), np.eye(size)], [-np.diag(problem.blade.frequencies**2), -coupling]])
-    step = expm(times(problem, 1)[0] * system)
-    now, expected = np.concatenate([reduced.T @ turning.mass @ part for part in start]), []
-    for _ in range(50):
-        now = step @ now
-        expected.append(reduced @ now[:size])
-    found = record.snapshots @ (model.to_reduced @ problem.contact.state_shapes).T
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
+    first = np.concatenate([reduced.T @ turning.mass @ part for part in start])
+    expected = exponential(system, times(simulation, 1)[0], first)[:, :size] @ reduced.T
+    assert_close(record.snapshots @ (model.to_reduced @ problem.contact.state_shapes).T, expected, 1e-8)
 
 
 def test_with_the_coriolis_force_displacement_and_velocity_are_those_of_damped_modes(turning):
@@ -175,8 +155,8 @@ def test_with_the_coriolis_force_displacement_and_velocity_are_those_of_damped_m
     start = slow_part(replace(turning, coriolis=None), speed, 4, np.random.default_rng(3))
     for coriolis in (None, 1e-12 * turning.coriolis):
         model = contact_model(replace(turning, coriolis=coriolis), "pressure_edge")
-        samples.append(flown(model, scene, choice(EXACT_MODAL, 2e-7), motion(*start), speed)[2].samples)
-    np.testing.assert_allclose(samples[1], samples[0], rtol=0, atol=1e-9 * np.abs(samples[0]).max())
+        samples.append(whole_run(model, speed, scene, choice(EXACT_MODAL, 2e-7), motion(*start))[2].samples)
+    assert_close(samples[1], samples[0], 1e-9)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -185,7 +165,7 @@ def test_an_elastic_casing_starts_at_rest(engine):
     ring = (RingMode(2, 4000.0, 1.0, 0.01), RingMode(3, 9000.0, 1.0, 0.01))
     model, samples = with_static_modes(oscillator(6000.0), 1e-9), []
     for scene in (FAR, replace(FAR, casing=replace(FAR.casing, ring=ring))):
-        _, state, record = flown(model, scene, choice(EXACT_MODAL, 2e-6, 1, engine), motion([1e-3], [2.0]))
+        _, state, record = whole_run(model, SPEED, scene, choice(EXACT_MODAL, 2e-6, 1, engine), motion([1e-3], [2.0]))
         samples.append(record.samples)
     assert record.casing.shape == (50, 4) and not record.casing.any() and not state.displacement[1:].any()
     np.testing.assert_allclose(*samples, rtol=0, atol=1e-14)
@@ -223,13 +203,6 @@ def test_a_start_in_no_motion_is_the_start_at_rest(contact, scene, integrator):
         np.testing.assert_array_equal(runs[1][name], value)
     assert motion(zeros, zeros).attributes == {}
     assert runs[0]["share_of_time_in_contact"] > 0.0
-
-
-def test_what_a_dataset_says_of_it():
-    said = motion(None, [0.0, 2.0]).attributes
-    assert said["initial_state"] == "in motion" and "initial_displacement" not in said
-    np.testing.assert_array_equal(said["initial_velocity"], [0.0, 2.0])
-    assert motion() is None
 
 
 @pytest.mark.parametrize(
@@ -272,10 +245,8 @@ def test_a_start_inside_of_the_casing_is_refused(scene, engine, exact_gap):
     assert 0.0 < room < scene.casing.clearance
     state = simulation.start(motion([room]))
     assert state.displacement[0] == room
-    with pytest.raises(
-        InitialMotionError,
-        match=r"^initial_displacement: contact node 1 of 1, .*, would start 1e-06 m inside of the casing or lining; allowed: a",
-    ):
+    told = r"^initial_displacement: contact node 1 of 1, .*, would start 1e-06 m inside of the casing or lining; allowed: a"
+    with pytest.raises(InitialMotionError, match=told):
         simulation.start(motion([room + 1e-6]))
     # on the other side there is room
     simulation.start(motion([-10.0 * room]))

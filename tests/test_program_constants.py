@@ -44,12 +44,8 @@ def program(wide, deep):
 def test_what_is_ruled_out_is_not_compiled():
     assert program(False, False)(1.0) == 3.0
     assert program(False, True)(1.0) == 303.0
-    with pytest.raises(numba.TypingError, match="of_no_such_name"):
-        program(True, False)(1.0)
-
-
-def test_an_error_names_file_and_line_of_the_source():
-    with pytest.raises(numba.TypingError) as refused:
+    # the error names file and line of the source
+    with pytest.raises(numba.TypingError, match="of_no_such_name") as refused:
         program(True, False)(1.0)
     assert "test_program_constants.py" in str(refused.value)
     assert "number = number.of_no_such_name" in str(refused.value)

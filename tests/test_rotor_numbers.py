@@ -60,10 +60,8 @@ def test_growth_is_kept_in_spans_of_revolutions():
         assert span == length and spans.shape[-1] == -(-revolutions // length) <= MOST_GROWTH
 
 
-HEAVY = replace(
-    STEEP,
-    casing=replace(STEEP.casing, ring=tuple(replace(mode, modal_mass=1e6 * mode.modal_mass) for mode in RING.modes())),
-)
+MODES = tuple(replace(mode, modal_mass=1e6 * mode.modal_mass) for mode in RING.modes())
+HEAVY = replace(STEEP, casing=replace(STEEP.casing, ring=MODES))
 CASINGS = {"rigid": STEEP, "elastic": HEAVY, "elastic, no lining": replace(HEAVY, lining=None)}
 RECORDED = replace(CHOICE, snapshots_per_revolution=16, snapshot_revolutions=2)
 RESULTS = ("spectrum", "stress", "energy")
@@ -136,13 +134,6 @@ def test_of_blades_that_diverge_in_one_pass_the_first_in_time_leads():
     assert record.first_diverged == 0 and len(record.blades[0].samples) == ends[0]
     numbers = numbers_of(replace(STEEP, divergence_limit=limit), rotor)
     assert numbers["leader"] == 1 and numbers["diverged_revolution"] == ends[0] / CHOICE.samples_per_revolution
-
-
-def test_a_blade_that_diverges_ends_the_rotor():
-    scene = replace(STEEP, divergence_limit=1e-5, rotor=rotor_of(3, longer=[0.0, 5e-5, 0.0]))
-    numbers = run_speed(a_blade(), SPEED, scene, CHOICE, ("spectrum", "wear", "energy"), **KEPT)
-    assert numbers["status"] == 1 and 0.0 < numbers["diverged_revolution"] < CHOICE.revolutions
-    assert np.isnan(numbers["rms"]).all() and numbers["leader"] in (1, 2, 3)
 
 
 def test_dataset_table_and_figure(tmp_path):
@@ -280,12 +271,8 @@ def test_speeds_that_diverged_are_above_yield_in_the_table(tmp_path):
     none = a_rotor([lost, lost], [lost, lost], [1, 1], [3, 1])
     table = rows_of(tmp_path, part=part, none=none)
     row = table.loc["part"]
-    assert (row["diverged_speeds"], row["worst_speed_rad_s"], row["leader_by_motion"], row["leader_by_stress"]) == (
-        1,
-        920.0,
-        1,
-        3,
-    )
+    names = ["diverged_speeds", "worst_speed_rad_s", "leader_by_motion", "leader_by_stress"]
+    assert row[names].tolist() == [1, 920.0, 1, 3]
     # of a run that diverged nothing of the way to the next speed counts
     assert row["length_with_any_blade_above_yield_rad_s"] == 0.0 and row["blades_above_yield_at_once"] == 0.0
     row = table.loc["none"]

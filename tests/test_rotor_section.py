@@ -35,38 +35,7 @@ def test_a_rotor_is_drawn_from_a_seed():
     assert fewer.frequency_factors[1:] == rotor.frequency_factors[2:] and fewer.angles[1] == rotor.angles[2]
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"rotor": {"blades": 0}}, "rotor.blades: found 0"),
-        ({"rotor": {"blades": 4, "missing": [5]}}, "rotor.missing: found blade 5; allowed: 1 to 4"),
-        ({"rotor": {"blades": 2, "missing": [1, 2]}}, "rotor.missing: found all blades"),
-        ({"rotor": {"blades": 4, "angles_deg": [0.0]}}, "rotor.angles_deg: found 1 angles; allowed: 4"),
-        (
-            {"rotor": {"blades": 4, "longer_spread_m": {"normal_percent": 1.0}}},
-            "rotor.longer_spread_m: found a spread in percent",
-        ),
-        ({"rotor": {"blades": 36, "mistuning_spread_percent": {"normal": 50.0}}}, "a narrower spread, a uniform one"),
-        ({"results": ["signal"]}, "results: found signal with a rotor"),
-        ({"lining": None}, "run a single blade for each"),
-    ],
-)
-def test_what_cannot_be_run_is_refused_in_one_line(changes, message):
-    entry = lined(blades=4)
-    for key, value in changes.items():
-        if value is None:
-            del entry[key]
-        else:
-            entry[key] = {**entry[key], **value} if isinstance(value, dict) and key != "rotor" else value
-    with pytest.raises(ConfigError, match=message.replace("(", r"\(")) as refusal:
-        checked_scene(entry)
-    assert "\n" not in str(refusal.value)
-
-
-TABLES = ["{ 1: 0.4, 3: -0.7 }", '{ "1": 0.4, "3": -0.7 }', "{ 01: 0.4, '3': -0.7 }"]
-
-
-@pytest.mark.parametrize("table", TABLES)
+@pytest.mark.parametrize("table", ["{ 1: 0.4, 3: -0.7 }", '{ "1": 0.4, "3": -0.7 }', "{ 01: 0.4, '3': -0.7 }"])
 def test_tables_by_number_stand_in_a_file(config_copy, table):
     """The number of a blade is a number or a text there, and the schema for editors allows both."""
     scenes = config_copy / "config/scenes.yaml"
@@ -116,6 +85,12 @@ def test_a_member_of_a_sample_has_another_value_of_one_blade():
 BLADES = "the number of a blade, from 1 to 1000"
 BOUNDS = "at least -0.1, at most 0.1"
 REFUSALS = [
+    ({"blades": 0}, "blades: found 0"),
+    ({"missing": [5]}, "missing: found blade 5; allowed: 1 to 4"),
+    ({"blades": 2, "missing": [1, 2]}, "missing: found all blades"),
+    ({"angles_deg": [0.0]}, "angles_deg: found 1 angles; allowed: 4"),
+    ({"longer_spread_m": {"normal_percent": 1.0}}, "longer_spread_m: found a spread in percent"),
+    ({"blades": 36, "mistuning_spread_percent": {"normal": 50.0}}, "mistuning_spread_percent: .*a narrower spread, a unif"),
     ({"longer_m": {"a": 1e-5}}, rf"longer_m\.a: found the key 'a'; allowed: {BLADES}"),
     ({"longer_m": {0: 1e-5}}, rf"longer_m\.0: found the key 0; allowed: {BLADES}"),
     ({"longer_m": {"-1": 1e-5}}, rf"longer_m\.-1: found the key '-1'; allowed: {BLADES}"),
@@ -138,10 +113,7 @@ REFUSALS = [
     ({"longer_spread_m": {"values": [0.0, 1e12]}}, rf"longer_spread_m\.values: found 1e\+12; allowed: {BOUNDS}$"),
     ({"longer_spread_m": {"normal": 0.1}}, rf"longer_spread_m: found -?0\.1\d* of blade \d; allowed: {BOUNDS}; a narrower"),
     ({"mistuning_spread_percent": {"uniform": 96.0}}, r"mistuning_spread_percent\.uniform: found 96; allowed: at most 95$"),
-    (
-        {"mistuning_spread_percent": {"values": [1e12]}},
-        r"mistuning_spread_percent\.values: found 1e\+12; allowed: at least -95, ",
-    ),
+    ({"mistuning_spread_percent": {"values": [1e12]}}, r"mistuning_spread_percent\.values: found 1e\+12; .*: at least -95, "),
     ({"angles_deg": [5.0] * 4}, r"angles_deg\.1: found 5, and blade 1 at 5; allowed: at least 0\.1 degrees between blades"),
     ({"angles_deg": [0.0, 90.0, 180.0, 359.95]}, r"angles_deg\.0: found 0, and blade 4 at 359\.95; allowed: at least 0\.1 deg"),
     ({"angles_deg": [-180.0, 90.0, 540.0, 0.0]}, r"angles_deg\.2: found 540, and blade 1 at -180; allowed: at least 0\.1 deg"),
@@ -151,8 +123,17 @@ REFUSALS = [
 @pytest.mark.parametrize(("keys", "message"), REFUSALS)
 def test_what_no_rotor_has_is_refused_in_one_line(keys, message):
     with pytest.raises(ConfigError, match=rf"^scenes\.yaml: rotor\.{message}") as refusal:
-        checked_scene(lined(blades=4, **keys))
+        checked_scene(lined(**{"blades": 4} | keys))
     assert "\n" not in str(refusal.value)
+
+
+def test_a_rotor_has_no_signal_and_needs_a_lining():
+    entry = lined(blades=4)
+    with pytest.raises(ConfigError, match="results: found signal with a rotor"):
+        checked_scene(entry | {"results": ["signal"]})
+    del entry["lining"]
+    with pytest.raises(ConfigError, match="run a single blade for each"):
+        checked_scene(entry)
 
 
 def test_what_is_at_a_bound_is_a_rotor():
