@@ -250,7 +250,7 @@ def _changed(
 def _source(entry: MeshEntry | MatricesEntry, name: str, root: Path, document: Document) -> MeshSource | MatricesSource:
     """What to import, its directions checked and its files found."""
     try:
-        entry.orientation().check()
+        _ = entry.orientation().rows
         return entry.source(root)
     except ImportRefused as error:
         raise document.error((name, error.key or "mesh"), str(error)) from None

@@ -59,9 +59,7 @@ class Ring:
     highest_nodal_diameter: Annotated[
         int,
         Key(
-            "Highest nodal diameter of a mode; `r37 check` reports the effect of those left out",
-            ge=2,
-            le=MOST_NODAL_DIAMETERS,
+            "Highest nodal diameter of a mode; `r37 check` reports the effect of those left out", ge=2, le=MOST_NODAL_DIAMETERS
         ),
     ] = 20
 

@@ -96,8 +96,5 @@ class Scene:
             words={"linear": False, "exact": True},
         ),
     ] = False
-    divergence_limit: Annotated[
-        float,
-        Key("Tip displacement above which a run ends as diverged", "_m", ge=1e-6, le=100),
-    ] = 0.1
+    divergence_limit: Annotated[float, Key("Tip displacement above which a run ends as diverged", "_m", ge=1e-6, le=100)] = 0.1
     rotor: Rotor | None = None

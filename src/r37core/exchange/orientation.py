@@ -48,11 +48,7 @@ class Orientation:
     rotor_axis: Annotated[Vector, Key("Downstream direction of the rotor axis, in the file's axes", ge=-1e9, le=1e9)]
     radial: Annotated[Vector, Key("Direction from the axis to the blade, in the file's axes", ge=-1e9, le=1e9)]
     rotation: Annotated[
-        str,
-        Key(
-            "Sense of the rotation about rotor_axis, by the right-hand rule",
-            one_of=("positive", "negative"),
-        ),
+        str, Key("Sense of the rotation about rotor_axis, by the right-hand rule", one_of=("positive", "negative"))
     ]
     axis_point: Annotated[Vector, Key("A point of the axis, in the file's unit", ge=-1e9, le=1e9)] = (0.0, 0.0, 0.0)
 
@@ -61,22 +57,17 @@ class Orientation:
         """Length of the file's unit (m)."""
         return LENGTH_UNITS[self.length_unit] if isinstance(self.length_unit, str) else self.length_unit
 
-    def check(self) -> None:
-        """Raise ImportRefused where the two directions are none or parallel."""
+    @property
+    def rows(self) -> np.ndarray:
+        """Orthonormal rows x, y, z of the blade's frame in the file's axes, shape (3, 3); left-handed where mirrored.
+
+        Raises ImportRefused where the two directions are none or parallel.
+        """
         axis, radial = np.array(self.rotor_axis, dtype=float), np.array(self.radial, dtype=float)
         if not np.linalg.norm(np.cross(axis, radial)) > 1e-6 * np.linalg.norm(axis) * np.linalg.norm(radial):
             raise ImportRefused(
                 f"rotor_axis {self.rotor_axis} and radial {self.radial} must be two directions, not parallel", "radial"
             )
-
-    @property
-    def rows(self) -> np.ndarray:
-        """Orthonormal rows x, y, z of the blade's frame in the file's axes, shape (3, 3); left-handed where mirrored.
-
-        Raises ImportRefused where the two directions are parallel.
-        """
-        self.check()
-        axis, radial = np.array(self.rotor_axis, dtype=float), np.array(self.radial, dtype=float)
         z = axis / np.linalg.norm(axis)
         x = radial - (radial @ z) * z
         x /= np.linalg.norm(x)

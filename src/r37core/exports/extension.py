@@ -5,8 +5,7 @@ from __future__ import annotations
 from r37core.config import Settings
 from r37core.plans.extension import Extension
 
-from .plan import targets
-from .section import SECTION
+from .plan import SECTION, targets
 
 
 def exported_speeds_are_run(settings: Settings) -> None:

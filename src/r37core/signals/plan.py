@@ -79,18 +79,14 @@ class Signals:
 
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Signals of each blade and scene."""
-    return {SIGNALS_OF_RUN: paths.run_keys(_runs(sweep))}
+    return {SIGNALS_OF_RUN: paths.run_keys(Signals(Imported(sweep.settings), sweep).runs)}
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """All signals in one file, and the figures."""
-    runs = paths.run_keys(_runs(sweep))
+    runs = paths.run_keys(Signals(Imported(sweep.settings), sweep).runs)
     return {
         "<results>/signals.nc": runs and [{}],
         **paths.pictures("spectrogram_{blade}__{scene}", runs),
         **paths.pictures("orders_{blade}__{scene}", runs),
     }
-
-
-def _runs(sweep: Sweep) -> list[tuple[str, str]]:
-    return Signals(Imported(sweep.settings), sweep).runs

@@ -37,8 +37,7 @@ class SignalSection(Section):
 
     blades: AllOrNames = Field(default="all", description="Blades with signals")
     speeds_rad_s: SignalSpeeds | LeftOut = Field(
-        default=None,
-        description="Speeds with signals; interactions: the peak speeds in summary.csv; each other speed is a run",
+        default=None, description="Speeds with signals; interactions: the peak speeds in summary.csv; each other speed is a run"
     )
     speeds_rpm: Unique[Rpm] | LeftOut = Field(default=None, description="The same speeds in revolutions per minute")
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(

@@ -48,10 +48,7 @@ class BladesRecord:
 
 
 class BladesSimulation:
-    """The time integration of all blades of a scene at one speed (rad/s): of one, or of those of its `rotor`.
-
-    Raises what Problem and blade_problems raise.
-    """
+    """Time integration of a scene's blade, or all of its `rotor`, at one speed (rad/s). Raises as Problem, blade_problems."""
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         self.rotor = scene.rotor

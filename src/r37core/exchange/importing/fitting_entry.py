@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 
@@ -137,10 +138,7 @@ def _makes_sense(mesh: RawMesh, orientation: Orientation) -> bool:
     casing = find_end("tip", placed.points, outer_faces(placed.blocks))
     if casing is None:
         return False
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", MeshWarning)
-            check_sense(placed.points, find_tip_lines(placed.points, casing.faces, True), True)
-    except (ImportRefused, MeshWarning):
-        return False
-    return True
+    with suppress(ImportRefused, MeshWarning), warnings.catch_warnings(action="error", category=MeshWarning):
+        check_sense(placed.points, find_tip_lines(placed.points, casing.faces, True), True)
+        return True
+    return False
