@@ -85,14 +85,10 @@ class BladesSimulation:
         if self.problem.scene.lining is None:
             return states
         wear = [problem.casing.initial_wear for problem in self.problems]
-        if self.rotor.shared_lining:
-            shared = np.zeros((len(self.problem.casing.tip.radius), self.problem.casing.bars)) + np.max(wear, axis=0)
-            for state in states:
-                state.wear = shared
-        else:
-            for state, own in zip(states, wear, strict=True):
-                assert state.wear is not None
-                np.maximum(state.wear, own, out=state.wear)
+        unworn = np.zeros((len(self.problem.casing.tip.radius), self.problem.casing.bars))
+        shared = unworn + np.max(wear, axis=0)
+        for state, own in zip(states, wear, strict=True):
+            state.wear = shared if self.rotor.shared_lining else unworn + own
         return states
 
     def run(self, states: list[SimulationState], revolutions: int) -> BladesRecord:
