@@ -98,11 +98,9 @@ def write_worst_shapes(
             "magnification": magnified,
             "worst_s": float(times[instant.number]),
         }
-        rest_weights = weights[instant.number]
-        colours = _colours(stress[nodes], largest)
-        surface = MovingSurface(
-            mesh.points[nodes], triangles, stress[nodes], colours, targets, times, weights, rest_weights, about
-        )
+        values, still = stress[nodes], weights[instant.number]
+        colours = _colours(values, largest)
+        surface = MovingSurface(mesh.points[nodes], triangles, values, colours, targets, times, weights, still, about)
         write_glb(surface, name, folder / f"{name}.glb")
         entries.append(about)
     write_json(entries, folder / INDEX)

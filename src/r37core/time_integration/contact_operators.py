@@ -129,9 +129,8 @@ class ContactOperators:
         """Half of what a kick moves the stepped modes by, in the shape of `static_shapes`; see ComplexRecursion."""
         u_factor, d_factor = self._shapes
         size = 0.5 * self.recursion.inverse / self.recursion.keep
-        rows, increment_rows = (
-            rows_of_one.reshape(-1, len(size)) for rows_of_one in (self.displacement_operator, self.increment_operator)
-        )
+        operators = self.displacement_operator, self.increment_operator
+        rows, increment_rows = (operator.reshape(-1, len(size)) for operator in operators)
         return (d_factor * size) @ rows.T - (u_factor * size) @ increment_rows.T
 
     @property

@@ -56,13 +56,11 @@ class InitialMotion:
         motion = np.zeros((2, size))
         for row, name in enumerate(("displacement", "velocity")):
             part = getattr(self, name)
-            if part is None:
-                continue
-            if len(part) != size:
+            if part is not None and len(part) != size:
                 raise InitialMotionError(
                     f"initial_{name}: found {len(part)} numbers; allowed: {size}, one for each coordinate of the reduced model"
                 )
-            motion[row] = part
+            motion[row] = 0.0 if part is None else part
         return np.linalg.lstsq(model.to_reduced, motion.T, rcond=None)[0].T
 
     def left_out(self, problem: Problem) -> float:

@@ -48,9 +48,8 @@ def blade_problems(
 
     @cache
     def rounded_problem(factor: float, longer: float, angle: float) -> Problem:
-        own = problem(
-            factor, longer, nearest_step_angle(angle, steps * choice.samples_per_revolution) if scene.lining else angle
-        )
+        place = nearest_step_angle(angle, steps * choice.samples_per_revolution) if scene.lining else angle
+        own = problem(factor, longer, place)
         if own.grid.steps_per_sample == steps:
             return own
         return Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))

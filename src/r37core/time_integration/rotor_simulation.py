@@ -109,9 +109,7 @@ class BladesSimulation:
             starts = [self._start(angle) for angle in self.rotor.angles]
             done, worn = self._pass_by_pass(states, outs, starts, self.rotor.order, revolutions)
             late = np.array([start.late for start in starts])
-        records = [
-            simulation.recorded(0, out, reached) for simulation, out, reached in zip(self.blades, outs, done, strict=True)
-        ]
+        records = (blade.recorded(0, out, reached) for blade, out, reached in zip(self.blades, outs, done, strict=True))
         return BladesRecord(tuple(records), late, np.array(worn))
 
     def energy(self, states: list[SimulationState]) -> float:
