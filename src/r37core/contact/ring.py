@@ -137,10 +137,7 @@ class RingMotion:
         return self._twice([(mode.radial or mode.tangential) / np.sqrt(mode.modal_mass) for mode in self.modes])
 
     def displacement(self, theta: np.ndarray) -> np.ndarray:
-        """Radial, tangential and axial displacement (m) of the casing at angles (rad), per coordinate.
-
-        `theta`, shape (nodes,). Returns shape (3, nodes, 2 modes).
-        """
+        """Radial, tangential, axial displacement (m) per coordinate at angles `theta` (rad): shape (3, nodes, 2 modes)."""
         radial, tangential, mass = np.array([(mode.radial, mode.tangential, mode.modal_mass) for mode in self.modes]).T
         angles = theta[:, None] * self.nodal_diameters
         cosine, sine = np.cos(angles) / np.sqrt(mass), np.sin(angles) / np.sqrt(mass)
