@@ -27,7 +27,7 @@ from r37core.fem.elements import ELEMENTS
 from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
 from r37core.fem.solver import lowest_modes
-from r37core.fem.surface import faces_within, outer_faces
+from r37core.fem.surface import chosen, mask_within, outer_faces
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.rom.naming import ideal_shapes
@@ -225,7 +225,8 @@ def test_decks_as_other_programs_write_them(tmp_path):
 
 def tip_faces(mesh):
     members = np.isin(np.arange(len(mesh.points)), mesh.node_set("tip"))
-    return np.concatenate([part.nodes for part in faces_within(outer_faces(mesh.blocks), members)])
+    surface = outer_faces(mesh.blocks)
+    return np.concatenate([part.nodes for part in chosen(surface, mask_within(surface, members))])
 
 
 def moved(text, node, x):

@@ -11,7 +11,7 @@ from defaults import Where
 from r37core.cases.plan import Cases, shape_of_model
 from r37core.config import ConfigError
 from r37core.exchange.orientation import OURS
-from r37core.exports.plan import Exports, targets
+from r37core.exports.extension import Exports, targets
 from r37core.plain import to_plain
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash

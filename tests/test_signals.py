@@ -17,11 +17,11 @@ from r37core.figures.style import save
 from r37core.io import InputFileError
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.signals.dataset import gather_signals, signals_dataset
+from r37core.signals.extension import GaugeEntry
 from r37core.signals.figures import draw_orders, draw_spectrograms
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
 from r37core.signals.record import Record, record_signals, revolutions_of
-from r37core.signals.section import GaugeEntry
 from r37core.signals.tip_timing import arrival_times
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed

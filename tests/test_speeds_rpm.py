@@ -8,7 +8,7 @@ import pytest
 
 from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
 from r37core.config import ConfigError, command_line_document
-from r37core.exports.plan import Exports
+from r37core.exports.extension import Exports
 from r37core.plain import from_plain, to_plain
 from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep

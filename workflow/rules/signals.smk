@@ -1,5 +1,5 @@
 # Time signals of chosen speeds, each a run of its own: edges of the tip, strain gauges, tip timing.
-from r37core.signals.plan import SIGNALS_OF_RUN, Signals
+from r37core.signals.extension import SIGNALS_OF_RUN, Signals
 
 recorded = Signals(imported, sweep)
 

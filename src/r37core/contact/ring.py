@@ -39,10 +39,7 @@ class RingMode:
 
 @dataclass(frozen=True)
 class Ring:
-    """A ring of one material on an elastic foundation.
-
-    `radial_foundation` and `tangential_foundation`: stiffness per length of its circumference.
-    """
+    """A ring of one material on a `radial_foundation` and `tangential_foundation`, stiffnesses per length of circumference."""
 
     radius: Annotated[float, Key("Radius of the middle line, from the tip's to a quarter more", "_m", ge=1e-3, le=100)]
     thickness: Annotated[float, Key("Radial thickness, at most a fifth of the radius", "_m", ge=1e-6, le=10)]
@@ -59,9 +56,7 @@ class Ring:
     highest_nodal_diameter: Annotated[
         int,
         Key(
-            "Highest nodal diameter of a mode; `r37 check` reports the effect of those left out",
-            ge=2,
-            le=MOST_NODAL_DIAMETERS,
+            "Highest nodal diameter of a mode; `r37 check` reports the effect of those left out", ge=2, le=MOST_NODAL_DIAMETERS
         ),
     ] = 20
 
@@ -142,12 +137,8 @@ class RingMotion:
         return self._twice([(mode.radial or mode.tangential) / np.sqrt(mode.modal_mass) for mode in self.modes])
 
     def displacement(self, theta: np.ndarray) -> np.ndarray:
-        """Radial, tangential and axial displacement (m) of the casing at angles (rad), per coordinate.
-
-        `theta`, shape (nodes,). Returns shape (3, nodes, 2 modes).
-        """
-        shapes = np.array([(mode.radial, mode.tangential, mode.modal_mass) for mode in self.modes])
-        radial, tangential, mass = shapes.T
+        """Radial, tangential, axial displacement (m) per coordinate at angles `theta` (rad): shape (3, nodes, 2 modes)."""
+        radial, tangential, mass = np.array([(mode.radial, mode.tangential, mode.modal_mass) for mode in self.modes]).T
         angles = theta[:, None] * self.nodal_diameters
         cosine, sine = np.cos(angles) / np.sqrt(mass), np.sin(angles) / np.sqrt(mass)
         out = np.hstack([radial * cosine, radial * sine])

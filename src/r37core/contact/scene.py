@@ -60,10 +60,7 @@ class Lining:
 
 @dataclass(frozen=True)
 class Friction:
-    """Always-sliding Coulomb friction.
-
-    `vector`: along the real sliding velocity (rotation plus vibration), else the vibration is neglected.
-    """
+    """Always-sliding Coulomb friction; `vector`: along the sliding of rotation plus vibration, else the latter is neglected."""
 
     coefficient: Annotated[float, Key("Coulomb coefficient", ge=0, le=10)]
     vector: Annotated[
@@ -96,8 +93,5 @@ class Scene:
             words={"linear": False, "exact": True},
         ),
     ] = False
-    divergence_limit: Annotated[
-        float,
-        Key("Tip displacement above which a run ends as diverged", "_m", ge=1e-6, le=100),
-    ] = 0.1
+    divergence_limit: Annotated[float, Key("Tip displacement above which a run ends as diverged", "_m", ge=1e-6, le=100)] = 0.1
     rotor: Rotor | None = None

@@ -8,7 +8,7 @@ import meshio
 import numpy as np
 
 from r37core.exchange.importing.meshio_reader import quietly
-from r37core.fem.surface import faces_within, outer_faces
+from r37core.fem.surface import chosen, mask_within, outer_faces
 from r37core.io import atomic_write
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
@@ -71,7 +71,8 @@ def _grouped(mesh: BladeMesh) -> tuple[list[tuple[str, np.ndarray]], list[np.nda
     surface = outer_faces(mesh.blocks)
     for name in ("root", "tip"):
         members = np.isin(np.arange(len(mesh.points)), mesh.node_set(name))
-        faces = [(_FACE_TYPES[part.corners, part.quadratic], part.nodes) for part in faces_within(surface, members)]
+        within = chosen(surface, mask_within(surface, members))
+        faces = [(_FACE_TYPES[part.corners, part.quadratic], part.nodes) for part in within]
         cells += faces
         numbers += [GROUPS[name]] * len(faces)
     return cells, [np.full(len(nodes), number) for number, (_, nodes) in zip(numbers, cells, strict=True)]

@@ -1,12 +1,133 @@
-"""Files for other programs as an extension."""
+"""Files for other programs as an extension: what config.yaml says of them, which files, from what, with which numbers."""
 
 from __future__ import annotations
 
-from r37core.config import Settings
-from r37core.plans.extension import Extension
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
-from .plan import targets
-from .section import SECTION
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from r37core.blade.definition import BladeDefinition
+from r37core.config import Settings, si_fields
+from r37core.config.section import ExtensionSection, LeftOut, Rpm, Section, Speed, Unique
+from r37core.config.speed_section import refuse_both_units
+from r37core.exchange.importing.source import MeshSource
+from r37core.exchange.orientation import OURS
+from r37core.plain import to_plain
+from r37core.plans import paths
+from r37core.plans.extension import Extension
+from r37core.plans.structure_plan import Imported
+from r37core.plans.sweep_plan import Sweep
+from r37core.speeds import exact_text
+
+ModeSpeed = Annotated[float, Field(ge=0, le=1e6)]
+ChosenSpeeds = Annotated[
+    Annotated[Literal["worst", "all"], Tag("word")] | Annotated[Unique[Speed], Tag("speeds")],
+    Discriminator(lambda value: "speeds" if isinstance(value, list) else "word"),
+]
+
+
+class ExportSection(Section):
+    """Files of `snakemake exports`."""
+
+    mesh_formats: Unique[Literal["msh", "vtu", "med", "bdf", "inp"]] = Field(
+        default=["msh", "vtu", "med", "bdf", "inp"], description="Mesh formats; inp is a complete CalculiX/Abaqus deck"
+    )
+    result_formats: Unique[Literal["vtu", "med"]] = Field(default=["vtu"], description="Formats of modes and stress")
+    modes: int = Field(default=10, ge=1, le=30, description="Number of modes at each speed")
+    mode_speeds_rad_s: Annotated[Unique[ModeSpeed], Field()] | LeftOut = Field(
+        default=None, description="Speeds of the modes; by default rest and structure.maximum_speed_rad_s"
+    )
+    stress_speeds_rad_s: ChosenSpeeds = Field(
+        default="worst",
+        description="Speeds whose worst instant is written; worst: that of the largest stress of each blade and scene",
+    )
+    stress_speeds_rpm: Unique[Rpm] | LeftOut = Field(default=None, description="The same speeds in revolutions per minute")
+    full_matrices: bool = Field(
+        default=False, description="Whether matrices of all nodes (hundreds of MB) replace the reduced ones"
+    )
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> ExportSection:
+        # the shipped config.yaml gives the default of stress_speeds_rad_s
+        if self.stress_speeds_rpm is not None and self.stress_speeds_rad_s != "worst":
+            refuse_both_units("stress_speeds_rad_s", "stress_speeds_rpm")
+        return self
+
+    def stress_speeds(self) -> tuple[float, ...] | None:
+        """Speeds (rad/s) that are named; None for `worst` and `all`."""
+        return si_fields(self).get("stress_speeds")
+
+
+SECTION = ExtensionSection("exports", ExportSection, ExportSection())
+
+EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
+EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
+EXPORTED_MODES = "<results>/exports/{blade}/modes"
+EXPORTED_STRESS = "<results>/exports/{blade}/stress_{scene}"
+EXPORTED_MATRICES = "<results>/exports/{blade}/matrices"
+
+
+@dataclass(frozen=True)
+class Exports:
+    """Plan of the exports. Methods with `wildcards` are inputs and parameters of rules."""
+
+    imported: Imported
+    sweep: Sweep
+
+    @property
+    def choice(self) -> dict[str, Any]:
+        """The section of config.yaml, with the speeds (rad/s) of modes and matrices."""
+        settings = self.imported.settings
+        exported, highest = settings.section(SECTION), settings.structure.maximum_speed_rad_s
+        return {
+            "formats": tuple(exported.result_formats),
+            "modes": exported.modes,
+            "mode_speeds": si_fields(exported).get("mode_speeds", (0.0, highest)),
+            "matrix_speeds": (0.0, 0.5 * highest, highest),
+        }
+
+    def orientation(self, wildcards: Any) -> Any:
+        """Axes and unit in which results are written: those of an imported mesh, or the blade's own frame."""
+        definition = self.imported.settings.blades[wildcards.blade].definition
+        return to_plain(definition.orientation if isinstance(definition, MeshSource) else OURS)
+
+    def matrix_files(self, wildcards: Any) -> dict[str, str]:
+        """What matrices are written from: the reduced model, and the mesh where full ones are wanted."""
+        settings = self.imported.settings
+        tip_line = settings.structure.boundary.tip_line
+        files = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
+        if settings.section(SECTION).full_matrices and wildcards.blade in self.imported.meshed_blades:
+            files |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
+        return files
+
+    def only_worst(self, wildcards: Any) -> bool:
+        """Whether the speed with the largest stress is written alone."""
+        exported = self.imported.settings.section(SECTION)
+        return exported.stress_speeds() is None and exported.stress_speeds_rad_s == "worst"
+
+    def speed_files(self, wildcards: Any) -> list[str]:
+        """The simulations among which worst instants are looked for."""
+        files = self.sweep.speed_files(wildcards)
+        chosen = self.imported.settings.section(SECTION).stress_speeds()
+        if chosen is None:
+            return files
+        wanted = {f"speed_{exact_text(speed)}.npz" for speed in chosen}
+        return [file for file in files if Path(file).name in wanted]
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """Files and folders that this run's configuration asks for."""
+    settings = sweep.settings
+    imported, formats = Imported(settings), settings.section(SECTION).mesh_formats
+    return {
+        EXPORTED_MESH: [{"blade": blade, "format": name} for blade in imported.meshed_blades for name in formats],
+        EXPORTED_MODES: paths.of("blade", imported.meshed_blades),
+        EXPORTED_SURFACE: paths.of("blade", imported.given_by(BladeDefinition)),
+        EXPORTED_MATRICES: paths.of("blade", settings.blades),
+        EXPORTED_STRESS: paths.run_keys(sweep.runs_with("stress")),
+    }
 
 
 def exported_speeds_are_run(settings: Settings) -> None:

@@ -21,7 +21,7 @@ def mesh(input: Any, output: Any, params: Any) -> None:
     with atomic_write(output.msh) as msh_file:
         made = generate_mesh(read_geometry(input.geometry), level["nodes"], level["layers"], level["tip_elements"], msh_file)
         quality = mesh_quality(made)
-        JOB_LOG.debug(f"{len(made.points)} nodes, {made.element_count} wedges")
+        JOB_LOG.debug(f"{len(made.points)} nodes, {len(quality.per_element)} wedges")
         JOB_LOG.debug(f"scaled Jacobian: minimum {quality.minimum:.3f}, 1% quantile {quality.one_percent_quantile:.3f}")
         quality.check(level["minimum_scaled_jacobian"])
     write_vtu(made, output.vtu, quality.per_element)

@@ -61,11 +61,6 @@ def chosen(faces: list[Faces], mask: np.ndarray) -> list[Faces]:
     return [Faces(part.corners, part.nodes[keep]) for part, keep in zip(faces, parts, strict=True) if keep.any()]
 
 
-def faces_within(faces: list[Faces], members: np.ndarray) -> list[Faces]:
-    """The faces all of whose nodes are `members`, a mask over the mesh's nodes."""
-    return chosen(faces, mask_within(faces, members))
-
-
 def nodes_of(faces: list[Faces]) -> np.ndarray:
     """Numbers of the nodes of these faces, ascending."""
     return np.unique(np.concatenate([np.empty(0, dtype=np.int64), *(part.nodes.ravel() for part in faces)]))

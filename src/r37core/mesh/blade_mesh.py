@@ -35,11 +35,6 @@ class BladeMesh:
         return self.node_sets[name]
 
     @property
-    def element_count(self) -> int:
-        """Number of elements of all types."""
-        return sum(len(nodes) for nodes in self.blocks.values())
-
-    @property
     def free_nodes(self) -> np.ndarray:
         """Numbers of the nodes that are not clamped at the root."""
         return np.setdiff1d(np.arange(len(self.points)), self.node_set("root"))

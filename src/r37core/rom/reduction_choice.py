@@ -98,8 +98,7 @@ class StressSubmesh:
     minimum_z: Annotated[float, Key("Lower bound of z (downstream)", "_m", ge=-100, le=100)] = -np.inf
     maximum_z: Annotated[float, Key("Upper bound of z", "_m", ge=-100, le=100)] = np.inf
     excluded_layers: Annotated[
-        int,
-        Key("Element layers left out round contact nodes and root, where stress grows with every finer mesh", ge=0, le=20),
+        int, Key("Element layers left out round contact nodes and root, where stress grows with every finer mesh", ge=0, le=20)
     ] = 0
 
     def description(self) -> str:

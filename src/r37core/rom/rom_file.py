@@ -21,6 +21,19 @@ _MATRICES = {
     "spin_softening": ("kg", "reduced spin softening per squared speed"),
     "coriolis": ("kg", f"reduced Coriolis matrix G per speed, skew-symmetric: {CORIOLIS_TERM}"),
 }
+_ARRAYS: dict[str, tuple[str | tuple[str, str], str, str]] = {
+    "contact_chord": ("contact_node", "1", "chord fraction of the contact nodes"),
+    "shape_products": (("shape", "column"), "kg1/2", "mass product with ideal shapes"),
+    "shape_norms": ("shape", "kg1/2", "mass norm of the ideal shapes"),
+    "rotation_stiffening": ("rotation_shape", "s2 rad-2", "relative stiffening of these shapes per squared speed"),
+    "singular_values": ("basis_column", "1", "singular values of the basis columns"),
+}
+_OF_NODES: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "nodes": ((), "1", "mesh node numbers"),
+    "points": (("axis",), "m", "coordinates"),
+    "basis": (("axis", "column"), "1", "displacement per coordinate"),
+    "rotation_shapes": (("axis", "rotation_shape"), "m s2 rad-2", "shapes of the displacement by rotation"),
+}
 _ELEMENTS = "stress_elements_"
 
 
@@ -33,18 +46,10 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
     if model.whole_blade is not None:
         node_groups["blade"] = model.whole_blade
     for group, recovery in node_groups.items():
-        data |= _recovery_variables(group, recovery)
-    data |= {
-        "contact_chord": ("contact_node", model.contact_chord, about("1", "chord fraction of the contact nodes")),
-        "shape_products": (("shape", "column"), model.shape_products, about("kg1/2", "mass product with ideal shapes")),
-        "shape_norms": ("shape", model.shape_norms, about("kg1/2", "mass norm of the ideal shapes")),
-        "rotation_stiffening": (
-            "rotation_shape",
-            model.rotation_stiffening,
-            about("s2 rad-2", "relative stiffening of these shapes per squared speed"),
-        ),
-        "singular_values": ("basis_column", model.singular_values, about("1", "singular values of the basis columns")),
-    }
+        for part, (axes, units, text) in _OF_NODES.items():
+            content = getattr(recovery, part), about(units, f"{text} ({group})")
+            data[f"{group}_{part}"] = ((f"{group}_node", *axes), *content)
+    data |= {name: (dims, getattr(model, name), about(units, text)) for name, (dims, units, text) in _ARRAYS.items()}
     for name, elements in model.stress_elements.items():
         dims = (f"stress_{name}", f"node_of_{name}")
         data[_ELEMENTS + name] = (dims, elements, about("1", f"submesh elements of type {name}"))
@@ -65,42 +70,23 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
     """The model of a rom.nc; InputFileError when the file cannot be read."""
     dataset = read_dataset(file)
     with readable(file):
+        elements = [name for name in map(str, dataset) if name.startswith(_ELEMENTS)]
         matrices: dict[str, Any] = {name: dataset[name].values if name in dataset else None for name in _MATRICES}
         return ReducedModel(
             **matrices,
+            **{name: dataset[name].values for name in _ARRAYS},
             contact=str(dataset.attrs["contact"]),
             contact_nodes=_recovery(dataset, "contact"),
-            contact_chord=dataset["contact_chord"].values,
             tip_lines={line: _recovery(dataset, f"tip_{line}") for line in np.atleast_1d(dataset.tip_line_names)},
             stress_submesh=_recovery(dataset, "stress"),
-            stress_elements={
-                name.removeprefix(_ELEMENTS): dataset[name].values for name in map(str, dataset) if name.startswith(_ELEMENTS)
-            },
+            stress_elements={name.removeprefix(_ELEMENTS): dataset[name].values for name in elements},
             stress_region=str(dataset.attrs["stress_region"]),
             whole_blade=_recovery(dataset, "blade") if "blade_basis" in dataset else None,
             shape_names=tuple(str(name) for name in dataset["shape"].values),
-            shape_products=dataset["shape_products"].values,
-            shape_norms=dataset["shape_norms"].values,
             tolerance=float(dataset.attrs["basis_tolerance"]),
-            singular_values=dataset["singular_values"].values,
-            rotation_stiffening=dataset["rotation_stiffening"].values,
             quadratic_residual=float(dataset.attrs["quadratic_residual"]),
         )
 
 
-def _recovery_variables(group: str, recovery: RecoveryNodes) -> dict:
-    node = f"{group}_node"
-    return {
-        f"{group}_nodes": (node, recovery.nodes, about("1", f"mesh node numbers ({group})")),
-        f"{group}_points": ((node, "axis"), recovery.points, about("m", f"coordinates ({group})")),
-        f"{group}_basis": ((node, "axis", "column"), recovery.basis, about("1", f"displacement per coordinate ({group})")),
-        f"{group}_rotation_shapes": (
-            (node, "axis", "rotation_shape"),
-            recovery.rotation_shapes,
-            about("m s2 rad-2", f"shapes of the displacement by rotation ({group})"),
-        ),
-    }
-
-
 def _recovery(dataset: xr.Dataset, group: str) -> RecoveryNodes:
-    return RecoveryNodes(*(dataset[f"{group}_{part}"].values for part in ("nodes", "points", "basis", "rotation_shapes")))
+    return RecoveryNodes(*(dataset[f"{group}_{part}"].values for part in _OF_NODES))

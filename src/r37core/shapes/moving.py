@@ -98,11 +98,9 @@ def write_worst_shapes(
             "magnification": magnified,
             "worst_s": float(times[instant.number]),
         }
-        rest_weights = weights[instant.number]
-        colours = _colours(stress[nodes], largest)
-        surface = MovingSurface(
-            mesh.points[nodes], triangles, stress[nodes], colours, targets, times, weights, rest_weights, about
-        )
+        values, still = stress[nodes], weights[instant.number]
+        colours = _colours(values, largest)
+        surface = MovingSurface(mesh.points[nodes], triangles, values, colours, targets, times, weights, still, about)
         write_glb(surface, name, folder / f"{name}.glb")
         entries.append(about)
     write_json(entries, folder / INDEX)
@@ -129,9 +127,7 @@ def _colours(values: np.ndarray, largest: float) -> np.ndarray:
 def _skin(mesh: BladeMesh) -> tuple[np.ndarray, np.ndarray]:
     """The outer surface between corner nodes: nodes of the mesh, shape (points,), and the triangles that number them."""
     corners = [part.nodes[:, : part.corners] for part in outer_faces(mesh.blocks)]
-    triangles = [
-        quad[:, split] for quad in corners for split in ([[0, 1, 2], [0, 2, 3]] if quad.shape[1] == 4 else [[0, 1, 2]])
-    ]
+    triangles = [face[:, split] for face in corners for split in ([0, 1, 2], [0, 2, 3])[: face.shape[1] - 2]]
     nodes, numbers = np.unique(np.concatenate(triangles), return_inverse=True)
     return nodes, numbers.reshape(-1, 3)
 

@@ -1,14 +1,159 @@
-"""Time signals as an extension."""
+"""Time signals as an extension: what config.yaml says of them, of which blades and scenes, at which speeds, from what."""
 
 from __future__ import annotations
 
-from r37core.config import Settings
-from r37core.config.cross_checks import slow_run_can_be_done
-from r37core.config.speed_choice import length_of_run
-from r37core.plans.extension import Extension
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
 
-from .plan import simulated, targets
-from .section import SECTION
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
+
+from r37core.config import Settings, si_fields, si_form
+from r37core.config.cross_checks import slow_run_can_be_done
+from r37core.config.declaring import declared_by
+from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Rpm, Section, Speed, Unique, refused
+from r37core.config.speed_choice import length_of_run
+from r37core.config.speed_section import refuse_both_units
+from r37core.plain import to_plain
+from r37core.plans import paths
+from r37core.plans.extension import Extension
+from r37core.plans.structure_plan import Imported
+from r37core.plans.sweep_plan import Sweep
+
+from .gauge import Gauge
+
+SignalSpeeds = Annotated[
+    Annotated[Literal["interactions"], Tag("word")] | Annotated[Unique[Speed], Tag("speeds")],
+    Discriminator(lambda value: "speeds" if isinstance(value, list) else "word"),
+]
+Degrees = Annotated[float, Field(ge=0, lt=360)]
+
+
+def _each_probe_once(probes: list[float]) -> list[float]:
+    for number, probe in enumerate(probes):
+        if probe in probes[:number]:
+            raise refused((number,), f"a probe at {probe:g} degrees twice", "each angle once")
+    return probes
+
+
+@declared_by(Gauge)
+class GaugeEntry(Section):
+    """A strain gauge on the blade's surface."""
+
+
+class SignalSection(Section):
+    """Kept signals; none without speeds."""
+
+    blades: AllOrNames = Field(default="all", description="Blades with signals")
+    speeds_rad_s: SignalSpeeds | LeftOut = Field(
+        default=None, description="Speeds with signals; interactions: the peak speeds in summary.csv; each other speed is a run"
+    )
+    speeds_rpm: Unique[Rpm] | LeftOut = Field(default=None, description="The same speeds in revolutions per minute")
+    revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(
+        default=None, description="Revolutions kept at the end; all without it"
+    )
+    gauges: dict[Name, GaugeEntry] = Field(default={}, description="Strain gauges by name")
+    probes_deg: Annotated[list[Degrees], AfterValidator(_each_probe_once)] = Field(
+        default=[], description="Casing angles of tip-timing probes, towards growing theta"
+    )
+
+    @model_validator(mode="after")
+    def _has_speeds(self) -> SignalSection:
+        if self.speeds_rad_s is not None and self.speeds_rpm is not None:
+            refuse_both_units("speeds_rad_s", "speeds_rpm")
+        for key in ("gauges", "probes_deg"):
+            if getattr(self, key) and self.speeds() is None:
+                raise refused((key,), f"{key} without speeds", "speeds_rad_s beside them")
+        return self
+
+    @property
+    def key_of_speeds(self) -> str:
+        """The key that speeds are given with."""
+        return "speeds_rad_s" if self.speeds_rpm is None else "speeds_rpm"
+
+    def speeds(self) -> list[float] | Literal["interactions"] | None:
+        """Speeds (rad/s), ascending, or the word for those of interactions; None where no signals are asked for."""
+        speeds = si_fields(self).get("speeds")
+        return sorted(speeds) if speeds else "interactions" if self.speeds_rad_s else None
+
+
+SECTION = ExtensionSection("signals", SignalSection, SignalSection())
+
+SIGNALS_OF_RUN = "<results>/{blade}/{scene}/signals.nc"
+
+
+@dataclass(frozen=True)
+class Signals:
+    """Plan of the signals that the configuration asks for. Methods with `wildcards` are inputs and parameters of rules."""
+
+    imported: Imported
+    sweep: Sweep
+
+    @property
+    def _section(self) -> SignalSection:
+        return self.sweep.settings.section(SECTION)
+
+    @property
+    def runs(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene with signals; none without speeds."""
+        if self._section.speeds() is None:
+            return []
+        pairs = self.sweep.runs_with("signal")
+        return [(blade, scene) for blade, scene in pairs if self._section.blades == "all" or blade in self._section.blades]
+
+    def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
+        """Gauges of a blade as plain values; a blade given by matrices has none."""
+        gauges = self._section.gauges if wildcards.blade in self.imported.meshed_blades else {}
+        return {name: to_plain(si_form(Gauge, entry)) for name, entry in gauges.items()}
+
+    def inputs(self, wildcards: Any) -> dict[str, str]:
+        """Inputs of signals, with those of gauges and of the speeds of interactions."""
+        blade, scene, tip_line = wildcards.blade, wildcards.scene, self.tip_line(wildcards)
+        files = {
+            "prepared": paths.fill(paths.INTEGRATION_STAMP, blade=blade, scene=scene),
+            "model": self.sweep.contact_model(wildcards),
+            "rom": paths.fill(paths.REDUCED_MODEL, blade=blade, tip_line=tip_line),
+        }
+        if self.gauges(wildcards):
+            files |= {"mesh": paths.fill(paths.MESH, blade=blade)}
+            files |= {"whole": paths.fill(paths.WHOLE_BLADE_MODEL, blade=blade, tip_line=tip_line)}
+        if self._section.speeds() == "interactions":
+            files |= {"campbell": paths.fill(paths.CAMPBELL, blade=blade)}
+            files |= {"response": paths.fill(paths.RESPONSE, blade=blade, scene=scene)}
+        return files
+
+    @property
+    def speeds(self) -> list[float]:
+        """Speeds (rad/s) that are named, ascending; none for those of interactions."""
+        speeds = self._section.speeds()
+        return speeds if isinstance(speeds, list) else []
+
+    @property
+    def probes(self) -> list[float]:
+        """Angles of the probes (degrees), ascending."""
+        return sorted(map(float, self._section.probes_deg))
+
+    def revolutions(self, wildcards: Any) -> int:
+        """Number of revolutions at the end that are kept."""
+        return self._section.revolutions or self.sweep.settings.scenes[wildcards.scene].revolutions
+
+    def tip_line(self, wildcards: Any) -> str:
+        """The line of the contact nodes of a scene."""
+        return self.sweep.settings.scenes[wildcards.scene].tip_line
+
+
+def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """Signals of each blade and scene."""
+    return {SIGNALS_OF_RUN: paths.run_keys(Signals(Imported(sweep.settings), sweep).runs)}
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """All signals in one file, and the figures."""
+    runs = paths.run_keys(Signals(Imported(sweep.settings), sweep).runs)
+    return {
+        "<results>/signals.nc": runs and [{}],
+        **paths.pictures("spectrogram_{blade}__{scene}", runs),
+        **paths.pictures("orders_{blade}__{scene}", runs),
+    }
 
 
 def signals_have_runs(settings: Settings) -> None:

@@ -38,9 +38,8 @@ def record(input: Any, output: Any, params: Any) -> None:
         positions = dict(zip(params.gauges, gauge_points(mesh, gauges), strict=True))
     model, scene = read_contact_model(input.model), from_plain(Scene, params.scene)
     choice = from_plain(IntegrationChoice, params.choice)
-    records = {
-        speed: record_signals(model, speed, scene, choice, rows, params.revolutions) for speed in params.speeds or sorted(named)
-    }
+    speeds = params.speeds or sorted(named)
+    records = {speed: record_signals(model, speed, scene, choice, rows, params.revolutions) for speed in speeds}
     tip = read_reduced_model(input.rom).tip_lines[params.tip_line]
     write_dataset(signals_dataset(records, named, positions, params.probes, tip), output.signals, params.provenance)
 

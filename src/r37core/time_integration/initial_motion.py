@@ -56,13 +56,11 @@ class InitialMotion:
         motion = np.zeros((2, size))
         for row, name in enumerate(("displacement", "velocity")):
             part = getattr(self, name)
-            if part is None:
-                continue
-            if len(part) != size:
+            if part is not None and len(part) != size:
                 raise InitialMotionError(
                     f"initial_{name}: found {len(part)} numbers; allowed: {size}, one for each coordinate of the reduced model"
                 )
-            motion[row] = part
+            motion[row] = 0.0 if part is None else part
         return np.linalg.lstsq(model.to_reduced, motion.T, rcond=None)[0].T
 
     def left_out(self, problem: Problem) -> float:
@@ -120,10 +118,7 @@ def _numbers(name: str, values: ArrayLike | None) -> np.ndarray | None:
 
 
 def _check_room(problem: Problem, displacement: np.ndarray, state: SimulationState) -> None:
-    """InitialMotionError where a `displacement` of the stepped modes brings a node into casing or lining.
-
-    The contact forces of the first instant would be missing.
-    """
+    """InitialMotionError where a `displacement` of stepped modes is in casing or lining: the first instant has no forces."""
     nodes = np.array([rows @ (problem.blade.modes @ displacement) for rows in problem.contact.operator_at_rest])
     room, _ = problem.casing.gaps(problem.casing.clearance, nodes, 0, 0.0)
     if state.wear is not None:

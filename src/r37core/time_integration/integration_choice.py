@@ -42,11 +42,7 @@ class IntegrationChoice:
     revolutions: Annotated[int, Key("Length of a run", ge=2, le=20000)]
     samples_per_revolution: int
     integrator: Annotated[
-        str,
-        Key(
-            "Scheme; exact_modal is exact between contacts, with fast modes static and forces at t_n",
-            one_of=INTEGRATORS,
-        ),
+        str, Key("Scheme; exact_modal is exact between contacts, with fast modes static and forces at t_n", one_of=INTEGRATORS)
     ] = CENTRAL_DIFFERENCE
     engine: Annotated[
         str, Key("Implementation; reference is plain NumPy, for short runs", one_of=("compiled", "reference"))
@@ -55,13 +51,7 @@ class IntegrationChoice:
     snapshot_revolutions: int = 0
     jumps: bool = True
     highest_frequency: Annotated[
-        float,
-        Key(
-            "Highest stepped frequency; faster modes are static with exact_modal, else left out",
-            "_hz",
-            ge=100,
-            le=1e12,
-        ),
+        float, Key("Highest stepped frequency; faster modes are static with exact_modal, else left out", "_hz", ge=100, le=1e12)
     ] = float("inf")
     static_above: float = 1.0
     shorten: bool = False

@@ -84,19 +84,16 @@ def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """`second` done after `first`: (I + F)(I + E) = I + E + F + F E, and the loss of both."""
     a, b, c, d, q, r, s = first
     e, f, g, h, t, v, w = second
-    mapped_u, mapped_d = (1.0 + a, b), (c, 1.0 + d)
+    i, j = 1.0 + a, 1.0 + d
     return np.stack(
         [
             a + e + e * a + f * c,
             b + f + e * b + f * d,
             c + g + g * a + h * c,
             d + h + g * b + h * d,
-            q + t * mapped_u[0] ** 2 + v * mapped_u[0] * mapped_d[0] + w * mapped_d[0] ** 2,
-            r
-            + 2.0 * t * mapped_u[0] * mapped_u[1]
-            + v * (mapped_u[0] * mapped_d[1] + mapped_u[1] * mapped_d[0])
-            + 2.0 * w * mapped_d[0] * mapped_d[1],
-            s + t * mapped_u[1] ** 2 + v * mapped_u[1] * mapped_d[1] + w * mapped_d[1] ** 2,
+            q + t * i**2 + v * i * c + w * c**2,
+            r + 2.0 * t * i * b + v * (i * j + b * c) + 2.0 * w * c * j,
+            s + t * b**2 + v * b * j + w * j**2,
         ]
     )
 

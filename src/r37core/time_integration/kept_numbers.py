@@ -116,9 +116,8 @@ def casing_numbers(problem: Problem, record: SimulationRecord, highest_order: in
     """Waves of the elastic casing over the last half of a run: see casing_waves."""
     ring, choice = problem.casing.ring, problem.choice
     assert ring is not None and record.casing is not None
-    count, first = (
-        revolutions * choice.samples_per_revolution for revolutions in (choice.revolutions, choice.revolutions // 2)
-    )
+    per_revolution = choice.samples_per_revolution
+    count, first = choice.revolutions * per_revolution, choice.revolutions // 2 * per_revolution
     half = whole(record.casing, count, len(record.casing) < count or record.diverged)[first:]
     return casing_waves(half, ring, problem.speed, choice.revolutions_in_statistic, highest_order)
 

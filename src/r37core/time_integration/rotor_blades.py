@@ -18,11 +18,9 @@ from .step_limit import UnstableStepError
 
 def refusal_of(scene: Scene) -> str | None:
     """Requirement of the blades of a scene's rotor that it does not meet, None where they can be run."""
-    if scene.rotor is None:
+    if scene.rotor is None or scene.lining is not None or scene.casing.ring:
         return None
-    if scene.lining is None and not scene.casing.ring:
-        return "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
-    return None
+    return "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
 
 
 def blade_problems(
@@ -50,9 +48,8 @@ def blade_problems(
 
     @cache
     def rounded_problem(factor: float, longer: float, angle: float) -> Problem:
-        own = problem(
-            factor, longer, nearest_step_angle(angle, steps * choice.samples_per_revolution) if scene.lining else angle
-        )
+        place = nearest_step_angle(angle, steps * choice.samples_per_revolution) if scene.lining else angle
+        own = problem(factor, longer, place)
         if own.grid.steps_per_sample == steps:
             return own
         return Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))

@@ -52,11 +52,7 @@ def rotor_numbers(
 def stress_of_blades(history: np.ndarray) -> dict[str, np.ndarray]:
     """Largest stress of each blade in the last revolution and in spans; `history` (Pa), shape (blades, revolutions)."""
     blade_maxima, span = span_maxima(history)
-    return {
-        "blade_max_von_mises": history[:, -1],
-        "blade_von_mises": blade_maxima,
-        "stress_span_revolutions": np.array(span),
-    }
+    return {"blade_max_von_mises": history[:, -1], "blade_von_mises": blade_maxima, "stress_span_revolutions": np.array(span)}
 
 
 def span_maxima(values: np.ndarray) -> tuple[np.ndarray, int]:

@@ -48,10 +48,7 @@ class BladesRecord:
 
 
 class BladesSimulation:
-    """The time integration of all blades of a scene at one speed (rad/s): of one, or of those of its `rotor`.
-
-    Raises what Problem and blade_problems raise.
-    """
+    """Time integration of a scene's blade, or all of its `rotor`, at one speed (rad/s). Raises as Problem, blade_problems."""
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         self.rotor = scene.rotor
@@ -88,14 +85,10 @@ class BladesSimulation:
         if self.problem.scene.lining is None:
             return states
         wear = [problem.casing.initial_wear for problem in self.problems]
-        if self.rotor.shared_lining:
-            shared = np.zeros((len(self.problem.casing.tip.radius), self.problem.casing.bars)) + np.max(wear, axis=0)
-            for state in states:
-                state.wear = shared
-        else:
-            for state, own in zip(states, wear, strict=True):
-                assert state.wear is not None
-                np.maximum(state.wear, own, out=state.wear)
+        unworn = np.zeros((len(self.problem.casing.tip.radius), self.problem.casing.bars))
+        shared = unworn + np.max(wear, axis=0)
+        for state, own in zip(states, wear, strict=True):
+            state.wear = shared if self.rotor.shared_lining else unworn + own
         return states
 
     def run(self, states: list[SimulationState], revolutions: int) -> BladesRecord:
@@ -116,9 +109,7 @@ class BladesSimulation:
             starts = [self._start(angle) for angle in self.rotor.angles]
             done, worn = self._pass_by_pass(states, outs, starts, self.rotor.order, revolutions)
             late = np.array([start.late for start in starts])
-        records = [
-            simulation.recorded(0, out, reached) for simulation, out, reached in zip(self.blades, outs, done, strict=True)
-        ]
+        records = (blade.recorded(0, out, reached) for blade, out, reached in zip(self.blades, outs, done, strict=True))
         return BladesRecord(tuple(records), late, np.array(worn))
 
     def energy(self, states: list[SimulationState]) -> float:

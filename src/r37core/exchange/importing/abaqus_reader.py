@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -20,8 +20,6 @@ from r37core.fem.elements import ELEMENTS
 
 from .deck_text import deck_lines, included, keyword_and_options
 from .raw_mesh import RawMesh, solid_blocks
-
-T = TypeVar("T")
 
 CLAMPED = "BOUNDARY"
 """Name of the set of the nodes that *BOUNDARY clamps."""
@@ -177,7 +175,7 @@ def _take_elements(deck: _Deck, options: dict[str, str], rows: list[list[str]]) 
     _add(deck.element_sets, options.get("ELSET"), [number for number, _ in elements])
 
 
-def _define(known: dict[int, list[T]], what: str, entries: list[tuple[int, list[T]]]) -> None:
+def _define(known: dict[int, Any], what: str, entries: list[tuple[int, Any]]) -> None:
     """Add `entries` by number; a number that comes twice must have the same values both times."""
     for number, values in entries:
         if known.setdefault(number, values) != values:
@@ -228,12 +226,6 @@ def _directions_held(row: list[str]) -> range:
     return range(int(first), min(int(last or first), 3) + 1)
 
 
-def _clamped(held: list[tuple[str, range]], node_sets: dict[str, list[int]]) -> list[int]:
-    """Labels of the nodes that are held in all three directions."""
-    held_nodes = [{n for cell, of in held if direction in of for n in _named(node_sets, cell)} for direction in (1, 2, 3)]
-    return sorted(set.intersection(*held_nodes))
-
-
 def _node_lists(deck: _Deck) -> Iterator[tuple[str, list[int]]]:
     """Every set as node labels: of nodes, of elements (their nodes), of element faces, of clamped nodes."""
     solids = {label: nodes for same_type in deck.solids.values() for label, nodes in same_type.items()}
@@ -248,9 +240,10 @@ def _node_lists(deck: _Deck) -> Iterator[tuple[str, list[int]]]:
                 nodes += _face_nodes(name, solids[element], face) if element in solids else elements.get(element, [])
         yield name, nodes
     node_sets |= deck.node_sets
-    clamped = _clamped(deck.held, node_sets)
+    held = [{n for cell, of in deck.held if direction in of for n in _named(node_sets, cell)} for direction in (1, 2, 3)]
+    clamped = set.intersection(*held)
     if clamped and not _found(node_sets, CLAMPED):
-        yield CLAMPED, clamped
+        yield CLAMPED, sorted(clamped)
     yield from node_sets.items()
 
 

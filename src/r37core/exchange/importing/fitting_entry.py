@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 
@@ -74,10 +75,9 @@ def _fitting_unit(orientation: Orientation, raw: RawMesh) -> str | float | None:
 
 
 def _alike(first: Orientation, second: Orientation) -> bool:
-    try:
+    with suppress(ImportRefused):
         return np.allclose(first.rows, second.rows, atol=_SAME_AXES)
-    except ImportRefused:
-        return False
+    return False
 
 
 def _direction(vector: tuple[float, float, float]) -> str:
@@ -86,13 +86,12 @@ def _direction(vector: tuple[float, float, float]) -> str:
 
 def _catches(what: str, source: MeshSource, mesh: RawMesh, surface: list[Faces], end: End) -> bool:
     """Whether the set or rule of the entry catches this end, or may well be meant otherwise."""
-    try:
+    with suppress(ImportRefused):
         if what == "root":
             check_end(what, source.root, caught_by(source.root, what, mesh, surface), end)
             return True
         return np.array_equal(caught_by(source.tip, what, mesh, surface).mask, end.mask)
-    except ImportRefused:
-        return False
+    return False
 
 
 _SIZE = 0.1  # m: of the mesh while its axes are looked for, whatever its unit
@@ -137,10 +136,7 @@ def _makes_sense(mesh: RawMesh, orientation: Orientation) -> bool:
     casing = find_end("tip", placed.points, outer_faces(placed.blocks))
     if casing is None:
         return False
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", MeshWarning)
-            check_sense(placed.points, find_tip_lines(placed.points, casing.faces, True), True)
-    except (ImportRefused, MeshWarning):
-        return False
-    return True
+    with suppress(ImportRefused, MeshWarning), warnings.catch_warnings(action="error", category=MeshWarning):
+        check_sense(placed.points, find_tip_lines(placed.points, casing.faces, True), True)
+        return True
+    return False

@@ -45,12 +45,8 @@ def blade_parameters(
         extremes.append([along.min(), np.ptp(along), across.min(), np.ptp(across)])
     columns = np.hstack([centres, chords, normals, extremes]).T
     rows = np.stack([np.interp(span, levels, column) for column in columns], axis=1)
-    centre, chord, normal, (along_low, along_size, across_low, across_size) = (
-        rows[:, :3],
-        rows[:, 3:6],
-        rows[:, 6:9],
-        rows[:, 9:].T,
-    )
+    centre, chord, normal, sizes = np.split(rows, [3, 6, 9], axis=1)
+    along_low, along_size, across_low, across_size = sizes.T
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     chord_fraction = (np.sum((points - centre) * chord, axis=1) - along_low) / along_size
     thickness = 2.0 * (np.sum((points - centre) * normal, axis=1) - across_low) / across_size - 1.0

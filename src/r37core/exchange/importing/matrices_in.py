@@ -31,7 +31,7 @@ from r37core.units import MASS_UNITS, STIFFNESS_UNITS
 
 from .matrix_file import read_matrix
 from .source import MatricesSource, matrix_files
-from .tip import arc_length, check_order, check_sense_of_nodes
+from .tip import arc_length, check_order, check_sense_of_nodes, fractions_along
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
@@ -80,7 +80,7 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
 
 
 def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
-    chord = _fractions(matrices.points)
+    chord = fractions_along(matrices.points)
     weights = _contact_weights(matrices.points, chord, choice.boundary)
     rows = matrices.mass.shape[0]
     boundary = sp.csr_array(sp.kron(weights, sp.eye_array(3)))
@@ -264,7 +264,7 @@ def _ideal_shapes(matrices: _InputMatrices) -> dict[str, np.ndarray]:
     radial = matrices.points.mean(axis=0) * [1.0, 1.0, 0.0]
     normal = np.cross(tangent, radial)
     normal /= np.linalg.norm(normal)
-    chord = _fractions(matrices.points)
+    chord = fractions_along(matrices.points)
     boundary = 3 * len(chord)
     bending = np.outer(np.ones(len(chord)), normal).ravel()
     torsion = np.outer(chord - 0.5, normal).ravel()
@@ -276,12 +276,6 @@ def _ideal_shapes(matrices: _InputMatrices) -> dict[str, np.ndarray]:
     smooth = matrices.solve_at_rest(matrices.mass @ first)
     second = first - smooth * (smooth @ (matrices.mass @ first)) / (smooth @ (matrices.mass @ smooth))
     return dict(zip(NAMED_MODES, (smooth, twist, second), strict=True))
-
-
-def _fractions(points: np.ndarray) -> np.ndarray:
-    """Fractions of the length along the nodes, from leading to trailing edge; a half for a single one."""
-    length = arc_length(points)
-    return length / length[-1] if length[-1] > 0.0 else np.full(len(points), 0.5)
 
 
 _USUAL = (2.0, 500.0)

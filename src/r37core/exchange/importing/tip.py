@@ -172,13 +172,15 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
     _check_downstream(ends[1] - ends[0])
     forth = np.roll(outline, -first)[: (last - first) % len(outline) + 1]
     back = np.roll(outline, -last)[: (first - last) % len(outline) + 1][::-1]
-    thickness = float(_area(points[outline]) / np.linalg.norm(ends[1] - ends[0]))
+    spokes = points[outline] - points[outline].mean(axis=0)
+    area = float(0.5 * np.linalg.norm(np.sum(np.cross(spokes, np.roll(spokes, -1, axis=0)), axis=0)))
+    thickness = float(area / np.linalg.norm(ends[1] - ends[0]))
     sides = [_between_corners(points, line, thickness) for line in (forth, back)]
     sides.sort(key=lambda line: _middle_angle(points, line))
     pressure, suction = sides if pressure_forward else sides[::-1]
     lines = {"tip_pressure_edge": pressure, "tip_suction_edge": suction}
     camber = _camber(points, nodes_of(faces), pressure, suction)
-    return {name: (line, _fractions(points[line])) for name, line in lines.items()} | {"tip_camber_line": camber}
+    return {name: (line, fractions_along(points[line])) for name, line in lines.items()} | {"tip_camber_line": camber}
 
 
 def _camber(points: np.ndarray, tip: np.ndarray, pressure: np.ndarray, suction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -210,22 +212,18 @@ def _middle_angle(points: np.ndarray, line: np.ndarray) -> float:
     return float(np.mean(np.arctan2(y, x)))
 
 
-def _area(outline: np.ndarray) -> float:
-    centre = outline.mean(axis=0)
-    return float(0.5 * np.linalg.norm(np.sum(np.cross(outline - centre, np.roll(outline, -1, axis=0) - centre), axis=0)))
-
-
 def arc_length(path: np.ndarray) -> np.ndarray:
     """Length along a path up to each of its points, shape (points,), of points of shape (points, 3)."""
     return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
 
 
-def _fractions(path: np.ndarray) -> np.ndarray:
+def fractions_along(path: np.ndarray) -> np.ndarray:
+    """Fractions of a path's length up to each of its points, of shape (points, 3); a half for a single one."""
     length = arc_length(path)
-    return length / length[-1]
+    return length / length[-1] if length[-1] > 0.0 else np.full(len(path), 0.5)
 
 
 def _section_at(path: np.ndarray, fractions: np.ndarray) -> np.ndarray:
     """Points at fractions of the path's length, shape (fractions, 3)."""
-    own = _fractions(path)
+    own = fractions_along(path)
     return np.stack([np.interp(fractions, own, column) for column in path.T], axis=1)

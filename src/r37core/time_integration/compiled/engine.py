@@ -23,28 +23,12 @@ from ..state import Schedule, SimulationRecord, SimulationState
 from .layout import LINING, NORMAL, Capacity, Kind, capacity_of, constants_record, integration_record
 from .passage import Passage
 
+_COMPILED = ("contact_steps", "jump_steps", "layout", "segment_steps", "program", "steps")
 SOURCES = Sources(
-    "alignment.py",
-    "kept.py",
-    "lanes.py",
-    "native.py",
-    "program_constants.py",
-    "contact/casing.py",
-    "contact/complementarity.py",
-    "contact/laws.py",
-    "contact/node_sweeps.py",
-    "contact/ring.py",
-    "contact/scene.py",
-    "declared.py",
-    "units.py",
-    "time_integration/compiled/contact_steps.py",
-    "time_integration/compiled/jump_steps.py",
-    "time_integration/compiled/layout.py",
-    "time_integration/compiled/segment_steps.py",
-    "time_integration/compiled/program.py",
-    "time_integration/compiled/steps.py",
-    "time_integration/jump_numbers.py",
-    "time_integration/state.py",
+    *(f"{name}.py" for name in ("alignment", "kept", "lanes", "native", "program_constants", "declared", "units")),
+    *(f"contact/{name}.py" for name in ("casing", "complementarity", "laws", "node_sweeps", "ring", "scene")),
+    *(f"time_integration/compiled/{name}.py" for name in _COMPILED),
+    *(f"time_integration/{name}.py" for name in ("jump_numbers", "state")),
 )
 """Files that the compiled time integration is made from: a change in one of them compiles it again."""
 
@@ -66,11 +50,7 @@ class CompiledEngine:
     _tables: _CasingTables
 
     def __init__(
-        self,
-        problem: Problem,
-        segments: Segments,
-        before: CompiledEngine | None = None,
-        beside: CompiledEngine | None = None,
+        self, problem: Problem, segments: Segments, before: CompiledEngine | None = None, beside: CompiledEngine | None = None
     ):
         self.problem = problem
         _, self._nodes, self._modes = problem.contact.displacement_operator.shape
@@ -126,8 +106,7 @@ class CompiledEngine:
             self.record, self._corners = before.record, before._corners
         else:
             self.record, self._corners = aligned_zeros((1,), integration_record(self.capacity)), {}
-        self.address = self.record.ctypes.data
-        self._addresses = np.array([self.address], dtype=np.uint64)
+        self.addresses = np.array([self.record.ctypes.data], dtype=np.uint64)
 
     def _table_of(self, segments: Segments) -> np.ndarray:
         """The segments as they stand in the record, shape (segments,)."""
@@ -200,12 +179,8 @@ class CompiledEngine:
         """Numbers of a snapshot in whole vectors, the forces on the nodes after those of the modes."""
         return self.numbers_of_mode * self.mode_lanes + (0 if self.kind.published else 3 * self._node_lanes)
 
-    def call(self) -> int:
-        """Do what the record asks for; returns the blocks done."""
-        return self.call_together(self._addresses)
-
-    def call_together(self, addresses: np.ndarray) -> int:
-        """Do what the records of several blades in one elastic casing ask for, of one capacity and kind, at `addresses`."""
+    def call(self, addresses: np.ndarray) -> int:
+        """Do what the records at `addresses` ask for: the own, or of one capacity and kind; returns the blocks done."""
         return int(self._advance(addresses.ctypes.data, len(addresses)))
 
     def _lay_out(self, problem: Problem) -> None:
@@ -246,16 +221,9 @@ class CompiledEngine:
     def _lay_out_casing(self, problem: Problem, before: CompiledEngine | None) -> None:
         m, casing = self.record[0], problem.scene.casing
         rise = casing.rise_rate(problem.grid.duration) * problem.grid.time_step
-        numbers = {
-            "amplitude": casing.lobe_height,
-            "rise": rise,
-            "period": 2.0 * np.pi / max(casing.lobes, 1),
-            "width": casing.width,
-            "cosine": np.cos(problem.casing.cone_angle),
-            "sine": np.sin(problem.casing.cone_angle),
-        }
-        for name, number in numbers.items():
-            m["casing"][name] = number
+        angle, period = problem.casing.cone_angle, 2.0 * np.pi / max(casing.lobes, 1)
+        # the fields of CASING
+        m["casing"] = casing.lobe_height, rise, period, casing.width, np.cos(angle), np.sin(angle)
         kept = None if before is None else before._tables
         self._tables = kept if kept is not None and kept.fits(problem) else _CasingTables(problem, self._node_lanes)
         m["call"]["casing_shape"] = self._tables.shape.ctypes.data

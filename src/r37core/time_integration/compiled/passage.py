@@ -73,7 +73,7 @@ class Passage:
     def go_on(self, blocks: int) -> None:
         """Do so many more, fewer when an output passes the limit or is NaN."""
         self.ask(blocks)
-        self.done += self._engine.call()
+        self.done += self._engine.call(self._engine.addresses)
 
     def ask(self, blocks: int) -> None:
         """Have the record say that so many more are to be done."""
@@ -116,10 +116,7 @@ class Passage:
 
 
 def advance_in_lockstep(
-    engines: Sequence[CompiledEngine],
-    states: Sequence[SimulationState],
-    outs: Sequence[SimulationRecord],
-    order: Sequence[int],
+    engines: Sequence[CompiledEngine], states: Sequence[SimulationState], outs: Sequence[SimulationRecord], order: Sequence[int]
 ) -> tuple[list[int], list[float]]:
     """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the bars (m).
 
@@ -129,7 +126,7 @@ def advance_in_lockstep(
     first, blades = engines[order[0]], len(engines)
     for place in order[1:]:
         _take_casing(engines[place], first)
-    addresses = np.array([engines[place].address for place in order], dtype=np.uint64)
+    addresses = np.concatenate([engines[place].addresses for place in order])
     passages = [Passage(engine, state, out) for engine, state, out in zip(engines, states, outs, strict=True)]
     done, samples, grid = 0, len(outs[0].samples), first.problem.grid
     blocks = reached = revolutions_at_once(blades * grid.steps_per_revolution) * grid.choice.samples_per_revolution
@@ -137,7 +134,7 @@ def advance_in_lockstep(
         blocks = min(blocks, samples - done)
         for passage in passages:
             passage.ask(blocks)
-        reached = first.call_together(addresses)
+        reached = first.call(addresses)
         done += reached
         for passage in passages:
             passage.done = done

@@ -19,7 +19,7 @@ from r37core.contact.scene import Lining
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
-from .motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
+from .motion import CoupledMotion, MotionWithCasing, RealMotion
 
 _MOST_SWEEPS = 200
 
@@ -33,11 +33,7 @@ class ReferenceEngine:
     angle = 0.0
 
     def __init__(
-        self,
-        problem: Problem,
-        segments: Segments,
-        before: ReferenceEngine | None = None,
-        beside: ReferenceEngine | None = None,
+        self, problem: Problem, segments: Segments, before: ReferenceEngine | None = None, beside: ReferenceEngine | None = None
     ):
         self.problem, self._segments = problem, segments
         self._blade_rows = problem.contact.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
@@ -49,7 +45,8 @@ class ReferenceEngine:
         """Go on at this one of the speeds."""
         self._speed_index, recursion = speed_index, self._segments.recursion[speed_index]
         blade = (RealMotion if self.problem.blade.complex_modes is None else CoupledMotion)(self.problem, recursion)
-        self.motion: Motion = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
+        # of what its motions are made, each of the three knows alone
+        self.motion: Any = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
         self.clearance = self._segments.clearance[speed_index]
         # a revolution has as many steps at every speed
         faster = self._segments.speeds[speed_index] / self.problem.speed
@@ -66,11 +63,11 @@ class ReferenceEngine:
 
     def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
-        first, snapshots_before = state.samples, self.problem.grid.snapshots_after(state.samples)
+        first = state.samples
         for segment, (speed_index, samples) in enumerate(zip(schedule.speed_indices, schedule.samples, strict=True)):
             self._go_over(state, speed_index)
             schedule.ends[segment, 0] = state.displacement, state.increment
-            done, kept = state.samples - first, self.problem.grid.snapshots_after(state.samples) - snapshots_before
+            done, kept = state.samples - first, len(self.problem.grid.snapshots_between(first, state.samples))
             part = SimulationRecord(out.samples[done : done + samples], out.snapshots[kept:])
             reached, bounded = self._segment(state, part)
             state.samples += reached
@@ -93,30 +90,26 @@ class ReferenceEngine:
     def _segment(self, state: SimulationState, out: SimulationRecord) -> tuple[int, bool]:
         """Go on at one speed; returns the rows done, and whether they are within the limit."""
         problem, motion, first = self.problem, self.motion.read(state), state.samples
-        done, kept, bounded = 0, 0, True
+        done, bounded = 0, True
         self._turn(first * problem.grid.steps_per_sample)
         while done < len(out.samples) and bounded:
             for n in range(1, problem.grid.steps_per_sample + 1):
                 motion = self.step(motion, (first + done) * problem.grid.steps_per_sample + n, state, self.force(state))
-            bounded, taken = self.record(motion, first, done, state, SimulationRecord(out.samples, out.snapshots[kept:]))
+            bounded = self.record(motion, first, done, state, out)
             done += 1
-            kept += taken
         self.motion.write(motion, state)
         return done, bounded
 
-    def record(self, motion: Any, first: int, done: int, state: SimulationState, out: SimulationRecord) -> tuple[bool, bool]:
-        """Sample number `done` after the `first`, and the next snapshot where one is due.
-
-        Returns whether the outputs are within the limit, and whether there was one.
-        """
+    def record(self, motion: Any, first: int, done: int, state: SimulationState, out: SimulationRecord) -> bool:
+        """Sample number `done` after the `first`, and a snapshot if one is due; whether the outputs are within the limit."""
         problem = self.problem
         static = state.contact_force.ravel() if problem.choice.second_order else np.empty(0)
         numbers = np.concatenate([self.motion.numbers(motion), static])
         out.samples[done] = problem.contact.output_operator @ numbers
-        due = problem.grid.snapshots_after(first + done + 1) > problem.grid.snapshots_after(first + done)
-        if due:
-            out.snapshots[0] = numbers
-        return bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit)), due
+        kept, following = (len(problem.grid.snapshots_between(first, first + done + more)) for more in (0, 1))
+        if following > kept:
+            out.snapshots[kept] = numbers
+        return bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit))
 
     def step(self, before: Any, n: int, state: SimulationState, force: np.ndarray) -> Any:
         """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing.
@@ -310,7 +303,7 @@ def advance_together(
     casings = [engine.motion for engine in engines if isinstance(engine.motion, MotionWithCasing)]
     for casing in casings:
         casing.counted = casing is engines[order[0]].motion
-    steps, kept, done, bounded = engines[0].problem.grid.steps_per_sample, [0] * len(engines), 0, True
+    steps, done, bounded = engines[0].problem.grid.steps_per_sample, 0, True
     while done < len(outs[0].samples) and bounded:
         for n in range(1, steps + 1):
             own = [engines[place].force(states[place]) for place in order]
@@ -318,11 +311,8 @@ def advance_together(
                 before = states[place].worn
                 motions[place] = engines[place].step(motions[place], done * steps + n, states[place], force)
                 worn[place] += states[place].worn - before
-        for place, engine in enumerate(engines):
-            out = SimulationRecord(outs[place].samples, outs[place].snapshots[kept[place] :])
-            within, taken = engine.record(motions[place], 0, done, states[place], out)
-            kept[place] += taken
-            bounded &= within
+        for engine, motion, state, out in zip(engines, motions, states, outs, strict=True):
+            bounded &= engine.record(motion, 0, done, state, out)
         done += 1
     for engine, motion, state in zip(engines, motions, states, strict=True):
         engine.motion.write(motion, state)
