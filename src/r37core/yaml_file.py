@@ -12,7 +12,7 @@ from typing import Any
 
 import yaml
 
-from .text_file import TextFileError, read_text
+from .io import TextFileError, read_text
 
 KeyPath = tuple[str | int, ...]
 """Path of a value: keys of mappings and numbers of list entries."""

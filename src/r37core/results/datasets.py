@@ -9,9 +9,8 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import Variable
+from r37core.dataset_file import Variable, new_netcdf, open_netcdf
 from r37core.io import InputFileError
-from r37core.netcdf_access import new_netcdf, open_netcdf
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
