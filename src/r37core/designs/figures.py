@@ -12,19 +12,9 @@ from matplotlib.figure import Figure
 
 from r37core.figures import style
 
-from .table import MEASURES
+from .table import MEASURES, STRUCTURE
 
-_DRAWN = (
-    "mass_kg",
-    "frequency_1b_hz",
-    "frequency_1t_hz",
-    "clearance_loss_1b_m",
-    "clearance_loss_1t_m",
-    "shift_1b_rad_s",
-    "length_certain_rad_s",
-    "length_possible_rad_s",
-    "largest_median_stress_pa",
-)
+_DRAWN = (*STRUCTURE, "shift_1b_rad_s", "length_certain_rad_s", "length_possible_rad_s", "largest_median_stress_pa")
 
 
 def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades: Sequence[str] | None = None) -> Figure:

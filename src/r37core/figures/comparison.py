@@ -13,10 +13,7 @@ from . import style
 
 
 def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
-    """The engine order whose crossings with 1B most blades have between `low` and `high` (rad/s), of several the lowest.
-
-    None where no blade has any.
-    """
+    """The lowest engine order of those that cross 1B of most blades between `low` and `high` (rad/s); None where none does."""
     crossing = campbell["crossing_speed"].sel(mode="1B")
     count = ((crossing >= low) & (crossing <= high)).sum("blade").values
     return int(campbell["engine_order"].values[int(np.argmax(count))]) if count.max() else None

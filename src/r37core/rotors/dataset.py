@@ -70,9 +70,9 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
     data = {name: np.stack([row[name] for row in rows]) for name in VARIABLES if name in rows[0]}
     coordinates = {name: rows[0][name] for name in AXES if name in rows[0]}
     speed_variables = {name: variable for name, variable in VARIABLES.items() if name not in OF_ALL_SPEEDS}
-    dataset = dataset_of(speed_variables, data | coordinates | {"speed": speeds}, {"speed": SPEED, **AXES}, {}, ("speed",))
     still = {name: (VARIABLES[name].dims, rows[0][name], VARIABLES[name].attributes) for name in OF_ALL_SPEEDS}
-    dataset = dataset.assign(still)
+    values = data | coordinates | {"speed": speeds}
+    dataset = dataset_of(speed_variables, values, {"speed": SPEED, **AXES}, {}, ("speed",)).assign(still)
     dataset["status"].attrs |= status_flags()
     return dataset
 

@@ -55,13 +55,7 @@ class RunUpChoice:
     crossing: Crossing | None
     rate: Annotated[
         float | None,
-        Key(
-            "Change of the speed per second, without sign",
-            "_rad_s2",
-            ge=1e-3,
-            le=1e9,
-            optional=True,
-        ),
+        Key("Change of the speed per second, without sign", "_rad_s2", ge=1e-3, le=1e9, optional=True),
         Key("The same rate in revolutions per minute per second", "_rpm_s", ge=1e-2, le=1e10, optional=True),
     ]
     revolutions: Annotated[

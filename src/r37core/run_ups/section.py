@@ -63,13 +63,8 @@ class RunUpEntry(Section):
         return si_form(RunUpChoice, self, **parts)
 
 
-def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:
-    check_names(entries)
-    return entries
-
-
 SECTION: ExtensionSection[dict[str, RunUpEntry]] = ExtensionSection(
     "run_ups",
-    Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)],  # type: ignore[arg-type]
+    Annotated[dict[Name, RunUpEntry], AfterValidator(check_names)],  # type: ignore[arg-type]
     Field(default={}, description="Run-ups and run-downs by name"),
 )

@@ -13,8 +13,6 @@ import numpy as np
 
 from .quantity import Quantity
 
-DONE, REFUSED = "done", "refused"
-
 FEWEST_DONE = 3
 """Fewest built designs for a fit; with fewer, proposals stay away from all that was tried."""
 
@@ -33,8 +31,8 @@ class Evaluated:
     """A design that has been tried.
 
     `values` has a number for each variable. Every one of the `objectives` is to be minimised; its standard deviation stands in
-    `scatters`, 0 or NaN where it is not known. Every one of the `margins` is at least 0 where its constraint is kept. With the
-    status "refused" the design could not be built: objectives, scatters and margins are NaN.
+    `scatters`, 0 or NaN where it is not known. Every one of the `margins` is at least 0 where its constraint is kept. Of a
+    design that could not be built objectives, scatters and margins are NaN.
     """
 
     name: str
@@ -42,12 +40,11 @@ class Evaluated:
     objectives: tuple[float, ...]
     scatters: tuple[float, ...]
     margins: tuple[float, ...]
-    status: str
 
     @property
     def is_done(self) -> bool:
         """Whether there is a finite number for every objective and margin."""
-        return self.status == DONE and all(map(math.isfinite, (*self.objectives, *self.margins)))
+        return all(map(math.isfinite, (*self.objectives, *self.margins)))
 
     @property
     def is_feasible(self) -> bool:
@@ -116,6 +113,8 @@ START = "start"
 Value = tuple[float | None, float | None]
 """Value of a quantity, and its standard deviation; None for what is not known."""
 
+UNKNOWN: Value = (None, None)
+
 
 @dataclass(frozen=True)
 class Constraint:
@@ -156,7 +155,7 @@ class SearchChoice:
         """Margins by which each bound is kept, in its quantity's unit, below 0 where it is not: constraint by constraint."""
         margins = []
         for name, constraint in self.constraints.items():
-            value, reference = (number(of[name][0]) for of in (values, start))
+            value, reference = (number(of.get(name, UNKNOWN)[0]) for of in (values, start))
             lowest, highest = constraint.bounds(reference)
             if lowest > -math.inf:
                 margins.append(value - lowest)
@@ -179,19 +178,9 @@ class Design:
 
     def evaluated(self, name: str, choice: SearchChoice, start: Mapping[str, Value]) -> Evaluated:
         """The design as proposals take it."""
-        if self.refused is not None:
-            missing = (math.nan,) * len(choice.objectives)
-            bounds = len(choice.margins(start, start))
-            return Evaluated(name, self.values, missing, missing, (math.nan,) * bounds, REFUSED)
-        of = [self.quantities[objective] for objective in choice.objectives]
-        return Evaluated(
-            name,
-            self.values,
-            tuple(number(value) for value, _ in of),
-            tuple(number(scatter) for _, scatter in of),
-            tuple(choice.margins(self.quantities, start)),
-            DONE,
-        )
+        of = [self.quantities.get(objective, UNKNOWN) for objective in choice.objectives]
+        objectives, scatters = (tuple(number(each[place]) for each in of) for place in range(2))
+        return Evaluated(name, self.values, objectives, scatters, tuple(choice.margins(self.quantities, start)))
 
 
 def number(value: float | None) -> float:

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
-from r37core.config.section import ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
+from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
 from r37core.config.spread import MemberCount, Spreads
 
 from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
@@ -52,14 +52,8 @@ class QuantitySection(Section):
 
     def quantity(self) -> Quantity:
         """The quantity that is computed."""
-        return Quantity(
-            measure=self.measure,
-            scenes=tuple(self.scenes or ()),
-            mode=self.mode,
-            engine_order=self.engine_order,
-            speed=self.speed_rad_s,
-            quantile=getattr(self, "quantile", None),
-        )
+        scenes, quantile = tuple(self.scenes or ()), getattr(self, "quantile", None)
+        return Quantity(self.measure, scenes, self.mode, self.engine_order, self.speed_rad_s, quantile)
 
 
 class ObjectiveSection(QuantitySection):
@@ -104,11 +98,6 @@ class SearchTolerances(Spreads):
     members: MemberCount = Field(default=16, description="Members of every design, a power of two")
 
 
-def _names_differ(entries: dict[str, object]) -> dict[str, object]:
-    check_names(entries)
-    return entries
-
-
 class SearchSection(Section):
     """A search for better designs of one blade, in rounds: each asks for some more, by what all before them gave."""
 
@@ -116,10 +105,8 @@ class SearchSection(Section):
     variables: Annotated[dict[str, Bounds], Field(min_length=1)] = Field(
         description="Lowest and highest value of numeric keys of the entry, such as stagger_deg.tip: [-3, 3]"
     )
-    objectives: Annotated[dict[Name, ObjectiveSection], Field(min_length=1), AfterValidator(_names_differ)] = Field(
-        description="Numbers to minimise, by name; several give a Pareto front"
-    )
-    constraints: Annotated[dict[Name, ConstraintSection], AfterValidator(_names_differ)] = Field(
+    objectives: ByName[ObjectiveSection] = Field(description="Numbers to minimise, by name; several give a Pareto front")
+    constraints: Annotated[dict[Name, ConstraintSection], AfterValidator(check_names)] = Field(
         default={}, description="Limits, by name"
     )
     designs: Annotated[int, Field(ge=2, le=2000)] = Field(default=60, description="Number of designs to run")
@@ -128,8 +115,7 @@ class SearchSection(Section):
     )
     batch: Annotated[int, Field(ge=1, le=500)] = Field(default=4, description="Number of designs per round, run in parallel")
     method: Literal["surrogate", "quasi_random"] = Field(
-        default="surrogate",
-        description="Way to propose designs; quasi_random spreads them evenly, for comparison",
+        default="surrogate", description="Way to propose designs; quasi_random spreads them evenly, for comparison"
     )
     seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the search")
     best: Annotated[int, Field(ge=1, le=50)] = Field(

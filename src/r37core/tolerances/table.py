@@ -52,13 +52,6 @@ def ranges(
     return [_row(match, len(members)) for match in sorted(_matched(within, members, choice), key=_Found.speed)]
 
 
-def shares_of_members(
-    nominal: Sequence[Interaction], members: Mapping[str, Sequence[Interaction]], choice: InteractionChoice
-) -> list[float]:
-    """Share of the members that show each of the nominal interactions, as in `ranges`, in the order of these."""
-    return [len(match.members) / len(members) for match in _matched(nominal, members, choice)[: len(nominal)]]
-
-
 def _matched(
     nominal: Sequence[Interaction], members: Mapping[str, Sequence[Interaction]], choice: InteractionChoice
 ) -> list[_Found]:
