@@ -19,18 +19,11 @@ from .units import RPM
 
 
 class ThreadLock:
-    """A lock that its thread may take again; xarray keeps it in datasets, so a copy of it is the lock itself."""
+    """An RLock that can be copied: xarray keeps it in datasets, so a copy of it is the lock itself."""
 
     def __init__(self) -> None:
-        self._lock = threading.RLock()
-
-    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Take the lock; whether it was free before the `timeout` (s)."""
-        return self._lock.acquire(blocking, timeout)
-
-    def release(self) -> None:
-        """Give the lock back."""
-        self._lock.release()
+        lock = threading.RLock()
+        self.acquire, self.release = lock.acquire, lock.release
 
     def __enter__(self) -> None:
         self.acquire()
@@ -140,19 +133,13 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
 
 
 def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> xr.Dataset:
-    """Read a netCDF file into memory; InputFileError when it cannot be read.
-
-    `part`: labels of dimensions, as far as the file has these, at which alone it is read.
-    """
+    """A netCDF file in memory, at the labels in `part` of dimensions that it has; InputFileError when it cannot be read."""
     with open_dataset(file) as dataset:
         return dataset.sel({name: label for name, label in (part or {}).items() if name in dataset.dims}).load()
 
 
 def hash_of_parts(files: Iterable[Path | str]) -> str:
-    """Input hash of a file that joins others: of what each of them, in any order, says of its making.
-
-    Raises InputFileError for a file that cannot be read.
-    """
+    """Hash of what `files`, in any order, say of their making, for what joins them; InputFileError if one cannot be read."""
     attributes = []
     for file in files:
         with open_netcdf(file) as dataset:

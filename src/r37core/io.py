@@ -42,10 +42,7 @@ class TextFileError(ValueError):
 
 @contextmanager
 def atomic_write(file: Path | str) -> Iterator[Path]:
-    """Give a temporary path beside `file`; it becomes `file` when the block ends well and vanishes when it does not.
-
-    Raises OutputFileError where there is no room for it.
-    """
+    """A temporary path beside `file`: it becomes `file` if the block ends well, else vanishes. OutputFileError without room."""
     file = Path(file)
     with room_for(file):
         file.parent.mkdir(parents=True, exist_ok=True)

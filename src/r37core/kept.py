@@ -183,8 +183,6 @@ def _folder() -> Path:
 
 
 def _writable(folder: Path) -> bool:
-    try:
+    with suppress(OSError):
         folder.mkdir(exist_ok=True)
-    except OSError:
-        return False
     return os.access(folder, os.W_OK)

@@ -1,7 +1,4 @@
-"""A whole rotor over speed: a map of its blades, the worst stress, growth, and nodal diameters.
-
-Motion is the leading edge's displacement, normal and tangential together.
-"""
+"""A whole rotor: motion of its leading edges (normal and tangential together), worst stress, growth, and nodal diameters."""
 
 from __future__ import annotations
 
