@@ -1,7 +1,5 @@
 """Datasets as netCDF4 files, opened by one thread at a time: two inside the library end the process, whatever the files."""
 
-from __future__ import annotations
-
 import hashlib
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Atomic writes, text files of users, one clear message for a file that cannot be read. Light: simulation jobs import it."""
 
-from __future__ import annotations
-
 import errno
 import json
 import logging

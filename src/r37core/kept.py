@@ -6,8 +6,6 @@ or damaged is made again; all may be removed at any time. Of several processes a
 and the others wait, so that a core is not busy twice with one thing. Light: simulation jobs import it.
 """
 
-from __future__ import annotations
-
 import fcntl
 import hashlib
 import os

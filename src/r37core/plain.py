@@ -1,7 +1,5 @@
 """Frozen dataclasses as plain dictionaries, as rules' parameters hold them, and back. Light: the simulation jobs import it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """Speeds to simulate: numbers and ranges, joined, some sampled adaptively; and how a speed stands in file names."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

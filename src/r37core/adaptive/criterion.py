@@ -1,7 +1,5 @@
 """Criterion for the speeds that adaptive sampling runs next: windows above crossings first, then where the response changes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Choice of what makes an interval of speeds worth halving. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

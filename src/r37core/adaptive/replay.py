@@ -1,7 +1,5 @@
 """Adaptive speed sampling where every speed of its grid has been run: which of them it would have asked for."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

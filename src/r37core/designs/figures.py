@@ -1,7 +1,5 @@
 """A family of designs: robustness and structure against what varies."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt

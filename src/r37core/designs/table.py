@@ -1,7 +1,5 @@
 """designs.csv: what each design of a family is, how robust it is in every scene, and the line that a run ends with."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Campbell diagrams."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import cycle
 from typing import Any

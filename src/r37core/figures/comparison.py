@@ -1,7 +1,5 @@
 """Blades side by side around an interaction that they share."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr

@@ -1,7 +1,5 @@
 """Maps over speed: the spectrum against engine order, the wear against angle, an elastic casing's waves."""
 
-from __future__ import annotations
-
 from typing import Any, cast
 
 import matplotlib.pyplot as plt

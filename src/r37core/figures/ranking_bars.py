@@ -1,7 +1,5 @@
 """Which blade? Speeds above yield of all blades, scene by scene."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd

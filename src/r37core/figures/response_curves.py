@@ -1,7 +1,5 @@
 """Response over speed: rms of the leading edge, largest stress against yield; clearance where it changes with the speed."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import xarray as xr
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): figures."""
 
-from __future__ import annotations
-
 from pkgutil import resolve_name
 from typing import Any
 

@@ -1,7 +1,5 @@
 """rms.nc, spectrum.nc, stress.nc, wear.nc, casing.nc: the responses of all blades and scenes, joined slab by slab."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What the columns of the tables are called and mean: the one source of docs/results.md and of the explorer's column heads."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from . import ranges

@@ -1,7 +1,5 @@
 """One row of summary.csv by its subjects, and what all rows are given by the revolutions of their runs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any, get_type_hints

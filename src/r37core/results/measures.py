@@ -4,8 +4,6 @@ A `response` is one blade in one scene, with the variables of response.nc over a
 have the leading edge alone instead of the dimension `tip_point`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

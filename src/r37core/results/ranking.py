@@ -1,7 +1,5 @@
 """ranking.csv: how robust each blade is in each scene, and the chance that one is better than another."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

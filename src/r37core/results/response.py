@@ -1,7 +1,5 @@
 """response.nc: all speeds of one blade and scene, written in blocks so that memory does not grow with the speeds."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 

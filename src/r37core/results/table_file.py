@@ -1,7 +1,5 @@
 """The tables of a run (CSV): names stay texts, whatever a blade is called."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """rotor.nc: numbers of every blade of a rotor at every speed, of one blade shape and scene, and of all."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 

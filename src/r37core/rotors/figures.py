@@ -1,7 +1,5 @@
 """A whole rotor: motion of its leading edges (normal and tangential together), worst stress, growth, and nodal diameters."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr

@@ -1,7 +1,5 @@
 """Checks of run-ups that need more than their section."""
 
-from __future__ import annotations
-
 import math
 
 from r37core.config import Settings

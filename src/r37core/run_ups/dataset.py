@@ -1,7 +1,5 @@
 """run_ups.nc: all run-ups of all blades and scenes, revolution by revolution."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 

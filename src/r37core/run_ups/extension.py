@@ -1,7 +1,5 @@
 """Run-ups as an extension."""
 
-from __future__ import annotations
-
 from r37core.plans.extension import Extension
 
 from .checks import no_coriolis, no_rotors, run_ups_can_be_done, slowest_speeds_can_be_run

@@ -1,7 +1,5 @@
 """Run-ups: motion, stress and wear while the speed changes, and the largest stress against the rate."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 

@@ -1,7 +1,5 @@
 """The plan of the run-ups: of which blades and scenes, from what, and which files are made of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product

@@ -1,7 +1,5 @@
 """What the section of a search alone cannot check."""
 
-from __future__ import annotations
-
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows

@@ -1,7 +1,5 @@
 """search.nc, search.csv and blades.yaml of the best designs: what a search writes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

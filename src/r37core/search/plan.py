@@ -1,7 +1,5 @@
 """The plan of a search: rounds of designs, what each design is judged by, and what is made of all of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache

@@ -3,8 +3,6 @@
 All are plain values, which `r37core.plain` carries. Light: the workflow imports this whether there is a search or not.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What the tried designs say about those between them: slices of each objective with a band, and which variables decide it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

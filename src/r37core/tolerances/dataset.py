@@ -1,7 +1,5 @@
 """tolerances.nc: what the members of all samples gave, their quantiles, and where their spread comes from."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

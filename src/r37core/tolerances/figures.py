@@ -1,7 +1,5 @@
 """Tolerances: the band that the members lie in, their chance of passing yield, and what their spread comes from."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import matplotlib.pyplot as plt

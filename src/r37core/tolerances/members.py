@@ -1,7 +1,5 @@
 """Members of a sample: a blade and a scene with other values of the numbers under `tolerances`."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """The plan of the tolerances: members of samples, each with runs of its own, and what is made of them together."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """tolerances.csv: interactions with the range of their numbers over the members; and the line that a run ends with."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
