@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-import netCDF4
 import numpy as np
 import xarray as xr
+from netCDF4 import Dataset
 
 from r37core.dataset_file import Variable, new_netcdf, open_netcdf
 from r37core.io import InputFileError
@@ -71,9 +71,7 @@ def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarr
     return axes
 
 
-def _copy(
-    response: netCDF4.Dataset, target: netCDF4.Dataset, kind: str, pair: tuple[int, int], axes: Mapping[str, np.ndarray]
-) -> None:
+def _copy(response: Dataset, target: Dataset, kind: str, pair: tuple[int, int], axes: Mapping[str, np.ndarray]) -> None:
     for name in (*DATASETS[kind], *FLAGS):
         if name not in response.variables:
             continue

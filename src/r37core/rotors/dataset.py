@@ -78,10 +78,8 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
 def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
     """Numbers of one speed, and the coordinates that they need."""
     revolutions = len(run["revolution_maxima"])
-    row = run | {
-        "yield_stress": np.array(yield_stress),
-        "span": _ends(run["blade_maximum"], run["span_revolutions"], revolutions),
-    }
+    span = _ends(run["blade_maximum"], run["span_revolutions"], revolutions)
+    row = run | {"yield_stress": np.array(yield_stress), "span": span}
     if "wear_harmonic" in run:
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_von_mises" in run:

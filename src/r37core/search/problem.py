@@ -79,11 +79,8 @@ def not_dominated(evaluated: Sequence[Evaluated]) -> list[Evaluated]:
     """The feasible designs than which no feasible one is better in an objective and as good in all, in the same order."""
     feasible = [design for design in evaluated if design.is_feasible]
     values = np.array([design.objectives for design in feasible])
-    return [
-        design
-        for design, own in zip(feasible, values, strict=True)
-        if not np.any((values <= own).all(1) & (values < own).any(1))
-    ]
+    pairs = zip(feasible, values, strict=True)
+    return [design for design, own in pairs if not np.any((values <= own).all(1) & (values < own).any(1))]
 
 
 def best_first(evaluated: Sequence[Evaluated], objective: int = 0) -> list[Evaluated]:

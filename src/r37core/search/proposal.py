@@ -106,9 +106,8 @@ def _fitted(tried: np.ndarray, known: Sequence[Evaluated], seed: int) -> Models:
     buildable = fit_chance(tried, is_done, seed)
     if len(done) < FEWEST_DONE:
         return Models((), (), buildable, feasible[:0])
-    objectives, scatters, margins = (
-        np.array([getattr(design, name) for design in done]).T for name in ("objectives", "scatters", "margins")
-    )
+    kinds = ("objectives", "scatters", "margins")
+    objectives, scatters, margins = (np.array([getattr(design, kind) for design in done]).T for kind in kinds)
     compressed = [_compressed(*each) for each in zip(objectives, scatters, strict=True)]
     none = np.zeros(len(done))
     return Models(

@@ -129,9 +129,8 @@ class SearchSection(Section):
             raise refused(("first",), f"{self.first}", f"at most designs ({self.designs})")
         quantiles = [name for name, objective in self.objectives.items() if objective.quantile is not None]
         if quantiles and not (self.tolerances and self.tolerances.spreads):
-            raise refused(
-                ("objectives", quantiles[0], "quantile"), "a quantile", "tolerances beside it, with numbers that spread"
-            )
+            where = ("objectives", quantiles[0], "quantile")
+            raise refused(where, "a quantile", "tolerances beside it, with numbers that spread")
         if self.tolerances is not None and not quantiles:
             raise refused(
                 ("tolerances",), "tolerances that no objective needs", "an objective with a quantile, or none of them"

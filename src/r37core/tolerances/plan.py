@@ -75,11 +75,8 @@ class Tolerances:
     @property
     def campbells_of_sample(self) -> list[str]:
         """The Campbell diagram of each of them."""
-        models = self._models
-        return [
-            paths.fill(paths.CAMPBELL, member=models[run["blade"]][run["member"]], blade=run["blade"])
-            for run in self.runs_of_sample
-        ]
+        models, runs = self._models, self.runs_of_sample
+        return [paths.fill(paths.CAMPBELL, member=models[run["blade"]][run["member"]], blade=run["blade"]) for run in runs]
 
     @property
     def nominal(self) -> dict[str, list[str]]:
