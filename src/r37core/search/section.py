@@ -1,8 +1,6 @@
 """search of config.yaml: a blade that is better than the one at hand."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -41,7 +39,7 @@ class QuantitySection(Section):
     )
 
     @model_validator(mode="after")
-    def _has_what_it_needs(self) -> QuantitySection:
+    def _has_what_it_needs(self) -> Self:
         named = [key for key in ("scenes", "mode", "engine_order", "speed_rad_s") if getattr(self, key) is not None]
         needed, allowed = NEEDS[self.measure]
         if missing := [key for key in needed if key not in named]:
@@ -64,7 +62,7 @@ class ObjectiveSection(QuantitySection):
     )
 
     @model_validator(mode="after")
-    def _has_members(self) -> ObjectiveSection:
+    def _has_members(self) -> Self:
         if self.quantile is not None and self.measure not in CONTACT_MEASURES:
             raise refused(("quantile",), f"a quantile of {self.measure}", f"one of {', '.join(CONTACT_MEASURES)}")
         return self
@@ -79,7 +77,7 @@ class ConstraintSection(QuantitySection):
     at_most_percent: Bound | LeftOut = Field(default=None, description="Upper bound, of the starting blade's value")
 
     @model_validator(mode="after")
-    def _is_bounded(self) -> ConstraintSection:
+    def _is_bounded(self) -> Self:
         for keys in (("at_least", "at_least_percent"), ("at_most", "at_most_percent")):
             if all(getattr(self, key) is not None for key in keys):
                 raise refused((keys[1],), " and ".join(keys), "one of them")
@@ -124,7 +122,7 @@ class SearchSection(Section):
     tolerances: SearchTolerances | LeftOut = Field(default=None, description="Tolerances of objectives with a quantile")
 
     @model_validator(mode="after")
-    def _goes_together(self) -> SearchSection:
+    def _goes_together(self) -> Self:
         if self.first > self.designs:
             raise refused(("first",), f"{self.first}", f"at most designs ({self.designs})")
         quantiles = [name for name, objective in self.objectives.items() if objective.quantile is not None]
