@@ -125,10 +125,10 @@ class Members:
         changes = {number: value for number, value in zip(self.numbers, values, strict=True) if value is not None}
         return Member(*self._changed(blade, scene, changes, f"member {name} of {blade} in {scene}"), values)
 
-    def _changed(self, blade: str, scene: str, given: Mapping[tuple[str, str], float], who: str) -> tuple[BladeSettings, Scene]:
+    def _changed(self, blade: str, scene: str, moved: Mapping[tuple[str, str], float], who: str) -> tuple[BladeSettings, Scene]:
         """A blade and a scene with other values of some numbers."""
         settings, changes = self._settings, dict[str, dict[str, float]](of_blades={}, of_scenes={})
-        for (section, key), value in given.items():
+        for (section, key), value in moved.items():
             changes[section][key] = value
         section = "of_blades"
         try:
