@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from r37core.figures.ranking_bars import draw_ranking
+from r37core.figures.comparison import draw_ranking
 from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from r37core.results.interactions import InteractionChoice, find_interactions

@@ -7,10 +7,10 @@ import pytest
 
 from r37core.config import ConfigError, Document, command_line_document
 from r37core.config.remarks import remarks_on_speeds
+from r37core.io import TextFileError
 from r37core.product.reading import read_settings
 from r37core.product.schemas import MODELS
 from r37core.speeds import LARGEST_NUMBER, SpeedError, exact_text, plan_speeds
-from r37core.text_file import TextFileError
 from r37core.yaml_file import load_yaml
 
 

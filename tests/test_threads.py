@@ -13,9 +13,8 @@ import pytest
 import xarray as xr
 from workflow_runs import copy_project
 
-from r37core.dataset_file import write_dataset
+from r37core.dataset_file import NETCDF_LOCK, lazy_dataset, write_dataset
 from r37core.kept import kept_file
-from r37core.netcdf_access import NETCDF_LOCK, lazy_dataset
 from r37core.process_wide import ProcessWide
 
 SIMULATIONS = """

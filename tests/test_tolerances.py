@@ -31,7 +31,7 @@ from r37core.tolerances.figures import draw_tolerances
 from r37core.tolerances.members import members_of
 from r37core.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
 from r37core.tolerances.sensitivity import sobol_indices
-from r37core.tolerances.table import range_table, ranges, shares_of_members
+from r37core.tolerances.table import _matched, range_table, ranges
 
 
 def test_more_members_change_none_that_are_there():
@@ -692,6 +692,10 @@ def test_a_member_at_yield_is_not_above_and_speeds_are_there_in_rpm(tmp_path):
     dataset = tolerances_dataset([MemberRun("Ref", "abradable", "0", (0.1, 0.2), tmp_path / "0.nc")], NUMBERS)
     assert (dataset["probability_above_yield"] == 0.0).all()
     np.testing.assert_allclose(dataset["speed_rpm"], dataset["speed"] * 30.0 / np.pi)
+
+
+def shares_of_members(nominal, members, choice):
+    return [len(match.members) / len(members) for match in _matched(nominal, members, choice)[: len(nominal)]]
 
 
 def test_each_nominal_interaction_has_its_share_and_members_go_to_the_nearest():

@@ -11,9 +11,8 @@ import pandas as pd
 import xarray as xr
 
 from r37core.config.messages import did_you_mean
-from r37core.dataset_file import read_dataset
+from r37core.dataset_file import lazy_dataset, read_dataset
 from r37core.io import InputFileError
-from r37core.netcdf_access import lazy_dataset
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 

@@ -1,7 +1,5 @@
 """Arrays and records that vectors of numbers can be loaded from."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

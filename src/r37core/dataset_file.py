@@ -1,19 +1,68 @@
-"""Datasets as netCDF4 files."""
-
-from __future__ import annotations
+"""Datasets as netCDF4 files, opened by one thread at a time: two inside the library end the process, whatever the files."""
 
 import hashlib
-from collections.abc import Iterable, Mapping, Sequence
+import threading
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import netCDF4
 import numpy as np
 import xarray as xr
 
-from .io import FILE_ATTRIBUTES, atomic_write
-from .netcdf_access import NETCDF_LOCK, open_dataset, open_netcdf
+from .io import FILE_ATTRIBUTES, atomic_write, readable
 from .units import RPM
+
+
+class ThreadLock:
+    """An RLock that can be copied: xarray keeps it in datasets, so a copy of it is the lock itself."""
+
+    def __init__(self) -> None:
+        lock = threading.RLock()
+        self.acquire, self.release = lock.acquire, lock.release
+
+    def __enter__(self) -> None:
+        self.acquire()
+
+    def __exit__(self, *_: object) -> None:
+        self.release()
+
+    def __reduce__(self) -> str:
+        return "NETCDF_LOCK"
+
+
+NETCDF_LOCK = ThreadLock()
+"""Lock that r37 holds while it reads or writes a netCDF file; other threads of yours that do so must hold it too."""
+
+
+@contextmanager
+def open_netcdf(file: Path | str) -> Iterator[netCDF4.Dataset]:
+    """A netCDF file to read from. Raises InputFileError when it cannot be read."""
+    with NETCDF_LOCK, readable(file), netCDF4.Dataset(file) as dataset:
+        yield dataset
+
+
+@contextmanager
+def new_netcdf(file: Path | str, provenance: Mapping[str, object]) -> Iterator[netCDF4.Dataset]:
+    """A netCDF file to write, atomically, with version and `provenance` as global attributes."""
+    with NETCDF_LOCK, atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as dataset:
+        dataset.setncatts(FILE_ATTRIBUTES | {name: str(value) for name, value in provenance.items()})
+        yield dataset
+
+
+@contextmanager
+def open_dataset(file: Path | str) -> Iterator[xr.Dataset]:
+    """A netCDF file as a dataset to read from. Raises InputFileError when it cannot be read."""
+    with NETCDF_LOCK, readable(file), xr.open_dataset(file, engine="netcdf4") as dataset:
+        yield dataset
+
+
+def lazy_dataset(file: Path | str) -> xr.Dataset:
+    """A netCDF file as a dataset whose values are read when they are used. Raises InputFileError when it cannot be read."""
+    with NETCDF_LOCK, readable(file):
+        return xr.open_dataset(file, engine="netcdf4", lock=NETCDF_LOCK)
 
 
 @dataclass(frozen=True)
@@ -82,19 +131,13 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
 
 
 def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> xr.Dataset:
-    """Read a netCDF file into memory; InputFileError when it cannot be read.
-
-    `part`: labels of dimensions, as far as the file has these, at which alone it is read.
-    """
+    """A netCDF file in memory, at the labels in `part` of dimensions that it has; InputFileError when it cannot be read."""
     with open_dataset(file) as dataset:
         return dataset.sel({name: label for name, label in (part or {}).items() if name in dataset.dims}).load()
 
 
 def hash_of_parts(files: Iterable[Path | str]) -> str:
-    """Input hash of a file that joins others: of what each of them, in any order, says of its making.
-
-    Raises InputFileError for a file that cannot be read.
-    """
+    """Hash of what `files`, in any order, say of their making, for what joins them; InputFileError if one cannot be read."""
     attributes = []
     for file in files:
         with open_netcdf(file) as dataset:

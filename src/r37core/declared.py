@@ -4,8 +4,6 @@ The dataclass of a computation declares them, and nothing else does: `r37core.co
 section of it, and with that the schema, the messages and the tables of docs/configuration.md. Light: the simulations import it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from functools import cache

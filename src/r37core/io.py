@@ -1,6 +1,4 @@
-"""Atomic writes, and one clear message for a file that cannot be read. Light: the simulation jobs import it."""
-
-from __future__ import annotations
+"""Atomic writes, text files of users, one clear message for a file that cannot be read. Light: simulation jobs import it."""
 
 import errno
 import json
@@ -32,12 +30,17 @@ class OutputFileError(InputFileError):
     """A file that has no room; the message names it and the remedy. Who expects a file's error gets this one, too."""
 
 
+class TextFileError(ValueError):
+    """Something that a text file of a user must not hold: `reason`, and the number of the `line`."""
+
+    def __init__(self, line: int, reason: str):
+        super().__init__(f"line {line}: {reason}")
+        self.line, self.reason = line, reason
+
+
 @contextmanager
 def atomic_write(file: Path | str) -> Iterator[Path]:
-    """Give a temporary path beside `file`; it becomes `file` when the block ends well and vanishes when it does not.
-
-    Raises OutputFileError where there is no room for it.
-    """
+    """A temporary path beside `file`: it becomes `file` if the block ends well, else vanishes. OutputFileError without room."""
     file = Path(file)
     with room_for(file):
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -115,6 +118,16 @@ class Named(SimpleNamespace):
 def as_list(files: str | Sequence[str]) -> list[str]:
     """The files of a job's input, which is a text where there is one file only."""
     return [files] if isinstance(files, str) else list(files)
+
+
+def read_text(file: Path) -> str:
+    """Text of a UTF-8 file, with or without a byte order mark; TextFileError for another encoding, OSError as `open` does."""
+    data = file.read_bytes()
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line, byte = data.count(b"\n", 0, error.start) + 1, data[error.start]
+        raise TextFileError(line, f"found the byte 0x{byte:02x}, which is not UTF-8; save the file as UTF-8") from None
 
 
 def write_text(text: str, file: Path | str) -> None:

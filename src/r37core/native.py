@@ -3,8 +3,6 @@
 Light: the simulation jobs import it. An object is kept (r37core.kept) under a name made of everything it depends on.
 """
 
-from __future__ import annotations
-
 import ctypes
 import hashlib
 import logging

@@ -1,9 +1,4 @@
-"""Frozen dataclasses as plain dictionaries, and back: what a rule's parameter holds, and what a job makes of it.
-
-Light: the simulation jobs import it.
-"""
-
-from __future__ import annotations
+"""Frozen dataclasses as plain dictionaries, as rules' parameters hold them, and back. Light: the simulation jobs import it."""
 
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
@@ -12,8 +7,6 @@ from types import NoneType, UnionType
 from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 T = TypeVar("T")
-
-_SCALARS = (bool, int, float, str)
 
 
 class PlainError(ValueError):
@@ -43,7 +36,7 @@ def _plain(value: Any, path: str) -> Any:
         return {_plain(key, path): _plain(part, f"{path}.{key}") for key, part in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(part, f"{path}[{index}]") for index, part in enumerate(value)]
-    for kind in _SCALARS:
+    for kind in (bool, int, float, str):
         # np.float64 is a float too, but has a repr of its own, which Snakemake would compare
         if isinstance(value, kind):
             return kind(value)

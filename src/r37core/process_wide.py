@@ -1,7 +1,5 @@
 """A setting of the whole process that several threads want for a while: the first one makes it, the last one takes it back."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager

@@ -5,8 +5,6 @@ numba reads a global as a constant, and prunes a branch on one before anything i
 what no scene of a kind has, and LLVM throws it away afterwards.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dis import get_instructions
 from types import FunctionType

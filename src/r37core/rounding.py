@@ -1,7 +1,5 @@
 """Numbers for people: as many digits as their scatter bears."""
 
-from __future__ import annotations
-
 import math
 from decimal import ROUND_CEILING, ROUND_HALF_UP, Context, Decimal
 

@@ -1,7 +1,5 @@
 """Speeds to simulate: numbers and ranges, joined, some sampled adaptively; and how a speed stands in file names."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -112,9 +110,8 @@ def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: floa
     together = sorted([*speeds, *(number for number in numbers if number not in coarse)])
     twice = [a for a, b in pairwise(together) if a == b]
     if twice:
-        raise SpeedError(
-            f"found {exact_text(round(twice[0] / rad_s, 9))} {unit} twice; allowed: each speed once (do the ranges overlap?)"
-        )
+        text = exact_text(round(twice[0] / rad_s, 9))
+        raise SpeedError(f"found {text} {unit} twice; allowed: each speed once (do the ranges overlap?)")
     return SpeedPlan(tuple(together), tuple(refined))
 
 

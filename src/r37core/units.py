@@ -1,7 +1,5 @@
 """Units that people read and write beside those of the SI."""
 
-from __future__ import annotations
-
 import math
 
 RPM = 30.0 / math.pi

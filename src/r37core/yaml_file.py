@@ -3,8 +3,6 @@
 A whole number as a key is the text that stands there: `{ 1: 0.4 }` and `{ "1": 0.4 }` are the same.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Hashable
 from pathlib import Path
@@ -12,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from .text_file import TextFileError, read_text
+from .io import TextFileError, read_text
 
 KeyPath = tuple[str | int, ...]
 """Path of a value: keys of mappings and numbers of list entries."""

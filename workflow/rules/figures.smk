@@ -103,7 +103,7 @@ use rule figure as ranking_figure with:
     log:
         "<logs>/figures/ranking.log",
     params:
-        **drawing(code, "figures.ranking_bars.draw_ranking", "ranking"),
+        **drawing(code, "figures.comparison.draw_ranking", "ranking"),
 
 
 use rule figure as clearance_figure with:

@@ -1,5 +1,5 @@
 # Run-ups and run-downs: the speed changes while the blade rubs; each is a run of its own.
-from r37core.run_ups.plan import RUN_UP, RunUps
+from r37core.run_ups.plan import RUN_UP, RunUps, entries
 
 run_ups = RunUps(sweep)
 
@@ -12,7 +12,7 @@ use rule step as run_up with:
     log:
         "<logs>/{blade}/{scene}/run_up_{run_up}.log",
     wildcard_constraints:
-        run_up="|".join(run_ups.names) or "none",
+        run_up="|".join(entries(settings)) or "none",
     params:
         **stage(run_ups.stage(made)),
 

@@ -1,7 +1,5 @@
 """Criterion for the speeds that adaptive sampling runs next: windows above crossings first, then where the response changes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -77,12 +75,10 @@ def next_speeds(grid: RefinedRange, members: Sequence[KnownSpeeds], choice: Refi
     arguments.
     """
     indices = _grid_indices(grid, members[0].speeds)
-    grid_places = np.flatnonzero(indices >= 0)
-    indices = indices[grid_places]
+    places = np.flatnonzero(indices >= 0)
+    indices = indices[places]
     room = int(choice.largest_share * (grid.last + 1)) - len(indices)
-    worth = np.mean(
-        [_worth(run.curves[:, grid_places], run.status[grid_places], _scale(run), choice) for run in members], axis=0
-    )
+    worth = np.mean([_worth(run.curves[:, places], run.status[places], _scale(run), choice) for run in members], axis=0)
     open_intervals = np.flatnonzero((np.diff(indices) > 1) & (worth > 0.0))
     # the largest first; half of the room, so that later rounds can follow what this one finds
     most = max(-(-room // 2), min(room, LEAST_OF_A_ROUND), 0)
@@ -93,10 +89,8 @@ def next_speeds(grid: RefinedRange, members: Sequence[KnownSpeeds], choice: Refi
 def _grid_indices(grid: RefinedRange, speeds: np.ndarray) -> np.ndarray:
     """Index on the grid of each speed, -1 for one that is not on it."""
     nearest = np.rint((speeds / grid.unit - grid.start) / grid.refine_to).astype(int)
-    grid_places = [
-        0 <= index <= grid.last and grid.speed(int(index)) == speed for index, speed in zip(nearest, speeds, strict=True)
-    ]
-    return np.where(grid_places, nearest, -1)
+    pairs = zip(nearest, speeds, strict=True)
+    return np.where([0 <= index <= grid.last and grid.speed(int(index)) == speed for index, speed in pairs], nearest, -1)
 
 
 def _scale(known: KnownSpeeds) -> np.ndarray:

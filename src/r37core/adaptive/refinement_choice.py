@@ -1,7 +1,5 @@
 """Choice of what makes an interval of speeds worth halving. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -39,12 +37,7 @@ class RefinementChoice:
     change: Annotated[float, Key("Relative change of rms or stress above which an interval is halved", ge=1e-3, le=10)] = 0.25
     peak: Annotated[float, Key("Share of a peak's height within which intervals are halved", ge=0, lt=1)] = 0.1
     steep_change: Annotated[
-        float,
-        Key(
-            "Relative change that marks an interaction narrower than the interval; 1 switches this off",
-            ge=1e-3,
-            le=1,
-        ),
+        float, Key("Relative change that marks an interaction narrower than the interval; 1 switches this off", ge=1e-3, le=1)
     ] = 0.8
     steep_prominence: Annotated[
         float, Key("Smallest height of a steep change, as a share of the largest response", ge=1e-6, le=1)

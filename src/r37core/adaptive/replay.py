@@ -1,7 +1,5 @@
 """Adaptive speed sampling where every speed of its grid has been run: which of them it would have asked for."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 
@@ -26,9 +24,7 @@ def replay(response: xr.Dataset, campbell: xr.Dataset, plan: SpeedPlan, choice: 
 def _measured(response: xr.Dataset) -> dict[float, list[float]]:
     """Status and adaptive.criterion.CURVES of each speed (rad/s)."""
     edge = leading_edge(response)
-    stress = (
-        response["max_von_mises"] / response["yield_stress"] if "max_von_mises" in response else edge["rms_normal"] * np.nan
-    )
+    stress = edge["max_von_mises"] / edge["yield_stress"] if "max_von_mises" in edge else edge["rms_normal"] * np.nan
     columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], stress]
     rows = np.stack([column.values.astype(float) for column in columns], axis=1)
     return dict(zip(map(float, response["speed"].values), rows.tolist(), strict=True))

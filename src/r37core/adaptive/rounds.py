@@ -1,7 +1,5 @@
 """round_*.json: which speeds of one blade and scene a round of refinement asks for, and what the rounds before it gave."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field

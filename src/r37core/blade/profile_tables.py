@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.text_file import read_text
+from r37core.io import read_text
 from r37core.units import si_name
 
 from .profile import BladeShapeError, ProfileParameters

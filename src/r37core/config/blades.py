@@ -19,9 +19,9 @@ from r37core.blade.sense import check_profile_sense
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
+from r37core.io import TextFileError
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.speeds import spaced
-from r37core.text_file import TextFileError
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
 from .declaring import si_fields, si_form

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
-from r37core.text_file import TextFileError
+from r37core.io import TextFileError
 from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
 
 from .messages import did_you_mean, explain_all, single_line

@@ -14,8 +14,8 @@ from pydantic_core import PydanticCustomError
 
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import read_designs
+from r37core.io import TextFileError
 from r37core.speeds import exact_text
-from r37core.text_file import TextFileError
 
 from .blade_sections import MaterialSection
 from .blades import LARGEST_FAMILY, SHARES, BladeEntry, Variation

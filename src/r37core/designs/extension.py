@@ -1,7 +1,5 @@
 """The comparison of designs as an extension. What varies in a family stands in blades.yaml, which the pipeline reads."""
 
-from __future__ import annotations
-
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.plans.extension import Extension

@@ -1,7 +1,5 @@
 """A family of designs: robustness and structure against what varies."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
@@ -12,26 +10,13 @@ from matplotlib.figure import Figure
 
 from r37core.figures import style
 
-from .table import MEASURES
+from .table import MEASURES, STRUCTURE
 
-_DRAWN = (
-    "mass_kg",
-    "frequency_1b_hz",
-    "frequency_1t_hz",
-    "clearance_loss_1b_m",
-    "clearance_loss_1t_m",
-    "shift_1b_rad_s",
-    "length_certain_rad_s",
-    "length_possible_rad_s",
-    "largest_median_stress_pa",
-)
+_DRAWN = (*STRUCTURE, "shift_1b_rad_s", "length_certain_rad_s", "length_possible_rad_s", "largest_median_stress_pa")
 
 
 def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades: Sequence[str] | None = None) -> Figure:
-    """What a family is chosen by, a line or points per scene: over the one key that varies, or over the designs by name.
-
-    `blades`: those of the table that are drawn, or all.
-    """
+    """What a family (or some `blades` of it) is chosen by, per scene, over the one key that varies or the designs by name."""
     if blades is not None:
         table = table[table["blade"].isin(blades)]
     figure, grid = plt.subplots(3, 3, figsize=(style.PAGE, 6.4), sharex=True)

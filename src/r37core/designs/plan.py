@@ -1,7 +1,5 @@
 """The plan of families of designs: what is compared, and where it lies."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

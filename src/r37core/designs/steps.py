@@ -1,7 +1,5 @@
 """The step of families of designs."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from r37core.dataset_file import read_dataset

@@ -1,7 +1,5 @@
 """designs.csv: what each design of a family is, how robust it is in every scene, and the line that a run ends with."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -16,16 +14,19 @@ from r37core.results.ranking import RANKED_BY, ROBUSTNESS, robustness
 from r37core.results.table_file import read_table
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
 
-MEASURES = {
+STRUCTURE = {
     "mass_kg": Word("mass", "of the blade", "kg"),
     "frequency_1b_hz": Word("1B at rest", "frequency of the first bending mode", "Hz"),
     "frequency_1t_hz": Word("1T at rest", "frequency of the first torsion mode", "Hz"),
     "clearance_loss_1b_m": Word("loss of clearance, 1B", "largest as the tip swings along the free mode", "mm", 1e3),
     "clearance_loss_1t_m": Word("loss of clearance, 1T", "largest as the tip swings along the free mode", "mm", 1e3),
+}
+MEASURES = {
+    **STRUCTURE,
     "shift_1b_rad_s": Word("shift of 1B", "peak less crossing of the strongest interaction of 1B", "rad/s"),
     **{name: meaning for name in ROBUSTNESS if (meaning := word(name, RANKING))},
 }
-"""Columns of designs.csv in words; the first five do not depend on the scene."""
+"""Columns of designs.csv in words; those of STRUCTURE do not depend on the scene."""
 
 
 def design_table(

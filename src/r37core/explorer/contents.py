@@ -1,7 +1,5 @@
 """What the explorer shows: the datasets of a sweep, thinned to what a screen shows, as one mapping that JSON can carry."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 from collections.abc import Iterable, Mapping, Sequence

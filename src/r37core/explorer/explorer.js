@@ -522,10 +522,10 @@
 
   // panels of extensions, below the others: hidden where they have nothing to show, and not named as missing
   const offered = {
-    state, unpack, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
+    state, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
   };
   for (const [extension, contents] of Object.entries(data.panels ?? {})) {
-    for (const [name, panel] of Object.entries(await panels[extension](contents, offered))) {
+    for (const [name, panel] of Object.entries(panels[extension](await unpackAll(contents), offered))) {
       const section = document.createElement("section");
       section.append(
         Object.assign(document.createElement("h2"), { textContent: panel.title }),

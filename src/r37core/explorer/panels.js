@@ -1,2 +1,2 @@
-// extension -> its panels, as a function of its contents and of what the page offers; each has a title, `draw`, and what it shows of the state
+// extension -> its panels, as a function of its contents, unpacked, and of what the page offers; each has a title, `draw`, and what it shows of the state
 const panels = {};

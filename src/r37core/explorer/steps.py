@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): the page to look at all results."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any

@@ -1,7 +1,5 @@
 """A picture of the blades, rendered off screen."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

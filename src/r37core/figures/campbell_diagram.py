@@ -1,7 +1,5 @@
 """Campbell diagrams."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import cycle
 from typing import Any
@@ -110,8 +108,6 @@ def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highe
         # high orders lie close together: a number only where there is room for it
         if end_on_axes[1] > 0.0 and np.linalg.norm(end_on_axes - labelled) > 0.07:
             look = beside if end == speed[-1] else top
-            end_point = (end, order * end / (2.0 * np.pi))
-            axes.annotate(
-                str(order), end_point, fontsize=6, color="0.3", textcoords="offset points", annotation_clip=False, **look
-            )
+            place = (end, order * end / (2.0 * np.pi))
+            axes.annotate(str(order), place, fontsize=6, color="0.3", textcoords="offset points", annotation_clip=False, **look)
             labelled = end_on_axes

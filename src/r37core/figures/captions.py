@@ -1,7 +1,5 @@
 """What is seen in each figure: the one text that stands in the file itself, in the report and in the gallery."""
 
-from __future__ import annotations
-
 CAPTIONS = {
     "campbell": (
         "Campbell diagram of blade {blade}. Left: natural frequencies of the reduced model over speed, each mode in its "

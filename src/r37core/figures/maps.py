@@ -1,7 +1,5 @@
 """Maps over speed: the spectrum against engine order, the wear against angle, an elastic casing's waves."""
 
-from __future__ import annotations
-
 from typing import Any, cast
 
 import matplotlib.pyplot as plt
@@ -129,10 +127,7 @@ def _edges(middles: np.ndarray) -> np.ndarray:
 
 
 def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
-    """Level of forward and backward waves over speed and nodal diameter, below it the casing's energy.
-
-    In decibels below the largest level of the whole map.
-    """
+    """Level of forward and backward waves (dB below the largest) over speed and nodal diameter; below, the casing's energy."""
     # neither speeds that diverged, nor modes of other scenes or too fast for the samples
     maps = maps.dropna("speed", how="all", subset=["casing_energy"])
     maps = maps.dropna("casing_mode", how="all", subset=["casing_energy"])

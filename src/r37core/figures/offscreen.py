@@ -1,7 +1,5 @@
 """Rendering without a display. Run as a program it draws one test picture and fails if that does not work."""
 
-from __future__ import annotations
-
 import os
 import sys
 from pathlib import Path

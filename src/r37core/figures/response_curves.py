@@ -1,7 +1,5 @@
 """Response over speed: rms of the leading edge, largest stress against yield; clearance where it changes with the speed."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import xarray as xr
 from matplotlib.axes import Axes
@@ -42,9 +40,8 @@ def draw_response(title: str, campbell: xr.Dataset | None, rms: xr.Dataset, stre
 def draw_response_overview(rms: xr.Dataset) -> Figure:
     """All blades: normal and tangential rms of the leading edge, one row per blade, all scenes, each column on one scale."""
     blades = rms["blade"].values
-    figure, grid = plt.subplots(
-        len(blades), 2, figsize=(style.PAGE, 0.95 * len(blades) + 0.8), sharex=True, sharey="col", squeeze=False
-    )
+    size = (style.PAGE, 0.95 * len(blades) + 0.8)
+    figure, grid = plt.subplots(len(blades), 2, figsize=size, sharex=True, sharey="col", squeeze=False)
     for row, blade in zip(grid, blades, strict=True):
         for axes, direction in zip(row, ("normal", "tangential"), strict=True):
             _draw_scenes(axes, rms.sel(blade=blade), direction)

@@ -1,8 +1,6 @@
 """Steps of the workflow (docs/architecture.md): figures."""
 
-from __future__ import annotations
-
-from importlib import import_module
+from pkgutil import resolve_name
 from typing import Any
 
 from r37core.dataset_file import read_dataset
@@ -24,8 +22,7 @@ def draw(input: Any, output: Any, params: Any) -> None:
     arguments |= {name: read_table(file) if file.endswith(".csv") else read_dataset(file, of) for name, file in input.items()}
     if of:
         arguments["title"] = ", ".join(of.values())
-    module, name = function.rsplit(".", 1)
-    save(getattr(import_module(module), name)(**arguments), [output.png, output.pdf], caption)
+    save(resolve_name(function)(**arguments), [output.png, output.pdf], caption)
 
 
 def blade_shapes(input: Any, output: Any, params: Any) -> None:

@@ -1,7 +1,5 @@
 """One style for all figures: sizes that print as they are, colours told apart with any colour vision, PNG and PDF."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import cycle
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Waterfall: spectra over frequency, one above the other by speed."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr

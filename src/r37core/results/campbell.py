@@ -1,7 +1,5 @@
 """Campbell diagram: frequencies over speed, modes followed and named by shape, crossings with engine orders; as a dataset."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path

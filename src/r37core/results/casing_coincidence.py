@@ -5,8 +5,6 @@ of its forward wave, which runs with the rotor, and f_n + n Omega/(2 pi) of its 
 Wave Speed Coincidence, PhD thesis, Imperial College London, 1997; Legrand et al., J. Sound Vib. 319 (2009) 366-391.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 import numpy as np

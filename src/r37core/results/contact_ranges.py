@@ -1,7 +1,5 @@
 """Rows of direct contact: ranges of speed that may be above yield, and what else is loud."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -1,17 +1,14 @@
 """rms.nc, spectrum.nc, stress.nc, wear.nc, casing.nc: the responses of all blades and scenes, joined slab by slab."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 
-import netCDF4
 import numpy as np
 import xarray as xr
+from netCDF4 import Dataset
 
-from r37core.dataset_file import Variable
+from r37core.dataset_file import Variable, new_netcdf, open_netcdf
 from r37core.io import InputFileError
-from r37core.netcdf_access import new_netcdf, open_netcdf
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
@@ -74,9 +71,7 @@ def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarr
     return axes
 
 
-def _copy(
-    response: netCDF4.Dataset, target: netCDF4.Dataset, kind: str, pair: tuple[int, int], axes: Mapping[str, np.ndarray]
-) -> None:
+def _copy(response: Dataset, target: Dataset, kind: str, pair: tuple[int, int], axes: Mapping[str, np.ndarray]) -> None:
     for name in (*DATASETS[kind], *FLAGS):
         if name not in response.variables:
             continue

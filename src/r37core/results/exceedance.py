@@ -7,8 +7,6 @@ whose shares are 0 or 1: such a share is smoothed with those alone from which ch
 repeats itself: its shares are taken as they are.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -31,6 +29,20 @@ _BY_CHANCE = 0.2
 """Difference of two shares that chance may make: three standard deviations where half of a hundred revolutions are above."""
 
 _DRAWS, _SEED = 200, 0
+
+
+@dataclass(frozen=True)
+class SpeedRange:
+    """Speeds (rad/s) from `begin` to `end`; `truncated`: it reaches to the first or last speed of all, and may go on beyond."""
+
+    begin: float
+    end: float
+    truncated: bool
+
+    @property
+    def length(self) -> float:
+        """Length of the range (rad/s)."""
+        return self.end - self.begin
 
 
 @dataclass(frozen=True)
@@ -79,10 +91,7 @@ class Exceedance:
 
     @cached_property
     def _drawn(self) -> np.ndarray:
-        """Smoothed shares as chance could have had them, shape (draws, speeds); the same every time.
-
-        Each speed's share is one of its neighbours', drawn by the weights.
-        """
+        """Smoothed shares by chance, shape (draws, speeds), always the same: each is of neighbours, drawn by the weights."""
         random, indices = np.random.default_rng(_SEED), np.arange(len(self.speeds))
         chosen = np.array([random.choice(indices, _DRAWS, p=row) for row in self.weights])
         return (self.weights @ self.shares[chosen]).T
@@ -124,20 +133,6 @@ def exceedance_of(response: xr.Dataset) -> Exceedance:
 def is_lined(response: xr.Dataset) -> bool:
     """Whether a lining is worn, and the tip does not meet the casing itself."""
     return bool(response["lined"]) if "lined" in response else True
-
-
-@dataclass(frozen=True)
-class SpeedRange:
-    """Speeds (rad/s) from `begin` to `end`; `truncated`: it reaches to the first or last speed of all, and may go on beyond."""
-
-    begin: float
-    end: float
-    truncated: bool
-
-    @property
-    def length(self) -> float:
-        """Length of the range (rad/s)."""
-        return self.end - self.begin
 
 
 def ranges_above(speeds: np.ndarray, values: np.ndarray, level: float) -> list[SpeedRange]:

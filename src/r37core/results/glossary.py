@@ -1,7 +1,5 @@
 """What the columns of the tables are called and mean: the one source of docs/results.md and of the explorer's column heads."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from . import ranges
@@ -41,26 +39,16 @@ INTERACTIONS = {
     "peak_rms_normal_m": Word("normal rms", "rms normal to the casing at the peak speed", *_MM),
     "peak_rms_tangential_m": Word("tangential rms", "tangential rms at the peak speed", *_MM),
     "drop": Word(
-        "amplitude lost above the peak",
-        f"share of the amplitude lost within {DROP_WITHIN:g} rad/s above the peak",
-        *_PERCENT,
+        "amplitude lost above the peak", f"share of the amplitude lost within {DROP_WITHIN:g} rad/s above the peak", *_PERCENT
     ),
     "first_yield_speed_rad_s": Word("first speed above yield", "lowest speed with stress above yield", _SPEED),
     "width_above_yield_rad_s": Word(
-        "width above yield",
-        "distance from the first to the last speed above yield, ends interpolated",
-        _SPEED,
+        "width above yield", "distance from the first to the last speed above yield, ends interpolated", _SPEED
     ),
     "share_above_yield": Word(
-        "part of the width above yield",
-        "share of this width that is above yield: chaotic motion leaves gaps",
-        *_PERCENT,
+        "part of the width above yield", "share of this width that is above yield: chaotic motion leaves gaps", *_PERCENT
     ),
-    "max_von_mises_pa": Word(
-        "largest stress, last revolution",
-        "largest von Mises stress of the last revolution",
-        *_MPA,
-    ),
+    "max_von_mises_pa": Word("largest stress, last revolution", "largest von Mises stress of the last revolution", *_MPA),
     "max_von_mises_speed_rad_s": Word("at speed", "speed of the largest stress", _SPEED),
     "stress_region": Word("stress region", "part of the blade where stress is evaluated"),
     "max_wear_m": Word("largest wear", "largest wear of the lining", *_MM),
@@ -90,10 +78,7 @@ INTERACTIONS = {
 """Columns of summary.csv."""
 
 RANKING = {
-    "rank": Word(
-        "rank",
-        "place in the scene: by length above yield in most, then in some revolutions, diverged runs, stress",
-    ),
+    "rank": Word("rank", "place in the scene: by length above yield in most, then in some revolutions, diverged runs, stress"),
     "length_certain_rad_s": Word(_MOST, f"length of all speeds at which {_CERTAIN}", _SPEED),
     "length_possible_rad_s": Word(_SOME, f"length of all speeds at which {_POSSIBLE}", _SPEED),
     "largest_median_stress_pa": Word("largest median stress", f"largest {_MEDIAN}", *_MPA),

@@ -1,10 +1,8 @@
 """One row of summary.csv by its subjects, and what all rows are given by the revolutions of their runs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any, TypeVar, get_type_hints
+from typing import Any, get_type_hints
 
 import numpy as np
 import xarray as xr
@@ -141,9 +139,6 @@ def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
     return columns
 
 
-_Part = TypeVar("_Part", LastRevolution, AllRevolutions, PeakMotion)
-
-
 def interaction_row(
     response: xr.Dataset, index: int, reach: xr.Dataset, crossing: Crossing, more: Mapping[str, Any], note: str = ""
 ) -> Interaction:
@@ -160,7 +155,7 @@ def interaction_row(
         **more,
     }
 
-    def part(kind: type[_Part]) -> _Part:
+    def part(kind: type[Any]) -> Any:
         return kind(**{field.name: columns[field.name] for field in fields(kind) if field.name in columns})
 
     return Interaction(

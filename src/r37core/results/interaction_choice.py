@@ -1,7 +1,5 @@
 """What counts as an interaction. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

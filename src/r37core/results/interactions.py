@@ -1,7 +1,5 @@
 """Interactions: peaks of the response over speed, matched with modes and engine orders."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise

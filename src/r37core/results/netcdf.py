@@ -1,7 +1,5 @@
 """Creating labels, axes and variables in an open netCDF4 file, for the datasets that are written row by row."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

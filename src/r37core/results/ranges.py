@@ -1,7 +1,5 @@
 """The range of an interaction's numbers over the members of a sample: its columns, in a table of its own and in the summary."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

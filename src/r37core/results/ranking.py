@@ -1,7 +1,5 @@
 """ranking.csv: how robust each blade is in each scene, and the chance that one is better than another."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -110,9 +108,7 @@ def ranking_table(
     if members:
         table = pd.concat([table, pd.DataFrame([_member_columns(pair, members) for pair in measures])], axis=1)
     scenes = list(dict.fromkeys(table["scene"]))
-    return table.sort_values(
-        ["scene", "rank"], key=lambda column: column.map(scenes.index) if column.name == "scene" else column
-    )
+    return table.sort_values(["scene", "rank"], key=lambda keys: keys.map(scenes.index) if keys.name == "scene" else keys)
 
 
 def read_ranking(file: Path | str) -> pd.DataFrame:

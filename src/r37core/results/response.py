@@ -1,14 +1,12 @@
 """response.nc: all speeds of one blade and scene, written in blocks so that memory does not grow with the speeds."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import netCDF4
 import numpy as np
 
-from r37core.netcdf_access import new_netcdf
+from r37core.dataset_file import new_netcdf
 from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed

@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): Campbell diagrams, responses, the datasets and tables of all blades."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The tables of a run (CSV): names stay texts, whatever a blade is called."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd
@@ -16,9 +14,7 @@ def write_table(table: pd.DataFrame, file: Path | str, digits: int | None = None
 
 
 def read_table(file: Path | str) -> pd.DataFrame:
-    """A table that a rule wrote; an empty field is NaN. Raises InputFileError where it cannot be read.
-
-    A blade may be called NA, inf or 1e5.
-    """
+    """A table that a rule wrote; an empty field is NaN. Raises InputFileError where it cannot be read."""
     with readable(file):
+        # a blade may be called NA, inf or 1e5
         return pd.read_csv(file, dtype=dict.fromkeys(("blade", "scene", "mode"), str), keep_default_na=False, na_values=[""])

@@ -1,7 +1,5 @@
 """What the sweep's datasets hold: name, dimensions beyond blade, scene and speed, units, meaning."""
 
-from __future__ import annotations
-
 from r37core.dataset_file import SPEED, Variable
 from r37core.stress.statistic import HIGH
 

@@ -1,7 +1,5 @@
 """rotor.nc: numbers of every blade of a rotor at every speed, of one blade shape and scene, and of all."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -70,9 +68,9 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
     data = {name: np.stack([row[name] for row in rows]) for name in VARIABLES if name in rows[0]}
     coordinates = {name: rows[0][name] for name in AXES if name in rows[0]}
     speed_variables = {name: variable for name, variable in VARIABLES.items() if name not in OF_ALL_SPEEDS}
-    dataset = dataset_of(speed_variables, data | coordinates | {"speed": speeds}, {"speed": SPEED, **AXES}, {}, ("speed",))
     still = {name: (VARIABLES[name].dims, rows[0][name], VARIABLES[name].attributes) for name in OF_ALL_SPEEDS}
-    dataset = dataset.assign(still)
+    values = data | coordinates | {"speed": speeds}
+    dataset = dataset_of(speed_variables, values, {"speed": SPEED, **AXES}, {}, ("speed",)).assign(still)
     dataset["status"].attrs |= status_flags()
     return dataset
 
@@ -80,10 +78,8 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
 def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
     """Numbers of one speed, and the coordinates that they need."""
     revolutions = len(run["revolution_maxima"])
-    row = run | {
-        "yield_stress": np.array(yield_stress),
-        "span": _ends(run["blade_maximum"], run["span_revolutions"], revolutions),
-    }
+    span = _ends(run["blade_maximum"], run["span_revolutions"], revolutions)
+    row = run | {"yield_stress": np.array(yield_stress), "span": span}
     if "wear_harmonic" in run:
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_von_mises" in run:

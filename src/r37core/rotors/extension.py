@@ -1,7 +1,5 @@
 """Whole rotors as an extension."""
 
-from __future__ import annotations
-
 from r37core.plans.extension import Extension, Panel
 
 from .plan import joined_dataset, remarks, targets

@@ -1,14 +1,8 @@
 // whole rotors: every blade over speed, who leads, and growth and waves at the chosen speed; motion is the leading edge's
 // displacement, normal and tangential together
-panels.rotors = async (contents, page) => {
+panels.rotors = (rotors, page) => {
   const DECADES = 3;
   const { state, digits, speedText, axis, layout, draw } = page;
-  const rotors = await Promise.all(contents.map(async ({ blade, scene, numbers, spans, diameters, above_yield: aboveYield, ...arrays }) => {
-    const unpacked = await Promise.all(Object.entries(arrays).map(async ([name, array]) => [name, await page.unpack(array)]));
-    return {
-      blade, scene, numbers, spans, diameters, aboveYield: aboveYield && (await page.unpack(aboveYield)).values, ...Object.fromEntries(unpacked),
-    };
-  }));
   const chosen = () => rotors.find(({ blade, scene }) => blade === state.blade && scene === state.scene);
   const median = (values) => [...values].sort((one, other) => one - other)[Math.floor(values.length / 2)];
   const largest = (values) => values.filter(Number.isFinite).reduce((most, value) => Math.max(most, value), 0);
@@ -24,10 +18,11 @@ panels.rotors = async (contents, page) => {
   const nearest = ({ speeds: { values } }) => values.reduce(
     (best, speed, at) => (Math.abs(speed - state.speed) < Math.abs(values[best] - state.speed) ? at : best), 0,
   );
-  const leaderText = ({ leader, rms, numbers, aboveYield, speeds }, at) => {
+  const leaderText = ({ leader, rms, numbers, above_yield: aboveYield, speeds }, at) => {
     const of = rms.row(at);
     if (!of.some(Number.isFinite)) return `${speedText(speeds.values[at])}<br>blade ${leader.values[at]} diverged first`;
-    const above = aboveYield && Number.isFinite(aboveYield[at]) ? `<br>${digits(aboveYield[at])} of ${numbers.length} blades above yield` : "";
+    const count = aboveYield?.values[at];
+    const above = Number.isFinite(count) ? `<br>${digits(count)} of ${numbers.length} blades above yield` : "";
     return `${speedText(speeds.values[at])}<br>blade ${leader.values[at]} leads<br>${millimetres(largest(of))}, median ${millimetres(median(of))}${above}`;
   };
 

@@ -1,7 +1,5 @@
 """Panel of the explorer about whole rotors: every blade over speed, and growth and waves at each speed."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

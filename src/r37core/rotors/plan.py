@@ -1,7 +1,5 @@
 """The plan of whole rotors: which scenes have one, from what, and which files are made of them."""
 
-from __future__ import annotations
-
 from r37core.config import Settings
 from r37core.contact.scene import Rotor
 from r37core.plans import paths

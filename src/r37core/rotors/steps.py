@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): datasets and table of whole rotors."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from r37core.dataset_file import hash_of_parts, write_dataset

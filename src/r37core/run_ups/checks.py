@@ -1,7 +1,5 @@
 """Checks of run-ups that need more than their section."""
 
-from __future__ import annotations
-
 import math
 
 from r37core.config import Settings
@@ -43,9 +41,8 @@ def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
         )
     for scene in settings.scenes if entry.scenes == "all" else entry.scenes:
         if entry.lining == "worn" and settings.scene_entries[scene].lining is None:
-            raise document.refusal(
-                (*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new, or scenes with a lining"
-            )
+            lining = f"worn in the scene '{scene}', which has no lining"
+            raise document.refusal((*path, "lining"), lining, "new, or scenes with a lining")
 
 
 def slowest_speeds_can_be_run(settings: Settings) -> None:

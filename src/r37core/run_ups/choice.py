@@ -55,13 +55,7 @@ class RunUpChoice:
     crossing: Crossing | None
     rate: Annotated[
         float | None,
-        Key(
-            "Change of the speed per second, without sign",
-            "_rad_s2",
-            ge=1e-3,
-            le=1e9,
-            optional=True,
-        ),
+        Key("Change of the speed per second, without sign", "_rad_s2", ge=1e-3, le=1e9, optional=True),
         Key("The same rate in revolutions per minute per second", "_rpm_s", ge=1e-2, le=1e10, optional=True),
     ]
     revolutions: Annotated[
@@ -86,10 +80,7 @@ class RunUpChoice:
     ] = False
 
     def run_up(self, samples_per_revolution: int, crossing_speed: float | None = None) -> RunUp:
-        """The run-up in numbers; `crossing_speed` (rad/s): of the crossing, where there is one.
-
-        Raises RunUpError for one of too few or too many revolutions.
-        """
+        """The run-up in numbers, about a `crossing_speed` (rad/s) if any; RunUpError for too few or too many revolutions."""
         start, stop = self.start, self.stop
         if crossing_speed is not None:
             start, stop = crossing_speed * (1.0 + start), crossing_speed * (1.0 + stop)

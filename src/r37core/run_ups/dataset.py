@@ -1,16 +1,13 @@
 """run_ups.nc: all run-ups of all blades and scenes, revolution by revolution."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import Variable
+from r37core.dataset_file import Variable, new_netcdf
 from r37core.io import readable
-from r37core.netcdf_access import new_netcdf
 from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
 from r37core.results.variables import AXES
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS

@@ -1,7 +1,5 @@
 """Run-ups: motion, stress and wear while the speed changes, and the largest stress against the rate."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
@@ -29,9 +27,8 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
 
     Colour is the rate, dashes are run-downs, crosses a lining that was worn before.
     """
-    runs = sorted(
-        runs_of(run_ups, blade=blade, scene=scene), key=lambda run: (float(run["rate"]) < 0.0, abs(float(run["rate"])))
-    )
+    runs = runs_of(run_ups, blade=blade, scene=scene)
+    runs.sort(key=lambda run: (float(run["rate"]) < 0.0, abs(float(run["rate"]))))
     # what another scene computes is in the dataset, too; runs that diverged at once have nothing
     there = [name for name in _QUANTITIES if name in run_ups and any(run[name].notnull().any() for run in runs)]
     shown = {name: _QUANTITIES[name] for name in there or ["rms_normal"]}

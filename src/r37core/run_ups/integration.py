@@ -5,8 +5,6 @@ of the modes changes. Displacement and velocity go over as they are, and so into
 orthonormal, so the projection on all of them loses nothing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 

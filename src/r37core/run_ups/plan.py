@@ -1,7 +1,5 @@
 """The plan of the run-ups: of which blades and scenes, from what, and which files are made of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -38,16 +36,6 @@ class RunUps:
     def files(self) -> paths.Wildcards:
         """Wildcards of the files of all run-ups: blade, scene and name."""
         return [{"blade": blade, "scene": scene, "run_up": name} for blade, scene, name in self.runs]
-
-    @property
-    def pairs(self) -> list[tuple[str, str]]:
-        """Pairs of blade and scene with run-ups."""
-        return [pair for pair, named in self.choices.items() if named]
-
-    @property
-    def names(self) -> list[str]:
-        """Names of all run-ups."""
-        return list(entries(self.sweep.settings))
 
     @property
     def runs(self) -> list[tuple[str, str, str]]:
@@ -121,7 +109,7 @@ def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset, the tables and the figures of the run-ups."""
-    pairs = paths.run_keys(RunUps(sweep).pairs)
+    pairs = paths.run_keys(pair for pair, named in RunUps(sweep).choices.items() if named)
     return {
         **{f"<results>/{name}": pairs and [{}] for name in ("run_ups.nc", "run_ups.csv", "run_up_rates.csv")},
         **paths.pictures("run_ups_{blade}__{scene}", pairs),

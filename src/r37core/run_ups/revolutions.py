@@ -1,7 +1,5 @@
 """Content of a run-up's file: some numbers of every revolution, made while the run goes on."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 

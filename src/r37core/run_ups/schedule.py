@@ -4,8 +4,6 @@ At a constant rate a the squared speed is linear in the angle, Omega^2 = Omega_0
 time integration keeps the mean of the speeds at its ends, which passes the segment in just the time that the run-up takes.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -1,8 +1,6 @@
 """run_ups of config.yaml: speeds that change while the blade rubs."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -39,7 +37,7 @@ class RunUpEntry(Section):
     crossing: CrossingSection | LeftOut = Field(default=None, description="Speeds about a crossing, in place of numbers")
 
     @model_validator(mode="after")
-    def _complete(self) -> RunUpEntry:
+    def _complete(self) -> Self:
         for keys in ((*_START, "crossing"), (*_STOP, "crossing"), _LENGTH):
             present = [key for key in keys if getattr(self, key) is not None]
             if len(present) != 1:
@@ -63,13 +61,8 @@ class RunUpEntry(Section):
         return si_form(RunUpChoice, self, **parts)
 
 
-def _names_differ(entries: dict[str, RunUpEntry]) -> dict[str, RunUpEntry]:
-    check_names(entries)
-    return entries
-
-
 SECTION: ExtensionSection[dict[str, RunUpEntry]] = ExtensionSection(
     "run_ups",
-    Annotated[dict[Name, RunUpEntry], AfterValidator(_names_differ)],  # type: ignore[arg-type]
+    Annotated[dict[Name, RunUpEntry], AfterValidator(check_names)],  # type: ignore[arg-type]
     Field(default={}, description="Run-ups and run-downs by name"),
 )

@@ -1,7 +1,5 @@
 """run_ups.csv and run_up_rates.csv: what a run-up does to a blade, and how fast it has to be."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

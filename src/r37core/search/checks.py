@@ -1,7 +1,5 @@
 """What the section of a search alone cannot check."""
 
-from __future__ import annotations
-
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
@@ -70,9 +68,8 @@ def _scenes_are_run(settings: Settings) -> None:
                     allowed = f"scenes that are run ({', '.join(settings.scene_names)})"
                     raise document.refusal((*path, "scenes"), f"'{scene}'", allowed)
                 if "stress" not in settings.results_of(entry.blade, scene):
-                    raise document.refusal(
-                        (*path, "scenes"), f"'{scene}', without stress", "scenes with stress among their results"
-                    )
+                    allowed = "scenes with stress among their results"
+                    raise document.refusal((*path, "scenes"), f"'{scene}', without stress", allowed)
             if quantity.mode is not None and quantity.mode not in modes:
                 allowed = f"one of the Campbell diagram, {', '.join(modes)} (campbell.modes)"
                 raise document.refusal((*path, "mode"), single_line(quantity.mode), allowed)

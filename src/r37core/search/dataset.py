@@ -1,7 +1,5 @@
 """search.nc, search.csv and blades.yaml of the best designs: what a search writes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -19,7 +17,7 @@ from r37core.units import shown_unit
 from r37core.yaml_file import yaml_text
 
 from .plan import BEST, DATASET
-from .problem import START, Design, Evaluated, SearchChoice, best_first, not_dominated, number
+from .problem import START, UNKNOWN, Design, Evaluated, SearchChoice, best_first, not_dominated, number
 from .rounds import SearchRound
 from .surrogate import sensitivity, slices
 
@@ -76,7 +74,7 @@ def _coordinates(designs: list[str], choice: SearchChoice) -> dict[str, object]:
 
 def _design_variables(designs: dict[str, Design], evaluated: dict[str, Evaluated], choice: SearchChoice) -> dict[str, object]:
     def quantities(names: Sequence[str], place: int) -> np.ndarray:
-        rows = [[number(design.quantities.get(name, (None, None))[place]) for name in names] for design in designs.values()]
+        rows = [[number(design.quantities.get(name, UNKNOWN)[place]) for name in names] for design in designs.values()]
         return np.array(rows, float).reshape(len(designs), len(names))
 
     feasible = [each.is_feasible for each in evaluated.values()]
@@ -105,16 +103,16 @@ def _bound_variables(choice: SearchChoice, last: SearchRound) -> dict[str, objec
 
 def _surrogate_variables(known: list[Evaluated], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
     """Slices through the best design, and what each variable does."""
-    cut = slices(choice.variables, known, at, POINTS, choice.seed)
-    indices = sensitivity(choice.variables, known, choice.seed)
+    values, mean, deviation = slices(choice.variables, known, at, POINTS, choice.seed)
+    first, total, predicted = sensitivity(choice.variables, known, choice.seed)
     axes = ("objective", "variable")
     return {
-        "slice_value": (("variable", "point"), cut.values, about("1", "values of the variable, through the best design")),
-        "slice_mean": ((*axes, "point"), cut.mean, about("1", "mean of the surrogate of the objective")),
-        "slice_deviation": ((*axes, "point"), cut.deviation, about("1", "standard deviation of the surrogate")),
-        "sensitivity_first": (axes, indices.first, about("1", "share of the surrogate's variance by the variable alone")),
-        "sensitivity_total": (axes, indices.total, about("1", "share in which the variable has a part")),
-        "surrogate_q2": ("objective", indices.predicted, about("1", "share of the variance that it predicts, each left out")),
+        "slice_value": (("variable", "point"), values, about("1", "values of the variable, through the best design")),
+        "slice_mean": ((*axes, "point"), mean, about("1", "mean of the surrogate of the objective")),
+        "slice_deviation": ((*axes, "point"), deviation, about("1", "standard deviation of the surrogate")),
+        "sensitivity_first": (axes, first, about("1", "share of the surrogate's variance by the variable alone")),
+        "sensitivity_total": (axes, total, about("1", "share in which the variable has a part")),
+        "surrogate_q2": ("objective", predicted, about("1", "share of the variance that it predicts, each left out")),
     }
 
 

@@ -1,7 +1,5 @@
 """Designs of a search: the blade that it starts at, with other values of some keys."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property

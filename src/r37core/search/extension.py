@@ -1,7 +1,5 @@
 """A search for better designs as an extension."""
 
-from __future__ import annotations
-
 from r37core.plans.extension import Extension, Panel
 
 from .checks import search_can_be_run

@@ -1,7 +1,5 @@
 """A search: how good its designs became, the objectives against each other, and what each variable does."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import combinations
 from typing import Any, NamedTuple

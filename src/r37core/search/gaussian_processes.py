@@ -3,15 +3,13 @@
 Every fit runs on one thread of linear algebra, for the same bits on any number of cores.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from types import ModuleType
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -67,7 +65,7 @@ class Fit:
         latent = np.sqrt(np.maximum(deviation**2 - self.noise, 1e-12))
         return self.mean + self.scale * mean, self.scale * latent
 
-    def believing(self, point: np.ndarray) -> Fit:
+    def believing(self, point: np.ndarray) -> Self:
         """Process as if `point` had turned out as expected: what a batch knows of its earlier designs."""
         if self.process is None:
             return self
@@ -81,7 +79,7 @@ class Fit:
         rest = self._through(self.points[kept], self.numbers[kept], self.variances[kept])
         return float(rest.at(self.points[index : index + 1])[0][0])
 
-    def _through(self, points: np.ndarray, numbers: np.ndarray, variances: np.ndarray) -> Fit:
+    def _through(self, points: np.ndarray, numbers: np.ndarray, variances: np.ndarray) -> Self:
         """A process with the same hyperparameters through other numbers."""
         process = _regressor(self.process.kernel_, variances, optimizer=None)
         with _quiet():

@@ -1,7 +1,5 @@
 """What the explorer shows of a search: objectives against each other, all numbers of each design, and the best ones."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

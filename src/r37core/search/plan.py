@@ -1,7 +1,5 @@
 """The plan of a search: rounds of designs, what each design is judged by, and what is made of all of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -34,19 +32,17 @@ BEST = "<results>/search/best"
 
 DESIGN_NAME = rf"{START}|d\d{{4}}"
 
-FIGURES = ("search_designs", "search_slices")
-
-RoundFile = Callable[[int], str]
-"""Path of the file of a round; Snakemake's own exception for one that is still to be made."""
-
 
 @dataclass(frozen=True)
 class Search:
-    """Plan of a `sweep`'s search, `wildcards` as of Sweep; `round_file`, `built_file`: of a finished round, of its shapes."""
+    """Plan of a `sweep`'s search, `wildcards` as of Sweep.
+
+    `round_file`, `built_file`: path of a round, of its shapes; Snakemake's own exception for one that is still to be made.
+    """
 
     sweep: Sweep
-    round_file: RoundFile
-    built_file: RoundFile
+    round_file: Callable[[int], str]
+    built_file: Callable[[int], str]
 
     @property
     def designs(self) -> SearchDesigns:
@@ -217,7 +213,7 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     # files that an earlier search has left
     left = () if wildcards else (ROUND, BUILT, SHAPE, MEASURES)
     together = dict.fromkeys((DATASET, TABLE, BEST, *left), wildcards)
-    return together | {file: of for name in FIGURES for file, of in paths.pictures(name, wildcards).items()}
+    return together | paths.pictures("search_designs", wildcards) | paths.pictures("search_slices", wildcards)
 
 
 def is_asked(settings: Settings) -> bool:

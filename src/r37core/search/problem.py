@@ -3,8 +3,6 @@
 All are plain values, which `r37core.plain` carries. Light: the workflow imports this whether there is a search or not.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,8 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from .quantity import Quantity
-
-DONE, REFUSED = "done", "refused"
 
 FEWEST_DONE = 3
 """Fewest built designs for a fit; with fewer, proposals stay away from all that was tried."""
@@ -33,8 +29,8 @@ class Evaluated:
     """A design that has been tried.
 
     `values` has a number for each variable. Every one of the `objectives` is to be minimised; its standard deviation stands in
-    `scatters`, 0 or NaN where it is not known. Every one of the `margins` is at least 0 where its constraint is kept. With the
-    status "refused" the design could not be built: objectives, scatters and margins are NaN.
+    `scatters`, 0 or NaN where it is not known. Every one of the `margins` is at least 0 where its constraint is kept. Of a
+    design that could not be built objectives, scatters and margins are NaN.
     """
 
     name: str
@@ -42,12 +38,11 @@ class Evaluated:
     objectives: tuple[float, ...]
     scatters: tuple[float, ...]
     margins: tuple[float, ...]
-    status: str
 
     @property
     def is_done(self) -> bool:
         """Whether there is a finite number for every objective and margin."""
-        return self.status == DONE and all(map(math.isfinite, (*self.objectives, *self.margins)))
+        return all(map(math.isfinite, (*self.objectives, *self.margins)))
 
     @property
     def is_feasible(self) -> bool:
@@ -84,11 +79,8 @@ def not_dominated(evaluated: Sequence[Evaluated]) -> list[Evaluated]:
     """The feasible designs than which no feasible one is better in an objective and as good in all, in the same order."""
     feasible = [design for design in evaluated if design.is_feasible]
     values = np.array([design.objectives for design in feasible])
-    return [
-        design
-        for design, own in zip(feasible, values, strict=True)
-        if not np.any((values <= own).all(1) & (values < own).any(1))
-    ]
+    pairs = zip(feasible, values, strict=True)
+    return [design for design, own in pairs if not np.any((values <= own).all(1) & (values < own).any(1))]
 
 
 def best_first(evaluated: Sequence[Evaluated], objective: int = 0) -> list[Evaluated]:
@@ -115,6 +107,8 @@ START = "start"
 
 Value = tuple[float | None, float | None]
 """Value of a quantity, and its standard deviation; None for what is not known."""
+
+UNKNOWN: Value = (None, None)
 
 
 @dataclass(frozen=True)
@@ -156,7 +150,7 @@ class SearchChoice:
         """Margins by which each bound is kept, in its quantity's unit, below 0 where it is not: constraint by constraint."""
         margins = []
         for name, constraint in self.constraints.items():
-            value, reference = (number(of[name][0]) for of in (values, start))
+            value, reference = (number(of.get(name, UNKNOWN)[0]) for of in (values, start))
             lowest, highest = constraint.bounds(reference)
             if lowest > -math.inf:
                 margins.append(value - lowest)
@@ -179,19 +173,9 @@ class Design:
 
     def evaluated(self, name: str, choice: SearchChoice, start: Mapping[str, Value]) -> Evaluated:
         """The design as proposals take it."""
-        if self.refused is not None:
-            missing = (math.nan,) * len(choice.objectives)
-            bounds = len(choice.margins(start, start))
-            return Evaluated(name, self.values, missing, missing, (math.nan,) * bounds, REFUSED)
-        of = [self.quantities[objective] for objective in choice.objectives]
-        return Evaluated(
-            name,
-            self.values,
-            tuple(number(value) for value, _ in of),
-            tuple(number(scatter) for _, scatter in of),
-            tuple(choice.margins(self.quantities, start)),
-            DONE,
-        )
+        of = [self.quantities.get(objective, UNKNOWN) for objective in choice.objectives]
+        objectives, scatters = (tuple(number(each[place]) for each in of) for place in range(2))
+        return Evaluated(name, self.values, objectives, scatters, tuple(choice.margins(self.quantities, start)))
 
 
 def number(value: float | None) -> float:

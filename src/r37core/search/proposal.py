@@ -7,11 +7,10 @@ Sources: Jones, Schonlau and Welch (1998), J. Global Optim. 13, 455-492 (expecte
 the mean at its earlier designs); Knowles (2006), IEEE Trans. Evol. Comput. 10, 50-66 (several objectives under random weights).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 import scipy
@@ -59,7 +58,7 @@ class Models:
     buildable: Callable[[np.ndarray], np.ndarray]
     feasible: np.ndarray
 
-    def believing(self, point: np.ndarray) -> Models:
+    def believing(self, point: np.ndarray) -> Self:
         """Models after a design of the batch, which turns out as expected."""
         return replace(
             self,
@@ -106,9 +105,8 @@ def _fitted(tried: np.ndarray, known: Sequence[Evaluated], seed: int) -> Models:
     buildable = fit_chance(tried, is_done, seed)
     if len(done) < FEWEST_DONE:
         return Models((), (), buildable, feasible[:0])
-    objectives, scatters, margins = (
-        np.array([getattr(design, name) for design in done]).T for name in ("objectives", "scatters", "margins")
-    )
+    kinds = ("objectives", "scatters", "margins")
+    objectives, scatters, margins = (np.array([getattr(design, kind) for design in done]).T for kind in kinds)
     compressed = [_compressed(*each) for each in zip(objectives, scatters, strict=True)]
     none = np.zeros(len(done))
     return Models(

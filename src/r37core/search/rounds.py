@@ -1,7 +1,5 @@
 """round_*.json of a search: which designs a round asks for, and what those before it gave."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path

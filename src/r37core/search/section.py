@@ -1,12 +1,10 @@
 """search of config.yaml: a blade that is better than the one at hand."""
 
-from __future__ import annotations
-
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from r37core.config.section import ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
+from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
 from r37core.config.spread import MemberCount, Spreads
 
 from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
@@ -41,7 +39,7 @@ class QuantitySection(Section):
     )
 
     @model_validator(mode="after")
-    def _has_what_it_needs(self) -> QuantitySection:
+    def _has_what_it_needs(self) -> Self:
         named = [key for key in ("scenes", "mode", "engine_order", "speed_rad_s") if getattr(self, key) is not None]
         needed, allowed = NEEDS[self.measure]
         if missing := [key for key in needed if key not in named]:
@@ -52,14 +50,8 @@ class QuantitySection(Section):
 
     def quantity(self) -> Quantity:
         """The quantity that is computed."""
-        return Quantity(
-            measure=self.measure,
-            scenes=tuple(self.scenes or ()),
-            mode=self.mode,
-            engine_order=self.engine_order,
-            speed=self.speed_rad_s,
-            quantile=getattr(self, "quantile", None),
-        )
+        scenes, quantile = tuple(self.scenes or ()), getattr(self, "quantile", None)
+        return Quantity(self.measure, scenes, self.mode, self.engine_order, self.speed_rad_s, quantile)
 
 
 class ObjectiveSection(QuantitySection):
@@ -70,7 +62,7 @@ class ObjectiveSection(QuantitySection):
     )
 
     @model_validator(mode="after")
-    def _has_members(self) -> ObjectiveSection:
+    def _has_members(self) -> Self:
         if self.quantile is not None and self.measure not in CONTACT_MEASURES:
             raise refused(("quantile",), f"a quantile of {self.measure}", f"one of {', '.join(CONTACT_MEASURES)}")
         return self
@@ -85,7 +77,7 @@ class ConstraintSection(QuantitySection):
     at_most_percent: Bound | LeftOut = Field(default=None, description="Upper bound, of the starting blade's value")
 
     @model_validator(mode="after")
-    def _is_bounded(self) -> ConstraintSection:
+    def _is_bounded(self) -> Self:
         for keys in (("at_least", "at_least_percent"), ("at_most", "at_most_percent")):
             if all(getattr(self, key) is not None for key in keys):
                 raise refused((keys[1],), " and ".join(keys), "one of them")
@@ -104,11 +96,6 @@ class SearchTolerances(Spreads):
     members: MemberCount = Field(default=16, description="Members of every design, a power of two")
 
 
-def _names_differ(entries: dict[str, object]) -> dict[str, object]:
-    check_names(entries)
-    return entries
-
-
 class SearchSection(Section):
     """A search for better designs of one blade, in rounds: each asks for some more, by what all before them gave."""
 
@@ -116,10 +103,8 @@ class SearchSection(Section):
     variables: Annotated[dict[str, Bounds], Field(min_length=1)] = Field(
         description="Lowest and highest value of numeric keys of the entry, such as stagger_deg.tip: [-3, 3]"
     )
-    objectives: Annotated[dict[Name, ObjectiveSection], Field(min_length=1), AfterValidator(_names_differ)] = Field(
-        description="Numbers to minimise, by name; several give a Pareto front"
-    )
-    constraints: Annotated[dict[Name, ConstraintSection], AfterValidator(_names_differ)] = Field(
+    objectives: ByName[ObjectiveSection] = Field(description="Numbers to minimise, by name; several give a Pareto front")
+    constraints: Annotated[dict[Name, ConstraintSection], AfterValidator(check_names)] = Field(
         default={}, description="Limits, by name"
     )
     designs: Annotated[int, Field(ge=2, le=2000)] = Field(default=60, description="Number of designs to run")
@@ -128,8 +113,7 @@ class SearchSection(Section):
     )
     batch: Annotated[int, Field(ge=1, le=500)] = Field(default=4, description="Number of designs per round, run in parallel")
     method: Literal["surrogate", "quasi_random"] = Field(
-        default="surrogate",
-        description="Way to propose designs; quasi_random spreads them evenly, for comparison",
+        default="surrogate", description="Way to propose designs; quasi_random spreads them evenly, for comparison"
     )
     seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the search")
     best: Annotated[int, Field(ge=1, le=50)] = Field(
@@ -138,14 +122,13 @@ class SearchSection(Section):
     tolerances: SearchTolerances | LeftOut = Field(default=None, description="Tolerances of objectives with a quantile")
 
     @model_validator(mode="after")
-    def _goes_together(self) -> SearchSection:
+    def _goes_together(self) -> Self:
         if self.first > self.designs:
             raise refused(("first",), f"{self.first}", f"at most designs ({self.designs})")
         quantiles = [name for name, objective in self.objectives.items() if objective.quantile is not None]
         if quantiles and not (self.tolerances and self.tolerances.spreads):
-            raise refused(
-                ("objectives", quantiles[0], "quantile"), "a quantile", "tolerances beside it, with numbers that spread"
-            )
+            where = ("objectives", quantiles[0], "quantile")
+            raise refused(where, "a quantile", "tolerances beside it, with numbers that spread")
         if self.tolerances is not None and not quantiles:
             raise refused(
                 ("tolerances",), "tolerances that no objective needs", "an objective with a quantile, or none of them"

@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): a search, round by round, and what is made of all its designs."""
 
-from __future__ import annotations
-
 import math
 from itertools import islice
 from pathlib import Path

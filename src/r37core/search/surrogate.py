@@ -1,9 +1,6 @@
 """What the tried designs say about those between them: slices of each objective with a band, and which variables decide it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import scipy
@@ -14,36 +11,14 @@ from .problem import FEWEST_DONE, Evaluated, SearchVariable, shares
 _SAMPLE = 1024
 
 
-@dataclass(frozen=True)
-class Slices:
-    """Objectives along each variable through a design, in their own units; NaN where too few designs could be built.
-
-    `values` [variable, point]; `mean` and `deviation` (standard, of the surrogate) [objective, variable, point].
-    """
-
-    values: np.ndarray
-    mean: np.ndarray
-    deviation: np.ndarray
-
-
-@dataclass(frozen=True)
-class SurrogateSensitivity:
-    """Sobol' indices of each objective's surrogate over the ranges, and how far the surrogate can be believed.
-
-    `first` and `total` [objective, variable]. `predicted` [objective] is the share of the variance that the surrogate predicts
-    at designs it was not told of, 1 at best, 0 or less where the indices mean nothing. NaN where all designs have the same
-    objective, or too few could be built.
-    """
-
-    first: np.ndarray
-    total: np.ndarray
-    predicted: np.ndarray
-
-
 def slices(
     variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], at: Sequence[float], points: int, seed: int
-) -> Slices:
-    """Mean and standard deviation of each objective at `points` values of each variable, the others as in the design `at`."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Surrogate of each objective at `points` values of each variable, the others as in the design `at`.
+
+    These values [variable, point], its mean and its standard deviation [objective, variable, point], in units of the
+    objectives; NaN where too few designs could be built.
+    """
     along = np.linspace(0.0, 1.0, points)
     places = np.tile(shares(variables, [at])[0], (len(variables), points, 1))
     for number in range(len(variables)):
@@ -52,14 +27,19 @@ def slices(
     for number, process in enumerate(objective_fits(variables, evaluated, seed)):
         bands[:, number] = np.reshape(process.at(places.reshape(-1, len(variables))), (2, len(variables), points))
     values = [variable.lowest + along * (variable.highest - variable.lowest) for variable in variables]
-    return Slices(np.array(values), *bands)
+    return np.array(values), *bands
 
 
-def sensitivity(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], seed: int) -> SurrogateSensitivity:
-    """First-order and total Sobol' indices of each objective, the variables being uniform over their ranges.
+def sensitivity(
+    variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], seed: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """First-order and total Sobol' indices [objective, variable] of the surrogates, the variables uniform over their ranges.
 
-    Designs are left out one at a time with the hyperparameters of all. Source: Saltelli et al. (2010), Comput. Phys. Commun.
-    181, 259-270, in scipy.stats.sobol_indices; Q2 as in Marrel et al. (2009), Reliab. Eng. Syst. Saf. 94, 742-751.
+    The third [objective] is the share of the variance that a surrogate predicts at designs it was not told of, 1 at best, 0
+    or less where the indices mean nothing: designs are left out one at a time with the hyperparameters of all. NaN where all
+    designs have the same objective, or too few could be built.
+    Source: Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, in scipy.stats.sobol_indices; Q2 as in Marrel et al.
+    (2009), Reliab. Eng. Syst. Saf. 94, 742-751.
     """
     objectives = len(evaluated[0].objectives)
     first, total = np.full((2, objectives, len(variables)), np.nan)
@@ -70,7 +50,7 @@ def sensitivity(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluat
         first[number], total[number] = _indices(process, len(variables), seed)
         misses = process.numbers - [process.without(index) for index in range(len(process.numbers))]
         predicted[number] = 1.0 - np.mean(misses**2) / np.var(process.numbers)
-    return SurrogateSensitivity(first, total, predicted)
+    return first, total, predicted
 
 
 def objective_fits(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], seed: int) -> list[Fit]:

@@ -1,7 +1,5 @@
 """tolerances.nc: what the members of all samples gave, their quantiles, and where their spread comes from."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -146,8 +144,8 @@ def _rankings(sample: xr.Dataset) -> dict[str, xr.DataArray]:
         "rank_coefficient_low": _index([measure.low for measure in rankings], f"lower end of the rank coefficient, {sure}"),
         "rank_coefficient_high": _index([measure.high for measure in rankings], f"upper end of the rank coefficient, {sure}"),
         **_places("rank", [measure.places for measure in rankings], "rank coefficients, of numbers that have one beyond zero"),
-        "rank_explained": _per_measure([each.explained for each in rankings], "share of the ranks' variance that they explain"),
-        "rank_members": _per_measure([measure.members for measure in rankings], "members that the coefficients are made of"),
+        "rank_explained": _index([measure.explained for measure in rankings], "share of the ranks' variance that they explain"),
+        "rank_members": _index([measure.members for measure in rankings], "members that the coefficients are made of"),
     }
 
 
@@ -163,7 +161,7 @@ def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequenc
         indices[f"sobol_{order}_low"] = _index([measure.low[place] for measure in sobol], f"lower end of {ends}: {meaning}")
         indices[f"sobol_{order}_high"] = _index([measure.high[place] for measure in sobol], f"upper end of {ends}: {meaning}")
     indices |= _places("sobol", [measure.places for measure in sobol], "total indices")
-    indices["sobol_members"] = _per_measure([measure.members for measure in sobol], "members that the indices are made of")
+    indices["sobol_members"] = _index([measure.members for measure in sobol], "members that the indices are made of")
     return indices
 
 
@@ -176,9 +174,7 @@ def _places(name: str, ends: Sequence[tuple[np.ndarray, np.ndarray]], of: str) -
     }
 
 
-def _per_measure(values: Sequence[float], meaning: str) -> xr.DataArray:
-    return xr.DataArray(list(values), {"measure": list(INDEXED)}, "measure", attrs=about("1", meaning))
-
-
-def _index(rows: Sequence[np.ndarray], meaning: str) -> xr.DataArray:
-    return xr.DataArray(np.array(rows), {"measure": list(INDEXED)}, ("measure", "number"), attrs=about("1", meaning))
+def _index(rows: Sequence[np.ndarray | float], meaning: str) -> xr.DataArray:
+    """A number, or one for each of the numbers under tolerances, of each of INDEXED."""
+    values = np.array(rows)
+    return xr.DataArray(values, {"measure": list(INDEXED)}, ("measure", "number")[: values.ndim], attrs=about("1", meaning))

@@ -1,7 +1,5 @@
 """Tolerances as an extension."""
 
-from __future__ import annotations
-
 from r37core.plans.extension import Extension
 
 from .members import members_can_be_drawn

@@ -1,7 +1,5 @@
 """Tolerances: the band that the members lie in, their chance of passing yield, and what their spread comes from."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -62,9 +60,8 @@ def _band(axes: Axes, tolerances: xr.Dataset, nominal: xr.Dataset, name: str) ->
     shown = spread.where(np.isfinite(spread))
     low, median, high = (shown.isel(quantile=quantile) for quantile in range(3))
     speed, top = shown["speed"], float(shown.max()) * 1.5
-    axes.fill_between(
-        speed, low, high.fillna(top), color=style.COLOURS[0], alpha=0.25, linewidth=0, label="nine tenths of the members"
-    )
+    band = "nine tenths of the members"
+    axes.fill_between(speed, low, high.fillna(top), color=style.COLOURS[0], alpha=0.25, linewidth=0, label=band)
     axes.plot(speed, median, color=style.COLOURS[0], label="median")
     if name in nominal:
         curve = nominal[name].sel(speed=slice(speed.min(), speed.max())).dropna("speed")

@@ -3,8 +3,6 @@
 Sobol indices take members of their own for each number; docs/tolerances.md#how-many-members has what coefficients tell apart.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

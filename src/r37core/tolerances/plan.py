@@ -1,7 +1,5 @@
 """The plan of the tolerances: members of samples, each with runs of its own, and what is made of them together."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -77,11 +75,8 @@ class Tolerances:
     @property
     def campbells_of_sample(self) -> list[str]:
         """The Campbell diagram of each of them."""
-        models = self._models
-        return [
-            paths.fill(paths.CAMPBELL, member=models[run["blade"]][run["member"]], blade=run["blade"])
-            for run in self.runs_of_sample
-        ]
+        models, runs = self._models, self.runs_of_sample
+        return [paths.fill(paths.CAMPBELL, member=models[run["blade"]][run["member"]], blade=run["blade"]) for run in runs]
 
     @property
     def nominal(self) -> dict[str, list[str]]:

@@ -1,7 +1,5 @@
 """tolerances of config.yaml: numbers that are never known exactly."""
 
-from __future__ import annotations
-
 from pydantic import Field
 
 from r37core.config.section import AllOrNames, ExtensionSection

@@ -4,8 +4,6 @@ They are SciPy's, which the project has anyway, with the estimators of Saltelli 
 ways to sample, for one more dependency.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): what the members of a sample give together."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

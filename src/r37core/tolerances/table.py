@@ -1,7 +1,5 @@
 """tolerances.csv: interactions with the range of their numbers over the members; and the line that a run ends with."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -50,13 +48,6 @@ def ranges(
     """
     within = [row for row in nominal if speeds[0] <= row.peak.peak_speed_rad_s <= speeds[1]]
     return [_row(match, len(members)) for match in sorted(_matched(within, members, choice), key=_Found.speed)]
-
-
-def shares_of_members(
-    nominal: Sequence[Interaction], members: Mapping[str, Sequence[Interaction]], choice: InteractionChoice
-) -> list[float]:
-    """Share of the members that show each of the nominal interactions, as in `ranges`, in the order of these."""
-    return [len(match.members) / len(members) for match in _matched(nominal, members, choice)[: len(nominal)]]
 
 
 def _matched(
