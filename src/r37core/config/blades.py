@@ -158,6 +158,16 @@ class BladeSettings:
     stress_submesh: StressSubmesh | None = None
 
     @property
+    def has_profiles(self) -> bool:
+        """Whether it is given by profiles, so that it can have another mesh."""
+        return isinstance(self.definition, BladeDefinition)
+
+    @property
+    def of_matrices(self) -> bool:
+        """Whether it is given by matrices, so that it has one model and no stress."""
+        return isinstance(self.definition, MatricesSource)
+
+    @property
     def yield_stress(self) -> float:
         """Yield stress of the material (Pa); infinite where that is not known."""
         return math.inf if self.material is None else self.material.yield_stress

@@ -12,8 +12,6 @@ from typing import Any
 import numpy as np
 
 from r37core.alignment import padded
-from r37core.blade.definition import BladeDefinition
-from r37core.exchange.importing.source import MatricesSource
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, check_patches
 from r37core.rounding import rounded_up
 from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
@@ -121,7 +119,7 @@ def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> N
 
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
-    blades = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
+    blades = [name for name, blade in settings.blades.items() if blade.of_matrices]
     remedies = {
         "spin_softening": "put the term into its K_<speed>",
         "coriolis": "a Coriolis matrix of another program is not read",
@@ -139,13 +137,13 @@ def tips_have_room_for_patches(settings: Settings) -> None:
     for name, blade in settings.blades.items():
         for tip_line in dict.fromkeys(scene.tip_line for scene in settings.scenes.values()):
             boundary = settings.reduction_choice(name, tip_line).boundary
-            if boundary.contact == AREA_PATCHES and isinstance(blade.definition, MatricesSource):
+            if boundary.contact == AREA_PATCHES and blade.of_matrices:
                 raise document.refusal(
                     ("structure", "boundary", "contact"),
                     f"{AREA_PATCHES} with the blade '{name}', given by matrices, which say nothing of the tip's face",
                     "points, or patches of the nodes in its boundary.csv",
                 )
-            if boundary.contact == POINTS or not isinstance(blade.definition, BladeDefinition):
+            if boundary.contact == POINTS or not blade.has_profiles:
                 continue
             # edges of elements between two layers, or on a face, have nodes in their middle; edges inside a layer have none
             inside = tip_line == "camber" and mesh.layers % 2 and boundary.contact == PATCHES
@@ -190,7 +188,7 @@ def rotors_press_a_casing_that_is_carried(settings: Settings) -> None:
 def clearances_reach_all_speeds(settings: Settings) -> None:
     """The growth of a casing is given up to the highest speed; the blades' own follows from their mesh."""
     document = settings.documents.scenes
-    matrices = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
+    matrices = [name for name, blade in settings.blades.items() if blade.of_matrices]
     for name, chosen in settings.scenes.items():
         casing, path = chosen.scene.casing, (name, "casing", "clearance")
         modelled, run = settings.structure.maximum_speed_rad_s, fastest_of(settings, name)

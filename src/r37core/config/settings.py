@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from r37core.contact.scene import Scene
-from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
 from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice, StressSubmesh
 from r37core.speeds import SpeedError, SpeedPlan, plan_speeds
@@ -133,7 +132,7 @@ class Settings:
     def direct_on_points(self) -> tuple[list[str], list[str]]:
         """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
         scenes = [name for name in self.scene_names if self.scene_entries[name].lining is None]
-        meshed = [name for name, blade in self.blades.items() if not isinstance(blade.definition, MatricesSource)]
+        meshed = [name for name, blade in self.blades.items() if not blade.of_matrices]
         blades = [name for name in meshed if self.contact_of(name) == POINTS]
         return (scenes, blades) if scenes and blades else ([], [])
 
@@ -203,7 +202,7 @@ class Settings:
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
         """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes."""
         wanted = self.scenes[scene].results
-        matrices = isinstance(self.blades[blade].definition, MatricesSource)
+        matrices = self.blades[blade].of_matrices
         return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
 
     def integration_choice(

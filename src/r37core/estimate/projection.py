@@ -7,9 +7,13 @@ import statistics
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import pandas as pd
 import xarray as xr
+
+from r37core.results.closing import counted
+from r37core.results.table_file import read_table
 
 _IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
 """What the script of a simulation imports."""
@@ -66,3 +70,10 @@ def projected_costs(
         }
         for part, spent in seconds.items()
     )
+
+
+def closing(results: Path) -> str:
+    """How many simulations there are, and how long they take."""
+    total = read_table(results / "estimate.csv").set_index("part").loc["total"]
+    length = f"{total['wall_hours']:.2f} h on {counted(int(total['cores']), 'core')}"
+    return f"{counted(int(total['simulations']), 'simulation')} at most, {length}"
