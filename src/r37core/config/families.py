@@ -18,7 +18,7 @@ from r37core.speeds import exact_text
 from r37core.text_file import TextFileError
 
 from .blade_sections import MaterialSection
-from .blades import LARGEST_FAMILY, SHARES, BladeEntry, Variation
+from .blades import LARGEST_FAMILY, SHARES, BladeEntry, Variation, readable_table
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .messages import did_you_mean, explain, single_line
@@ -122,14 +122,11 @@ def _check_size(designs: Sized, family: str, key: str, document: Document) -> No
 
 
 def _table_family(name: str, file: str, root: Path, document: Document) -> Family:
-    try:
-        keys, rows = read_designs(root / file)
-    except FileNotFoundError:
-        raise document.error((name, "designs"), f"there is no file {file}") from None
-    except OSError as error:
-        raise document.error((name, "designs"), f"{file} cannot be read: {error.strerror}") from None
-    except (TextFileError, BladeShapeError) as error:
-        raise ConfigError(f"{file}: family {name}: {error}") from None
+    with readable_table(file, (name, "designs"), document):
+        try:
+            keys, rows = read_designs(root / file)
+        except (TextFileError, BladeShapeError) as error:
+            raise ConfigError(f"{file}: family {name}: {error}") from None
     _check_size(rows, name, "designs", document)
     return Family(keys, rows)
 

@@ -66,8 +66,7 @@ class Settings:
 
     def section(self, declared: ExtensionSection[T]) -> T:
         """The section of config.yaml that an extension has brought."""
-        value: T = getattr(self.config, declared.name)
-        return value
+        return getattr(self.config, declared.name)
 
     @cached_property
     def made(self) -> Callable[[Callable[[Settings], Any]], Any]:

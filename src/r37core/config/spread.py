@@ -51,10 +51,8 @@ class Spread:
     def words(self) -> str:
         """Width of the spread as a page shows it, in the unit of the number or in percent of it."""
         unit = "%" if self.percent else ""
-        if self.kind == "between":
-            return " to ".join(f"{number:g}" for number in self.numbers)
-        if self.kind == "values":
-            return " or ".join(f"{number:g}" for number in self.numbers)
+        if self.kind in ("between", "values"):
+            return (" to " if self.kind == "between" else " or ").join(f"{number:g}" for number in self.numbers)
         return ("± " if self.kind == "uniform" else "standard deviation ") + f"{self.numbers[0]:g}{unit}"
 
 
