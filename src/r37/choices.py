@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -154,10 +154,6 @@ class SceneChoice(Choice):
     kind: ClassVar[str] = "scene"
     checked: ClassVar[str] = "entry"
     results: tuple[str, ...] | None = None
-
-    def replacing_results(self, results: Sequence[str] | None) -> SceneChoice:
-        """Scene with other results, where there are any: results are no change of the scene."""
-        return self if results is None else replace(self, results=tuple(results))
 
     @cached_property
     def above(self) -> Document | None:

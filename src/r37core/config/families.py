@@ -101,9 +101,7 @@ def _family(name: str, entry: BladeEntry, root: Path, document: Document) -> Fam
     if entry.designs is not None:
         return _table_family(name, entry.designs, root, document)
     assert entry.vary is not None
-    values = {
-        key: way.values() if isinstance(way, Variation) else [float(value) for value in way] for key, way in entry.vary.items()
-    }
+    values = {key: way.values() if isinstance(way, Variation) else list(map(float, way)) for key, way in entry.vary.items()}
     if entry.combine == "pairs":
         lengths = {key: len(several) for key, several in values.items()}
         if len(set(lengths.values())) > 1:
@@ -165,9 +163,8 @@ def _check_varies(key: str, family: str, design: str, document: Document) -> Non
     hint = did_you_mean(key, VARIED)
     if first in SceneEntry.model_fields:
         hint = " (a number of a scene varies under tolerances.of_scenes, or as several scenes)"
-    raise document.error(
-        (family,), f"design {design}: found unknown key {single_line(key)}; allowed keys: {', '.join(VARIED)}{hint}"
-    )
+    allowed = f"{', '.join(VARIED)}{hint}"
+    raise document.error((family,), f"design {design}: found unknown key {single_line(key)}; allowed keys: {allowed}")
 
 
 def changed_content(content: dict[str, Any], path: Sequence[str], value: Any) -> dict[str, Any]:

@@ -183,16 +183,12 @@ class Settings:
 
         Its basis is computed at rest, at half the maximum speed and at the maximum speed.
         """
-        structure, contact = self.structure, self.contact_of(blade)
-        boundary = structure.boundary
-        return si_form(
-            ReductionChoice,
-            structure,
-            boundary=si_form(BoundaryChoice, boundary, tip_line=tip_line or boundary.tip_line, contact=contact),
-            speeds=(0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s),
-            stress_submesh=self.blades[blade].stress_submesh or si_form(StressSubmesh, structure.stress_submesh),
-            **dict(self.fidelity.reduction),
-        )
+        structure, section = self.structure, self.structure.boundary
+        boundary = si_form(BoundaryChoice, section, tip_line=tip_line or section.tip_line, contact=self.contact_of(blade))
+        speeds = (0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s)
+        submesh = self.blades[blade].stress_submesh or si_form(StressSubmesh, structure.stress_submesh)
+        size = dict(self.fidelity.reduction)
+        return si_form(ReductionChoice, structure, boundary=boundary, speeds=speeds, stress_submesh=submesh, **size)
 
     def contact_of(self, blade: str) -> str:
         """What a blade's contact acts on: as config.yaml says for all of them, else as its own entry does."""

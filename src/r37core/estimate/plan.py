@@ -40,15 +40,12 @@ def sample(speeds: Sequence[float], every: int) -> list[float]:
 
 def cases(settings: Settings) -> dict[str, Case]:
     """A case for each blade and scene."""
-    every = settings.section(SECTION).every
-    return {
-        "__".join(pair): _case(settings, *pair, tuple(sample(plan.certain, every)))
-        for pair, plan in settings.speed_plans.items()
-    }
+    return {"__".join(pair): _case(settings, *pair) for pair in settings.speed_plans}
 
 
-def _case(settings: Settings, blade: str, scene: str, speeds: tuple[float, ...]) -> Case:
+def _case(settings: Settings, blade: str, scene: str) -> Case:
     chosen = settings.scenes[scene]
+    speeds = tuple(sample(settings.speed_plans[blade, scene].certain, settings.section(SECTION).every))
     return Case(
         blade,
         chosen.tip_line,

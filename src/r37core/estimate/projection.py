@@ -18,8 +18,6 @@ from r37core.results.table_file import read_table
 _IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
 """What the script of a simulation imports."""
 
-PARTS = ("time integration", "start-up", "workflow", "reduction")
-
 
 def sample_of(response: xr.Dataset, number: int) -> dict[str, float]:
     """CPU seconds that `number` runs of a blade and scene take, projected from those of a case.
@@ -50,7 +48,7 @@ def time_start_up() -> float:
 def projected_costs(
     samples: Sequence[Mapping[str, float]], start_up: float, workflow_per_job: float, cores: int
 ) -> pd.DataFrame:
-    """A row for each of PARTS and one of all: core hours, core seconds of a simulation, simulations, and hours on `cores`."""
+    """A row for each part and one of all: core hours, core seconds of a simulation, simulations, and hours on `cores`."""
     runs = sum(sample["runs"] for sample in samples)
     seconds = {
         "time integration": sum(sample["time integration"] for sample in samples),
@@ -58,7 +56,7 @@ def projected_costs(
         "workflow": workflow_per_job * runs,
         "reduction": sum(sample["reduction"] for sample in samples),
     }
-    seconds["total"] = sum(seconds[part] for part in PARTS)
+    seconds["total"] = sum(seconds.values())
     return pd.DataFrame(
         {
             "part": part,

@@ -20,12 +20,6 @@ from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 HALF = "__half_step"
 """End of the name of an extreme's second case."""
 
-_NEIGHBOURS = (0.997, 1.0, 1.003)
-"""Speeds that are run, as shares of an extreme's."""
-
-_AT_PEAK = 1.02
-"""Speed of most extremes as a share of the Campbell speed: contact stiffens the blade."""
-
 
 class StabilitySection(CasesSection):
     """Runs at extremes of the parameters (snakemake stability)."""
@@ -40,15 +34,15 @@ SECTION = ExtensionSection("stability", StabilitySection, StabilitySection())
 class Extreme:
     """One case. `changes`: dotted path in the scene's entry of scenes.yaml -> value; the rest: of integration and model.
 
-    `speed`: as a share of the Campbell speed; `share_of_limit`: time step as a share of the blade's stability limit under
-    central differences, and `integrator`, in place of the level's; `model`: fields of ModelChoice.
+    `speed`: share of the Campbell speed, mostly above 1 as contact stiffens the blade; `share_of_limit`: time step over the
+    blade's stability limit under central differences, and `integrator`, in place of the level's; `model`: fields of ModelChoice.
     """
 
     what: str
     value: str
     scene: str
     changes: Mapping[str, Any] = field(default_factory=dict)
-    speed: float = _AT_PEAK
+    speed: float = 1.02
     revolutions: int = 60
     share_of_limit: float | None = None
     integrator: str | None = None
@@ -144,7 +138,7 @@ def _case(settings: Settings, extreme: Extreme) -> Case:
         model if isinstance(model, str) else replace(model, **extreme.model),
         scene,
         choice if extreme.integrator is None else replace(choice, integrator=extreme.integrator),
-        speeds=tuple(extreme.speed * share for share in _NEIGHBOURS),
+        speeds=tuple(extreme.speed * share for share in (0.997, 1.0, 1.003)),
         results=("energy",),
         material=settings.blades[blade].material,
         kept=kept_of(settings.levels[base]),
