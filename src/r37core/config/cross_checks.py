@@ -74,7 +74,7 @@ def windows_have_crossings(settings: Settings) -> None:
     for path, windows in {("refinement",): refining.windows, ("refinement", "direct"): refining.direct.windows}.items():
         for number, window in enumerate(windows):
             if window.highest_engine_order > highest:
-                place = (*path, "windows", number, "highest_engine_order")
+                place: KeyPath = (*path, "windows", number, "highest_engine_order")
                 allowed = f"at most campbell.highest_engine_order ({highest})"
                 raise settings.documents.config.refusal(place, f"{window.highest_engine_order}", allowed)
 

@@ -24,8 +24,8 @@ def leftovers(results: Path, settings: Settings) -> list[Path]:
 
 
 def _run_leftovers(results: Path, settings: Settings) -> Iterator[Path]:
-    wanted = {results: [*settings.blades, *RESERVED]} | {results / blade: list(settings.scenes) for blade in settings.blades}
-    for place, names in wanted.items():
+    expected = {results: [*settings.blades, *RESERVED]} | {results / blade: list(settings.scenes) for blade in settings.blades}
+    for place, names in expected.items():
         yield from (folder for folder in place.glob("*/") if folder.is_dir() and folder.name not in names)
     for (blade, scene), plan in settings.speed_plans.items():
         folder = results / blade / scene
