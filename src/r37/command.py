@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import __version__
+from r37core import __version__
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -34,7 +34,7 @@ SECTION = ExtensionSection("stability", StabilitySection, StabilitySection())
 class Extreme:
     """One case. `changes`: dotted path in the scene's entry of scenes.yaml -> value; the rest: of integration and model.
 
-    `speed`: share of the Campbell speed, often above 1: contact stiffens the blade; `share_of_limit`: time step over the blade's
+    `speed`: share of the Campbell speed, above 1 as contact stiffens the blade; `share_of_limit`: time step over the blade's
     stability limit under central differences, and `integrator`, in place of the level's; `model`: fields of ModelChoice.
     """
 
