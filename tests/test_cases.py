@@ -13,7 +13,7 @@ from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
 
 from r37core.cases import runner
-from r37core.cases.case import MODEL_NAME, OWN_MESH, Case, Crossing, ModelChoice, changed, model_of_name
+from r37core.cases.case import MODEL_NAME, OWN_MESH, Case, Crossing, ModelChoice, model_of_name
 from r37core.cases.runner import crossing_speed, run_case, run_case_of_files
 from r37core.cases.steps import model as model_step
 from r37core.dataset_file import read_dataset, write_dataset
@@ -57,13 +57,6 @@ def test_a_model_has_the_name_of_its_choice():
     ):
         assert re.fullmatch(MODEL_NAME, choice.name)
         assert model_of_name(choice.name) == choice
-
-
-def test_changes_leave_the_entry_alone():
-    entry = {"casing": {"lobes": 2}, "damping_ratio": 0.1}
-    assert changed(entry, {"casing.lobes": 5, "damping_ratio": 0.0}) == {"casing": {"lobes": 5}, "damping_ratio": 0.0}
-    assert changed(entry, {"damping_ratio": lambda value: 2 * value}) == {"casing": {"lobes": 2}, "damping_ratio": 0.2}
-    assert entry == {"casing": {"lobes": 2}, "damping_ratio": 0.1}
 
 
 @pytest.fixture

@@ -7,8 +7,7 @@ from workflow_runs import snakemake
 from r37.command import main
 from r37core.config import command_line_document, read_document
 from r37core.estimate import plan
-from r37core.estimate.closing import closing
-from r37core.estimate.projection import projected_costs
+from r37core.estimate.projection import closing, projected_costs
 from r37core.plans.extent import extent_of, extents
 from r37core.product.extensions import beside
 from r37core.product.reading import read_settings

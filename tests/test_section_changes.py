@@ -12,8 +12,7 @@ from scipy.interpolate import CubicSpline
 import r37
 from r37core.blade.blade_surface import Blade
 from r37core.blade.profile import BladeShapeError, Profile
-from r37core.blade.section_changes import SectionChange, SectionChangeError, changed_profile, changed_profiles
-from r37core.blade.span_law import SpanLaw
+from r37core.blade.section_changes import SectionChange, SectionChangeError, SpanLaw, changed_profile, changed_profiles
 from r37core.blade.stacking import conical_stacking
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade

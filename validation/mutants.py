@@ -23,7 +23,6 @@ ROOT = Path(__file__).parents[1]
 
 TESTS = {
     "blade/section_changes.py": "test_section_changes.py",
-    "blade/span_law.py": "test_section_changes.py",
     "blade/stacking.py": "test_blade.py",
     "contact/casing.py": "test_contact.py test_cone_contact.py",
     "contact/laws.py": "test_contact.py",

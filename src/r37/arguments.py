@@ -65,11 +65,9 @@ def plain_value(value: Any) -> Any:
 def _table_file(text: str) -> Path:
     """A file of the user's cache with a table, for a key of blades.yaml. Raises ConfigError where none can be written."""
     file = kept_for_user("table.csv", text, lambda file: write_text(text, file))
-    if file is None:
-        raise ConfigError(
-            f"R37_CACHE: found {named_folder()}, which cannot be written; allowed: a folder for tables from Python"
-        )
-    return file
+    if file is not None:
+        return file
+    raise ConfigError(f"R37_CACHE: found {named_folder()}, which cannot be written; allowed: a folder for tables from Python")
 
 
 def sequence_of(value: Any, single: Any, key: str, what: str) -> list[Any]:

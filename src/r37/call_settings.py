@@ -6,7 +6,7 @@ import inspect
 import os
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from pathlib import Path
 from typing import Any, TypedDict
@@ -75,11 +75,13 @@ def chosen_scene(scene: SceneChoice | str, base: Configuration, results: Sequenc
     if not isinstance(scene, SceneChoice | str):
         raise ConfigError(f"scene: found {scene!r}; allowed: the name of a scene, or what r37.scene gives")
     chosen = scene if isinstance(scene, SceneChoice) else SceneChoice(scene, {}, base)
-    if results is not None and not isinstance(results, Iterable):
-        raise ConfigError(f"results: found {results!r}; allowed: a list of names")
     if isinstance(results, str):
         raise ConfigError(f'results: found "{results}"; allowed: a list, as in results=["{results}"]')
-    chosen = chosen.replacing_results(None if results is None else finite(results, "results"))
+    if results is not None:
+        if not isinstance(results, Iterable):
+            raise ConfigError(f"results: found {results!r}; allowed: a list of names")
+        # results are no change of the scene
+        chosen = replace(chosen, results=tuple(finite(results, "results")))
     chosen.check()
     return chosen
 

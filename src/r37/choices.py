@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar
 
-from r37core.config import BladeSettings, ConfigError, Document, SceneEntry, command_line_document, read_document
+from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
 from r37core.config.blades import SHARES, Blades, blade_settings
 from r37core.config.families import Designs, changed_content, expanded_families
 from r37core.config.messages import did_you_mean, single_line
-from r37core.config.scenes import Scenes
+from r37core.config.scenes import SceneEntry, Scenes
 from r37core.config.section import Without
 from r37core.config.section_laws import SECTION_KEYS
 
@@ -33,6 +33,8 @@ class Choice:
     base: str | None = None
 
     kind: ClassVar[str]
+    checked: ClassVar[str]
+    """Property that raises ConfigError for what the entry cannot be."""
 
     @property
     def label(self) -> str:
@@ -89,7 +91,7 @@ class Choice:
 
     def check(self) -> None:
         """Raises ConfigError for what the entry cannot be."""
-        raise NotImplementedError
+        getattr(self, self.checked)
 
     def refusal(self, error: ConfigError) -> ConfigError:
         """What was refused, and how a value inside a section is written in Python, where one stands in place of the section."""
@@ -111,6 +113,7 @@ class BladeChoice(Choice):
     """
 
     kind: ClassVar[str] = "blade"
+    checked: ClassVar[str] = "settings"
 
     @cached_property
     def settings(self) -> BladeSettings:
@@ -123,10 +126,6 @@ class BladeChoice(Choice):
             return blade_settings(self.name, designs.entries, root, designs.document)
         except ConfigError as error:
             raise self.refusal(error) from None
-
-    def check(self) -> None:
-        """Raises ConfigError for what the blade cannot be."""
-        _ = self.settings
 
     def _copied(self, entry: Any, original: str, changes: Mapping[str, Any]) -> Any:
         if not isinstance(entry, Mapping) or "stacking_table" not in entry:
@@ -153,15 +152,8 @@ class SceneChoice(Choice):
     """
 
     kind: ClassVar[str] = "scene"
+    checked: ClassVar[str] = "entry"
     results: tuple[str, ...] | None = None
-
-    def check(self) -> None:
-        """Raises ConfigError for what the scene cannot be."""
-        _ = self.entry
-
-    def replacing_results(self, results: Sequence[str] | None) -> SceneChoice:
-        """Scene with other results, where there are any: results are no change of the scene."""
-        return self if results is None else replace(self, results=tuple(results))
 
     @cached_property
     def above(self) -> Document | None:

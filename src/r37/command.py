@@ -16,6 +16,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from r37core import __version__
+
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
@@ -48,7 +50,8 @@ def _run(options: argparse.Namespace) -> int:
     level = logger.level
     try:
         with warnings.catch_warnings():
-            warnings.showwarning = _say
+            # as one line: whoever uses the command did not write the line of code that warns
+            warnings.showwarning = lambda message, *_, **__: print(f"r37: {message}", file=sys.stderr)
             if options.quiet:
                 logger.setLevel(logging.WARNING)
             options.run(options)
@@ -60,15 +63,10 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _say(message: Warning | str, *_: Any, **__: Any) -> None:
-    """A warning as one line; whoever uses the command did not write the line of code that warns."""
-    print(f"r37: {message}", file=sys.stderr)
-
-
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="r37", description="blade-tip rubbing in a compressor")
     parser.set_defaults(quiet=False)
-    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and end")
+    parser.add_argument("--version", action="version", version=f"r37 {__version__}", help="print the version and end")
     parser.add_argument(
         "--print-completion", action=_Completion, metavar="SHELL", help="print completions for bash, zsh, tcsh or fish"
     )
@@ -100,14 +98,6 @@ def _parser() -> argparse.ArgumentParser:
     folder.set_defaults(run=_init)
     folder.add_argument("folder", help="new or empty")
     return parser
-
-
-class _Version(argparse.Action):
-    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
-        from r37core import __version__
-
-        print(f"r37 {__version__}")
-        parser.exit()
 
 
 class _Completion(argparse.Action):
@@ -158,7 +148,7 @@ def _campbell(options: argparse.Namespace) -> None:
 
 
 def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
-    """A row per mode, with the lowest engine orders that it crosses."""
+    """A row per mode, with the five lowest engine orders that it crosses; the dataset has all."""
     import pandas as pd
 
     frequency = dataset["frequency"]
@@ -167,12 +157,8 @@ def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
     table[fastest] = frequency.isel(speed=-1).values
     crossings = [dataset["crossing_speed"].sel(mode=mode).dropna("engine_order").to_series() for mode in table.index]
     texts = [[f"{order}: {speed:.6g}" for order, speed in of.items()] for of in crossings]
-    table["crosses engine orders at (rad/s)"] = [", ".join(of[:_MOST_ORDERS]) or "none" for of in texts]
+    table["crosses engine orders at (rad/s)"] = [", ".join(of[:5]) or "none" for of in texts]
     return table
-
-
-_MOST_ORDERS = 5
-"""Engine orders in a row of the table, from the lowest that its mode crosses; the dataset has all."""
 
 
 def _simulate(options: argparse.Namespace) -> None:

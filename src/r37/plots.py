@@ -164,12 +164,9 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
     _check("run_ups", run_ups, "rate", "r37.run_ups")
     several = run_ups if "run" in run_ups.dims else run_ups.expand_dims("run")
     # a single run has its labels without the dimension
-    several = several.assign_coords(
-        {name: ("run", several[name].values.reshape(-1)) for name in ("blade", "scene", "run_up") if name in several.coords}
-    )
-    pairs = sorted(
-        {(str(blade), str(scene)) for blade, scene in zip(several["blade"].values, several["scene"].values, strict=True)}
-    )
+    labels = [name for name in ("blade", "scene", "run_up") if name in several.coords]
+    several = several.assign_coords({name: ("run", several[name].values.reshape(-1)) for name in labels})
+    pairs = sorted(set(zip(*(map(str, several[name].values) for name in ("blade", "scene")), strict=True)))
     if len(pairs) > 1:
         raise ConfigError(f"run_ups: found runs of {', '.join(map(' in '.join, pairs))}; allowed: of one blade in one scene")
     ((blade, scene),) = pairs
@@ -218,9 +215,8 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
     with _style():
         from r37core.tolerances.figures import draw_tolerances
 
-        return draw_tolerances(
-            tolerances.sel(blade=blade, scene=scene), results.response(blade, scene), title or f"{blade}, {scene}"
-        )
+        spread = tolerances.sel(blade=blade, scene=scene)
+        return draw_tolerances(spread, results.response(blade, scene), title or f"{blade}, {scene}")
 
 
 @checked_call

@@ -38,9 +38,8 @@ def run_folder(folder: Path | str) -> Path:
             raise ConfigError(f"folder: found {folder}, which has something else in it; allowed: a new or empty folder")
         tempfile.TemporaryFile(dir=path).close()
     except OSError as error:
-        raise ConfigError(
-            f"folder: found {folder}, which cannot be written ({error.strerror}); allowed: one that can"
-        ) from None
+        refusal = f"folder: found {folder}, which cannot be written ({error.strerror})"
+        raise ConfigError(f"{refusal}; allowed: one that can") from None
     return path
 
 

@@ -100,16 +100,14 @@ def arguments_of(call: Callable[..., object]) -> list[str] | None:
 def checked_call(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
     """The call, with its stages told, and a TypeError for an unknown keyword argument that says which there are."""
     named = arguments_of(call) or []
-    takes_any = not named
 
     @wraps(call)
     def checked(*arguments: Arguments.args, **keywords: Arguments.kwargs) -> Result:
-        for name in () if takes_any else keywords.keys() - set(named):
+        for name in keywords.keys() - set(named) if named else ():
             from r37core.config.messages import did_you_mean
 
-            raise TypeError(
-                f"r37.{call.__name__}: found the argument {name}; allowed: {', '.join(named)}{did_you_mean(name, named)}"
-            )
+            allowed = f"{', '.join(named)}{did_you_mean(name, named)}"
+            raise TypeError(f"r37.{call.__name__}: found the argument {name}; allowed: {allowed}")
         with stages():
             return call(*arguments, **keywords)
 

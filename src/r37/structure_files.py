@@ -27,14 +27,12 @@ from .stages import LOGGER
 _FILES = {
     "geometry": "geometry.nc",
     "mesh": "mesh.vtu",
-    "imported_mesh": "mesh.vtu",
-    "imported_matrices": "rom.nc",
     "reduced_model": "rom.nc",
     "contact_model": "contact.npz",
     "stress_operator": "stress.npz",
     "campbell_of_blade": "campbell.nc",
 }
-"""Stage -> name of the file that others read."""
+"""Stage -> name of the file that others read, also of what a blade of another program has in its place."""
 
 _IMPORTED = {MeshSource: {"mesh": "imported_mesh"}, MatricesSource: {"reduced_model": "imported_matrices"}}
 """What a blade of another program has in place of a stage."""
@@ -90,7 +88,7 @@ def recipe(settings: Settings, blade: str, stage: str, tip_line: str | None = No
     def of(stage: str) -> Recipe:
         name = imported.get(stage, stage)
         inputs = {key: of(other) for key, other in stages[name].reads.items()}
-        return Recipe(blade, stages[name], _FILES[name], inputs, stages[name].values(wildcards))
+        return Recipe(blade, stages[name], _FILES[stage], inputs, stages[name].values(wildcards))
 
     return of(stage)
 

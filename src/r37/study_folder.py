@@ -16,8 +16,6 @@ _PACKAGE = Path(__file__).parent
 SNAKEFILE = (_PACKAGE / "Snakefile").resolve()
 """Path of the workflow's Snakefile, for `module r37: snakefile: SNAKEFILE` in a workflow of your own."""
 
-_KEPT_OUT_OF_GIT = "/results/\n/logs/\n/.snakemake/\n"
-
 
 @checked_call
 def init(folder: Path | str) -> Path:
@@ -53,7 +51,9 @@ def init(folder: Path | str) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".r37-init-", dir=path.parent) as temporary:
             made = Path(temporary, path.name)
-            _fill(made)
+            # files that the user's own configuration keeps out of Git stay with the user
+            shutil.copytree(_PACKAGE / "config", made / "config", ignore=shutil.ignore_patterns("my*.yaml", "own"))
+            add_workflow(made)
             # complete or not there: onto an empty folder, too
             os.rename(made, path)
     except OSError as error:
@@ -61,15 +61,8 @@ def init(folder: Path | str) -> Path:
     return path
 
 
-def _fill(folder: Path) -> None:
-    # files that the user's own configuration keeps out of Git stay with the user
-    ours = shutil.ignore_patterns("my*.yaml", "own")
-    shutil.copytree(_PACKAGE / "config", folder / "config", ignore=ours)
-    add_workflow(folder)
-
-
 def add_workflow(folder: Path) -> None:
-    """Write what Snakemake needs beside a configuration: Snakefile and profile."""
+    """Write what Snakemake needs beside a configuration: Snakefile and profile, and what Git leaves out."""
     shutil.copytree(_PACKAGE / "profiles" / "default", folder / "profiles" / "default", dirs_exist_ok=True)
     shutil.copyfile(_PACKAGE / "study.smk", folder / "Snakefile")
-    (folder / ".gitignore").write_text(_KEPT_OUT_OF_GIT)
+    (folder / ".gitignore").write_text("/results/\n/logs/\n/.snakemake/\n")

@@ -33,9 +33,6 @@ _OPTIONS = (
 _END_S = 1.5
 """How long an interrupted run may take to end by itself."""
 
-_LAST = 20
-"""Lines that are told of a run that ends without a message."""
-
 
 def run_workflow(settings: Settings, folder: Path, targets: Sequence[str], cores: int) -> None:
     """Make the `targets` of the study in `folder`, which has these settings. Raises what its first failed job raises."""
@@ -59,7 +56,7 @@ def run_workflow(settings: Settings, folder: Path, targets: Sequence[str], cores
                 report.take(kind, line)
             status = process.wait()
         finally:
-            report.close()
+            report.bar.close()
             _end(process)
     if status:
         raise report.error(folder)
@@ -112,7 +109,7 @@ class _Report:
         self._failures: list[dict[str, str]] = []
         self._messages: list[str] = []
         self._texts: list[str] = []
-        self._bar = job_bar()
+        self.bar = job_bar()
 
     def take(self, kind: str, line: str) -> None:
         """Take a line of the process."""
@@ -126,8 +123,8 @@ class _Report:
             case "job":
                 self._begun(**event)
             case "progress":
-                self._bar.total = event["total"]
-                self._bar.update(event["done"] - self._bar.n)
+                self.bar.total = event["total"]
+                self.bar.update(event["done"] - self.bar.n)
             case "message":
                 self._messages.append(event["text"])
             case "failure":
@@ -149,15 +146,11 @@ class _Report:
             self._told.add(what)
             LOGGER.info("%s", line)
 
-    def close(self) -> None:
-        """Take the bar away."""
-        self._bar.close()
-
     def error(self, folder: Path) -> Exception:
-        """What the run has failed of."""
+        """What the run has failed of; without a message its last twenty lines tell."""
         if self._failures:
             return error_of(self._failures[0])
-        text = "\n".join(dict.fromkeys(self._messages)) or "\n".join(self._texts[-_LAST:]) or "Snakemake ended without a word"
+        text = "\n".join(dict.fromkeys(self._messages)) or "\n".join(self._texts[-20:]) or "Snakemake ended without a word"
         kind, _, reason = text.partition(":\n")
         if kind == ConfigError.__name__:
             return ConfigError(reason)

@@ -27,6 +27,6 @@ use rule step as case_model with:
     params:
         **step("cases.steps.model"),
         choice=choice_of_model,
-        reduction=structure.base_reduction,
+        reduction=structure.reduction,
         material=structure.material,
         provenance=made.structure,

@@ -4,23 +4,18 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from r37core.config import plain, si_fields
+from r37core.config import plain
 from r37core.console.snakemake_run import PYTHON, begin
 from r37core.explorer import parts_hash, page_parts
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes, EngineNumbers
-from r37core.plans.sweep_plan import Datasets
-from r37core.plans.structure_plan import Imported
 from r37core.plans.provenance import Provenance
-from r37core.plans.sweep_plan import Rounds
 from r37core.plans.stages import Stage, structure_stages, sweep_stages
-from r37core.plans.sweep_plan import Simulations
-from r37core.plans.structure_plan import Structure
-from r37core.plans.sweep_plan import MAPS, Sweep
-from r37core.product.targets import panel_files, panel_modules, panel_parameters
-from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing
+from r37core.plans.structure_plan import Imported, Structure
+from r37core.plans.sweep_plan import MAPS, Datasets, Rounds, Simulations, Sweep
 from r37core.product.extensions import beside, sampling_of
-from r37core.product.targets import simulated, tables, targets
+from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing
+from r37core.product.targets import panel_files, panel_modules, panel_parameters, simulated, tables, targets
 
 ROOT = Path(workflow.current_basedir).parent.parent
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"

@@ -33,6 +33,8 @@ def write_geometry(blade: Blade, file: Path | str, provenance: Mapping[str, obje
         for name in _COLUMNS
     }
     conical = conical_stacking(blade.profiles)
+    chord, span = (a.ravel() for a in np.meshgrid(_STEPS, _STEPS, indexing="ij"))
+    sides = [blade.position(chord, span, np.full_like(chord, side)) for side in (PRESSURE, SUCTION)]
     data |= {
         "axial_placement": ("profile", blade.placement.axial, about("m", "axial shift of the profile")),
         "rotation": ("profile", blade.placement.rotation, about("rad", "rotation of the profile about the axis")),
@@ -48,7 +50,7 @@ def write_geometry(blade: Blade, file: Path | str, provenance: Mapping[str, obje
         "volume": ((), blade.volume(), about("m3", "volume of the blade")),
         "surface": (
             ("side", "chord", "span_sample", "axis"),
-            _sampled_surfaces(blade),
+            np.array(sides).reshape(2, len(_STEPS), len(_STEPS), 3),
             about("m", "points of the pressure and suction surfaces"),
         ),
     }
@@ -73,9 +75,3 @@ def read_geometry(file: Path | str) -> Blade:
         ]
         placement = Placement(dataset["axial_placement"].values, dataset["rotation"].values)
         return Blade(profiles, placement, round_edges=dataset.attrs["edges"] == "round")
-
-
-def _sampled_surfaces(blade: Blade) -> np.ndarray:
-    chord, span = (a.ravel() for a in np.meshgrid(_STEPS, _STEPS, indexing="ij"))
-    sides = [blade.position(chord, span, np.full_like(chord, side)) for side in (PRESSURE, SUCTION)]
-    return np.array(sides).reshape(2, len(_STEPS), len(_STEPS), 3)

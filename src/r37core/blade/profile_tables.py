@@ -53,9 +53,7 @@ def read_profile_table(file: Path) -> list[ProfileParameters]:
 def _profiles(text: str) -> tuple[ProfileParameters, ...]:
     """Profiles of a table's text, read once for all designs of a family."""
     rows = _rows(text, PROFILE_COLUMNS)
-    profiles = [
-        ProfileParameters(**{name: _si_columns(row, column) for column, name in PROFILE_COLUMNS.items()}) for row in rows
-    ]
+    profiles = [ProfileParameters(**{name: _si_cell(row, column) for column, name in PROFILE_COLUMNS.items()}) for row in rows]
     if len(profiles) > 1 and profiles[0].span > profiles[-1].span:
         profiles.reverse()
     if len(profiles) < 4:
@@ -103,9 +101,7 @@ def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...
 
     Raises BladeShapeError for spans out of order or not reaching 0 and 100%.
     """
-    table = tuple(
-        (_si_columns(row, "span_percent"), _si_columns(row, "sweep_cm"), _si_columns(row, "lean_deg")) for row in rows
-    )
+    table = tuple((_si_cell(row, "span_percent"), _si_cell(row, "sweep_cm"), _si_cell(row, "lean_deg")) for row in rows)
     if len(table) < 2:
         raise BladeShapeError("a sweep and lean table needs at least two rows, for 0 and 100% span")
     check_spans([row[0] for row in table])
@@ -129,7 +125,7 @@ def check_sweep(stacking: Sequence[tuple[float, float, float]], profiles: Sequen
             )
 
 
-def _si_columns(row: dict, column: str) -> float:
+def _si_cell(row: dict, column: str) -> float:
     return float(row[column]) * (si_name(column)[1] or 1.0)
 
 
@@ -138,10 +134,9 @@ def check_spans(spans: Sequence[float]) -> None:
     for below, above in pairwise(spans):
         if not above > below:
             raise BladeShapeError(f"span {100 * above:g}%: comes after {100 * below:g}%; spans must be in order, each once")
-    if abs(spans[0]) > 1e-9 or abs(spans[-1] - 1.0) > 1e-9:
-        raise BladeShapeError(
-            f"the spans run from {100 * spans[0]:g}% to {100 * spans[-1]:g}%; the table must reach 0 and 100%"
-        )
+    first, last = spans[0], spans[-1]
+    if abs(first) > 1e-9 or abs(last - 1.0) > 1e-9:
+        raise BladeShapeError(f"the spans run from {100 * first:g}% to {100 * last:g}%; the table must reach 0 and 100%")
 
 
 def check_profile_order(profiles: Sequence[ProfileParameters]) -> None:

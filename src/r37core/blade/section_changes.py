@@ -19,12 +19,40 @@ import scipy
 from .cone import Cone, ConstantRatePath
 from .profile import BladeShapeError, ProfileParameters, centreline
 from .profile_tables import check_profile_order
-from .span_law import SpanLaw
 
 _NO_ANGLE, _WHOLE = 0.0, 1.0
 """Changes that change nothing: no angle is added, the whole of a length is kept."""
 
 _SMALLER = "; a smaller change near this span may be possible"
+
+
+@dataclass(frozen=True)
+class SpanLaw:
+    """Values at `spans`, fractions that rise from 0 to 1; a single value is the same over the whole span."""
+
+    spans: tuple[float, ...]
+    values: tuple[float, ...]
+
+    @classmethod
+    def constant(cls, value: float) -> SpanLaw:
+        """Constant law: one value at every span."""
+        return cls((0.0,), (value,))
+
+    @classmethod
+    def linear(cls, hub: float, tip: float) -> SpanLaw:
+        """Linear law: in proportion to the span from hub to tip."""
+        return cls((0.0, 1.0), (hub, tip))
+
+    def evaluate(self, spans: Sequence[float]) -> np.ndarray:
+        """Values at span fractions, shape (spans,): a spline as that of sweep and lean, at most cubic.
+
+        Equal values give themselves to the last bit, so that a law of neutral values changes nothing.
+        """
+        if len(set(self.values)) == 1:
+            return np.full(len(spans), self.values[0])
+        order = min(3, len(self.values) - 1)
+        spline = scipy.interpolate.make_interp_spline(self.spans, self.values, k=order)
+        return np.asarray(spline(np.asarray(spans)))
 
 
 @dataclass(frozen=True)

@@ -75,7 +75,9 @@ def _apart(spans: np.ndarray) -> np.ndarray:
 def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placement:
     """Displacements to add to the placement `start` so that the centre of area of every profile's section is on one line."""
     weights = span_weights(np.array([p.parameters.span for p in profiles]))
-    outlines = _outlines(profiles)
+    drawn = [(p.cone, *p.outline(_POINTS_PER_SIDE)) for p in profiles]
+    # cylindrical coordinates (r, theta, z), shape (profiles, 3, points)
+    outlines = np.array([[cone.radius(m), theta, cone.axial(m)] for cone, m, theta in drawn])
     heights = np.array([p.cone.radius(p.centroid[0]) for p in profiles])
 
     def added(moves: np.ndarray) -> Placement:
@@ -103,12 +105,6 @@ def _moves_of_sections(profiles: Sequence[Profile], start: Placement) -> Placeme
             "neighbouring profiles of the table differ too much in shape"
         )
     return added(solution.x)
-
-
-def _outlines(profiles: Sequence[Profile]) -> np.ndarray:
-    """Outlines in cylindrical coordinates (r, theta, z), shape (profiles, 3, points)."""
-    drawn = [(profile.cone, *profile.outline(_POINTS_PER_SIDE)) for profile in profiles]
-    return np.array([[cone.radius(m), theta, cone.axial(m)] for cone, m, theta in drawn])
 
 
 def _section_centroid(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from r37core.contact.scene import Scene
 from r37core.fem.material import Material
@@ -87,15 +86,3 @@ class Case:
     def __post_init__(self) -> None:
         if list(self.speeds) != sorted(set(self.speeds)):
             raise ValueError(f"speeds of a case: found {self.speeds}; allowed: ascending, none twice")
-
-
-def changed(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """A copy of a scene's entry with the values at dotted paths replaced; a function gives the new value from the old one."""
-    result: dict[str, Any] = {key: dict(value) if isinstance(value, Mapping) else value for key, value in entry.items()}
-    for path, value in changes.items():
-        *parents, last = path.split(".")
-        target = result
-        for parent in parents:
-            target = target[parent]
-        target[last] = value(target[last]) if callable(value) else value
-    return result

@@ -1,26 +1,50 @@
-"""The plan of the cases of an extension: their files for its rules, and what they take from the settings of a run."""
+"""The plan of the cases of an extension: keys of its section, files for its rules, and what they take from the settings."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
-from typing import Any
+from typing import Annotated, Any
 
-from r37core.blade.definition import BladeDefinition
+from pydantic import Field
+
 from r37core.config import Settings
 from r37core.config.document import ConfigRefusals
 from r37core.config.fidelity import Level
+from r37core.config.section import AllOrNames, LeftOut, Name, Section, left_out
 from r37core.contact.scene import Scene
-from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import EXACT_MODAL
 
 from .case import OWN_MESH, Case, ModelChoice, model_of_name
-from .section import CasesSection
 
 MODEL_FILE = "<results>/cases/{blade}/{model}/{file}"
+
+
+class CasesSection(Section):
+    """Which blade, scenes, level and speeds the cases are of."""
+
+    blade: Name | LeftOut = left_out("Blade; by default the first one of the run")
+    scenes: AllOrNames = Field(default="all", description="Scenes of the run")
+    base: Name | LeftOut = left_out("Fidelity level of all that is not varied; by default that of the run")
+    engine_order: Annotated[int, Field(ge=1, le=100)] | LeftOut = left_out(
+        "Crossing of 1B that the speeds lie about; by default the fastest one"
+    )
+
+    def blade_of(self, settings: Settings) -> str | None:
+        """The blade whose cases are run, by default the first of the run; None where this run leaves it out."""
+        name = self.blade or settings.blade_names[0]
+        return name if name in settings.blade_names else None
+
+    def scenes_of(self, settings: Settings) -> list[str]:
+        """Scenes of the cases, as far as they are run."""
+        return [name for name in settings.scene_names if self.scenes == "all" or name in self.scenes]
+
+    def base_of(self, settings: Settings) -> str:
+        """Level of the cases."""
+        return self.base or settings.fidelity_name
 
 
 class Cases:
@@ -73,32 +97,6 @@ def choice_of_model(wildcards: Any) -> dict[str, Any]:
     return to_plain(model_of_name(wildcards.model))
 
 
-def blade_of(settings: Settings, section: CasesSection) -> str | None:
-    """The blade whose cases are run, by default the first of the run; None where this run leaves it out."""
-    name = section.blade or settings.blade_names[0]
-    return name if name in settings.blade_names else None
-
-
-def scenes_of(settings: Settings, section: CasesSection) -> list[str]:
-    """Scenes of the cases, as far as they are run."""
-    return [name for name in settings.scene_names if section.scenes == "all" or name in section.scenes]
-
-
-def base_of(settings: Settings, section: CasesSection) -> str:
-    """Level of the cases."""
-    return section.base or settings.fidelity_name
-
-
-def is_meshed_here(settings: Settings, blade: str) -> bool:
-    """Whether a blade is given by profiles, so that it can have another mesh."""
-    return isinstance(settings.blades[blade].definition, BladeDefinition)
-
-
-def is_of_matrices(settings: Settings, blade: str) -> bool:
-    """Whether a blade is given by matrices, so that it has one model and no stress."""
-    return isinstance(settings.blades[blade].definition, MatricesSource)
-
-
 def carries_coriolis(settings: Settings, choice: IntegrationChoice) -> bool:
     """Whether this run has no Coriolis force, or the time integration carries it."""
     return not settings.structure.coriolis or choice.integrator == EXACT_MODAL
@@ -107,10 +105,10 @@ def carries_coriolis(settings: Settings, choice: IntegrationChoice) -> bool:
 def model_of_level(settings: Settings, blade: str, level: str) -> ModelChoice | str:
     """The model of a fidelity level: on the mesh of the run where that is given, the run's own where matrices are."""
     entry, boundary = settings.levels[level], settings.structure.boundary
-    if is_of_matrices(settings, blade):
+    if settings.blades[blade].of_matrices:
         return boundary.tip_line
     return ModelChoice(
-        nodes=entry.mesh.nodes if is_meshed_here(settings, blade) else OWN_MESH,
+        nodes=entry.mesh.nodes if settings.blades[blade].has_profiles else OWN_MESH,
         boundary_nodes=boundary.nodes,
         fixed_interface_modes=entry.reduction.fixed_interface_modes,
         whole_blade_stress=False,
@@ -128,20 +126,6 @@ def kept_of(level: Level) -> dict[str, int]:
     """How much of a run a level's files keep."""
     section = level.time_integration
     return {"spectrum_highest_order": section.spectrum_highest_order, "wear_angles": section.wear_angles}
-
-
-def case_of_sweep(settings: Settings, blade: str, scene: str, **fields: Any) -> Case:
-    """A case of this run's own model, scene and time integration; `fields`: at least speeds and results."""
-    chosen = settings.scenes[scene]
-    own = {
-        "blade": blade,
-        "model": chosen.tip_line,
-        "scene": chosen.scene,
-        "choice": settings.integration_choice(blade, scene, settings.structure.maximum_speed_rad_s),
-        "material": settings.blades[blade].material,
-        "kept": kept_of(settings.fidelity),
-    }
-    return Case(**{**own, **fields})
 
 
 def names_are_known(settings: Settings, extension: str, section: CasesSection, levels: Iterable[str] = ()) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import resource
 import tempfile
+import time
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -28,7 +30,6 @@ from r37core.time_integration.speed_job import prepared
 from r37core.time_integration.speed_run import run_speed
 
 from .case import Case, Crossing
-from .costs import Stopwatch, peak_memory
 
 COSTS = {
     "cpu_s": Variable(("speed",), "s", "CPU time of the time integration"),
@@ -37,6 +38,25 @@ COSTS = {
     "bytes_written": Variable(("speed",), "1", "bytes of the run's file"),
 }
 """Costs of every speed, which the response of a case has next to the results."""
+
+
+class Stopwatch:
+    """Adds up CPU and wall seconds of this process over the blocks it is used for."""
+
+    def __init__(self) -> None:
+        self.cpu = self.wall = 0.0
+
+    def __enter__(self) -> None:
+        self._start = time.process_time(), time.perf_counter()
+
+    def __exit__(self, *_: object) -> None:
+        self.cpu += time.process_time() - self._start[0]
+        self.wall += time.perf_counter() - self._start[1]
+
+
+def peak_memory() -> float:
+    """Largest memory (bytes) of this process so far."""
+    return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
 
 
 def run_case_of_files(case: Case, files: Mapping[str, str], output: Path | str) -> None:
@@ -153,12 +173,8 @@ class Runs:
         with writing:
             write_speed(run, file, {})
         self.files[speed] = file
-        self.costs[speed] = {
-            "cpu_s": integration.cpu,
-            "wall_s": integration.wall,
-            "file_cpu_s": writing.cpu,
-            "bytes_written": file.stat().st_size,
-        }
+        costs = (integration.cpu, integration.wall, writing.cpu, file.stat().st_size)
+        self.costs[speed] = dict(zip(COSTS, costs, strict=True))
 
     def write(self, output: Path | str, attributes: Mapping[str, object]) -> None:
         """The response of all runs, ascending, with COSTS."""

@@ -22,8 +22,7 @@ from r37core.rom.reduction_choice import EVERYWHERE, BoundaryChoice, BoundaryErr
 from r37core.rom.rom_file import write_reduced_model
 
 from .case import OWN_MESH, Case, ModelChoice
-from .costs import Stopwatch, peak_memory
-from .runner import run_case_of_files
+from .runner import Stopwatch, peak_memory, run_case_of_files
 
 
 def model(input: Any, output: Any, params: Any) -> None:

@@ -3,16 +3,13 @@
 from .blades import BladeSettings
 from .declaring import si_fields, si_form
 from .document import ConfigError, Document, command_line_document, read_document
-from .scenes import SceneEntry
 from .section import plain
-from .settings import SceneSettings, Settings, checked_scene
+from .settings import Settings, checked_scene
 
 __all__ = [
     "BladeSettings",
     "ConfigError",
     "Document",
-    "SceneEntry",
-    "SceneSettings",
     "Settings",
     "checked_scene",
     "command_line_document",

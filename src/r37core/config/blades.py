@@ -39,6 +39,8 @@ SHIFTS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
 SHARES = ("sweep_percent", "lean_percent")
 """Keys that keep a share of a table of sweep and lean."""
 
+TableShare = Annotated[float, Field(ge=-1000, le=1000)]
+
 
 class SweepLean(Section):
     """One row of sweep and lean."""
@@ -91,10 +93,8 @@ class BladeEntry(Section):
     chordwise_sweep_deg: Annotated[float, Field(gt=-60, lt=60)] | LeftOut = left_out(
         "Constant chordwise sweep in place of a table, positive forward"
     )
-    sweep_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = left_out(
-        "Share of the sweep in the table that is kept"
-    )
-    lean_percent: Annotated[float, Field(ge=-1000, le=1000)] | LeftOut = left_out("Share of the lean in the table that is kept")
+    sweep_percent: TableShare | LeftOut = left_out("Share of the sweep in the table that is kept")
+    lean_percent: TableShare | LeftOut = left_out("Share of the lean in the table that is kept")
     stagger_deg: Angles | LeftOut = left_out(
         "Angle added to the stagger: a number, values at hub and tip, or a table over the span"
     )
@@ -156,6 +156,16 @@ class BladeSettings:
     material: fem_material.Material | None
     contact: str
     stress_submesh: StressSubmesh | None = None
+
+    @property
+    def has_profiles(self) -> bool:
+        """Whether it is given by profiles, so that it can have another mesh."""
+        return isinstance(self.definition, BladeDefinition)
+
+    @property
+    def of_matrices(self) -> bool:
+        """Whether it is given by matrices, so that it has one model and no stress."""
+        return isinstance(self.definition, MatricesSource)
 
     @property
     def yield_stress(self) -> float:
@@ -223,7 +233,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
                 place = link, key
                 shift = _shift(link, key, getattr(entries[link], key), root, document)
         shift = _scaled(link, entries[link], shift, document)
-    with _readable(entry.profiles, (first, "profiles"), document):
+    with readable_table(entry.profiles, (first, "profiles"), document):
         profiles = tuple(read_profile_table(root / entry.profiles))
         if all(entries[link].sense_check for link in chain):
             check_profile_sense(profiles[-1])
@@ -285,7 +295,7 @@ def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> 
     if key == "chordwise_sweep_deg":
         return {"chordwise_sweep_angle": si_fields([(key, value)])["chordwise_sweep"], "stacking": None}
     if key == "stacking_table":
-        with _readable(value, (blade, key), document):
+        with readable_table(value, (blade, key), document):
             rows = stacking_rows(stacking_table_rows(root / value, blade))
     else:
         try:
@@ -309,7 +319,7 @@ def _scaled(blade: str, entry: BladeEntry, shift: dict[str, Any], document: Docu
 
 
 @contextmanager
-def _readable(file: str, path: tuple[str, str], document: Document) -> Iterator[None]:
+def readable_table(file: str, path: tuple[str, str], document: Document) -> Iterator[None]:
     """Turn the errors of reading a table `file`, that is named at `path`, into ConfigErrors."""
     try:
         yield

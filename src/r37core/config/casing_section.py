@@ -127,12 +127,6 @@ class CasingSection(Section):
         if self.clearance is None:
             return si_form(Casing, self, **elastic)
         table = si_fields(self.clearance.casing_growth or ())
-        return si_form(
-            Casing,
-            self,
-            **elastic,
-            clearance=self.clearance.cold_m,
-            centrifugal=self.clearance.centrifugal,
-            growth_speeds=table.get("speeds", ()),
-            growth=table.get("growth", ()),
-        )
+        growth = {"growth_speeds": table.get("speeds", ()), "growth": table.get("growth", ())}
+        cold = {"clearance": self.clearance.cold_m, "centrifugal": self.clearance.centrifugal}
+        return si_form(Casing, self, **elastic, **cold, **growth)

@@ -17,7 +17,7 @@ from r37core.contact.scene import Scene
 from r37core.units import si_name
 
 from .blade_sections import MaterialSection
-from .blades import SHARES, BladeSettings, SweepLean
+from .blades import SHARES, BladeSettings, SweepLean, TableShare
 from .families import changed_content
 from .messages import explain
 from .scenes import SceneEntry
@@ -30,8 +30,8 @@ _MATERIAL = "material."
 class _Shape(Section):
     """Numbers of a shape as a member may have them."""
 
-    sweep_percent: float = Field(default=100.0, ge=-1000, le=1000)
-    lean_percent: float = Field(default=100.0, ge=-1000, le=1000)
+    sweep_percent: TableShare = 100.0
+    lean_percent: TableShare = 100.0
     sweep_cm: float = Field(default=0.0, ge=-100, le=100)
     lean_deg: float = Field(default=0.0, gt=-90, lt=90)
     stagger_deg: Angle = 0.0

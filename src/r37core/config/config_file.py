@@ -138,21 +138,17 @@ class Config(Section):
     scenes: AllOrNames = Field(description="Scenes to run")
     fidelity: Name = Field(description="Accuracy level, or auto: the cheapest level within the tolerance")
     speeds: SpeedList = Field(
-        default=[SpeedRange(start=750.0, stop=2000.0)],
-        description="Speeds to simulate, as numbers and ranges",
+        default=[SpeedRange(start=750.0, stop=2000.0)], description="Speeds to simulate, as numbers and ranges"
     )
     speeds_rpm: RpmList | LeftOut = left_out("The same speeds in revolutions per minute; results stay in rad/s")
     speeds_for: list[SpeedRule] = Field(
-        default=[],
-        description="Other speeds for some blades or scenes; the first entry that fits counts",
+        default=[], description="Other speeds for some blades or scenes; the first entry that fits counts"
     )
     structure: StructureSection = StructureSection()
     interactions: Interactions = Interactions()
     refinement: RefinementSection = RefinementSection()
-    tolerance: float = Field(
+    tolerance: Annotated[float, Field(ge=1e-6, le=1)] = Field(
         default=0.05,
-        ge=1e-6,
-        le=1,
         description="Accepted relative error of rms, displacement and stress at an interaction; fidelity auto uses it",
     )
     run: Run = Run()

@@ -12,8 +12,6 @@ from typing import Any
 import numpy as np
 
 from r37core.alignment import padded
-from r37core.blade.definition import BladeDefinition
-from r37core.exchange.importing.source import MatricesSource
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, check_patches
 from r37core.rounding import rounded_up
 from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
@@ -63,11 +61,9 @@ def simulations_can_be_planned(settings: Settings) -> None:
     """Speeds go together, and there are not more simulations than Snakemake can plan."""
     number = sum(len(plan.certain) for plan in settings.speed_plans.values())
     if number > LARGEST_NUMBER_OF_SIMULATIONS:
-        raise settings.documents.config.refusal(
-            ("speeds",),
-            f"{number} simulations of {len(settings.blade_names)} blades in {len(settings.scene_names)} scenes",
-            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run; more in parts (run.part, docs/cluster.md)",
-        )
+        planned = f"{number} simulations of {len(settings.blade_names)} blades in {len(settings.scene_names)} scenes"
+        allowed = f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run; more in parts (run.part, docs/cluster.md)"
+        raise settings.documents.config.refusal(("speeds",), planned, allowed)
 
 
 def windows_have_crossings(settings: Settings) -> None:
@@ -78,11 +74,9 @@ def windows_have_crossings(settings: Settings) -> None:
     for path, windows in {("refinement",): refining.windows, ("refinement", "direct"): refining.direct.windows}.items():
         for number, window in enumerate(windows):
             if window.highest_engine_order > highest:
-                raise settings.documents.config.refusal(
-                    (*path, "windows", number, "highest_engine_order"),
-                    f"{window.highest_engine_order}",
-                    f"at most campbell.highest_engine_order ({highest})",
-                )
+                place: KeyPath = (*path, "windows", number, "highest_engine_order")
+                allowed = f"at most campbell.highest_engine_order ({highest})"
+                raise settings.documents.config.refusal(place, f"{window.highest_engine_order}", allowed)
 
 
 def history_speeds_are_run(settings: Settings) -> None:
@@ -121,16 +115,15 @@ def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> N
 
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
-    blades = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
+    blades = [name for name, blade in settings.blades.items() if blade.of_matrices]
     remedies = {
         "spin_softening": "put the term into its K_<speed>",
         "coriolis": "a Coriolis matrix of another program is not read",
     }
     for key, remedy in remedies.items():
         if blades and getattr(settings.structure, key):
-            raise settings.documents.config.refusal(
-                ("structure", key), f"true with the blade '{blades[0]}', given by matrices", f"false; {remedy}"
-            )
+            value = f"true with the blade '{blades[0]}', given by matrices"
+            raise settings.documents.config.refusal(("structure", key), value, f"false; {remedy}")
 
 
 def tips_have_room_for_patches(settings: Settings) -> None:
@@ -139,13 +132,11 @@ def tips_have_room_for_patches(settings: Settings) -> None:
     for name, blade in settings.blades.items():
         for tip_line in dict.fromkeys(scene.tip_line for scene in settings.scenes.values()):
             boundary = settings.reduction_choice(name, tip_line).boundary
-            if boundary.contact == AREA_PATCHES and isinstance(blade.definition, MatricesSource):
-                raise document.refusal(
-                    ("structure", "boundary", "contact"),
-                    f"{AREA_PATCHES} with the blade '{name}', given by matrices, which say nothing of the tip's face",
-                    "points, or patches of the nodes in its boundary.csv",
-                )
-            if boundary.contact == POINTS or not isinstance(blade.definition, BladeDefinition):
+            if boundary.contact == AREA_PATCHES and blade.of_matrices:
+                value = f"{AREA_PATCHES} with the blade '{name}', given by matrices, which say nothing of the tip's face"
+                allowed = "points, or patches of the nodes in its boundary.csv"
+                raise document.refusal(("structure", "boundary", "contact"), value, allowed)
+            if boundary.contact == POINTS or not blade.has_profiles:
                 continue
             # edges of elements between two layers, or on a face, have nodes in their middle; edges inside a layer have none
             inside = tip_line == "camber" and mesh.layers % 2 and boundary.contact == PATCHES
@@ -180,17 +171,14 @@ def rotors_press_a_casing_that_is_carried(settings: Settings) -> None:
     integrator = settings.fidelity.time_integration.integrator
     for name, chosen in settings.scenes.items():
         if chosen.scene.rotor is not None and chosen.scene.casing.ring and integrator != EXACT_MODAL:
-            raise settings.documents.scenes.refusal(
-                (name, "rotor"),
-                f"a rotor in an elastic casing at the level '{settings.fidelity_name}', whose integrator is {integrator}",
-                _exact_level(settings),
-            )
+            value = f"a rotor in an elastic casing at the level '{settings.fidelity_name}', whose integrator is {integrator}"
+            raise settings.documents.scenes.refusal((name, "rotor"), value, _exact_level(settings))
 
 
 def clearances_reach_all_speeds(settings: Settings) -> None:
     """The growth of a casing is given up to the highest speed; the blades' own follows from their mesh."""
     document = settings.documents.scenes
-    matrices = [name for name, blade in settings.blades.items() if isinstance(blade.definition, MatricesSource)]
+    matrices = [name for name, blade in settings.blades.items() if blade.of_matrices]
     for name, chosen in settings.scenes.items():
         casing, path = chosen.scene.casing, (name, "casing", "clearance")
         modelled, run = settings.structure.maximum_speed_rad_s, fastest_of(settings, name)
@@ -199,11 +187,9 @@ def clearances_reach_all_speeds(settings: Settings) -> None:
             allowed = f"up to {what}, {highest:g} rad/s ({highest * RPM:.6g} rpm)"
             raise document.refusal((*path, "casing_growth"), f"growth up to {casing.growth_speeds[-1]:g} rad/s", allowed)
         if casing.centrifugal and matrices:
-            raise document.refusal(
-                (*path, "centrifugal"),
-                f"true, as without the key, with the blade '{matrices[0]}', given by matrices: its load is not known",
-                "false, with the blade's growth taken off in casing_growth, in a scene of its own",
-            )
+            value = f"true, as without the key, with the blade '{matrices[0]}', given by matrices: its load is not known"
+            allowed = "false, with the blade's growth taken off in casing_growth, in a scene of its own"
+            raise document.refusal((*path, "centrifugal"), value, allowed)
 
 
 CHECKS: tuple[Callable[[Settings], None], ...] = (

@@ -36,10 +36,8 @@ def declared_by(
     """
 
     def completed(section: type[S]) -> type[S]:
-        keys = [declared for declared in declared_keys(kind) if declared.name in section.model_fields or not only_listed]
-        made: dict[str, Any] = {
-            declared.name: _field(declared, optional, defaults.get(declared.name, MISSING)) for declared in keys
-        }
+        keys = [key for key in declared_keys(kind) if key.name in section.model_fields or not only_listed]
+        made: dict[str, Any] = {key.name: _field(key, optional, defaults.get(key.name, MISSING)) for key in keys}
         return create_model(section.__name__, __base__=section, __module__=section.__module__, __doc__=section.__doc__, **made)
 
     return completed

@@ -18,7 +18,7 @@ from r37core.io import TextFileError
 from r37core.speeds import exact_text
 
 from .blade_sections import MaterialSection
-from .blades import LARGEST_FAMILY, SHARES, BladeEntry, Variation
+from .blades import LARGEST_FAMILY, SHARES, BladeEntry, Variation, readable_table
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .messages import did_you_mean, explain, single_line
@@ -101,9 +101,7 @@ def _family(name: str, entry: BladeEntry, root: Path, document: Document) -> Fam
     if entry.designs is not None:
         return _table_family(name, entry.designs, root, document)
     assert entry.vary is not None
-    values = {
-        key: way.values() if isinstance(way, Variation) else [float(value) for value in way] for key, way in entry.vary.items()
-    }
+    values = {key: way.values() if isinstance(way, Variation) else list(map(float, way)) for key, way in entry.vary.items()}
     if entry.combine == "pairs":
         lengths = {key: len(several) for key, several in values.items()}
         if len(set(lengths.values())) > 1:
@@ -122,14 +120,11 @@ def _check_size(designs: Sized, family: str, key: str, document: Document) -> No
 
 
 def _table_family(name: str, file: str, root: Path, document: Document) -> Family:
-    try:
-        keys, rows = read_designs(root / file)
-    except FileNotFoundError:
-        raise document.error((name, "designs"), f"there is no file {file}") from None
-    except OSError as error:
-        raise document.error((name, "designs"), f"{file} cannot be read: {error.strerror}") from None
-    except (TextFileError, BladeShapeError) as error:
-        raise ConfigError(f"{file}: family {name}: {error}") from None
+    with readable_table(file, (name, "designs"), document):
+        try:
+            keys, rows = read_designs(root / file)
+        except (TextFileError, BladeShapeError) as error:
+            raise ConfigError(f"{file}: family {name}: {error}") from None
     _check_size(rows, name, "designs", document)
     return Family(keys, rows)
 
@@ -168,9 +163,8 @@ def _check_varies(key: str, family: str, design: str, document: Document) -> Non
     hint = did_you_mean(key, VARIED)
     if first in SceneEntry.model_fields:
         hint = " (a number of a scene varies under tolerances.of_scenes, or as several scenes)"
-    raise document.error(
-        (family,), f"design {design}: found unknown key {single_line(key)}; allowed keys: {', '.join(VARIED)}{hint}"
-    )
+    allowed = f"{', '.join(VARIED)}{hint}"
+    raise document.error((family,), f"design {design}: found unknown key {single_line(key)}; allowed keys: {allowed}")
 
 
 def changed_content(content: dict[str, Any], path: Sequence[str], value: Any) -> dict[str, Any]:

@@ -84,21 +84,15 @@ class TimeIntegration(Section):
     wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="Angles of the kept wear profile")
 
     @model_validator(mode="after")
-    def _one_step(self) -> TimeIntegration:
+    def _one_step_and_signal_fits(self) -> TimeIntegration:
         if (self.time_step_s is None) == (self.largest_time_step_s is None):
             value = "neither of them" if self.time_step_s is None else "both"
             raise refused(("time_step_s",), value, "time_step_s or largest_time_step_s, one of them")
-        return self
-
-    @model_validator(mode="after")
-    def _signal_fits(self) -> TimeIntegration:
         size = 32 * self.revolutions * self.samples_per_revolution
         if size > _LARGEST_SIGNAL:
-            raise refused(
-                ("revolutions",),
-                f"{self.revolutions} of {self.samples_per_revolution} samples, {size / 2**30:.1f} GiB",
-                f"at most {_LARGEST_SIGNAL / 2**30:g} GiB (stress_instants times samples_per_stress_instant are the samples)",
-            )
+            value = f"{self.revolutions} of {self.samples_per_revolution} samples, {size / 2**30:.1f} GiB"
+            samples = "stress_instants times samples_per_stress_instant are the samples"
+            raise refused(("revolutions",), value, f"at most {_LARGEST_SIGNAL / 2**30:g} GiB ({samples})")
         return self
 
     @property
@@ -122,15 +116,9 @@ class TimeIntegration(Section):
 
     def choice(self, lined: bool) -> IntegrationChoice:
         """Time integration in a scene with or without a lining, with stress of the last revolution and energy balance."""
-        return si_form(
-            IntegrationChoice,
-            self,
-            time_step=self.largest_step(lined),
-            shorten=self.time_step_s is None,
-            samples_per_revolution=self.samples_per_revolution,
-            snapshots_per_revolution=self.stress_instants,
-            snapshot_revolutions=1,
-        )
+        step = {"time_step": self.largest_step(lined), "shorten": self.time_step_s is None}
+        snapshots = {"snapshots_per_revolution": self.stress_instants, "snapshot_revolutions": 1}
+        return si_form(IntegrationChoice, self, **step, **snapshots, samples_per_revolution=self.samples_per_revolution)
 
 
 class Level(Section):

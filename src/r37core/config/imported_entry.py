@@ -114,15 +114,8 @@ class MeshEntry(Oriented):
 
     def source(self, root: Path) -> MeshSource:
         """What to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
-        return si_form(
-            MeshSource,
-            self,
-            file=self.mesh,
-            orientation=self.orientation(),
-            root=_where(self.root),
-            tip=_where(self.tip),
-            digest=digest_of(mesh_files(self.mesh, root)),
-        )
+        ends, digest = {"root": _where(self.root), "tip": _where(self.tip)}, digest_of(mesh_files(self.mesh, root))
+        return si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, **ends)
 
 
 @declared_by(MatricesSource)

@@ -53,11 +53,10 @@ class Reader:
         named = [Path(file).relative_to(here) if Path(file).is_relative_to(here) else Path(file) for file in files]
         changes = [*first, *(read_document(here, str(file)) for file in named), command_line_document(values)]
         if module_values:
+            place = "config of the module r37"
             if not isinstance(module_values, Mapping):
-                raise ConfigError(
-                    f"config of the module r37: found {module_values!r}; allowed: keys and values, as in {CONFIG_FILE}"
-                )
-            changes.append(command_line_document(module_values, "config of the module r37"))
+                raise ConfigError(f"{place}: found {module_values!r}; allowed: keys and values, as in {CONFIG_FILE}")
+            changes.append(command_line_document(module_values, place))
         return self.load_settings(together(changes[0], changes[1:]), root)
 
     def load_settings(

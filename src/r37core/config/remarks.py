@@ -44,7 +44,9 @@ def remarks_of_pipeline(settings: Settings) -> list[str]:
 def remarks_on_input(settings: Settings) -> list[str]:
     """What is to be said of speeds, materials, contact laws and casings before any run, of the workflow or of a call."""
     lines = [*remarks_on_speeds(settings), *remarks_on_materials(settings), *remarks_on_laws(settings)]
-    return [*lines, *remarks_on_casings(settings)]
+    for scene, casing in elastic_casings(settings).items():
+        lines.append(remark_on_overtaken_waves(scene, casing, fastest_of(settings, scene)))
+    return [line for line in lines if line]
 
 
 def remarks_on_speeds(settings: Settings) -> list[str]:
@@ -121,15 +123,6 @@ def elastic_casings(settings: Settings) -> dict[str, ElasticCasing]:
     """Elastic casing of each scene to run that has one."""
     entries = {name: settings.scene_entries[name].casing for name in settings.scene_names}
     return {name: casing.elastic_casing() for name, casing in entries.items() if casing.elastic}
-
-
-def remarks_on_casings(settings: Settings) -> list[str]:
-    """Remarks on casings whose waves a blade of the sweep overtakes."""
-    lines = (
-        remark_on_overtaken_waves(name, casing, fastest_of(settings, name))
-        for name, casing in elastic_casings(settings).items()
-    )
-    return [line for line in lines if line]
 
 
 def remark_on_overtaken_waves(scene: str, casing: ElasticCasing, fastest: float) -> str:

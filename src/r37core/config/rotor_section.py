@@ -51,6 +51,9 @@ LEAST_APART = 0.1
 _CHANGES, _LENGTHS = (-95.0, 1000.0), (-0.1, 0.1)
 """Least and largest, of the keys mistuning_percent and longer_m, given or drawn."""
 
+_SPREADS = {"mistuning_percent": "mistuning_spread_percent", "longer_m": "longer_spread_m"}
+"""Table of values by blades -> how the others are drawn, each from a stream of its own."""
+
 Number = Annotated[int, Field(ge=1, le=MOST_BLADES)]
 Change = Annotated[float, Field(ge=_CHANGES[0], le=_CHANGES[1])]
 Length = Annotated[float, Field(ge=_LENGTHS[0], le=_LENGTHS[1])]
@@ -68,8 +71,7 @@ class RotorSection(Section):
         "Drawn frequency changes of the other blades: {normal: 1} has a standard deviation of 1%"
     )
     longer_m: BladeTable[Length] = Field(
-        default={},
-        description="Extra length by blade number, -0.1 to 0.1, in place of a drawn one",
+        default={}, description="Extra length by blade number, -0.1 to 0.1, in place of a drawn one"
     )
     longer_spread_m: SpreadEntry | LeftOut = left_out(
         "Drawn extra lengths of the other blades: {uniform: 2.0e-5} is plus or minus 20 um"
@@ -85,7 +87,7 @@ class RotorSection(Section):
     @model_validator(mode="after")
     def _numbers_are_places(self) -> RotorSection:
         named: list[tuple[KeyPath, int]] = [(("missing",), number) for number in self.missing or ()]
-        for key in ("mistuning_percent", "longer_m"):
+        for key in _SPREADS:
             named += [((key, number), int(number)) for number in getattr(self, key)]
         for path, number in named:
             if number > self.blades:
@@ -109,8 +111,8 @@ class RotorSection(Section):
 
     @model_validator(mode="after")
     def _what_is_drawn_is_possible(self) -> RotorSection:
-        self._refuse_beyond("mistuning_spread_percent", *_CHANGES, self._changes)
-        self._refuse_beyond("longer_spread_m", *_LENGTHS, self._longer)
+        self._refuse_beyond("mistuning_spread_percent", *_CHANGES, self._values("mistuning_percent"))
+        self._refuse_beyond("longer_spread_m", *_LENGTHS, self._values("longer_m"))
         return self
 
     def _refuse_beyond(self, key: str, least: float, most: float, values: list[float]) -> None:
@@ -141,17 +143,10 @@ class RotorSection(Section):
         """Angles of all places (deg)."""
         return self.angles_deg or [360.0 / self.blades * place for place in range(self.blades)]
 
-    @property
-    def _changes(self) -> list[float]:
-        return self._values(self.mistuning_percent, self.mistuning_spread_percent, 0)
-
-    @property
-    def _longer(self) -> list[float]:
-        return self._values(self.longer_m, self.longer_spread_m, 1)
-
-    def _values(self, table: dict[str, float], spread: SpreadEntry | None, stream: int) -> list[float]:
+    def _values(self, key: str) -> list[float]:
         """Values of the blades that are there, of the table or else drawn; a blade keeps its draw where others are missing."""
-        shares = np.random.default_rng((self.seed, stream)).random(self.blades)
+        table, spread = getattr(self, key), getattr(self, _SPREADS[key])
+        shares = np.random.default_rng((self.seed, list(_SPREADS).index(key))).random(self.blades)
         drawn = spread and spread.spread()
         nominal = [drawn.value(0.0, float(share)) if drawn else 0.0 for share in shares]
         return [table.get(str(number), nominal[number - 1]) for number in self._present]
@@ -161,7 +156,7 @@ class RotorSection(Section):
         return Rotor(
             numbers=tuple(self._present),
             angles=tuple(float(np.radians(self._angles[number - 1])) for number in self._present),
-            frequency_factors=tuple(1.0 + 0.01 * change for change in self._changes),
-            longer=tuple(self._longer),
+            frequency_factors=tuple(1.0 + 0.01 * change for change in self._values("mistuning_percent")),
+            longer=tuple(self._values("longer_m")),
             shared_lining=self.lining == "shared",
         )

@@ -109,14 +109,10 @@ class SceneEntry(Section):
 
     def scene(self) -> Scene:
         """The scene as the simulations take it."""
-        return si_form(
-            Scene,
-            self,
-            casing=self.casing.casing(),
-            lining=self.lining and si_form(Lining, self.lining),
-            friction=self.friction and si_form(Friction, self.friction),
-            rotor=self.rotor and self.rotor.rotor(),
-        )
+        lining = self.lining and si_form(Lining, self.lining)
+        friction = self.friction and si_form(Friction, self.friction)
+        rotor = self.rotor and self.rotor.rotor()
+        return si_form(Scene, self, casing=self.casing.casing(), lining=lining, friction=friction, rotor=rotor)
 
 
 class Scenes(RootModel[ByName[SceneEntry]]):

@@ -8,17 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    Discriminator,
-    Field,
-    StringConstraints,
-    Tag,
-    WithJsonSchema,
-    model_validator,
-)
+from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, model_validator
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import PydanticCustomError
 
@@ -86,12 +76,8 @@ NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9-]*(_[A-Za-z0-9-]+)*$"
 def check_name(name: str) -> str:
     """The name itself; the error of one that cannot be part of file names."""
     if not re.fullmatch(NAME_PATTERN, name) or len(name) > 60 or name == "all" or not isinstance(scalar(name), str):
-        raise refused(
-            (),
-            repr(name),
-            "a name of letters, digits, hyphens and single underscores between them, of at most 60 characters, "
-            "that is neither 'all' nor a number, true, false or null in YAML",
-        )
+        allowed = "a name of letters, digits, hyphens and single underscores between them, of at most 60 characters, that is"
+        raise refused((), repr(name), f"{allowed} neither 'all' nor a number, true, false or null in YAML")
     return name
 
 
@@ -114,7 +100,7 @@ def _printable(name: str) -> str:
     return name
 
 
-FileName = Annotated[str, StringConstraints(min_length=1, max_length=1000, pattern=TEXT_PATTERN), AfterValidator(_printable)]
+FileName = Annotated[str, Field(min_length=1, max_length=1000, pattern=TEXT_PATTERN), AfterValidator(_printable)]
 LeftOut = SkipJsonSchema[None]
 """What an optional key is when it is not given; null is refused."""
 

@@ -9,8 +9,7 @@ from pydantic import Discriminator, Field, Tag
 
 from r37core.blade.profile import BladeShapeError, ProfileParameters
 from r37core.blade.profile_tables import check_spans
-from r37core.blade.section_changes import SectionChangeError, changed_profiles
-from r37core.blade.span_law import SpanLaw
+from r37core.blade.section_changes import SectionChangeError, SpanLaw, changed_profiles
 from r37core.units import si_name
 
 from .section import Section

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from r37core.contact.scene import Scene
-from r37core.exchange.importing.source import MatricesSource
 from r37core.plain import to_plain
 from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice, StressSubmesh
 from r37core.speeds import SpeedError, SpeedPlan, plan_speeds
@@ -67,8 +66,7 @@ class Settings:
 
     def section(self, declared: ExtensionSection[T]) -> T:
         """The section of config.yaml that an extension has brought."""
-        value: T = getattr(self.config, declared.name)
-        return value
+        return getattr(self.config, declared.name)
 
     @cached_property
     def made(self) -> Callable[[Callable[[Settings], Any]], Any]:
@@ -133,7 +131,7 @@ class Settings:
     def direct_on_points(self) -> tuple[list[str], list[str]]:
         """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
         scenes = [name for name in self.scene_names if self.scene_entries[name].lining is None]
-        meshed = [name for name, blade in self.blades.items() if not isinstance(blade.definition, MatricesSource)]
+        meshed = [name for name, blade in self.blades.items() if not blade.of_matrices]
         blades = [name for name in meshed if self.contact_of(name) == POINTS]
         return (scenes, blades) if scenes and blades else ([], [])
 
@@ -185,16 +183,12 @@ class Settings:
 
         Its basis is computed at rest, at half the maximum speed and at the maximum speed.
         """
-        structure, contact = self.structure, self.contact_of(blade)
-        boundary = structure.boundary
-        return si_form(
-            ReductionChoice,
-            structure,
-            boundary=si_form(BoundaryChoice, boundary, tip_line=tip_line or boundary.tip_line, contact=contact),
-            speeds=(0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s),
-            stress_submesh=self.blades[blade].stress_submesh or si_form(StressSubmesh, structure.stress_submesh),
-            **dict(self.fidelity.reduction),
-        )
+        structure, section = self.structure, self.structure.boundary
+        boundary = si_form(BoundaryChoice, section, tip_line=tip_line or section.tip_line, contact=self.contact_of(blade))
+        speeds = (0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s)
+        submesh = self.blades[blade].stress_submesh or si_form(StressSubmesh, structure.stress_submesh)
+        size = dict(self.fidelity.reduction)
+        return si_form(ReductionChoice, structure, boundary=boundary, speeds=speeds, stress_submesh=submesh, **size)
 
     def contact_of(self, blade: str) -> str:
         """What a blade's contact acts on: as config.yaml says for all of them, else as its own entry does."""
@@ -203,7 +197,7 @@ class Settings:
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
         """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes."""
         wanted = self.scenes[scene].results
-        matrices = isinstance(self.blades[blade].definition, MatricesSource)
+        matrices = self.blades[blade].of_matrices
         return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
 
     def integration_choice(

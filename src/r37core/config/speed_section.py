@@ -11,7 +11,6 @@ from .section import LeftOut, Names, Rpm, Section, Speed, left_out, refused
 UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
 
-
 _STEP = left_out("Step between the speeds; by default the fidelity level's")
 _REFINE_TO = left_out("Smallest interval of adaptive sampling, a whole part of the step")
 

@@ -10,9 +10,6 @@ from pydantic import AfterValidator, Field, model_validator
 
 from .section import LeftOut, Section, Unique, left_out, plain, refused
 
-_DIGITS = 12
-"""Digits of a value: with more, the arithmetic of two machines would differ."""
-
 
 @dataclass(frozen=True)
 class Spread:
@@ -39,7 +36,8 @@ class Spread:
             value = first + share * (self.numbers[1] - first)
         else:
             value = self.numbers[min(int(share * len(self.numbers)), len(self.numbers) - 1)]
-        return float(f"{value:.{_DIGITS}g}")
+        # with more digits, the arithmetic of two machines would differ
+        return float(f"{value:.12g}")
 
     def ends(self, nominal: float) -> tuple[float, ...]:
         """The values that no other goes beyond; none of a normal distribution, which has no bounds."""
@@ -51,10 +49,8 @@ class Spread:
     def words(self) -> str:
         """Width of the spread as a page shows it, in the unit of the number or in percent of it."""
         unit = "%" if self.percent else ""
-        if self.kind == "between":
-            return " to ".join(f"{number:g}" for number in self.numbers)
-        if self.kind == "values":
-            return " or ".join(f"{number:g}" for number in self.numbers)
+        if self.kind in ("between", "values"):
+            return (" to " if self.kind == "between" else " or ").join(f"{number:g}" for number in self.numbers)
         return ("± " if self.kind == "uniform" else "standard deviation ") + f"{self.numbers[0]:g}{unit}"
 
 
@@ -116,8 +112,5 @@ class Spreads(Section):
     @property
     def spreads(self) -> dict[tuple[str, str], Spread]:
         """Section and key of each number -> how it spreads, in the order of the sample."""
-        return {
-            (section, key): entry.spread()
-            for section in ("of_blades", "of_scenes")
-            for key, entry in getattr(self, section).items()
-        }
+        sections = {"of_blades": self.of_blades, "of_scenes": self.of_scenes}
+        return {(section, key): entry.spread() for section, entries in sections.items() for key, entry in entries.items()}

@@ -23,9 +23,6 @@ from r37core.io import JOB_LOG, OutputFileError
 _NOTES = "R37_FAILURES"
 """Environment variable that names the file, one for each run: several may go on in one folder."""
 
-_FULL = 2**20
-"""Bytes left on a disk that counts as full."""
-
 
 @contextlib.contextmanager
 def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
@@ -137,7 +134,8 @@ def _explained(error: Exception) -> str:
     if isinstance(error, OutputFileError):
         return text
     full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
-    if full or shutil.disk_usage(".").free < _FULL:
+    # below 1 MiB a disk counts as full, as in r37core.io
+    if full or shutil.disk_usage(".").free < 2**20:
         return f"the disk is full ({text}); free some space and give the same command again"
     if isinstance(error, MemoryError):
         return f"not enough memory ({text}); run fewer jobs at once (--cores), or choose a smaller fidelity level"

@@ -24,13 +24,9 @@ def leftovers(results: Path, settings: Settings) -> list[Path]:
 
 
 def _run_leftovers(results: Path, settings: Settings) -> Iterator[Path]:
-    for folder in results.iterdir():
-        if folder.is_dir() and folder.name not in (*settings.blades, *RESERVED):
-            yield folder
-    for blade in settings.blades:
-        for folder in (results / blade).glob("*/"):
-            if folder.is_dir() and folder.name not in settings.scenes:
-                yield folder
+    expected = {results: [*settings.blades, *RESERVED]} | {results / blade: list(settings.scenes) for blade in settings.blades}
+    for place, names in expected.items():
+        yield from (folder for folder in place.glob("*/") if folder.is_dir() and folder.name not in names)
     for (blade, scene), plan in settings.speed_plans.items():
         folder = results / blade / scene
         wanted = {f"speed_{exact_text(speed)}.npz" for speed in _speeds(folder, plan)}

@@ -7,6 +7,7 @@ with its colours, must stand in every profile, and where its package is not foun
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import sys
 import time
@@ -27,11 +28,8 @@ HANDLER = "DefaultStreamHandler"
 """Name of Snakemake's handler of messages on the terminal."""
 
 _CHATTER = (
-    "Select jobs to execute",
-    "Execute ",
-    "DAG of jobs will be updated",
-    "Updating checkpoint dependencies",
-    "Touching output",
+    *("Select jobs to execute", "Execute ", "DAG of jobs will be updated"),
+    *("Updating checkpoint dependencies", "Touching output"),
 )
 """Beginnings of messages without an event that come with every job."""
 
@@ -83,7 +81,8 @@ class Progress(logging.Filter):
             rule, blade, output = self._jobs.pop(record.job_id, ("", "", ""))  # type: ignore[attr-defined]
             if rule == "simulate":
                 self._simulated[blade] += 1
-                self._diverged += _diverged(Path(output))
+                with contextlib.suppress(InputFileError):
+                    self._diverged += read_status(Path(output)) == RunStatus.DIVERGED
         elif event == "progress":
             self._done, self._known = record.done, record.total  # type: ignore[attr-defined]
             self._write(immediately=record.done == record.total, last=record.done == record.total)  # type: ignore[attr-defined]
@@ -133,13 +132,6 @@ def quieten(handlers: Collection[logging.Handler], progress: Progress) -> bool:
     for handler in terminal:
         handler.addFilter(progress)
     return bool(terminal)
-
-
-def _diverged(file: Path) -> bool:
-    try:
-        return read_status(file) == RunStatus.DIVERGED
-    except InputFileError:
-        return False
 
 
 def _duration(seconds: float) -> str:

@@ -28,10 +28,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         command = ["all_blades", "--report", f"{results}/report.zip", "--configfile", str(file), "--replace-workflow-config"]
         done = subprocess.run([sys.executable, "-m", "snakemake", *command], check=False)
     if done.returncode:
-        print(
-            f"{results}: no report; where results are missing, give the command of the run again, then make report",
-            file=sys.stderr,
-        )
+        remedy = "where results are missing, give the command of the run again, then make report"
+        print(f"{results}: no report; {remedy}", file=sys.stderr)
     return done.returncode
 
 

@@ -114,14 +114,9 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     with _refused(refusal):
         source = source_folder(root)
         # another Snakefile that has our rules as a module may have no configuration of its own
-        folder = Path(workflow.basedir)
-        settings = settings_of_run(
-            folder if (folder / "config").is_dir() else root,
-            config.configfiles,
-            config.config,
-            above,
-            only_given=config.replace_workflow_config,
-        )
+        own, only_given = Path(workflow.basedir), config.replace_workflow_config
+        folder = own if (own / "config").is_dir() else root
+        settings = settings_of_run(folder, config.configfiles, config.config, above, only_given=only_given)
     lifted = lock.enter() if workflow.is_main_process else []
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)

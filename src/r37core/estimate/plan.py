@@ -1,20 +1,36 @@
-"""The plan of the estimate: some of the speeds of each blade and scene, evenly spread."""
+"""estimate of config.yaml, and its plan: some of the speeds of each blade and scene, evenly spread."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pydantic import Field
+
 from r37core.cases.case import Case
-from r37core.cases.plan import case_of_sweep
+from r37core.cases.plan import kept_of
 from r37core.config import Settings
+from r37core.config.section import ExtensionSection, Section
 from r37core.plans import paths
 from r37core.plans.extent import extents
 from r37core.plans.samples import Pair, Sample
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.speed_run import OF_RUNS
 
-from .section import SECTION
+
+class EstimateSection(Section):
+    """Cost of a whole sweep (snakemake estimate)."""
+
+    every: int = Field(
+        default=50, ge=1, le=1_000_000, description="One of this many speeds is run, in all scenes, for every blade"
+    )
+    cores: int = Field(default=2, ge=1, le=1_000_000, description="Cores of the projected wall time")
+    workflow_s_per_job: float = Field(
+        default=0.045, ge=0, le=1000, description="CPU seconds of Snakemake itself per job, measured in a sweep of 17,514"
+    )
+
+
+SECTION = ExtensionSection("estimate", EstimateSection, EstimateSection())
 
 
 def sample(speeds: Sequence[float], every: int) -> list[float]:
@@ -24,21 +40,22 @@ def sample(speeds: Sequence[float], every: int) -> list[float]:
 
 def cases(settings: Settings) -> dict[str, Case]:
     """A case for each blade and scene."""
-    every = settings.section(SECTION).every
-    return {
-        "__".join(pair): _case(settings, *pair, tuple(sample(plan.certain, every)))
-        for pair, plan in settings.speed_plans.items()
-    }
+    return {"__".join(pair): _case(settings, *pair) for pair in settings.speed_plans}
 
 
-def _case(settings: Settings, blade: str, scene: str, speeds: tuple[float, ...]) -> Case:
-    return case_of_sweep(
-        settings,
+def _case(settings: Settings, blade: str, scene: str) -> Case:
+    chosen = settings.scenes[scene]
+    speeds = tuple(sample(settings.speed_plans[blade, scene].certain, settings.section(SECTION).every))
+    return Case(
         blade,
-        scene,
-        speeds=speeds,
+        chosen.tip_line,
+        chosen.scene,
+        settings.integration_choice(blade, scene, settings.structure.maximum_speed_rad_s),
+        speeds,
         results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
-        history_speeds=tuple(speed for speed in speeds if speed in settings.scenes[scene].stress_history_speeds),
+        material=settings.blades[blade].material,
+        kept=kept_of(settings.fidelity),
+        history_speeds=tuple(speed for speed in speeds if speed in chosen.stress_history_speeds),
     )
 
 

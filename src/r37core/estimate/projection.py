@@ -7,14 +7,16 @@ import statistics
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import pandas as pd
 import xarray as xr
 
+from r37core.results.closing import counted
+from r37core.results.table_file import read_table
+
 _IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
 """What the script of a simulation imports."""
-
-PARTS = ("time integration", "start-up", "workflow", "reduction")
 
 
 def sample_of(response: xr.Dataset, number: int) -> dict[str, float]:
@@ -46,7 +48,7 @@ def time_start_up() -> float:
 def projected_costs(
     samples: Sequence[Mapping[str, float]], start_up: float, workflow_per_job: float, cores: int
 ) -> pd.DataFrame:
-    """A row for each of PARTS and one of all: core hours, core seconds of a simulation, simulations, and hours on `cores`."""
+    """A row for each part and one of all: core hours, core seconds of a simulation, simulations, and hours on `cores`."""
     runs = sum(sample["runs"] for sample in samples)
     seconds = {
         "time integration": sum(sample["time integration"] for sample in samples),
@@ -54,7 +56,7 @@ def projected_costs(
         "workflow": workflow_per_job * runs,
         "reduction": sum(sample["reduction"] for sample in samples),
     }
-    seconds["total"] = sum(seconds[part] for part in PARTS)
+    seconds["total"] = sum(seconds.values())
     return pd.DataFrame(
         {
             "part": part,
@@ -66,3 +68,10 @@ def projected_costs(
         }
         for part, spent in seconds.items()
     )
+
+
+def closing(results: Path) -> str:
+    """How many simulations there are, and how long they take."""
+    total = read_table(results / "estimate.csv").set_index("part").loc["total"]
+    length = f"{total['wall_hours']:.2f} h on {counted(int(total['cores']), 'core')}"
+    return f"{counted(int(total['simulations']), 'simulation')} at most, {length}"

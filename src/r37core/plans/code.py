@@ -29,7 +29,8 @@ class CodeHashes:
         self._source, self._scripts, self._packages = source, scripts, packages
         self._version_file = source / PACKAGE / "__init__.py"
         # closures share most of their parts
-        self._parts, self._needed, self._order = cache(self._parts_of), cache(self._needed_by), cache(self._order_of)
+        self._parts, self._needed = cache(self._parts_of), cache(self._needed_by)
+        self._order = cache(lambda part: (part[0].is_relative_to(scripts), part[0].parts, part[1]))
 
     def __call__(self, *names: str) -> str:
         """Short hash of what has these names, as `step`, `r37core.fem.steps` or `r37core.fem.steps.mesh`, and its imports."""
@@ -67,9 +68,6 @@ class CodeHashes:
 
     def _needed_by(self, file: Path, function: str) -> list[tuple[Path, str]]:
         return list({(imported, ""): None for name in _facts(file, function)[1] for imported in self._files(name)})
-
-    def _order_of(self, part: tuple[Path, str]) -> tuple[bool, tuple[str, ...], str]:
-        return part[0].is_relative_to(self._scripts), part[0].parts, part[1]
 
     def _named(self, name: str) -> list[tuple[Path, str]]:
         above, _, last = name.rpartition(".")

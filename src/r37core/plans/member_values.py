@@ -38,10 +38,8 @@ def together(row: int, numbers: Iterable[int]) -> list[str]:
 
 def drawn(spreads: Iterable[Spread], nominal: Sequence[float | None], point: Sequence[float]) -> tuple[float | None, ...]:
     """Values of a member at its `point`; None for a number without a nominal value."""
-    return tuple(
-        None if value is None else spread.value(value, share)
-        for spread, value, share in zip(spreads, nominal, point, strict=True)
-    )
+    numbers = zip(spreads, nominal, point, strict=True)
+    return tuple(None if value is None else spread.value(value, share) for spread, value, share in numbers)
 
 
 def is_of_sample(member: str) -> bool:

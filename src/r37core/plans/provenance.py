@@ -44,9 +44,8 @@ class Provenance:
 
     def shape(self, wildcards: Any) -> Attributes:
         """Attributes of a blade's geometry."""
-        return Attributes(
-            blade=wildcards.blade, input_hash=shape_hash(self._settings, wildcards.blade), **_member(member_of(wildcards))
-        )
+        blade, member = wildcards.blade, _member(member_of(wildcards))
+        return Attributes(blade=blade, input_hash=shape_hash(self._settings, blade), **member)
 
     def structure(self, wildcards: Any) -> Attributes:
         """Attributes of a blade's mesh, reduced model and Campbell diagram."""
@@ -57,14 +56,9 @@ class Provenance:
         return self._sweep(member_of(wildcards), wildcards.blade, wildcards.scene)
 
     def _structure_of(self, member: str, blade: str) -> Attributes:
-        settings = self._settings
-        return Attributes(
-            blade=blade,
-            fidelity=settings.fidelity_name,
-            contact=settings.contact_of(blade),
-            input_hash=structure_hash(settings, blade),
-            **_member(member),
-        )
+        level, contact = self._settings.fidelity_name, self._settings.contact_of(blade)
+        made_of = structure_hash(self._settings, blade)
+        return Attributes(blade=blade, fidelity=level, contact=contact, input_hash=made_of, **_member(member))
 
     def _sweep_of(self, member: str, blade: str, scene: str) -> Attributes:
         chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration

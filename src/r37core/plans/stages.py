@@ -40,69 +40,43 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
     settings, imported = structure.settings, Imported(structure.settings)
     source = {"source": imported.source, "folder": imported.folder, "locations": imported.locations}
     reduction = {"reduction": structure.reduction, "contact": structure.location_of_contact, "provenance": made.structure}
+    shape = {"definition": structure.definition, "edges": settings.structure.edges, "provenance": made.shape}
+    model = {"material": structure.elastic, "kept": structure.kept, **reduction}
+    diagram = {
+        "campbell": si_fields(settings.config.campbell),
+        "maximum_speed": settings.structure.maximum_speed_rad_s,
+        "tip_line": settings.structure.boundary.tip_line,
+        "provenance": made.structure,
+    }
+    from_rom = {"rom": "reduced_model"}
     return {
-        "geometry": Stage(
-            "blade.steps.geometry",
-            {"definition": structure.definition, "edges": settings.structure.edges, "provenance": made.shape},
-            "shape",
-        ),
+        "geometry": Stage("blade.steps.geometry", shape, "shape"),
         "mesh": Stage("fem.steps.mesh", {"mesh": plain(settings.fidelity.mesh)}, "mesh", {"geometry": "geometry"}),
         "imported_mesh": Stage("exchange.importing.steps.imported_mesh", source, "import of the mesh"),
         "imported_matrices": Stage(
             "exchange.importing.steps.imported_matrices", {**source, **reduction}, "import of the matrices"
         ),
         "reduced_model": Stage(
-            "rom.steps.reduced_model",
-            {"material": structure.elastic, "kept": structure.kept, **reduction},
-            "matrices and reduced model, the longest stage",
-            {"mesh": "mesh"},
+            "rom.steps.reduced_model", model, "matrices and reduced model, the longest stage", {"mesh": "mesh"}
         ),
         "contact_model": Stage(
-            "rom.steps.contact_model",
-            {"tip_line": lambda wildcards: wildcards.tip_line},
-            "contact model",
-            {"rom": "reduced_model"},
+            "rom.steps.contact_model", {"tip_line": lambda wildcards: wildcards.tip_line}, "contact model", from_rom
         ),
-        "stress_operator": Stage(
-            "stress.steps.stress_operator", {"material": structure.elastic}, "stress operator", {"rom": "reduced_model"}
-        ),
-        "campbell_of_blade": Stage(
-            "results.steps.campbell_of_blade",
-            {
-                "campbell": si_fields(settings.config.campbell),
-                "maximum_speed": settings.structure.maximum_speed_rad_s,
-                "tip_line": settings.structure.boundary.tip_line,
-                "provenance": made.structure,
-            },
-            "Campbell diagram",
-            {"rom": "reduced_model"},
-        ),
+        "stress_operator": Stage("stress.steps.stress_operator", {"material": structure.elastic}, "stress operator", from_rom),
+        "campbell_of_blade": Stage("results.steps.campbell_of_blade", diagram, "Campbell diagram", from_rom),
     }
 
 
 def sweep_stages(sweep: Sweep, made: Provenance) -> dict[str, Stage]:
     """Stages from a reduced model to the response over speed, by the names of their rules."""
     simulations, rounds = Simulations(sweep), Rounds(sweep)
+    highest = sweep.settings.structure.maximum_speed_rad_s
+    prepared = {"scene": simulations.plain_scene, "speed": highest, "choice": simulations.choice_of_scene}
+    refined = {"plan": rounds.refined_plan, "choice": rounds.refinement_choice, "yields": rounds.yields_of_round}
+    speeds = {"speeds": sweep.speeds, "stress_history_speeds": sweep.stress_history_speeds}
+    joined = {**speeds, "yield_stress": sweep.yield_stress, "provenance": made.sweep}
     return {
-        "prepare_time_integration": Stage(
-            "time_integration.speed_job.prepare",
-            {
-                "scene": simulations.plain_scene,
-                "speed": sweep.settings.structure.maximum_speed_rad_s,
-                "choice": simulations.choice_of_scene,
-            },
-        ),
-        "refine": Stage(
-            "adaptive.steps.refine",
-            {"plan": rounds.refined_plan, "choice": rounds.refinement_choice, "yields": rounds.yields_of_round},
-        ),
-        "response": Stage(
-            "results.steps.response",
-            {
-                "speeds": sweep.speeds,
-                "stress_history_speeds": sweep.stress_history_speeds,
-                "yield_stress": sweep.yield_stress,
-                "provenance": made.sweep,
-            },
-        ),
+        "prepare_time_integration": Stage("time_integration.speed_job.prepare", prepared),
+        "refine": Stage("adaptive.steps.refine", refined),
+        "response": Stage("results.steps.response", joined),
     }

@@ -53,10 +53,6 @@ class Structure:
         """Material of a blade with a mesh, as if it never yielded."""
         return to_plain(self._samples.blade(wildcards).elastic.material)
 
-    def base_reduction(self, wildcards: Any) -> dict[str, Any]:
-        """What a blade's reduced model is made of, with contact nodes as config.yaml has them."""
-        return to_plain(self.settings.reduction_choice(wildcards.blade))
-
     def kept(self, wildcards: Any) -> bool:
         """Whether the user's cache keeps a blade's reduced model: those of members are used once."""
         return member_of(wildcards) == NOMINAL
@@ -66,8 +62,8 @@ class Structure:
         return Attributes(location=location_of_contact(self.settings, wildcards.blade))
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
-        """What the reduced model is made of, with contact nodes on the line that the wildcard names."""
-        return to_plain(self.settings.reduction_choice(wildcards.blade, wildcards.tip_line))
+        """What the reduced model is made of, with contact nodes on the line of the wildcard, or as config.yaml has them."""
+        return to_plain(self.settings.reduction_choice(wildcards.blade, getattr(wildcards, "tip_line", None)))
 
     def whole_blade_model(self, wildcards: Any) -> str:
         """The model that recovers the whole blade, with the contact nodes of a scene, or else those of config.yaml."""

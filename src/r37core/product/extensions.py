@@ -30,18 +30,12 @@ EXTENSIONS: tuple[Extension, ...] = tuple(import_module(f"r37core.{folder}.exten
 
 def beside(settings: Settings, results: Path | None = None) -> Beside:
     """Samples of each extension that has some, by the folder of its results; `results`: in place of the workflow's."""
-    return Beside(
-        {extension.name: dict(extension.sampling.samples(settings)) for extension in EXTENSIONS if extension.sampling},
-        later={
-            extension.name: extension.later(settings, results or settings.results)
-            for extension in EXTENSIONS
-            if extension.later
-        },
-    )
+    known = {each.name: dict(each.sampling.samples(settings)) for each in EXTENSIONS if each.sampling}
+    later = {each.name: each.later(settings, results or settings.results) for each in EXTENSIONS if each.later}
+    return Beside(known, later)
 
 
 def sampling_of(settings: Settings) -> Sampling | None:
     """Sampling of the extension whose members this run has, if any. Tables have ranges of one sample."""
-    return next(
-        (extension.sampling for extension in EXTENSIONS if extension.sampling and extension.sampling.samples(settings)), None
-    )
+    several = (extension.sampling for extension in EXTENSIONS if extension.sampling)
+    return next((sampling for sampling in several if sampling.samples(settings)), None)

@@ -26,8 +26,6 @@ def blades_are_no_other_folders(settings: Settings) -> None:
             raise settings.documents.blades.refusal((family_of.get(name, name),), what, allowed)
 
 
-READER = Reader(
-    CONFIG, (blades_are_no_other_folders, *CHECKS, *(check for extension in EXTENSIONS for check in extension.checks))
-)
+READER = Reader(CONFIG, (blades_are_no_other_folders, *CHECKS, *(check for each in EXTENSIONS for check in each.checks)))
 
 read_settings, settings_of_run, load_settings = READER.read_settings, READER.settings_of_run, READER.load_settings

@@ -34,9 +34,7 @@ def _title_parts(wildcards: Any) -> dict[str, str]:
     return {name: values[name] for name in ("family", "blade", "scene") if name in values}
 
 
-CAPTIONS: dict[str, str] = captions.CAPTIONS | {
-    figure: text for extension in EXTENSIONS for figure, text in extension.captions.items()
-}
+CAPTIONS: dict[str, str] = captions.CAPTIONS | {figure: text for each in EXTENSIONS for figure, text in each.captions.items()}
 """Kind of figure -> text."""
 
 

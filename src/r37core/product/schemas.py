@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 from pydantic import BaseModel
 
@@ -25,12 +24,8 @@ def schemas() -> dict[str, str]:
     """File name -> content. `changes` is for files that lie on top of config.yaml, where nothing is required."""
     made = {name: model.model_json_schema() for name, model in MODELS.items()}
     made["changes"] = {key: value for key, value in made["config"].items() if key != "required"}
-    return {f"{name}.schema.json": _text(schema) for name, schema in made.items()}
-
-
-def _text(schema: dict[str, Any]) -> str:
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
-    return json.dumps(dialect | schema, indent=1, ensure_ascii=False) + "\n"
+    return {f"{name}.schema.json": json.dumps(dialect | made[name], indent=1, ensure_ascii=False) + "\n" for name in made}
 
 
 def main(folder: Path = Path("config/schemas")) -> None:

@@ -29,9 +29,7 @@ def tables(sweep: Sweep) -> list[str]:
 
 def everything(sweep: Sweep) -> dict[str, Wildcards]:
     """All of `targets`, and what is made on request alone."""
-    return targets(sweep) | {
-        pattern: files for extension in EXTENSIONS for pattern, files in extension.all_targets(sweep).items()
-    }
+    return targets(sweep) | {pattern: files for each in EXTENSIONS for pattern, files in each.all_targets(sweep).items()}
 
 
 def simulated(sweep: Sweep) -> list[str]:

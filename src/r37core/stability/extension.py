@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from r37core.plans.extension import Extension
 
-from .plan import can_be_run, targets
-from .section import SECTION
+from .plan import SECTION, can_be_run, targets
 
 EXTENSION = Extension(
     name="stability",
@@ -19,6 +18,6 @@ EXTENSION = Extension(
             "Unsound: a wrong number that no status reports."
         )
     },
-    closing="stability.closing.closing",
+    closing="stability.judging.closing",
     made_on_request=True,
 )

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from r37core.cases.runner import energy_share
+from r37core.results.closing import counted
 from r37core.results.measures import leading_edge, motion
+from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
 
 ACCURATE, DEGRADED, DIVERGED, REFUSED, UNSOUND = OUTCOMES = ("accurate", "degraded", "diverged", "refused", "unsound")
@@ -73,3 +76,10 @@ def unsound(response: xr.Dataset) -> str:
     if not np.all(violation < COMPLEMENTARITY_WITHIN):
         return f"contact conditions violated by {violation.max():.2g} of the gap"
     return ""
+
+
+def closing(results: Path) -> str:
+    """How many extremes have each outcome."""
+    outcomes = read_table(results / "stability.csv")["outcome"]
+    several = ", ".join(f"{number} {outcome}" for outcome, number in outcomes.value_counts().items())
+    return f"{counted(len(outcomes), 'extreme')}: {several}"

@@ -1,4 +1,4 @@
-"""The plan of the extremes: each with its own step and with half of it, at three neighbouring speeds."""
+"""stability of config.yaml, and the plan of the extremes: each with its own step and with half of it, at three speeds."""
 
 from __future__ import annotations
 
@@ -6,49 +6,43 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from r37core.cases.case import Case, Crossing, changed
-from r37core.cases.plan import (
-    base_of,
-    blade_of,
-    carries_coriolis,
-    integration_of_level,
-    is_meshed_here,
-    is_of_matrices,
-    kept_of,
-    model_of_level,
-    names_are_known,
-    scenes_of,
-)
+from pydantic import Field
+
+from r37core.cases.case import Case, Crossing
+from r37core.cases.plan import CasesSection, carries_coriolis, integration_of_level, kept_of, model_of_level, names_are_known
 from r37core.config import ConfigError, Settings, checked_scene, plain
+from r37core.config.families import changed_content
+from r37core.config.section import AllOrNames, ExtensionSection
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
-from .section import SECTION
-
 HALF = "__half_step"
 """End of the name of an extreme's second case."""
 
-_NEIGHBOURS = (0.997, 1.0, 1.003)
-"""Speeds that are run, as shares of an extreme's."""
 
-_AT_PEAK = 1.02
-"""Speed of most extremes as a share of the Campbell speed: contact stiffens the blade."""
+class StabilitySection(CasesSection):
+    """Runs at extremes of the parameters (snakemake stability)."""
+
+    extremes: AllOrNames = Field(default="all", description="Extremes, such as lobes, bars or mesh_nodes")
+
+
+SECTION = ExtensionSection("stability", StabilitySection, StabilitySection())
 
 
 @dataclass(frozen=True)
 class Extreme:
     """One case. `changes`: dotted path in the scene's entry of scenes.yaml -> value; the rest: of integration and model.
 
-    `speed`: as a share of the Campbell speed; `share_of_limit`: time step as a share of the blade's stability limit under
-    central differences, and `integrator`, in place of the level's; `model`: fields of ModelChoice.
+    `speed`: share of the Campbell speed, above 1 as contact stiffens the blade; `share_of_limit`: time step over the blade's
+    stability limit under central differences, and `integrator`, in place of the level's; `model`: fields of ModelChoice.
     """
 
     what: str
     value: str
     scene: str
     changes: Mapping[str, Any] = field(default_factory=dict)
-    speed: float = _AT_PEAK
+    speed: float = 1.02
     revolutions: int = 60
     share_of_limit: float | None = None
     integrator: str | None = None
@@ -100,23 +94,23 @@ EXTREMES: Mapping[str, tuple[Sequence[float], Fields]] = {
 
 
 def extremes(settings: Settings) -> list[Extreme]:
-    """All extremes of this run, in each of its scenes that they can change; none without a blade or a scene."""
+    """All extremes of this run, in each of its scenes that has what they change (a lining, friction); none without a blade."""
     section = settings.section(SECTION)
-    if blade_of(settings, section) is None:
+    if section.blade_of(settings) is None:
         return []
     chosen = EXTREMES if section.extremes == "all" else section.extremes
-    several = [
+    several = (
         Extreme(what, f"{value:g}", scene, **EXTREMES[what][1](value))
         for what in chosen
         for value in EXTREMES[what][0]
-        for scene in scenes_of(settings, section)
+        for scene in section.scenes_of(settings)
+    )
+    entries = {name: plain(entry) for name, entry in settings.scene_entries.items()}
+    return [
+        extreme
+        for extreme in several
+        if all("." not in path or path.split(".")[0] in entries[extreme.scene] for path in extreme.changes)
     ]
-    return [extreme for extreme in several if _has_what_changes(plain(settings.scene_entries[extreme.scene]), extreme)]
-
-
-def _has_what_changes(entry: Mapping[str, Any], extreme: Extreme) -> bool:
-    """Whether a scene has the parts that an extreme changes: a lining, friction."""
-    return all("." not in path or path.split(".")[0] in entry for path in extreme.changes)
 
 
 def cases(settings: Settings) -> dict[str, Case]:
@@ -130,11 +124,11 @@ def cases(settings: Settings) -> dict[str, Case]:
 
 def _case(settings: Settings, extreme: Extreme) -> Case:
     section, entry = settings.section(SECTION), plain(settings.scene_entries[extreme.scene])
-    blade, base = blade_of(settings, section), base_of(settings, section)
+    blade, base = section.blade_of(settings), section.base_of(settings)
     assert blade is not None
     scene, refused = None, _refusal(settings, blade, extreme)
     try:
-        scene = None if refused else checked_scene(changed(entry, _scene_case(entry, extreme.changes)))
+        scene = None if refused else checked_scene(_changed(entry, extreme.changes))
     except ConfigError as error:
         refused = str(error)
     choice = replace(integration_of_level(settings, base, scene), revolutions=extreme.revolutions)
@@ -144,7 +138,7 @@ def _case(settings: Settings, extreme: Extreme) -> Case:
         model if isinstance(model, str) else replace(model, **extreme.model),
         scene,
         choice if extreme.integrator is None else replace(choice, integrator=extreme.integrator),
-        speeds=tuple(extreme.speed * share for share in _NEIGHBOURS),
+        speeds=tuple(extreme.speed * share for share in (0.997, 1.0, 1.003)),
         results=("energy",),
         material=settings.blades[blade].material,
         kept=kept_of(settings.levels[base]),
@@ -156,20 +150,22 @@ def _case(settings: Settings, extreme: Extreme) -> Case:
 
 def _refusal(settings: Settings, blade: str, extreme: Extreme) -> str:
     """Why a blade cannot have an extreme, empty where it can."""
-    if extreme.model and is_of_matrices(settings, blade):
+    if extreme.model and settings.blades[blade].of_matrices:
         return f"{blade} is given by matrices"
-    if "nodes" in extreme.model and not is_meshed_here(settings, blade):
+    if "nodes" in extreme.model and not settings.blades[blade].has_profiles:
         return f"{blade} is given by a mesh"
-    choice = integration_of_level(settings, base_of(settings, settings.section(SECTION)), None)
+    choice = integration_of_level(settings, settings.section(SECTION).base_of(settings), None)
     if not carries_coriolis(settings, replace(choice, integrator=extreme.integrator or choice.integrator)):
         return f"{CENTRAL_DIFFERENCE} does not carry the Coriolis force"
     return ""
 
 
-def _scene_case(entry: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """The changes, of the cold clearance in a scene that has one."""
+def _changed(entry: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """A copy of a scene's entry with the changes; that of the clearance is of the cold one in a scene that has one."""
     cold = "casing.clearance.cold_m" if "clearance" in entry["casing"] else "casing.clearance_m"
-    return {cold if path == "casing.clearance_m" else path: value for path, value in changes.items()}
+    for path, value in changes.items():
+        entry = changed_content(entry, (cold if path == "casing.clearance_m" else path).split("."), value)
+    return entry
 
 
 def values(settings: Settings) -> list[dict[str, str]]:
@@ -183,7 +179,7 @@ def values(settings: Settings) -> list[dict[str, str]]:
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The table and the figure."""
     section, settings = sweep.settings.section(SECTION), sweep.settings
-    made: paths.Wildcards = [{}] if blade_of(settings, section) and scenes_of(settings, section) else []
+    made: paths.Wildcards = [{}] if section.blade_of(settings) and section.scenes_of(settings) else []
     return {"<results>/stability.csv": made, **paths.pictures("stability", made)}
 
 

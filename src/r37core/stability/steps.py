@@ -18,8 +18,5 @@ COLUMNS = ("what", "value", "scene", "outcome", "detail", "time_step_s", "rms_m"
 def report(input: Any, output: Any, params: Any) -> None:
     """Judge every extreme. Inputs: cases, their responses. Output: table (csv). Params: cases, their names; extremes."""
     files = dict(zip(params.cases, as_list(input.cases), strict=True))
-    rows = [
-        {**extreme, **judge(read_dataset(files[extreme["case"]]), read_dataset(files[extreme["half"]]))}
-        for extreme in params.extremes
-    ]
+    rows = [{**each, **judge(read_dataset(files[each["case"]]), read_dataset(files[each["half"]]))} for each in params.extremes]
     write_table(pd.DataFrame(rows, columns=list(COLUMNS)), output.table, digits=6)

@@ -20,8 +20,6 @@ MAXIMA = {"peak_normal": "m", "max_von_mises": "Pa"}
 QUANTITIES = {**CONVERGING, **MAXIMA, "max_wear": "m"}
 """What is compared of every run, name -> unit; stresses over the last revolution, the wear at the end."""
 
-_HIGH = 0.9
-
 COSTS = {"cpu_s": "s", "wall_s": "s", "bytes_written": "1", "peak_memory_bytes": "1"}
 COSTS_OF_MODEL = ("model_cpu_s", "model_peak_memory_bytes")
 
@@ -72,7 +70,7 @@ def _values(responses: Mapping[str, xr.Dataset], places: Mapping[str, Sequence[i
             response = response.isel(speed=rows)
             edge = leading_edge(response)
             if "max_von_mises_of_instant" in edge:
-                edge = edge.assign(high_von_mises=edge["max_von_mises_of_instant"].quantile(_HIGH, "instant"))
+                edge = edge.assign(high_von_mises=edge["max_von_mises_of_instant"].quantile(0.9, "instant"))
             for quantity in {*QUANTITIES, "status"} & set(map(str, edge.data_vars)):
                 data[quantity][index] = edge[quantity].values
             data["energy_residual"][index] = energy_share(response)

@@ -27,7 +27,7 @@ EXTENSION = Extension(
     checks=(can_be_run,),
     targets=targets,
     captions=_CAPTIONS,
-    closing="tradeoff.closing.closing",
+    closing="tradeoff.tables.closing",
     look_at="<results>/figures/tradeoff.png",
     made_on_request=True,
 )

@@ -22,9 +22,8 @@ def draw_parameter(table: pd.DataFrame, parameter: str) -> Figure:
     """Errors at the peak and the CPU time per run over one parameter's values, one column per scene."""
     varied = table[table["parameter"] == parameter]
     scenes = list(varied["scene"].unique())
-    figure, panels = plt.subplots(
-        2, len(scenes), figsize=(0.5 * style.PAGE * len(scenes), 4.0), sharex=True, sharey="row", squeeze=False
-    )
+    size = (0.5 * style.PAGE * len(scenes), 4.0)
+    figure, panels = plt.subplots(2, len(scenes), figsize=size, sharex=True, sharey="row", squeeze=False)
     for scene, errors, costs in zip(scenes, *panels, strict=True):
         cases = varied[varied["scene"] == scene]
         labels = [str(value) for value in cases["value"]]

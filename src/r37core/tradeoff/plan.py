@@ -9,18 +9,7 @@ from typing import Any
 import numpy as np
 
 from r37core.cases.case import Case, Crossing
-from r37core.cases.plan import (
-    base_of,
-    blade_of,
-    carries_coriolis,
-    integration_of_level,
-    is_meshed_here,
-    is_of_matrices,
-    kept_of,
-    model_of_level,
-    names_are_known,
-    scenes_of,
-)
+from r37core.cases.plan import carries_coriolis, integration_of_level, kept_of, model_of_level, names_are_known
 from r37core.config import Settings
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
@@ -75,15 +64,15 @@ def cases(settings: Settings) -> dict[str, Case]:
         f"{name}/{_text(value)}__{scene}": _case(settings, name, _text(value), scene)
         for name, entry in varied(settings).items()
         for value in entry.values
-        for scene in scenes_of(settings, settings.section(SECTION))
+        for scene in settings.section(SECTION).scenes_of(settings)
     }
 
 
 def _case(settings: Settings, parameter: str, value: str, scene: str) -> Case:
     section, chosen = settings.section(SECTION), settings.scenes[scene]
-    blade, level = blade_of(settings, section), value if parameter == LEVEL else base_of(settings, section)
+    blade, level = section.blade_of(settings), value if parameter == LEVEL else section.base_of(settings)
     assert blade is not None
-    stress = () if is_of_matrices(settings, blade) else ("stress", "instants")
+    stress = () if settings.blades[blade].of_matrices else ("stress", "instants")
     case = Case(
         blade,
         model_of_level(settings, blade, level),
@@ -115,7 +104,7 @@ def _every_share(section: TradeoffSection) -> list[float]:
 def varied(settings: Settings) -> dict[str, Parameter[Any]]:
     """The parameters that are varied, with the values that can be run; none without a blade or a scene."""
     section = settings.section(SECTION)
-    blade, scenes = blade_of(settings, section), scenes_of(settings, section)
+    blade, scenes = section.blade_of(settings), section.scenes_of(settings)
     if blade is None or not scenes:
         return {}
     entries = {}
@@ -138,9 +127,9 @@ def _wanted(settings: Settings) -> dict[str, Parameter[Any]]:
 
 def _given(settings: Settings, blade: str) -> tuple[str, ...]:
     """Parameters that a blade of another program has as they are."""
-    if is_of_matrices(settings, blade):
+    if settings.blades[blade].of_matrices:
         return (*_OF_THE_MESH, *_OF_THE_MODEL)
-    return () if is_meshed_here(settings, blade) else _OF_THE_MESH
+    return () if settings.blades[blade].has_profiles else _OF_THE_MESH
 
 
 def _is_possible(settings: Settings, case: Case) -> bool:
@@ -152,12 +141,12 @@ def _is_possible(settings: Settings, case: Case) -> bool:
 
 def left_out(settings: Settings) -> str:
     """Which parameters are wanted and not varied, and why; empty where all of them are."""
-    blade = blade_of(settings, settings.section(SECTION))
+    blade = settings.section(SECTION).blade_of(settings)
     missing = [name for name in _wanted(settings) if name not in varied(settings)]
     if blade is None or not missing:
         return ""
     of_program = _given(settings, blade)
-    kind = "matrices" if is_of_matrices(settings, blade) else "a mesh"
+    kind = "matrices" if settings.blades[blade].of_matrices else "a mesh"
     lines = [
         (f"because {blade} is given by {kind}", [name for name in missing if name in of_program]),
         ("because fewer than two of their values can be run", [name for name in missing if name not in of_program]),
@@ -170,8 +159,8 @@ def values(settings: Settings) -> dict[str, Any]:
     section = settings.section(SECTION)
     every = _every_share(section)
     return {
-        "blade": blade_of(settings, section),
-        "base_level": base_of(settings, section),
+        "blade": section.blade_of(settings),
+        "base_level": section.base_of(settings),
         "places": {name: [every.index(share) for share in shares] for name, shares in shares_of(section).items()},
         "references": {name: _text(entry.reference) for name, entry in varied(settings).items()},
         "tolerance": settings.config.tolerance,
@@ -204,7 +193,7 @@ def can_be_run(settings: Settings) -> None:
     names_are_known(settings, "tradeoff", section, wanted[LEVEL].values if LEVEL in wanted else [])
     if "stress_instants" not in wanted:
         return
-    level = base_of(settings, section)
+    level = section.base_of(settings)
     samples = settings.levels[level].time_integration.samples_per_revolution
     for number, instants in enumerate(wanted["stress_instants"].values):
         if samples % instants:

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Generic, Literal, TypeVar
 
 from pydantic import Field, model_validator
 
-from r37core.cases.section import CasesSection
+from r37core.cases.plan import CasesSection
 from r37core.config.fidelity import TimeStep
 from r37core.config.section import ExtensionSection, LeftOut, Name, Section, Unique, left_out, refused
 

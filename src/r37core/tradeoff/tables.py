@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from r37core.config.fidelity import recommended_level
+from r37core.dataset_file import read_dataset
+from r37core.results.table_file import read_table
 
 from .errors import CONVERGING, COSTS, COSTS_OF_MODEL, MAXIMA, QUANTITIES
 from .plan import LEVEL
@@ -42,14 +45,8 @@ def _rows(together: xr.Dataset, references: Mapping[str, str]) -> Iterator[dict[
 
 
 LEVEL_COLUMNS = (
-    "level",
-    "reference",
-    "error",
-    "error_of_largest_values",
-    "cpu_s_per_run",
-    "model_cpu_s",
-    "tolerance",
-    "recommended",
+    *("level", "reference", "error", "error_of_largest_values"),
+    *("cpu_s_per_run", "model_cpu_s", "tolerance", "recommended"),
 )
 
 
@@ -77,3 +74,22 @@ def level_table(table: pd.DataFrame, tolerance: float) -> pd.DataFrame:
 def level_error(level: pd.DataFrame, quantities: Mapping[str, str] = CONVERGING) -> float:
     """Error of a fidelity level: the largest at the peak, over scenes and `quantities`."""
     return float(level[[f"error_{name}" for name in quantities]].max(axis=None))
+
+
+def closing(results: Path) -> str:
+    """The recommended level, and which parameters were left out."""
+    levels, attributes = read_table(results / "tradeoff_levels.csv"), read_dataset(results / "tradeoff.nc").attrs
+    said = ["no levels were compared"] if levels.empty else [_advice(levels)]
+    if attributes["left_out"]:
+        said.append(f"left out: {attributes['left_out']}")
+    return "; ".join(said)
+
+
+def _advice(levels: pd.DataFrame) -> str:
+    best = levels[levels["recommended"] == "yes"]
+    within = f"within the tolerance of {100 * levels['tolerance'].iloc[0]:g}%"
+    if best.empty:
+        nearest = f"{100 * levels['error'].min():.1f}%"
+        return f"no level is {within}: the best differs by {nearest} from {levels['reference'].iloc[0]}"
+    row = best.iloc[0]
+    return f"cheapest level {within} of {row['reference']}: {row['level']}, {100 * row['error']:.1f}%"
