@@ -7,8 +7,6 @@ register with AVX-512, two with AVX2, four with SSE2 or NEON. Made with numba's 
 Imported only where something is compiled, never by a simulation job that finds it compiled.
 """
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """The blade as a map from (chord, span, thickness) to space."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

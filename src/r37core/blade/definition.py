@@ -1,7 +1,5 @@
 """A blade's definition: profiles plus sweep and lean, and the blade built from it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

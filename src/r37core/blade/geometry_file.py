@@ -1,7 +1,5 @@
 """geometry.nc: the whole shape of one blade, and what was derived on the way to it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path

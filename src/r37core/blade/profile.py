@@ -4,8 +4,6 @@ Source: section 2 of the benchmark; Piollet, Nyssen, Batailly, "Blade/casing rub
 engines: numerical benchmark and design guidelines based on NASA rotor 37".
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

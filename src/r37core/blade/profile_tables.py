@@ -1,7 +1,5 @@
 """Profile and stacking tables: reading them, and checking them before any work starts."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

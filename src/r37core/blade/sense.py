@@ -6,8 +6,6 @@ leading edge is ahead. The pressure side is the concave one. It looks along the 
 turbine.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): the shape of a blade."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from r37core.plain import from_plain

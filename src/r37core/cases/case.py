@@ -1,7 +1,5 @@
 """A case: what one job runs, as plain data. Light: the workflow imports it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The plan of the cases of an extension: keys of its section, files for its rules, and what they take from the settings."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from typing import Annotated, Any

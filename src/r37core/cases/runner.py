@@ -1,7 +1,5 @@
 """The runner of cases: a case in, an ordinary response.nc out, with what it cost."""
 
-from __future__ import annotations
-
 import math
 import resource
 import tempfile

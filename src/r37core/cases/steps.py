@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): models of cases, and the cases."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What all kinds of blades have: a material, and a region where stress is recovered."""
 
-from __future__ import annotations
-
 from typing import Literal, Self
 
 from pydantic import model_validator

@@ -1,7 +1,5 @@
 """A blade or a scene with other values of some numbers, as a member of a sample has it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace

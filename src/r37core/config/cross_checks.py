@@ -4,8 +4,6 @@ Each of `CHECKS` raises ConfigError with the place of the value to blame. All of
 refused meets the same refusal in `Settings`, and that is told once.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -4,8 +4,6 @@ A dataclass declares its keys (`r37core.declared`). `declared_by` puts them into
 dataclass of a section.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import MISSING, fields

@@ -1,7 +1,5 @@
 """Families of designs: one entry of blades.yaml with `vary` or `designs` is many blades."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Iterable, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Messages from pydantic's errors: the key, what was found and what is allowed."""
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Iterable, Mapping
 from functools import cache, reduce

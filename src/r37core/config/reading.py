@@ -1,7 +1,5 @@
 """Reading of config.yaml and the files it names: checked settings, or one refusal of all that is wrong."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a run of the pipeline says before it starts, and at its end."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for

@@ -1,7 +1,5 @@
 """What the models of all configuration files share: strictness, and the kinds of values."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Keys of blades.yaml that change the profiles: a number, its values at hub and tip, or a table over the span."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 

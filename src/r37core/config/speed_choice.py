@@ -1,7 +1,5 @@
 """Speeds of a run: how many at most, and how fast."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What a finished run says: what was found, where to look, how long it took."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Iterable
 from itertools import product

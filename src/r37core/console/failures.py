@@ -1,7 +1,5 @@
 """What went wrong in the jobs of a run, or was warned of, kept so that the run can end with it. Light: every job imports it."""
 
-from __future__ import annotations
-
 import base64
 import contextlib
 import errno

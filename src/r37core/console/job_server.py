@@ -8,8 +8,6 @@ the owner can reach them, because the sockets lie in a folder of mode 0700. The 
 Snakemake holds.
 """
 
-from __future__ import annotations
-
 import ast
 import atexit
 import contextlib

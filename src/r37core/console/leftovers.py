@@ -1,7 +1,5 @@
 """Results that the configuration no longer asks for: `python -m r37core.console.leftovers` lists or removes them."""
 
-from __future__ import annotations
-
 import argparse
 import re
 import shutil

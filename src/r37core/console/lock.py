@@ -4,8 +4,6 @@ Every run leaves a record of its process *before* Snakemake takes its lock, and 
 run's where there are records and none is of a process that lives, at whatever moment the run was killed.
 """
 
-from __future__ import annotations
-
 import atexit
 import os
 import shutil

@@ -5,8 +5,6 @@ from the log file and from a dry run too. A plugin of `--logger` must be a top-l
 with its colours, must stand in every profile, and where its package is not found a run ends with Snakemake's list of options.
 """
 
-from __future__ import annotations
-
 import contextlib
 import logging
 import sys

@@ -1,7 +1,5 @@
 """Snakemake's report of a finished run, with the configuration of that run: `python -m r37core.console.report RESULTS`."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -4,8 +4,6 @@ Only this package knows Snakemake's inside, by the names that `SNAKEMAKE` has; `
 there. Nothing is imported from it: the Snakefile hands over its objects.
 """
 
-from __future__ import annotations
-
 import atexit
 import contextlib
 import logging

@@ -1,7 +1,5 @@
 """Shape of the casing, as the distance between undeformed blade tip and casing or lining."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

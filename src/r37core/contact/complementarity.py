@@ -5,8 +5,6 @@ the casing pushes, and room to work in. `columns[j, i]`: opening of gap i per un
 eight nodes to an integer.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from r37core.alignment import LANES

@@ -5,8 +5,6 @@ Of a ring they follow from its formula (r37core.contact.ring) for any number n o
     (omega_n/n)^2 rho A = (D (x - 1)^2 + k_r + k_t/x)/(x + 1).
 """
 
-from __future__ import annotations
-
 from bisect import bisect_left
 from collections.abc import Iterable
 from dataclasses import dataclass, replace

@@ -3,8 +3,6 @@
 Written for numbers or arrays alike; only the law of the lining, which branches, takes plain numbers.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

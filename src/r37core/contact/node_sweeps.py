@@ -8,8 +8,6 @@ Stone, The Linear Complementarity Problem, section 5.2), relaxed where G is far 
 nearly diagonal in the shipped scenes, so that a sweep leaves about a tenth of the error.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from r37core.alignment import LANES

@@ -8,8 +8,6 @@ At the angle theta a mode of n nodal diameters displaces the casing by
 q_c and q_s are two oscillators alike. A ring that bends without being stretched has dv/dtheta + w = 0: tangential = radial/n.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated

@@ -1,7 +1,5 @@
 """A scene: what the blade meets. Plain numbers only, so that its repr tells whether it was edited."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """The cost of a sweep as an extension."""
 
-from __future__ import annotations
-
 from r37core.plans.extension import Extension
 
 from .plan import SECTION, targets

@@ -1,7 +1,5 @@
 """The figure of the estimate."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """estimate of config.yaml, and its plan: some of the speeds of each blade and scene, evenly spread."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What a whole sweep will cost, projected from a sample of its runs."""
 
-from __future__ import annotations
-
 import os
 import statistics
 import subprocess

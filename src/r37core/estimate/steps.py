@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): the cost of the sweep."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from r37core.dataset_file import read_dataset

@@ -1,7 +1,5 @@
 """Results for other programs: modes and the worst stress on the mesh, as .vtu with a .pvd list or as .med."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

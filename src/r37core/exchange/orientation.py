@@ -1,7 +1,5 @@
 """Unit and axes of a file, and the way to the blade's frame and back."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

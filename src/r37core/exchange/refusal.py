@@ -1,7 +1,5 @@
 """What is raised and said about meshes and matrices from other programs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 

@@ -1,7 +1,5 @@
 """STEP file of a blade's surface: six B-spline faces, written by gmsh's OpenCASCADE."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,5 @@
 """A blade's mesh written in the formats of other programs, with its root and tip as named surfaces."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import meshio

@@ -1,7 +1,5 @@
 """A blade's matrices as Matrix Market, in the layout that matrices_in reads, and the Coriolis matrix, which it does not."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): results for other programs."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """An Abaqus/CalculiX deck of a blade, to check us in another program."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from r37core.io import atomic_write

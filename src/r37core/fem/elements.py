@@ -8,8 +8,6 @@ An element's shape functions are the polynomials spanned by a set of monomials t
 hexahedron), so shape and monomials define an element and no element has formulas of its own.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Material of the blade."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

@@ -4,8 +4,6 @@ The rotor axis is z. Centrifugal terms are per Omega^2: in the linear theory the
 stiffness, is proportional to the square of the speed.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

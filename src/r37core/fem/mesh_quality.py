@@ -1,7 +1,5 @@
 """Mesh quality: the scaled Jacobian at the integration points."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import combinations
 

@@ -1,7 +1,5 @@
 """Quadrature on tetrahedra, wedges and boxes: pairs of local points, shape (n, 3), and weights, shape (n,)."""
 
-from __future__ import annotations
-
 from itertools import permutations, product
 
 import numpy as np

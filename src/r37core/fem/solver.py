@@ -1,7 +1,5 @@
 """Sparse direct solution and the lowest modes of the clamped blade."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

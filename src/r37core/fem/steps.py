@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): a blade's mesh, and the same as a deck for Abaqus."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from r37core.blade.geometry_file import read_geometry

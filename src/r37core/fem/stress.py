@@ -1,7 +1,5 @@
 """Linear elastic stress from nodal displacements."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .assembly import Blocks, typed_blocks

@@ -1,7 +1,5 @@
 """The outer surface of a mesh: its faces, patches of them, and the loops round a patch."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Shape functions along edges and on faces of a mesh: what spreads a distributed load consistently over nodes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A blade's mesh as an object: nodes, elements of one or more types, where each node lies on the blade, named node sets."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

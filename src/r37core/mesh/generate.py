@@ -1,7 +1,5 @@
 """Wedge mesh of a blade: gmsh meshes the (chord, span) rectangle and extrudes it; the nodes are mapped onto the blade."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Mesh files: .vtu, which later stages and ParaView read."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

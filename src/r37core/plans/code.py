@@ -1,7 +1,5 @@
 """Hashes of the code that a rule's script runs, so that a rule runs again when that code changes and only then."""
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import json

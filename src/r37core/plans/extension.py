@@ -1,7 +1,5 @@
 """An extension: what one capability adds to the pipeline, as plain data. `r37core.product.extensions` names all of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path

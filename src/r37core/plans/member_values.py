@@ -3,8 +3,6 @@
 Light but for `sobol_points`: the workflow imports it whether there are tolerances or not.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 

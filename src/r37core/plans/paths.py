@@ -4,8 +4,6 @@
 is empty for the nominal sweep, and `folder/name/` for what a member of a sample has in its place (samples.py).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from typing import Any
 

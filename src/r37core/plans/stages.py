@@ -1,7 +1,5 @@
 """Stages that rules and single calls from Python share: what does each, and with which parameters."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """The plan of the structure: what the rules from shape, or import, to Campbell diagram compute with."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,5 @@
 """The plan of the sweep: simulations, rounds of refinement, and the datasets that are joined of them."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

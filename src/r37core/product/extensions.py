@@ -1,7 +1,5 @@
 """The registry of the extensions: a capability is one folder of this package, one file of rules, and one line here."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from pathlib import Path
 

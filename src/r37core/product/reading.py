@@ -1,7 +1,5 @@
 """Configuration with the sections and checks of all extensions."""
 
-from __future__ import annotations
-
 from r37core.config import Settings
 from r37core.config.config_file import Config, config_model
 from r37core.config.cross_checks import CHECKS

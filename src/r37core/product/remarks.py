@@ -1,7 +1,5 @@
 """What a run says of the pipeline and its extensions: remarks before it starts, refused targets, and its last lines."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Collection
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """What the report (snakemake --report) shows: categories by blade, then scene, labels and captions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -3,8 +3,6 @@
 `python -m r37core.product.schemas` writes them.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

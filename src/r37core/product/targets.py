@@ -1,7 +1,5 @@
 """Files that the rule all_blades makes where the configuration asks for it, and what extensions add to it and the explorer."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

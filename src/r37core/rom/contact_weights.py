@@ -10,8 +10,6 @@ patches share the tip without gap or overlap. Sources: the consistent loads of Z
 Method; weighted means as in mortar contact, B. I. Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import scipy.sparse as sp
 

@@ -4,8 +4,6 @@ Sources: R. R. Craig and M. C. C. Bampton, AIAA Journal 6 (1968) 1313; A. Sternc
 of quasi-cyclic disks with variable rotation speeds" (2006), for the combination of bases computed at several speeds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

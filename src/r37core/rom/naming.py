@@ -1,7 +1,5 @@
 """Ideal bending and torsion shapes, by which the first modes get their names."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from r37core.mesh.blade_mesh import BladeMesh

@@ -1,7 +1,5 @@
 """Building the reduced model of a blade from its mesh and matrices."""
 
-from __future__ import annotations
-
 import numpy as np
 import scipy.sparse as sp
 

@@ -1,7 +1,5 @@
 """Choices of a reduced model: its boundary nodes, basis and nodes of stress. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """rom.nc: the reduced model of one blade."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

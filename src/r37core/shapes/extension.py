@@ -1,7 +1,5 @@
 """Shapes that move as an extension: which blades and scenes have them, and which files are made."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -3,8 +3,6 @@
 Only what this needs of glTF 2.0 (Khronos Group, ISO/IEC 12113:2022); no library that we found writes animated morph targets.
 """
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Mapping

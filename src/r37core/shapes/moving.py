@@ -1,7 +1,5 @@
 """Shapes to look at: modes, and the worst instant of interactions, as .vtu files and as .glb files that move."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Final

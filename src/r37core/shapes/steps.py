@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): shapes that move."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Stills of shapes: modes, and the worst instants of interactions, rendered off screen, with letters and colour bars beside."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Mapping, Sequence
 from math import ceil

@@ -1,7 +1,5 @@
 """signals.nc: signals of one blade and scene, and of all."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path

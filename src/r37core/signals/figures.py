@@ -1,7 +1,5 @@
 """Time signals over engine order: spectrograms, and tracks of single orders beside what tip timing tells."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import matplotlib.pyplot as plt

@@ -1,7 +1,5 @@
 """Place and direction of a strain gauge. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

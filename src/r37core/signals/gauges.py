@@ -1,7 +1,5 @@
 """Virtual strain gauges: the strain at a place on the blade's surface, in one direction of the surface."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

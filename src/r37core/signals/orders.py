@@ -1,7 +1,5 @@
 """Signals over engine order and time: spectrograms, and the amplitude of single orders."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import boxcar, hann

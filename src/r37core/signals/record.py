@@ -1,7 +1,5 @@
 """The time signals of one run: both ends of the tip and strain gauges, at every sample."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

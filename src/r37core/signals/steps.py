@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): time signals of single runs."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from r37core.contact.scene import Scene

@@ -9,8 +9,6 @@ so that t - t0 = u(t)/(Omega R), and R Omega (t - t0) is the tangential displace
 A survey of blade tip-timing measurement techniques for turbomachinery vibration, J. Eng. Gas Turbines Power 120 (1998) 784-791.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.interpolate import CubicSpline
 

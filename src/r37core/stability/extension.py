@@ -1,7 +1,5 @@
 """The extremes of the configuration as an extension."""
 
-from __future__ import annotations
-
 from r37core.plans.extension import Extension
 
 from .plan import SECTION, can_be_run, targets

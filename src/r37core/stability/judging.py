@@ -1,7 +1,5 @@
 """What happens at extremes: every case is a real run, judged against itself with half the step."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """stability of config.yaml, and the plan of the extremes: each with its own step and with half of it, at three speeds."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any

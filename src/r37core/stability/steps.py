@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): the outcomes of the extremes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pandas as pd

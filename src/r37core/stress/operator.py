@@ -1,7 +1,5 @@
 """Stress on the submesh from reduced coordinates. Light: the simulation jobs import it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path

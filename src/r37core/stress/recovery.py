@@ -1,7 +1,5 @@
 """The stress operator of a reduced model."""
 
-from __future__ import annotations
-
 from r37core.fem.material import Material
 from r37core.fem.stress import nodal_stress
 from r37core.rom.reduced_model import ReducedModel

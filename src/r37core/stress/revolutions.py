@@ -3,8 +3,6 @@
 All nodes at all instants of a hundred revolutions would take ten times as long as the simulation.
 """
 
-from __future__ import annotations
-
 from functools import reduce
 
 import numpy as np

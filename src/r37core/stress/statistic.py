@@ -3,8 +3,6 @@
 Apart from what simulations import: a changed statistic runs none of them again.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 HIGH = 0.9

@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): the stress per motion of a blade."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from r37core.fem.material import Material

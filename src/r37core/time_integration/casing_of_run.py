@@ -1,7 +1,5 @@
 """The casing of a run as its contact nodes meet it: its axes, clearance, own modes, and the bars of its lining."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """The room of the contact nodes: the round casing's clearance at each speed, and whether a run can begin with it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from r37core.contact.casing import approach

@@ -1,7 +1,5 @@
 """Linear operators of a run: from the motion of all modes to its contact nodes, samples and snapshots, and from forces back."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

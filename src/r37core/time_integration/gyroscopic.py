@@ -9,8 +9,6 @@ eigenvectors orthonormal (Meirovitch, J. Appl. Mech. 42 (1975) 446-450). So
 Damping makes i w_j the root of lambda^2 + 2 xi w_j lambda + w_j^2, as of every real mode without the coupling.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Numbers of a time integration."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Numbers that the plan of jumps over free flight and the steps that take them agree on."""
 
-from __future__ import annotations
-
 COARSE = 8
 """Steps between which a jump may begin; the casing's nearest position is kept for each such interval."""
 

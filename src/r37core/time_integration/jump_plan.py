@@ -3,8 +3,6 @@
 time_integration.compiled.jump_steps says how a run uses them.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

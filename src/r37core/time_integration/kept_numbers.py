@@ -1,7 +1,5 @@
 """Results kept of a run at one speed: numbers of its samples, snapshots and wear, as its file has them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

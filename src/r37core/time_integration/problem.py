@@ -1,7 +1,5 @@
 """Problem of a simulation: all that does not change while it runs, made once; both engines read it here."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """The blades of a rotor as problems of their own: what mistuning and length change of each."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

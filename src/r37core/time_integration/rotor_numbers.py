@@ -1,7 +1,5 @@
 """Numbers of each blade of a rotor, beside those of all its blades together."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.fft import rfft
 

@@ -8,8 +8,6 @@ single one; it starts with its first sample after time 0, at rest, where the cas
 In an elastic casing that is not so: all blades move it at once. There all go step by step together, each at its angle.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Segments of constant speed: what of a problem changes with the speed while its modes are held."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """speed_*.npz: the file of one blade, scene and speed. Small, and quick to read and write: there are thousands."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Simulation of a sweep as a job: from a contact model and a task, as JSON, to its file."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Callable

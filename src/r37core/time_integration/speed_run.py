@@ -1,7 +1,5 @@
 """Run at one speed in one scene, from model to the small set of numbers that its file keeps."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """State of a run, which an engine changes, and the record that a part of it leaves behind."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -7,8 +7,6 @@ Complementarity Problem, theorems 3.1.6 and 3.3.7). Strong friction makes it ind
 Brogliato, Eur. J. Mech. A 18 (1999) 653-677); so do static modes that are too few to move every contact node by itself.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

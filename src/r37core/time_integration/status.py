@@ -1,7 +1,5 @@
 """Status of a run: how it ended."""
 
-from __future__ import annotations
-
 from enum import IntEnum
 
 

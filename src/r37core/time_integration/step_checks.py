@@ -1,7 +1,5 @@
 """Checks that the step of a run is below its limits, of the free blade and of the pressed one."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

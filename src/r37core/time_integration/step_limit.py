@@ -1,7 +1,5 @@
 """Time steps that a simulation bears: the limits of stability, each with the recursion it is derived from."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from r37core.contact.scene import Scene

@@ -1,7 +1,5 @@
 """The blade of a run: which of its modes are stepped, and how they move between contacts."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Steps, samples and snapshots of a run at constant speed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Errors of all cases against the reference value of their parameter, and their costs, as one dataset."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The trade-off of accuracy and cost as an extension."""
 
-from __future__ import annotations
-
 from r37core.plans.extension import Extension
 
 from .plan import can_be_run, targets

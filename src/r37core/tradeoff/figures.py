@@ -1,7 +1,5 @@
 """The figures of the trade-off."""
 
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd

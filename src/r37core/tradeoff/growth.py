@@ -1,7 +1,5 @@
 """How costs grow with the parameters."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 

@@ -1,7 +1,5 @@
 """The plan of the trade-off: one case for each value of each parameter in each scene."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): dataset and tables of the trade-off."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from r37core.dataset_file import read_dataset, write_dataset

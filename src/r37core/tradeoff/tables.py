@@ -1,7 +1,5 @@
 """The tables of the trade-off: every value of every parameter, and the fidelity levels."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 

@@ -4,8 +4,6 @@ meshio's reader is not used: version 5.3.5 keeps only the last of several *NODE 
 block, ignores sets made of sets, and stops at surface elements that gmsh writes, the first three without a word.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field

@@ -3,8 +3,6 @@
 Light: the configuration imports it.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator, Mapping

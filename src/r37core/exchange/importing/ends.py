@@ -1,7 +1,5 @@
 """The ends of an imported blade, towards hub and casing: what its shape tells of them, and whether a rule catches them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

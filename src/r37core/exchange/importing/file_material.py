@@ -1,7 +1,5 @@
 """The material that a mesh file has of its own: it is not used, and a remark names it where it differs from the blade's."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import astuple, dataclass

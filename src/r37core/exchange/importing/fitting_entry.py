@@ -1,7 +1,5 @@
 """What the shape of a refused mesh suggests for its entry in blades.yaml: axes, and rules for root and tip."""
 
-from __future__ import annotations
-
 import warnings
 from contextlib import suppress
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Where each node of an imported mesh lies on the blade: chord, span, thickness and normal, from its shape alone."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial import cKDTree
 

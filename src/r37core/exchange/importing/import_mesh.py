@@ -1,7 +1,5 @@
 """A mesh from another program as a blade: read, checked, turned to the blade's frame, its root and tip found."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

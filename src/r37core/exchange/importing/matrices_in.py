@@ -6,8 +6,6 @@ columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matr
 has the nodes of the tip line, from which the patches are made.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """One matrix of another program: a file of Matrix Market, or .npz of SciPy or with one array; what cannot be one is refused."""
 
-from __future__ import annotations
-
 import math
 import zipfile
 from pathlib import Path

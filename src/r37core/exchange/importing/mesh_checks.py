@@ -1,7 +1,5 @@
 """Whether an imported mesh can be computed with: one part, no free nodes, well shaped elements in order, each once."""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Readers of .msh, .vtu, .bdf and .med by meshio, of .cdb by meshlane: one place for what meshio leaves open."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import re

@@ -1,7 +1,5 @@
 """A mesh as a file gives it: in the file's units and axes, with its sets as node numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 

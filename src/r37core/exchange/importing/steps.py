@@ -1,7 +1,5 @@
 """Steps of the workflow (docs/architecture.md): blades of other programs."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from r37core.exchange.refusal import located

@@ -1,7 +1,5 @@
 """The tip of an imported blade: whether casing contact and rotation make sense there, its edges and its camber line."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

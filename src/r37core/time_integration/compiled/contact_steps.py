@@ -7,8 +7,6 @@ the forces at once by their residual flexibility, so that forces and gaps at t_n
 the massless boundary of Monjaraz-Tec, Gross and Krack, Computers & Structures 260 (2022), with exact modal steps.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from r37core.alignment import LANES

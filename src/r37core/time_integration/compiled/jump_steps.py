@@ -10,8 +10,6 @@ With the exact gap a node's position is at most n + cos(alpha) y^2/(2 R), and th
 their greatest slope times |y|/R nearer than at its undeformed one; n, y (sideways) and R (distance from the axis) are bounded.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from r37core.alignment import LANES

@@ -3,8 +3,6 @@
 Only padded sizes and numbers that no speed changes are in it, so all speeds of a sweep share one compiled time integration.
 """
 
-from __future__ import annotations
-
 from dataclasses import fields
 from functools import cache
 from typing import NamedTuple

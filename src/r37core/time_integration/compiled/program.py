@@ -6,8 +6,6 @@ all records. A step's pushes on them are summed over the blades, and each record
 same bits in all. Its work and loss count in the first record; the others are laid out without its loss.
 """
 
-from __future__ import annotations
-
 import numba
 import numpy as np
 from numba import types

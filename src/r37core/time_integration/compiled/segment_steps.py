@@ -3,8 +3,6 @@
 An increment u_n - u_{n-1} belongs to its speed: it is that of a free mode of this frequency, in a step of this length.
 """
 
-from __future__ import annotations
-
 from r37core.alignment import LANES
 from r37core.lanes import inlined, integers_at, load, numbers_at, numbers_of, store
 

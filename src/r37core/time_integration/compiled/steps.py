@@ -9,8 +9,6 @@ With Coriolis u is the real part of a complex amplitude, whose increment moves t
 integer. Names in capitals that choose are those of layout.Kind, constants of each program.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from r37core.alignment import LANES

@@ -1,7 +1,5 @@
 """Motion of the blade in the reference engine, step by step with dense matrices: freely, and with a force in a step."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 
