@@ -7,6 +7,7 @@ import pytest
 import scipy.linalg as la
 import xarray as xr
 
+from r37core.dataset_file import write_dataset
 from r37core.results.campbell import (
     Campbell,
     campbell_dataset,
@@ -141,8 +142,6 @@ def test_what_a_diagram_cannot_have_is_refused(model):
 
 
 def test_dataset_and_gathering(model, tmp_path):
-    from r37core.dataset_file import write_dataset
-
     dataset = dataset_of(model)
     for blade in ("Ref", "Other"):
         write_dataset(dataset, tmp_path / f"{blade}.nc", {"blade": blade, "fidelity": "draft"})
