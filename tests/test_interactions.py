@@ -103,18 +103,14 @@ def test_worn_through_is_the_largest_share_within_the_interaction():
 def test_single_speeds_below_yield_do_not_end_the_range():
     """Near the end of a branch the motion is chaotic: width is from the first to the last, the share says what is above."""
     data = response(tangential=[(1715.0, 4e-3, 4)], step=1.0)
-    whole = found(data)[0]
-    assert whole.last_revolution.width_above_yield_rad_s == pytest.approx(37.5 + 1.0 * 3.0 / 3.99, rel=0.01)
-    for speed in (1713.0, 1714.0):
-        for name in ("max_von_mises", "rms_tangential"):
-            data[name].loc[{"speed": speed}] *= 0.1
-    broken = found(data)[0]
-    assert broken.last_revolution.width_above_yield_rad_s == whole.last_revolution.width_above_yield_rad_s
+    whole = found(data)[0].last_revolution
+    for name in ("max_von_mises", "rms_tangential"):
+        data[name].loc[{"speed": [1713.0, 1714.0]}] *= 0.1
+    broken = found(data)[0].last_revolution
+    assert broken.width_above_yield_rad_s == whole.width_above_yield_rad_s
     # of the ratios 3.76, 0.384, 0.392 and 4 only the ends of the first and last interval are above yield
     below = 1.0 + (1.0 - 0.384) / (3.76 - 0.384) + (1.0 - 0.392) / (4.0 - 0.392)
-    assert broken.last_revolution.share_above_yield == pytest.approx(
-        1.0 - below / whole.last_revolution.width_above_yield_rad_s, rel=1e-3
-    )
+    assert broken.share_above_yield == pytest.approx(1.0 - below / whole.width_above_yield_rad_s, rel=1e-3)
 
 
 def test_the_largest_stress_is_that_of_the_interaction():
@@ -143,30 +139,32 @@ def test_a_drop_is_that_of_the_row_s_own_peak():
     assert row.peak.drop == pytest.approx(1.0 - np.sqrt(2.0) * 1e-5 / np.hypot(1e-4, 1e-5))
 
 
-def test_peaks_without_a_crossing_are_kept_apart():
-    rows = found(response(tangential=[(900.0, 1e-3, 2), (1500.0, 1.2e-3, 2)]))
-    assert [(row.crossing.mode, row.crossing.engine_order) for row in rows] == [("", 2), ("", 2)]
-    assert [row.peak.peak_speed_rad_s for row in rows] == [900.0, 1500.0]
-    assert np.isnan([row.crossing.campbell_speed_rad_s for row in rows]).all()
-    # as far apart as one crossing's peaks may be they are one, and of two orders they are two
-    (row,) = found(response(tangential=[(1400.0, 1e-3, 2), (1500.0, 1.2e-3, 2)]))
-    assert row.peak.peak_speed_rad_s == 1500.0
-    assert len(found(response(tangential=[(1400.0, 1e-3, 3), (1500.0, 1.2e-3, 2)]))) == 2
+@pytest.mark.parametrize(
+    ("normal", "tangential", "rows"),
+    [
+        # without a crossing, far apart; as far apart as one crossing's peaks may be; of two orders
+        ([], [(900.0, 1e-3, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 900.0), ("engine order 2", 1500.0)]),
+        ([], [(1400.0, 1e-3, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 1500.0)]),
+        ([], [(1400.0, 1e-3, 3), (1500.0, 1.2e-3, 2)], [("engine order 3", 1400.0), ("engine order 2", 1500.0)]),
+        # of one crossing
+        ([(1722.0, 1e-3, 3)], [(1700.0, 2e-3, 4), (1755.0, 3e-3, 4)], [("1B/4", 1755.0)]),
+        # neighbours in both directions: of one crossing, and of two
+        ([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 4)], [("1B/4", 1700.0)]),
+        ([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 9)], [("1B/4", 1700.0), ("1T/9", 1705.0)]),
+    ],
+)
+def test_peaks_that_are_one_interaction_and_those_that_are_not(normal, tangential, rows):
+    both = found(response(normal, tangential))
+    assert [(row.crossing.title, row.peak.peak_speed_rad_s) for row in both] == rows
+    assert all(np.isnan(row.crossing.campbell_speed_rad_s) for row in both if not row.crossing.mode)
 
 
 def test_one_peak_is_listed_once():
     """As S100's 1B/4: the normal motion has its peak there too, or a step away, of another order."""
-    for normal in ([(1640.0, 5e-5, 3)], [(1641.0, 5e-5, 3)]):
-        data = response(normal, [(1640.0, 9e-3, 4)], step=1.0)
-        (row,) = found(data)
-        assert (row.crossing.title, row.peak.peak_speed_rad_s) == ("1B/4", 1640.0)
+    for speed, direction in ((1640.0, "both"), (1641.0, "tangential")):
+        (row,) = found(response([(speed, 5e-5, 3)], [(1640.0, 9e-3, 4)], step=1.0))
         assert titles([row]) == {1640.0: "1B/4"}
-        assert row.crossing.direction == ("both" if normal[0][0] == 1640.0 else "tangential")
-
-
-def test_peaks_of_one_crossing_are_one_interaction():
-    (row,) = found(response(tangential=[(1700.0, 2e-3, 4), (1755.0, 3e-3, 4)], normal=[(1722.0, 1e-3, 3)]))
-    assert (row.crossing.title, row.peak.peak_speed_rad_s) == ("1B/4", 1755.0)
+        assert row.crossing.direction == direction
 
 
 def test_an_interaction_that_moves_the_tip_tangentially_only():
@@ -202,18 +200,16 @@ def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
 
 
 def test_the_crossing_is_the_nearest_and_the_order_the_strongest_whole_one():
-    (row,) = found(response(tangential=[(1685.0, 1e-3, 4)]).drop_vars(["amplitude", "amplitude_tangential"]))
-    assert row.crossing.title == "1T/9"
-    # 1B/4 at 1672 is 3 above and 1T/9 at 1680 is 11: nearest, not least
-    (row,) = found(response(tangential=[(1670.0, 1e-3, 4)]).drop_vars(["amplitude", "amplitude_tangential"]))
-    assert row.crossing.title == "1B/4"
+    """Between 1B/4 at 1672 and 1T/9 at 1680 the nearest, not the least; without a spectrum any order is as good."""
+    bare = {1685.0: "1T/9", 1670.0: "1B/4", 1450.0: "a peak of its own"}
+    for speed, title in bare.items():
+        (row,) = found(response(tangential=[(speed, 1e-3, 4)]).drop_vars(["amplitude", "amplitude_tangential"]))
+        assert row.crossing.title == title
     data = response(tangential=[(1715.0, 2e-3, 3.98)])
     data["amplitude_tangential"].loc[{"engine_order": 0.0}] = 1.0
     assert found(data)[0].crossing.title == "1B/4"
     (row,) = found(response(tangential=[(1715.0, 1e-3, 2)]))
     assert (row.crossing.title, row.crossing.mode) == ("engine order 2", "")
-    (alone,) = found(response(tangential=[(1450.0, 1e-3, 2)]).drop_vars(["amplitude", "amplitude_tangential"]))
-    assert alone.crossing.title == "a peak of its own"
 
 
 def test_a_run_that_diverged_is_above_yield():
@@ -256,14 +252,6 @@ def test_no_response_no_interaction():
     assert summarise(joined(data), CHOICE).empty
     data["status"][:] = RunStatus.NOT_RUN
     assert found(data) == []
-
-
-def test_neighbouring_peaks_that_two_crossings_explain_are_two():
-    """Of one mode the normal motion, of the other the tangential one; with one crossing they are one."""
-    apart = found(response([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 9)]))
-    assert sorted(row.crossing.title for row in apart) == ["1B/4", "1T/9"]
-    (row,) = found(response([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 4)]))
-    assert row.crossing.title == "1B/4"
 
 
 def test_the_reach_of_a_peak_may_begin_and_end_with_the_speeds():
