@@ -4,15 +4,14 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from test_interactions import CHOICE, campbell
 
 from r37core.figures.ranking_bars import draw_ranking
 from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
-from r37core.results.interactions import InteractionChoice, find_interactions
+from r37core.results.interactions import find_interactions
 from r37core.results.ranking import ROBUSTNESS, as_scatter_bears, chance_to_be_better, ranking_table, robustness
 from r37core.time_integration.status import RunStatus
-
-CHOICE = InteractionChoice(prominence=0.1, below=0.02, above=0.06)
 
 
 def drawn(chance, speeds, revolutions=100, seed=0):
@@ -221,14 +220,6 @@ def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_pe
     assert all(np.isnan(row.all_revolutions.possible_from_rad_s) for row in below)
 
 
-def diagram(crossing):
-    """Of one engine order, with a crossing (rad/s) of 1B alone."""
-    modes = ["1B", "1T", "2B"]
-    return xr.Dataset(
-        {"crossing_speed": (("mode", "engine_order"), [[crossing], [np.nan], [np.nan]])}, {"mode": modes, "engine_order": [4]}
-    )
-
-
 def test_a_lined_row_has_both_widths():
     """The last revolution is above yield at three speeds, some revolution of the last half at five."""
     speeds = np.arange(1000.0, 1011.0)
@@ -237,8 +228,8 @@ def test_a_lined_row_has_both_widths():
     motion = 1e-3 * np.exp(-(((speeds - 1005.0) / 2.0) ** 2))
     lined = response(speeds, np.where(last, 1.0, np.where(ever, 0.2, 0.0)), motion, lined=1)
     lined["max_von_mises"][:], lined["max_von_mises_ever"][:] = np.where(last, 2e9, 0.0), np.where(ever, 2e9, 0.0)
-    (row,) = find_interactions(lined, diagram(990.0), CHOICE)
-    assert (row.crossing.mode, row.crossing.engine_order, row.note) == ("1B", 4, "")
+    (row,) = find_interactions(lined, campbell(), CHOICE)
+    assert (row.crossing.mode, row.crossing.engine_order, row.note) == ("1B", 6, "")
     assert (row.last_revolution.width_above_yield_rad_s, row.all_revolutions.width_ever_above_yield_rad_s) == (3.0, 5.0)
     assert row.all_revolutions.certain_length_rad_s == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
 
@@ -247,7 +238,7 @@ def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
     """Everywhere above yield while the motion only rises; a peak elsewhere has the row that it had."""
     speeds = np.arange(1000.0, 1011.0)
     rising_motion = response(speeds, np.ones(11), 1e-3 * speeds, lined=1)
-    (row,) = find_interactions(rising_motion, diagram(np.nan), CHOICE)
+    (row,) = find_interactions(rising_motion, campbell(), CHOICE)
     every = row.all_revolutions
     assert (every.possible_from_rad_s, every.possible_to_rad_s, every.certain_length_rad_s) == (1000.0, 1010.0, 10.0)
     assert "without a peak" in row.note

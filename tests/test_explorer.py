@@ -2,7 +2,6 @@
 
 import base64
 import gzip
-import os
 
 import numpy as np
 import pandas as pd
@@ -21,16 +20,8 @@ from r37core.rotors.extension import EXTENSION
 from r37core.rotors.panel import rotor_contents
 from r37core.time_integration.status import RunStatus
 
-
-@pytest.fixture(scope="module")
-def datasets():
-    return sweep()
-
-
-@pytest.fixture(scope="module")
-def interactions():
-    return interaction_rows()
-
+datasets = pytest.fixture(scope="module")(sweep)
+interactions = pytest.fixture(scope="module")(interaction_rows)
 
 MEMBERS = 66
 
@@ -101,7 +92,7 @@ def test_thinning_keeps_the_largest():
 
 
 def test_contents_are_those_of_the_datasets(datasets, interactions):
-    contents = explorer_contents(datasets, interactions)
+    contents = explorer_contents(datasets, interactions, [("Ref", "abradable")])
     curves = {curve["name"]: curve for curve in contents["curves"]}
     rms = datasets["rms"]["rms_normal"].sel(tip_point="leading_edge")
     np.testing.assert_allclose(unpacked(curves["rms_normal"]["values"]), 1e3 * rms, rtol=1e-6)
@@ -115,6 +106,7 @@ def test_contents_are_those_of_the_datasets(datasets, interactions):
     largest = datasets["spectrum"]["amplitude"].sel(engine_order=slice(1.95, 2.045)).max("engine_order")
     np.testing.assert_allclose(unpacked(contents["spectrum"]["values"])[..., 20], 1e3 * largest, rtol=1e-4)
     assert contents["interactions"][1]["mode"] is None
+    assert contents["shapes"] == [["Ref", "abradable"]]
 
 
 def test_a_blade_called_na_keeps_its_name(interactions, tmp_path):
@@ -128,15 +120,10 @@ def test_a_blade_called_na_keeps_its_name(interactions, tmp_path):
     assert table["max_von_mises_pa"].isna().all()
 
 
-def test_interactions_that_have_a_shape(datasets, interactions):
-    assert explorer_contents(datasets, interactions)["shapes"] == []
-    assert explorer_contents(datasets, interactions, [("Ref", "abradable")])["shapes"] == [["Ref", "abradable"]]
-
-
 def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
     contents = explorer_contents({name: datasets[name] for name in ("rms", "campbell")}, interactions.iloc[:0])
     assert contents["spectrum"] is contents["wear"] is contents["history"] is contents["yield_stress"] is None
-    assert contents["stress_region"] == {}
+    assert (contents["stress_region"], contents["shapes"]) == ({}, [])
     write_page(contents, "r37", tmp_path / "explorer.html")
 
 
@@ -205,9 +192,6 @@ def page(request, datasets, interactions, tolerances, ranged, tmp_path_factory):
         page.wait_for_selector("html[data-ready]", timeout=60_000)
         yield page
         assert page.problems == []
-        folder = os.environ.get("R37_SCREENSHOTS")
-        if folder:
-            page.screenshot(path=f"{folder}/explorer{'_members' * members}.png", full_page=True)
 
 
 with_members = pytest.mark.parametrize("page", ["members"], indirect=True)
@@ -245,8 +229,12 @@ def hover(page, plot, curve, point):
 
 @pytest.mark.slow
 def test_the_page_loads_without_an_error(page):
+    """And without members nothing speaks of them."""
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
     assert page.problems == []
+    assert [one["name"] for one in traces(page, "response")] == ["abradable", "direct", "direct diverged"]
+    assert not any(page.is_visible(f"#{name}") or f"{name}=" in page.url for name in ("band", "members"))
+    assert "members" not in page.inner_text("body")
     assert page.title() == "r37 <trial>"
     assert page.locator(".js-plotly-plot").count() == 5
     assert page.is_visible("#stress")
@@ -261,14 +249,10 @@ def test_the_page_loads_without_an_error(page):
 @pytest.mark.slow
 def test_hover_says_what_the_dataset_has(page, datasets):
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
-    value = 1e3 * float(
-        datasets["rms"]["rms_normal"].sel(blade="Ref", scene="abradable", speed=1000.25, tip_point="leading_edge")
-    )
+    place = {"blade": "Ref", "scene": "abradable", "speed": 1000.25, "tip_point": "leading_edge"}
+    value = 1e3 * float(datasets["rms"]["rms_normal"].sel(place))
     text = hover(page, "response", 0, 1)
-    assert "1000.3 rad/s" in text
-    assert "9551.7 rpm" in text
-    assert f"{float(f'{value:.5g}'):g} mm"[:7] in text
-    assert "completed" in text
+    assert all(said in text for said in ("1000.3 rad/s", "9551.7 rpm", f"{float(f'{value:.5g}'):g} mm"[:7], "completed"))
     choose(page, blade="Ref", scene="abradable", quantity="max_von_mises", speed="900", unit="rad/s", all="false")
     value = 1e-6 * float(datasets["stress"]["max_von_mises"].sel(blade="Ref", scene="abradable", speed=1100.0))
     assert f"{float(f'{value:.5g}'):g} MPa" in hover(page, "response", 0, 2)
@@ -333,9 +317,8 @@ def test_without_stress_it_opens_at_the_largest_motion(page, datasets, interacti
 def test_it_opens_at_a_run_that_diverged(page, datasets, interactions, tmp_path):
     """Which is worse than any number."""
     with beside(page, explorer_contents(datasets, interactions), tmp_path / "explorer.html") as other:
-        assert other.text_content("#now").startswith(
-            "Ref, direct, 1200 rad/s, 11459 rpm, diverged: beyond all that has a number"
-        )
+        now = "Ref, direct, 1200 rad/s, 11459 rpm, diverged: beyond all that has a number"
+        assert other.text_content("#now").startswith(now)
 
 
 @pytest.mark.slow
@@ -520,14 +503,11 @@ def test_a_lining_that_is_worn_through_is_marked(page, datasets, interactions, t
 
 @pytest.mark.slow
 def test_a_scene_of_which_every_run_diverged_is_drawn(page, datasets, interactions, tmp_path):
-    rms = datasets["rms"].copy(deep=True)
-    everywhere = {"blade": "L<50>", "scene": "direct"}
-    rms["status"].loc[everywhere] = RunStatus.DIVERGED
-    for name in ("rms_normal", "rms_tangential", "peak_normal"):
-        rms[name].loc[everywhere] = np.nan
-    stress = datasets["stress"].copy(deep=True)
-    stress["max_von_mises"].loc[everywhere] = np.nan
-    contents = explorer_contents(datasets | {"rms": rms, "stress": stress}, interactions)
+    made, everywhere = {kind: data.copy(deep=True) for kind, data in datasets.items()}, {"blade": "L<50>", "scene": "direct"}
+    made["rms"]["status"].loc[everywhere] = RunStatus.DIVERGED
+    for kind, name in (("rms", "rms_normal"), ("rms", "rms_tangential"), ("rms", "peak_normal"), ("stress", "max_von_mises")):
+        made[kind][name].loc[everywhere] = np.nan
+    contents = explorer_contents(made, interactions)
     with beside(page, contents, tmp_path / "explorer.html", place="#blade=L%3C50%3E&scene=direct") as other:
         drawn = {one["name"]: one for one in traces(other, "response")}
         assert drawn["direct diverged"]["x"] == SPEEDS.tolist()
@@ -553,16 +533,6 @@ def test_table_keys_and_clicks_move_the_speed(page):
     page.focus("#interactions tbody tr:nth-child(2)")
     page.keyboard.press("Enter")
     assert "1000.3 rad/s" in page.text_content("#now")
-
-
-@pytest.mark.slow
-def test_without_members_nothing_speaks_of_them(page):
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
-    for name in ("band", "members"):
-        assert not page.is_visible(f"#{name}")
-        assert f"{name}=" not in page.url
-    assert "members" not in page.inner_text("body")
-    assert [one["name"] for one in traces(page, "response")] == ["abradable", "direct", "direct diverged"]
 
 
 @pytest.mark.slow
@@ -659,19 +629,12 @@ def test_table_has_the_range_of_the_peak(page):
 
 
 @pytest.mark.slow
-def test_the_page_is_made_of_the_members_where_there_are_some(root, tmp_path):
-    """Only the page needs their dataset: the table of interactions is made of another file."""
+def test_the_page_is_made_of_members_and_rotors_where_there_are_some(root, tmp_path):
+    """Only the page needs the members' dataset: the table of interactions is made of another file."""
     copy_project(root, tmp_path)
-    assert "tolerances_dataset" not in planned(tmp_path, "results/explorer.html")
-    ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
-    overlay(tmp_path, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], {ranges} }}")
-    assert "tolerances_dataset" in planned(tmp_path, "results/explorer.html")
-    assert "tolerances_dataset" not in planned(tmp_path, "results/summary.csv")
-
-
-@pytest.mark.slow
-def test_the_page_is_made_of_the_rotors_where_there_are_some(root, tmp_path):
-    copy_project(root, tmp_path)
-    assert "rotors_dataset" not in planned(tmp_path, "results/explorer.html")
+    assert not {"tolerances_dataset", "rotors_dataset"} & set(planned(tmp_path, "results/explorer.html"))
     overlay(tmp_path, "scenes.yaml", "abradable: { rotor: { blades: 2 }, results: [stress] }")
-    assert "rotors_dataset" in planned(tmp_path, "results/explorer.html")
+    ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
+    overlay(tmp_path, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], scenes: [direct], {ranges} }}")
+    assert {"tolerances_dataset", "rotors_dataset"} <= set(planned(tmp_path, "results/explorer.html"))
+    assert "tolerances_dataset" not in planned(tmp_path, "results/summary.csv")

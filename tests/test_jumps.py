@@ -145,9 +145,7 @@ def test_modes_that_follow_no_tangent_stay_within_their_amplitude():
     plan = plan_jumps(central_difference(np.array([100.0, 200.0]), 0.0, 1e-6), 77, 1, followed=1)
     assert set(plan.slow_modes) == {1}
     assert np.all(plan.jumps[:, 7, 0] < 1e-3) and np.all(plan.jumps[:, 7, 1] == 1.0)
-
-
-def test_modes_that_do_not_oscillate_are_stepped():
+    # those that do not oscillate are stepped
     assert plan_jumps(central_difference(np.array([1e4, 1e6]), 1.0, 1e-7), 64, 8, followed=2) is None
 
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
-from integration_cases import DIRECT, LINING, oscillator
+from integration_cases import DIRECT, LINING, oscillator, random_model
 
 from r37core.contact.laws import wear_at_the_casing
 from r37core.time_integration.casing_of_run import CasingOfRun
@@ -100,15 +100,8 @@ def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
         return record
 
     monkeypatch.setattr(Simulation, "advance", worn_lining)
-    model = oscillator(6000.0)
-    two = replace(
-        model,
-        displacement_operator=np.repeat(model.displacement_operator, 2, axis=1),
-        radius=np.repeat(model.radius, 2),
-        theta=np.repeat(model.theta, 2),
-    )
     lining = replace(LINING, bars=bars)
-    kept = kept_of(two, SPEED, replace(DIRECT, lining=lining), IntegrationChoice(2e-7, 2, 62), ("wear",))
+    kept = kept_of(random_model(2), SPEED, replace(DIRECT, lining=lining), IntegrationChoice(2e-7, 2, 62), ("wear",))
     assert kept["max_wear"] == worn.max()
     np.testing.assert_allclose(kept["wear"], worn.reshape(90, -1).max(axis=1), rtol=1e-6)
     harmonics = np.zeros(21)

@@ -12,7 +12,6 @@ from integration_cases import with_static_modes
 from scipy.optimize import brentq
 from test_run_statistics import FREE, SPEED, with_tip
 
-from r37core.config.declaring import si_form
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.style import save
@@ -23,16 +22,12 @@ from r37core.signals.figures import draw_orders, draw_spectrograms
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
 from r37core.signals.record import Record, record_signals, revolutions_of
-from r37core.signals.section import GaugeEntry
 from r37core.signals.tip_timing import arrival_times
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
 
 ELEMENTS = ("wedge15", "hexahedron20", "tetra10", "wedge", "hexahedron", "tetra")
-
-
-# strain gauges
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
@@ -45,12 +40,6 @@ def test_a_gauge_in_uniaxial_tension(element, side):
     gauges = [Gauge(chord, span, side, angle) for angle in angles for chord, span in ((0.31, 0.4), (0.9, 0.05), (0.5, 0.99))]
     expected = 1e-3 * (np.cos(angles) ** 2 - 0.3 * np.sin(angles) ** 2)
     np.testing.assert_allclose(gauge_rows(box, basis, gauges)[:, 0], np.repeat(expected, 3), atol=1e-14)
-
-
-def test_angles_of_gauges_are_given_in_degrees():
-    for degrees, radians in ((45.0, np.pi / 4), (-180.0, -np.pi), (90.0, np.pi / 2), (0.0, 0.0)):
-        entry = GaugeEntry(chord=0.5, span=0.25, side="suction", angle_deg=degrees)
-        assert si_form(Gauge, entry) == Gauge(0.5, 0.25, "suction", pytest.approx(radians, rel=1e-15))
 
 
 def test_the_sign_of_an_angle():
@@ -101,9 +90,6 @@ def test_a_place_that_is_not_on_the_mesh_is_refused():
         gauge_rows(box, np.zeros((len(box.points), 3, 1)), [Gauge(1.2, 0.5, "suction", 0.0)])
 
 
-# tip timing
-
-
 def test_arrivals_of_a_harmonic_motion():
     """Against the root of Omega t - u(t)/R = theta - p + 2 pi k, with u in closed form; and what the arrival tells is u."""
     radius, theta, amplitude, pulsation, lag = 0.25, -0.2, 4e-3, 3.37 * SPEED, 0.4
@@ -135,9 +121,6 @@ def test_a_tip_that_comes_back_counts_when_it_first_comes():
     assert np.sum(np.diff(np.sign(turned - wanted)) != 0) == 3
     assert arrived[0, 0] == pytest.approx(times[np.argmax(turned >= wanted)], abs=times[1])
     assert np.isnan(arrived[0, 1])
-
-
-# engine orders
 
 
 @pytest.fixture
@@ -186,9 +169,6 @@ def test_a_diverged_signal_is_looked_at_as_far_as_it_goes(swelling):
     assert part[-1] < 27.0
     assert spectrogram(np.full(4000, np.nan), turn, 100)[1].size == 0
     assert order_tracks(np.full(4000, np.nan), turn, 100, np.array([4]))[1].shape == (1, 0)
-
-
-# records
 
 
 def test_a_free_oscillation_is_recorded(monkeypatch):
@@ -245,9 +225,6 @@ def test_a_divergence_ends_the_record(contact, scene):
     assert 0 < known.sum() < len(known)
     assert not known[known.sum() :].any()
     assert np.abs(record.normal[known]).max() < 2e-5
-
-
-# datasets
 
 
 PLACE = np.array([0.2, 0.01, 0.02])
