@@ -66,14 +66,12 @@ def unpacked(array):
     return data.reshape(array["shape"])
 
 
-def test_packing_keeps_shape_and_values():
+def test_packing_keeps_shape_and_values_and_rounding_their_first_digits():
     values = np.array([[1.0, np.nan, 3e-7], [1e9, -2.5, 0.0]])
     np.testing.assert_array_equal(unpacked(packed(values)), values.astype("f4"))
     np.testing.assert_array_equal(unpacked(packed(np.array([750.0000000001]), 64)), [750.0000000001])
     assert packed(values) == packed(values)
-
-
-def test_rounding_of_maps():
+    # of maps, with fewer digits
     values = np.random.default_rng(1).uniform(1e-9, 1e3, 10_000)
     assert np.abs(rounded(values) / values - 1.0).max() < 6.2e-5
     assert np.isnan(rounded(np.array([np.nan])))[0]

@@ -10,7 +10,7 @@ from matplotlib.colors import to_hex
 from matplotlib.text import Text
 
 from r37core.figures import campbell_diagram as campbell_figures
-from r37core.figures import comparison, maps, response_curves, style, waterfall
+from r37core.figures import comparison, maps, style, waterfall
 from r37core.figures import response_curves as response
 from r37core.time_integration.status import RunStatus
 
@@ -83,7 +83,7 @@ def drawn(datasets):
     yield "waterfall", waterfall.draw_waterfall(maps_of["spectrum"], of["campbell"], "Ref, abradable")
     room = np.linspace(4e-4, 3e-4, len(SPEEDS))[:, None] * [1.0, 0.9, np.nan]
     growing = lined["rms"].assign(clearance=(("blade", "speed", "contact_node"), np.repeat(room[None], len(BLADES), axis=0)))
-    yield "clearance", response_curves.draw_clearance(growing, "growing_abradable")
+    yield "clearance", response.draw_clearance(growing, "growing_abradable")
     yield "comparison", draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
 
 

@@ -84,6 +84,7 @@ def test_a_row_of_each_branch():
     assert {row.crossing.direction for row in rows} == {"tangential"}
     last = rows[-1]
     assert last.peak.drop == pytest.approx(1.0, abs=0.02)
+    assert (last.peak.peak_rms_normal_m, last.peak.peak_rms_tangential_m) == pytest.approx((1e-5, 2e-3))
     # stress is twice yield at the peak, yield at half its height: 25 rad/s before it; after it the fall is within one step
     assert last.last_revolution.width_above_yield_rad_s == pytest.approx(25.0 + 5.0 * 1.0 / 1.99, rel=0.02)
     assert last.last_revolution.share_above_yield == pytest.approx(1.0)
@@ -142,38 +143,28 @@ def test_a_drop_is_that_of_the_row_s_own_peak():
 @pytest.mark.parametrize(
     ("normal", "tangential", "rows"),
     [
-        # without a crossing, far apart; as far apart as one crossing's peaks may be; of two orders
+        # without a crossing, far apart; as far apart as one crossing's peaks may be; of two orders; beside a crossing of others
         ([], [(900.0, 1e-3, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 900.0), ("engine order 2", 1500.0)]),
         ([], [(1400.0, 1e-3, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 1500.0)]),
         ([], [(1400.0, 1e-3, 3), (1500.0, 1.2e-3, 2)], [("engine order 3", 1400.0), ("engine order 2", 1500.0)]),
+        ([], [(1715.0, 1e-3, 2)], [("engine order 2", 1715.0)]),
         # of one crossing
         ([(1722.0, 1e-3, 3)], [(1700.0, 2e-3, 4), (1755.0, 3e-3, 4)], [("1B/4", 1755.0)]),
         # neighbours in both directions: of one crossing, and of two
-        ([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 4)], [("1B/4", 1700.0)]),
-        ([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 9)], [("1B/4", 1700.0), ("1T/9", 1705.0)]),
+        ([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 4)], [("1B/4", 1700.0, "normal")]),
+        ([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 9)], [("1B/4", 1700.0, "normal"), ("1T/9", 1705.0)]),
+        # as S100's 1B/4: the normal motion, of another order, has its peak there too, a step away, or elsewhere
+        ([(1640.0, 5e-5, 3)], [(1640.0, 9e-3, 4)], [("1B/4", 1640.0, "both")]),
+        ([(1645.0, 5e-5, 3)], [(1640.0, 9e-3, 4)], [("1B/4", 1640.0)]),
+        ([(1700.0, 5e-5, 2)], [(1640.0, 9e-3, 4)], [("1B/4", 1640.0), ("engine order 2", 1700.0, "normal")]),
     ],
 )
 def test_peaks_that_are_one_interaction_and_those_that_are_not(normal, tangential, rows):
+    """Title and peak speed of each row, and its direction where that is not tangential."""
     both = found(response(normal, tangential))
-    assert [(row.crossing.title, row.peak.peak_speed_rad_s) for row in both] == rows
+    assert titles(both) == {speed: title for title, speed, *_ in rows}
+    assert [row.crossing.direction for row in both] == [(*row, "tangential")[2] for row in rows]
     assert all(np.isnan(row.crossing.campbell_speed_rad_s) for row in both if not row.crossing.mode)
-
-
-def test_one_peak_is_listed_once():
-    """As S100's 1B/4: the normal motion has its peak there too, or a step away, of another order."""
-    for speed, direction in ((1640.0, "both"), (1641.0, "tangential")):
-        (row,) = found(response([(speed, 5e-5, 3)], [(1640.0, 9e-3, 4)], step=1.0))
-        assert titles([row]) == {1640.0: "1B/4"}
-        assert row.crossing.direction == direction
-
-
-def test_an_interaction_that_moves_the_tip_tangentially_only():
-    """As of S100: the normal motion has its peak elsewhere, with another order; direction and its spectrum go together."""
-    rows = found(response([(1700.0, 5e-5, 2)], [(1640.0, 9e-3, 4)]))
-    met = [row.crossing for row in rows]
-    assert [(crossing.title, crossing.direction) for crossing in met] == [("1B/4", "tangential"), ("engine order 2", "normal")]
-    assert rows[0].peak.peak_rms_tangential_m == pytest.approx(9e-3)
-    assert rows[1].peak.peak_rms_normal_m == pytest.approx(5e-5)
 
 
 def test_the_end_of_the_speeds_is_no_peak():
@@ -208,8 +199,6 @@ def test_the_crossing_is_the_nearest_and_the_order_the_strongest_whole_one():
     data = response(tangential=[(1715.0, 2e-3, 3.98)])
     data["amplitude_tangential"].loc[{"engine_order": 0.0}] = 1.0
     assert found(data)[0].crossing.title == "1B/4"
-    (row,) = found(response(tangential=[(1715.0, 1e-3, 2)]))
-    assert (row.crossing.title, row.crossing.mode) == ("engine order 2", "")
 
 
 def test_a_run_that_diverged_is_above_yield():

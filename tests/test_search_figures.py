@@ -21,17 +21,15 @@ def search_of(objectives=("lined", "stress"), constraints=("static",), variables
     of = np.hstack([lengths, 1e6 * (500.0 - lengths), 1.0 + 0.001 * lengths])[:, : len(objectives)]
     feasible = np.array([1, 0, 1, 0, 1, 1, 1], "i1")
     designs = ("design", "objective")
+    rows = {"round": [-1, 0, 0, 0, 1, 1, 2], "order": [0, 0, 4, 0, 3, 1, 2], "feasible": feasible, "not_dominated": feasible}
     dataset = xr.Dataset(
-        {
+        {name: ("design", values) for name, values in rows.items()}
+        | {
             "value": (("design", "variable"), value),
-            "round": ("design", [-1, 0, 0, 0, 1, 1, 2]),
             "refused": ("design", ["", "", "", "surfaces cross", "", "", ""]),
-            "feasible": ("design", feasible),
             "objective_value": (designs, of),
             "objective_scatter": (designs, np.where(np.isnan(of), np.nan, 0.05 * of)),
             "constraint_value": (("design", "constraint"), np.ones((number, len(constraints)))),
-            "not_dominated": ("design", feasible),
-            "order": ("design", [0, 0, 4, 0, 3, 1, 2]),
             "lowest": ("variable", np.full(len(variables), -1.0)),
             "highest": ("variable", np.full(len(variables), 1.0)),
         },

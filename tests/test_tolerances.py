@@ -174,18 +174,14 @@ def test_intervals_of_a_ranking_miss_as_seldom_as_said():
     assert np.mean(wrong) < 0.03
 
 
-@pytest.mark.parametrize("members", [2, 4])
-def test_too_few_members_rank_nothing(members):
-    found = ranking(*drawn(jumping, 3, members))
-    assert np.isnan(found.coefficient).all() and np.isnan(found.places).all() and not found.above.any()
-
-
 def test_a_ranking_leaves_out_what_does_not_vary_and_members_without_the_measure():
+    """And too few members rank nothing."""
     values, measure = drawn(jumping, 3, 64)
     beside = np.column_stack([values, np.full(64, np.nan), np.full(64, 0.15)])
     np.testing.assert_array_equal(ranking(beside, measure).coefficient[:3], ranking(values, measure).coefficient)
     assert np.isnan(ranking(beside, measure).coefficient[3:]).all()
-    assert np.isnan(ranking(values, np.zeros(64)).coefficient).all()
+    for nothing in (ranking(values, np.zeros(64)), *(ranking(values[:few], measure[:few]) for few in (2, 4))):
+        assert np.isnan(nothing.coefficient).all() and np.isnan(nothing.places).all() and not nothing.above.any()
     gone = measure.copy()
     gone[:5] = np.nan
     assert ranking(values, gone).members == 59
@@ -507,10 +503,7 @@ def test_ranges_of_interactions():
     assert (four["share_of_members"], four["robust"], four["members"]) == (1.0, True, 10)
     assert [four[f"peak_speed_rad_s_{end}"] for end in ("low", "median", "high")] == [1690.0, 1710.0, 1735.0]
     assert four["width_above_yield_rad_s_median"] == pytest.approx(four["width_above_yield_rad_s"])
-
-
-def test_what_lies_beyond_the_members_speeds_is_not_theirs_to_show():
-    nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
+    # what lies beyond the members' speeds is not theirs to show
     (only,) = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4))}, InteractionChoice(), (1600.0, 1800.0))
     assert (only["engine_order"], only["share_of_members"]) == (4, 1.0)
 
