@@ -65,11 +65,8 @@ def joined(data):
     )
     both = both.expand_dims(blade=["Ref"], scene=["lined"])
     both["yield_stress"] = (("blade", "scene"), [[YIELD]])
-    parts = {
-        "rms": ["rms_normal", "rms_tangential"],
-        "spectrum": ["amplitude", "amplitude_tangential"],
-        "stress": ["max_von_mises", "yield_stress"],
-    }
+    parts = {"rms": ["rms_normal", "rms_tangential"], "spectrum": ["amplitude", "amplitude_tangential"]}
+    parts |= {"stress": ["max_von_mises", "yield_stress"]}
     datasets = {kind: both[[*names, "status"]] for kind, names in parts.items()}
     bare = datasets["rms"].assign_coords(scene=["bare"])
     return datasets | {"rms": xr.concat([datasets["rms"], bare], "scene"), "campbell": campbell().expand_dims(blade=["Ref"])}

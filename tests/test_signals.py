@@ -151,9 +151,7 @@ def test_tracks_of_orders(swelling):
     assert amplitudes[2].max() < 0.01
     np.testing.assert_array_equal(strongest_orders(signal, turn, 100, 2, 20), [4, 9])
     np.testing.assert_array_equal(strongest_orders(signal - 3.0, turn, 100, 5, 8)[:1], [4])
-
-
-def test_orders_below_a_hundredth_of_the_strongest_are_left_out():
+    # those below a hundredth of the strongest are left out
     turn = np.arange(3000) / 100
     signal = sum(size * np.cos(2.0 * np.pi * order * turn) for order, size in {3: 0.012, 5: 0.009, 7: 1.0, 9: 0.05}.items())
     np.testing.assert_array_equal(strongest_orders(signal, turn, 100, 10, 20), [3, 7, 9])
@@ -255,9 +253,7 @@ def test_dataset_of_a_scene(dataset):
     told = 1e-3 * np.sin(2.0 * np.pi * 4.0 * when)
     np.testing.assert_allclose(run["arrival_displacement"][1:-1], told[1:-1], atol=1e-6)
     assert {variable.attrs["units"] for variable in dataset.data_vars.values()} == {"m", "1", "s"}
-
-
-def test_what_was_not_asked_for_is_left_out():
+    # what was not asked for is left out
     bare = signals_dataset({1000.0: record_of(3, gauges=0)}, {}, {}, [], TIP)
     assert set(bare.data_vars) == {"normal", "tangential", "status"}
     assert dict(signals_dataset({}, {}, {"root": PLACE}, [10.0], TIP).sizes) == {"speed": 0}

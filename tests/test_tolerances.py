@@ -30,19 +30,16 @@ from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
 from r37core.tolerances.figures import draw_tolerances
 from r37core.tolerances.members import members_of
-from r37core.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
+from r37core.tolerances.number_ranks import ranking, share_ends
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.table import range_table, ranges, shares_of_members
 
 
-def test_more_members_change_none_that_are_there():
+def test_more_members_change_none_that_are_there_and_those_for_indices_are_made_of_two_samples():
     few, many = sobol_points(3, 16, 7), sobol_points(3, 32, 7)
     assert all(many[name] == place for name, place in few.items())
     assert len(many) == 32 * 5 and len(set(many.values())) == len(many)
     assert sobol_points(3, 16, 8)["0"] != few["0"]
-
-
-def test_members_for_the_indices_take_one_number_from_the_second_sample():
     found = sobol_points(3, 8, 0)
     assert [name for name in found if is_of_sample(name)] == [str(row) for row in range(8)]
     for row in range(8):
@@ -219,12 +216,8 @@ def test_indices_have_members_for_each_number_that_a_scene_has(root):
 
 
 def test_a_blade_spreads_in_material_thickness_and_place(root):
-    numbers = {
-        "material.youngs_modulus_pa": {"normal_percent": 1.0},
-        "thickness_percent": {"between": [90.0, 110.0]},
-        "sweep_percent": {"uniform": 10.0},
-        "lean_deg": {"uniform": 1.0},
-    }
+    numbers = {"material.youngs_modulus_pa": {"normal_percent": 1.0}, "thickness_percent": {"between": [90.0, 110.0]}}
+    numbers |= {"sweep_percent": {"uniform": 10.0}, "lean_deg": {"uniform": 1.0}}
     settings = settings_of(root, {"members": 4, "of_blades": numbers})
     for name in ("Ref", "S100"):
         nominal = settings.blades[name]
@@ -424,14 +417,6 @@ def test_the_chance_of_passing_yield_has_an_interval(tmp_path):
     # Clopper and Pearson's of 8 and of 0 of 16
     assert at(1750.0) == [0.247, 0.5, 0.753]
     assert at(1600.0) == [0.0, 0.0, 0.206]
-
-
-@pytest.mark.parametrize("chance", [0.02, 0.5, 0.93])
-def test_the_interval_of_a_chance_misses_it_as_seldom_as_said(chance):
-    counts = np.random.default_rng(0).binomial(16, chance, 20000)
-    low, high = share_ends(counts, 16)
-    assert np.mean((low > chance) | (high < chance)) <= 1.0 - CONFIDENCE
-    assert low[counts == 0].sum() == 0.0 and np.all(high[counts == 16] == 1.0)
 
 
 def test_the_page_has_the_intervals_of_a_chance(root):
