@@ -107,14 +107,8 @@ def test_dynamic_clearance(model, diagram):
 
 
 def dataset_of(model, modes=10):
-    return campbell_dataset(
-        model,
-        speeds=np.linspace(0.0, 2000.0, 21),
-        modes=modes,
-        highest_engine_order=16,
-        largest_tangential_displacement=0.01,
-        tip_line="pressure_edge",
-    )
+    swing = {"largest_tangential_displacement": 0.01, "tip_line": "pressure_edge"}
+    return campbell_dataset(model, speeds=np.linspace(0.0, 2000.0, 21), modes=modes, highest_engine_order=16, **swing)
 
 
 def test_the_dataset_is_the_diagram(model):

@@ -319,11 +319,7 @@ def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width)
         other.select_option("#scene", "direct")
         assert other.locator("main > section:visible h2").all_text_contents()[-1] == "Spectrum"
         # what is there takes the room of what is not
-        plot, main = (other.locator(place).first for place in ("#spectrum .main-svg", "main"))
-        other.wait_for_function(
-            "place => document.querySelector(place).clientWidth > 0.9 * innerWidth", arg="#spectrum .main-svg"
-        )
-        assert plot.bounding_box()["width"] > 0.9 * main.bounding_box()["width"]
+        other.wait_for_function("document.querySelector('#spectrum .main-svg').clientWidth > 0.9 * innerWidth")
 
 
 @pytest.mark.slow

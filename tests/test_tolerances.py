@@ -186,10 +186,8 @@ def test_a_ranking_leaves_out_what_does_not_vary_and_members_without_the_measure
 
 
 def settings_of(root, content, **more):
-    return read_settings(
-        root,
-        Document("over.yaml", {"blades": ["Ref", "S100"], "scenes": ["abradable", "direct"], "tolerances": content, **more}),
-    )
+    over = {"blades": ["Ref", "S100"], "scenes": ["abradable", "direct"], "tolerances": content, **more}
+    return read_settings(root, Document("over.yaml", over))
 
 
 def test_members_have_the_values_of_the_sample(root):
