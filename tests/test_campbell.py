@@ -55,14 +55,9 @@ def oscillators(model, geometric_stiffness):
     """Six oscillators, of which the rotation stiffens or couples the first two."""
     stiffening = np.zeros((6, 6))
     stiffening[:2, :2] = geometric_stiffness
-    return replace(
-        model,
-        stiffness=np.diag([1.0, 4.0, 100.0, 121.0, 144.0, 169.0]),
-        geometric_stiffness=stiffening,
-        mass=np.eye(6),
-        shape_products=np.eye(3, 6),
-        shape_norms=np.ones(3),
-    )
+    stiffness = np.diag([1.0, 4.0, 100.0, 121.0, 144.0, 169.0])
+    shapes = {"shape_products": np.eye(3, 6), "shape_norms": np.ones(3)}
+    return replace(model, stiffness=stiffness, geometric_stiffness=stiffening, mass=np.eye(6), **shapes)
 
 
 def test_continuity_is_the_smallest_of_all_steps(model):

@@ -492,8 +492,7 @@ def test_a_scene_of_which_every_run_diverged_is_drawn(page, datasets, interactio
 
 @pytest.mark.slow
 def test_table_keys_and_clicks_move_the_speed(page):
-    lower = "L<50>".replace("<", "%3C").replace(">", "%3E")
-    choose(page, blade=lower, scene="direct", speed="900", unit="rad/s", all="false", every="true")
+    choose(page, blade="L%3C50%3E", scene="direct", speed="900", unit="rad/s", all="false", every="true")
     page.click("#interactions tbody tr:nth-child(1)")
     assert page.text_content("#now").startswith("Ref, abradable, 1200 rad/s, 11459 rpm")
     assert "chosen" in page.get_attribute("#interactions tbody tr:nth-child(1)", "class")

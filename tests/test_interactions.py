@@ -103,13 +103,19 @@ def test_single_speeds_below_yield_do_not_end_the_range():
     assert broken.share_above_yield == pytest.approx(1.0 - below / whole.width_above_yield_rad_s, rel=1e-3)
 
 
-def test_stress_and_what_is_worn_through_are_the_largest_within_the_interaction():
+def test_a_row_has_the_worst_within_its_interaction():
+    """Stress, what is worn through, and a run that diverged, which is above yield."""
     data = response(tangential=[(1715.0, 2e-3, 4), (900.0, 1e-3, 2)])
     data["max_von_mises"].loc[{"speed": [1705.0, 880.0]}] = [5e9, 9e9]
+    data["status"].loc[{"speed": 1720.0}] = RunStatus.DIVERGED
+    for name in ("max_von_mises", "rms_tangential", "rms_normal"):
+        data[name].loc[{"speed": 1720.0}] = np.nan
     share = np.where(data["speed"] > 1690.0, 0.2, 0.0) * (data["speed"] < 1710.0)
     rows = found(data.assign(worn_through_share=share))
+    assert [row.status for row in rows] == ["completed", "diverged"]
     stress = rows[-1].last_revolution
     assert (stress.max_von_mises_pa, stress.max_von_mises_speed_rad_s) == (5e9, 1705.0)
+    assert stress.width_above_yield_rad_s == pytest.approx(1720.0 - 1690.0, rel=1e-3)
     assert (rows[-1].peak.peak_speed_rad_s, [row.worn_through_share for row in rows]) == (1715.0, [0.0, 0.2])
     assert np.isnan(found(data)[0].worn_through_share)
 
@@ -140,6 +146,8 @@ def test_a_drop_is_that_of_the_row_s_own_peak():
         ([], [(1400.0, 1e-3, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 1500.0)]),
         ([], [(1400.0, 1e-3, 3), (1500.0, 1.2e-3, 2)], [("engine order 3", 1400.0), ("engine order 2", 1500.0)]),
         ([], [(1715.0, 1e-3, 2)], [("engine order 2", 1715.0)]),
+        # before the end of the speeds, to which it falls by the prominence
+        ([], [(1995.0, 3e-3, 4)], [("engine order 4", 1995.0)]),
         # of one crossing
         ([(1722.0, 1e-3, 3)], [(1700.0, 2e-3, 4), (1755.0, 3e-3, 4)], [("1B/4", 1755.0)]),
         # neighbours in both directions: of one crossing, and of two
@@ -167,8 +175,6 @@ def test_the_end_of_the_speeds_is_no_peak():
     falling = response(tangential=[(1265.0, 1e-3, 5)])
     falling["rms_tangential"][0] = 5e-3
     assert [one.peak.peak_speed_rad_s for one in found(falling)] == [1265.0]
-    # a fall before the end, by the prominence, makes it a peak
-    assert [one.peak.peak_speed_rad_s for one in found(response(tangential=[(1995.0, 3e-3, 4)]))] == [1995.0]
 
 
 def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
@@ -203,10 +209,7 @@ def test_the_table_of_all():
     # an order is a whole number in the file, and a scene without a spectrum has no order where nothing is near
     text = table.to_csv(index=False)
     assert "Ref,lined,1B,4,tangential,1672.0,1715.0," in text
-
-
-def test_speeds_of_the_file_are_those_of_the_datasets():
-    """Also in rpm, where a speed has sixteen digits."""
+    # speeds of the file are those of the datasets, also in rpm, where a speed has sixteen digits
     data = response(tangential=[(1265.0, 8e-4, 5)], step=5.0, unit=RAD_S["rpm"] * 9.5)
     table = summarise(joined(data), CHOICE)
     back = pd.read_csv(io.StringIO(table.to_csv(index=False)))

@@ -288,7 +288,6 @@ def test_a_number_of_one_value_is_told(root):
             {"of_blades": {"stagger_deg.hub": {"uniform": 45.0}}},
             "of_blades.stagger_deg.hub: the end of its range of Ref in abradable: span 0%: inlet_angle is .*narrower tolerance",
         ),
-        ({"of_blades": {"camber_deg": {"uniform_percent": 1.0}}}, "percent of camber_deg, which is 0"),
         ({"of_blades": {"material.poissons_ratio": {"values": [0.3, 0.5]}}}, r"poissons_ratio: the end of its .*less than 0.5"),
         ({"of_blades": {"sweep_cm": {"uniform": 50.0}}}, "of_blades.sweep_cm: .*a sweep of .*up to the height of the blade"),
         ({"of_blades": {"sweep_cm": {"uniform": 300.0}}}, "of_blades.sweep_cm: .*at least -100"),
