@@ -9,9 +9,7 @@ import xarray as xr
 from matplotlib.colors import to_hex
 from matplotlib.text import Text
 
-from r37core.figures import campbell_diagram as campbell_figures
-from r37core.figures import comparison, maps, style, waterfall
-from r37core.figures import response_curves as response
+from r37core.figures import campbell_diagram, comparison, maps, response_curves, style, waterfall
 from r37core.time_integration.status import RunStatus
 
 BLADES, SCENES = ["Ref", "L50", "S100"], ["abradable", "direct"]
@@ -73,17 +71,17 @@ def drawn(datasets):
     """Every figure of the sweep."""
     of = {kind: data.sel(blade="Ref") for kind, data in datasets.items()}
     lined = {kind: data.sel(scene="abradable") for kind, data in datasets.items() if kind != "campbell"}
-    yield "campbell", campbell_figures.draw_campbell(of["campbell"], "Ref")
-    yield "campbells", campbell_figures.draw_campbell_overview(datasets["campbell"])
-    yield "response", response.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
-    yield "responses", response.draw_response_overview(datasets["rms"])
+    yield "campbell", campbell_diagram.draw_campbell(of["campbell"], "Ref")
+    yield "campbells", campbell_diagram.draw_campbell_overview(datasets["campbell"])
+    yield "response", response_curves.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
+    yield "responses", response_curves.draw_response_overview(datasets["rms"])
     maps_of = {kind: data.sel(scene="abradable") for kind, data in of.items() if kind != "campbell"}
     yield "spectrum", maps.draw_spectral_map(maps_of["spectrum"], of["campbell"], "Ref, abradable")
     yield "wear", maps.draw_wear_map(maps_of["wear"], of["campbell"], "Ref, abradable")
     yield "waterfall", waterfall.draw_waterfall(maps_of["spectrum"], of["campbell"], "Ref, abradable")
     room = np.linspace(4e-4, 3e-4, len(SPEEDS))[:, None] * [1.0, 0.9, np.nan]
     growing = lined["rms"].assign(clearance=(("blade", "speed", "contact_node"), np.repeat(room[None], len(BLADES), axis=0)))
-    yield "clearance", response.draw_clearance(growing, "growing_abradable")
+    yield "clearance", response_curves.draw_clearance(growing, "growing_abradable")
     yield "comparison", draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
 
 
@@ -122,7 +120,7 @@ def test_runs_that_diverged_are_marked_at_the_upper_edge(datasets):
     """Whatever the scale: no number is worse."""
     blade = BLADES[1]
     of = {kind: data.sel(blade=blade) for kind, data in datasets.items()}
-    figure = response.draw_response(blade, of["campbell"], of["rms"], of["stress"])
+    figure = response_curves.draw_response(blade, of["campbell"], of["rms"], of["stress"])
     crosses = [
         line for axes in figure.axes for line in axes.lines if line.get_marker() == "x" and line.get_label() == "diverged"
     ]
@@ -132,7 +130,8 @@ def test_runs_that_diverged_are_marked_at_the_upper_edge(datasets):
         assert (height > 0.9).all() and (height < 1.0).all()
 
 
-def test_a_blade_has_one_colour_everywhere(datasets):
+def test_a_blade_has_one_colour_everywhere(datasets, root):
+    """In all figures, and in the explorer."""
     wanted = {blade: one["color"] for blade, one in style.blade_styles(BLADES).items()}
     assert len(set(wanted.values())) == 3
     for _, figure in drawn(datasets):
@@ -141,9 +140,6 @@ def test_a_blade_has_one_colour_everywhere(datasets):
             assert found.items() <= wanted.items()
     many = style.blade_styles(range(20))
     assert len({tuple(one.values()) for one in many.values()}) == 20
-
-
-def test_the_explorer_has_the_same_colours(root):
     script = (root / "src/r37core/explorer/explorer.js").read_text()
     assert f"const COLOURS = {list(style.COLOURS)};".replace("'", '"') in script
 
@@ -216,7 +212,7 @@ def test_spectral_map_has_every_speed_on_its_own_scale(datasets):
 
 def test_a_mode_has_one_colour_everywhere(datasets):
     campbell, spectra = datasets["campbell"].sel(blade="Ref"), datasets["spectrum"].sel(blade="Ref", scene="abradable")
-    diagram, fall = campbell_figures.draw_campbell(campbell, "Ref"), waterfall.draw_waterfall(spectra, campbell, "Ref")
+    diagram, fall = campbell_diagram.draw_campbell(campbell, "Ref"), waterfall.draw_waterfall(spectra, campbell, "Ref")
     wanted = {line.get_label(): line.get_color() for line in diagram.axes[0].lines if not line.get_label().startswith("_")}
     assert list(wanted) == ["1B", "1T", "2B"]
     assert len(set(wanted.values())) == 3
@@ -226,7 +222,7 @@ def test_a_mode_has_one_colour_everywhere(datasets):
 
 def test_stress_above_yield_is_tinted_and_said_to_be_outside_the_linear_model(datasets):
     of = {kind: datasets[kind].sel(blade="Ref") for kind in ("campbell", "rms", "stress")}
-    figure = response.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
+    figure = response_curves.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
     axes = figure.axes[2]
     (tint,) = axes.patches
     assert tint.get_y() == pytest.approx(1.38)

@@ -403,7 +403,8 @@ def test_the_dataset_of_members(tmp_path):
     assert not any(str(name).startswith("sobol") for name in found)
 
 
-def test_the_chance_of_passing_yield_has_an_interval(tmp_path):
+def test_the_chance_of_passing_yield_has_an_interval(root, tmp_path):
+    """In the dataset, and in words on its page."""
     runs = [member_run(tmp_path, str(row), 1700.0 if row % 2 else 1760.0) for row in range(16)]
     found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
     names = ("probability_above_yield_low", "probability_above_yield", "probability_above_yield_high")
@@ -414,9 +415,6 @@ def test_the_chance_of_passing_yield_has_an_interval(tmp_path):
     # Clopper and Pearson's of 8 and of 0 of 16
     assert at(1750.0) == [0.247, 0.5, 0.753]
     assert at(1600.0) == [0.0, 0.0, 0.206]
-
-
-def test_the_page_has_the_intervals_of_a_chance(root):
     page = (root / "docs/tolerances.md").read_text()
     low, high = (100 * end for end in share_ends(np.array(8), 16))
     assert f"between {low:.0f} and {high:.0f}%" in page
