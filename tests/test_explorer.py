@@ -445,8 +445,8 @@ def test_rotors_have_panels_in_their_scenes(page, datasets, interactions, rotors
 
 
 @pytest.mark.slow
-def test_a_diverged_run_is_marked(page):
-    """Above all that has a number, by its scene's or its blade's name; in a map, too."""
+def test_a_diverged_run_is_marked(page, datasets, interactions, tmp_path):
+    """Above all that has a number, by its scene's or its blade's name; in a map, and where every run of a scene is one."""
     for every, name in (("false", "direct diverged"), ("true", "Ref diverged")):
         choose(page, blade="Ref", scene="direct", quantity="rms_normal", speed="1200", unit="rad/s", all=every)
         drawn = {one["name"]: one for one in traces(page, "response")}
@@ -459,6 +459,14 @@ def test_a_diverged_run_is_marked(page):
     # a quantity that the scene does not compute has no runs at all
     choose(page, blade="Ref", scene="direct", quantity="max_wear", speed="1200", unit="rad/s", all="false")
     assert [one["name"] for one in traces(page, "response")] == ["abradable"]
+    made, everywhere = {kind: data.copy(deep=True) for kind, data in datasets.items()}, {"blade": "L<50>", "scene": "direct"}
+    made["rms"]["status"].loc[everywhere] = RunStatus.DIVERGED
+    for kind, name in (("rms", "rms_normal"), ("rms", "rms_tangential"), ("rms", "peak_normal"), ("stress", "max_von_mises")):
+        made[kind][name].loc[everywhere] = np.nan
+    contents = explorer_contents(made, interactions)
+    with beside(page, contents, tmp_path / "explorer.html", place="#blade=L%3C50%3E&scene=direct") as other:
+        drawn = {one["name"]: one for one in traces(other, "response")}
+        assert drawn["direct diverged"]["x"] == SPEEDS.tolist()
 
 
 @pytest.mark.slow
@@ -476,18 +484,6 @@ def test_a_lining_that_is_worn_through_is_marked(page, datasets, interactions, t
         assert "0.125" in other.evaluate("document.getElementById('response').data[0].text[3]")
         other.select_option("#scene", "direct")
         assert other.text_content("#note") == ""
-
-
-@pytest.mark.slow
-def test_a_scene_of_which_every_run_diverged_is_drawn(page, datasets, interactions, tmp_path):
-    made, everywhere = {kind: data.copy(deep=True) for kind, data in datasets.items()}, {"blade": "L<50>", "scene": "direct"}
-    made["rms"]["status"].loc[everywhere] = RunStatus.DIVERGED
-    for kind, name in (("rms", "rms_normal"), ("rms", "rms_tangential"), ("rms", "peak_normal"), ("stress", "max_von_mises")):
-        made[kind][name].loc[everywhere] = np.nan
-    contents = explorer_contents(made, interactions)
-    with beside(page, contents, tmp_path / "explorer.html", place="#blade=L%3C50%3E&scene=direct") as other:
-        drawn = {one["name"]: one for one in traces(other, "response")}
-        assert drawn["direct diverged"]["x"] == SPEEDS.tolist()
 
 
 @pytest.mark.slow

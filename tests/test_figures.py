@@ -47,10 +47,8 @@ def datasets():
     status[1, 1, 3] = RunStatus.DIVERGED
     values = np.where(status > 0, np.nan, peak[:, None, :] * np.array([1.0, 0.5])[:, None])
     dims, coords = ("blade", "scene", "speed"), {"blade": BLADES, "scene": SCENES, "speed": SPEEDS}
-    tip = xr.Dataset(coords=coords | {"tip_point": ["leading_edge", "trailing_edge"]})
-    rms = tip.assign(status=(dims, status))
-    for name in ("rms_normal", "rms_tangential"):
-        rms[name] = ((*dims, "tip_point"), np.repeat(values[..., None], 2, axis=-1))
+    both = {name: ((*dims, "tip_point"), np.repeat(values[..., None], 2, axis=-1)) for name in ("rms_normal", "rms_tangential")}
+    rms = xr.Dataset(both | {"status": (dims, status)}, coords | {"tip_point": ["leading_edge", "trailing_edge"]})
     stress = xr.Dataset({"max_von_mises": (dims, 2e12 * values), "yield_stress": (dims[:2], np.full((3, 2), 1.38e9))}, coords)
     order = np.arange(0.0, 20.001, 0.01)
     spectrum = values[..., None] * np.exp(-(((order - 4.0) / 0.02) ** 2)) + 1e-9

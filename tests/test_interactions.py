@@ -120,17 +120,14 @@ def test_a_row_has_the_worst_within_its_interaction():
     assert np.isnan(found(data)[0].worn_through_share)
 
 
-def test_a_drop_need_not_follow_at_once():
+def test_a_drop_need_not_follow_at_once_and_is_that_of_the_row_s_own_peak():
     data = response(tangential=[(1001.0, 2e-3, 6)], step=1.0)
     data["rms_tangential"].loc[{"speed": slice(1002.0, 1005.0)}] = 0.97 * 2e-3
     assert found(data)[0].peak.drop == pytest.approx(1.0 - np.hypot(1e-5, 1e-5) / 2e-3, rel=1e-4)
     # but not anywhere: 24 rad/s above the peak
     data["rms_tangential"].loc[{"speed": slice(1002.0, 1026.0)}] = 0.97 * 2e-3
     assert found(data)[0].peak.drop == pytest.approx(0.03, rel=1e-3)
-
-
-def test_a_drop_is_that_of_the_row_s_own_peak():
-    """As S50 in direct contact: the tip moves more a little above a normal peak, tangentially and too little for a peak."""
+    # as S50 in direct contact: the tip moves more a little above a normal peak, tangentially and too little for a peak
     data = response(normal=[(1000.0, 1e-4, 2)], tangential=[(1715.0, 1e-2, 4)])
     data["rms_tangential"].loc[{"speed": 1005.0}] = 5e-4
     row = found(data)[0]
