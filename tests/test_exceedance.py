@@ -241,19 +241,8 @@ def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
     assert "without a peak" in row.note
 
 
-def test_a_blade_that_always_diverges_has_no_motion_and_is_above_yield():
-    speeds = np.arange(900.0, 1001.0, 10.0)
-    nothing = np.full(len(speeds), np.nan)
-    one = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
-    (row,) = find_interactions(one, None, CHOICE)
-    assert row.status == "diverged" and row.crossing.engine_order is None
-    assert np.isnan([row.peak_motion.peak_motion_m, row.peak_motion.peak_motion_scatter_m]).all()
-    found = robustness(one)
-    assert (found["length_certain_rad_s"], found["diverged_runs"]) == (100.0, 11)
-    assert np.isnan(found["largest_rms_m"])
-
-
 def test_robustness_counts_diverged_runs_as_above_yield():
+    """Also where all diverge, and there is no motion."""
     speeds = np.arange(900.0, 1001.0, 10.0)
     status = np.where(speeds == 950.0, RunStatus.DIVERGED, RunStatus.COMPLETED)
     shares = np.where(status == RunStatus.DIVERGED, np.nan, 0.0)
@@ -265,6 +254,14 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     assert set(found) == set(ROBUSTNESS)
     assert found["widest_range_rad_s"] == 10.0
     assert robustness(response(speeds, np.zeros(11), np.ones(11), lined=1))["widest_range_rad_s"] == 0.0
+    nothing = np.full(len(speeds), np.nan)
+    every = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
+    (row,) = find_interactions(every, None, CHOICE)
+    assert row.status == "diverged" and row.crossing.engine_order is None
+    assert np.isnan([row.peak_motion.peak_motion_m, row.peak_motion.peak_motion_scatter_m]).all()
+    found = robustness(every)
+    assert (found["length_certain_rad_s"], found["diverged_runs"]) == (100.0, 11)
+    assert np.isnan(found["largest_rms_m"])
 
 
 def of(certain, possible=0.0, stress=1e9):

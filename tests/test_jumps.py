@@ -17,15 +17,13 @@ from r37core.time_integration.simulate import Simulation
 
 def both(model, scene, choice, speed, displacement=None, increment=None):
     """State and record of the same run with jumps and without."""
-    results = []
     for jumps in (True, False):
         simulation = Simulation(model, speed, scene, replace(choice, jumps=jumps))
         state = simulation.start()
         if displacement is not None:
             state.displacement[:] = displacement
             state.increment[:] = increment
-        results.append((state, simulation.advance(state, choice.revolutions)))
-    return results
+        yield state, simulation.advance(state, choice.revolutions)
 
 
 @pytest.mark.slow
