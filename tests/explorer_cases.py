@@ -64,14 +64,8 @@ def sweep():
 
 def interaction_rows():
     """One explained by a crossing, in the lining, and one that none explains."""
-    row = {
-        "blade": "Ref",
-        "scene": "abradable",
-        "mode": "1B",
-        "engine_order": 4,
-        "peak_speed_rad_s": 1200.0,
-        "status": "completed",
-    }
+    row = {"blade": "Ref", "scene": "abradable", "mode": "1B", "engine_order": 4}
+    row |= {"peak_speed_rad_s": 1200.0, "status": "completed"}
     other = row | {"scene": "direct", "mode": None, "engine_order": 2, "peak_speed_rad_s": 1000.25, "max_von_mises_pa": np.nan}
     return pd.DataFrame([row, other])
 

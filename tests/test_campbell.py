@@ -7,6 +7,7 @@ import pytest
 import scipy.linalg as la
 import xarray as xr
 
+from r37core.dataset_file import write_dataset
 from r37core.results.campbell import (
     Campbell,
     campbell_dataset,
@@ -42,24 +43,21 @@ def test_crossings_against_the_exact_eigenproblem(model, diagram):
         assert np.all(np.isnan(ours[~within]))
 
 
-def test_modes_are_named_by_shape(diagram):
+def test_modes_are_named_by_shape(model, diagram):
     assert diagram.mode_names[:4] == ("1B", "1T", "2B", "4")
     np.testing.assert_allclose(diagram.frequencies[:3, 0], [839.3, 2510.0, 3033.0], rtol=5e-3)
     assert np.all(diagram.continuity > 0.9)
+    shapes = diagram.shapes[:4, 0].T
+    np.testing.assert_allclose(modal_assurance(shapes, -3.0 * shapes, model.mass), np.eye(4), atol=1e-9)
 
 
 def oscillators(model, geometric_stiffness):
     """Six oscillators, of which the rotation stiffens or couples the first two."""
     stiffening = np.zeros((6, 6))
     stiffening[:2, :2] = geometric_stiffness
-    return replace(
-        model,
-        stiffness=np.diag([1.0, 4.0, 100.0, 121.0, 144.0, 169.0]),
-        geometric_stiffness=stiffening,
-        mass=np.eye(6),
-        shape_products=np.eye(3, 6),
-        shape_norms=np.ones(3),
-    )
+    stiffness = np.diag([1.0, 4.0, 100.0, 121.0, 144.0, 169.0])
+    shapes = {"shape_products": np.eye(3, 6), "shape_norms": np.ones(3)}
+    return replace(model, stiffness=stiffness, geometric_stiffness=stiffening, mass=np.eye(6), **shapes)
 
 
 def test_continuity_is_the_smallest_of_all_steps(model):
@@ -85,11 +83,6 @@ def test_the_first_of_several_crossings_counts():
     assert diagram.crossing_speeds(np.array([1]))[0, 0] == pytest.approx(np.sqrt(2.0), rel=1e-9)
 
 
-def test_modal_assurance_is_one_for_equal_shapes(model):
-    _, shapes = model.modes(0.0, 4)
-    np.testing.assert_allclose(modal_assurance(shapes, -3.0 * shapes, model.mass), np.eye(4), atol=1e-9)
-
-
 def test_dynamic_clearance(model, diagram):
     """At zero there is no change; the slope is minus normal over tangential part; far out the arc closes the gap."""
     displacement = np.array([-1e-2, -1e-6, 0.0, 1e-6, 1e-2])
@@ -109,14 +102,8 @@ def test_dynamic_clearance(model, diagram):
 
 
 def dataset_of(model, modes=10):
-    return campbell_dataset(
-        model,
-        speeds=np.linspace(0.0, 2000.0, 21),
-        modes=modes,
-        highest_engine_order=16,
-        largest_tangential_displacement=0.01,
-        tip_line="pressure_edge",
-    )
+    swing = {"largest_tangential_displacement": 0.01, "tip_line": "pressure_edge"}
+    return campbell_dataset(model, speeds=np.linspace(0.0, 2000.0, 21), modes=modes, highest_engine_order=16, **swing)
 
 
 def test_the_dataset_is_the_diagram(model):
@@ -141,8 +128,6 @@ def test_what_a_diagram_cannot_have_is_refused(model):
 
 
 def test_dataset_and_gathering(model, tmp_path):
-    from r37core.dataset_file import write_dataset
-
     dataset = dataset_of(model)
     for blade in ("Ref", "Other"):
         write_dataset(dataset, tmp_path / f"{blade}.nc", {"blade": blade, "fidelity": "draft"})

@@ -4,15 +4,14 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from test_interactions import CHOICE, campbell
 
 from r37core.figures.comparison import draw_ranking
 from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
-from r37core.results.interactions import InteractionChoice, find_interactions
+from r37core.results.interactions import find_interactions
 from r37core.results.ranking import ROBUSTNESS, as_scatter_bears, chance_to_be_better, ranking_table, robustness
 from r37core.time_integration.status import RunStatus
-
-CHOICE = InteractionChoice(prominence=0.1, below=0.02, above=0.06)
 
 
 def drawn(chance, speeds, revolutions=100, seed=0):
@@ -23,15 +22,6 @@ def drawn(chance, speeds, revolutions=100, seed=0):
 def rising(speeds):
     """The chance of yield rises from 0 at 1000 to 1 at 1100 rad/s and falls back at 1300."""
     return np.clip((speeds - 1000.0) / 100.0, 0.0, 1.0) * (speeds < 1300.0)
-
-
-# direct contact of S100 as shipped, at the adaptive speeds of the default sweep (rad/s); from 1400 rad/s on each share is 1
-S100_SPEEDS = (
-    *range(750, 851, 20), 860, *range(870, 991, 20), *range(1000, 1031, 10), *range(1035, 1081, 5), 1090, 1110, 1120, 1130,
-    1150, 1170, 1180, 1185, 1190, 1195, 1200, 1210, 1230, 1240, 1245, 1250, 1270, 1280, 1285, 1290, *range(1310, 1391, 20),
-    1395, 1400, 2000,
-)  # fmt: skip
-S100_SHARES = {1195: 0.91, 1250: 0.68, 1270: 0.25, 1280: 0.08, 1285: 0.75, 1290: 0.76, 1400: 1.0, 2000: 1.0}
 
 
 def test_ranges_are_of_straight_lines():
@@ -66,15 +56,6 @@ def test_borders_are_found_again_within_their_scatter(step):
         assert 0.0 < found.scatter_of_length(CERTAIN) < 3.0 + 2.0 * step
 
 
-def test_shares_count_for_the_length_that_is_nearest_to_them():
-    """Ten speeds close together are not ten times one far off: the smoothed share is a mean over speed."""
-    speeds = np.concatenate([[1000.0], 1005.0 + 0.1 * np.arange(10), [1011.0]])
-    shares = np.concatenate([[0.1], np.full(10, 0.9), [0.1]])
-    smoothed = Exceedance(speeds, shares, chance=True).smoothed
-    assert 0.3 < (smoothed[0] - 0.1) / 0.8 < 0.6
-    np.testing.assert_allclose(Exceedance(speeds, np.full(12, 0.3), chance=True).smoothed, 0.3)
-
-
 def test_weights_of_neighbours():
     """Straight lines to a reach of 30, 30, 60 and 60 rad/s, times the length nearest to each speed: 10, 15, 25 and 20."""
     speeds = np.array([0.0, 20.0, 30.0, 70.0])
@@ -97,10 +78,7 @@ def test_a_share_of_none_or_all_revolutions_is_smoothed_with_what_chance_may_giv
         ((1.0, 0.79), (1.0, 0.79)), ((0.01, 0.97), (0.33, 0.65)),
     ):  # fmt: skip
         np.testing.assert_allclose(Exceedance(speeds, np.array(shares), chance=True).smoothed, smoothed)
-
-
-def test_a_motion_that_repeats_itself_is_not_above_yield_beyond_its_borders():
-    """Above yield from 1002.5 to 1057.5 and from 1072.5 to 1102.5 rad/s in each revolution, every 5 rad/s."""
+    # a motion that repeats itself, above yield from 1002.5 to 1057.5 and from 1072.5 to 1102.5 rad/s, is not so beyond that
     speeds = np.arange(900.0, 1301.0, 5.0)
     above = ((speeds > 1002.5) & (speeds < 1057.5)) | ((speeds > 1072.5) & (speeds < 1102.5))
     found = Exceedance(speeds, above.astype(float), chance=True)
@@ -108,17 +86,6 @@ def test_a_motion_that_repeats_itself_is_not_above_yield_beyond_its_borders():
     # a line between the speeds of a border is above a twentieth for 0.45 of 5 rad/s more
     assert found.length(POSSIBLE) == pytest.approx(85.0 + 4.0 * 0.45 * 5.0)
     assert found.scatter_of_length(CERTAIN) == found.scatter_of_length(POSSIBLE) == 0.0
-
-
-def test_the_length_of_s100_is_not_widened():
-    """Smoothing all shares gave 1068 rad/s; the shares themselves give 937."""
-    speeds = np.array(S100_SPEEDS, float)
-    shares = np.array([S100_SHARES.get(speed, float(870 <= speed <= 1110)) for speed in S100_SPEEDS])
-    found = Exceedance(speeds, shares, chance=True)
-    of_shares = sum(part.length for part in ranges_above(speeds, shares, POSSIBLE))
-    assert of_shares == pytest.approx(937.0, abs=0.5)
-    assert found.length(POSSIBLE) == pytest.approx(of_shares, abs=2.0)
-    assert 0.0 < found.scatter_of_length(POSSIBLE) < 5.0
 
 
 def test_a_lined_blade_s_shares_are_taken_as_they_are():
@@ -197,24 +164,12 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     assert np.isnan(shown[0].possible_from_scatter_rad_s)
 
 
-def test_the_fall_of_a_branch_and_its_scatter():
-    """Above the peak two speeds alternate before the motion stays down."""
-    speeds = np.arange(1000.0, 1101.0, 2.0)
-    motion = np.where(speeds <= 1050.0, speeds / 1050.0, 0.3)
-    motion[speeds == 1054.0] = 0.9
-    (row,) = rows_above_yield(response(speeds, np.where(speeds < 1060.0, 1.0, 0.0), motion), [])
-    assert (row.peak_motion.fall_speed_rad_s, row.peak_motion.fall_speed_scatter_rad_s) == (1053.0, 3.0)
-    assert 0.0 < row.peak_motion.peak_motion_scatter_m < 0.3
-
-
 def test_the_motion_falls_where_it_stays_down():
     """Down at the next speed; and back up at most 24 rad/s, of which the range of chance is, above the first that is down."""
     speeds = np.arange(1000.0, 1101.0, 2.0)
-    down = np.where(speeds <= 1050.0, 1.0 + 1e-3 * speeds, 0.3)
-    for loud, fall in ((), (1051.0, 1.0)), ((1076.0,), (1064.0, 14.0)), ((1078.0,), (1051.0, 1.0)):
-        (row,) = rows_above_yield(
-            response(speeds, np.where(speeds < 1060.0, 1.0, 0.0), np.where(np.isin(speeds, loud), 1.5, down)), []
-        )
+    down, shares = np.where(speeds <= 1050.0, 1.0 + 1e-3 * speeds, 0.3), np.where(speeds < 1060.0, 1.0, 0.0)
+    for loud, fall in ((), (1051.0, 1.0)), ((1054.0,), (1053.0, 3.0)), ((1076.0,), (1064.0, 14.0)), ((1078.0,), (1051.0, 1.0)):
+        (row,) = rows_above_yield(response(speeds, shares, np.where(np.isin(speeds, loud), 1.5, down)), [])
         assert (row.peak_motion.fall_speed_rad_s, row.peak_motion.fall_speed_scatter_rad_s) == fall
 
 
@@ -267,16 +222,11 @@ def test_a_lined_row_has_both_widths():
     speeds = np.arange(1000.0, 1011.0)
     ever = np.isin(speeds, [1003.0, 1004.0, 1005.0, 1006.0, 1007.0])
     last = np.isin(speeds, [1004.0, 1005.0, 1006.0])
-    lined = response(
-        speeds, np.where(last, 1.0, np.where(ever, 0.2, 0.0)), 1e-3 * np.exp(-(((speeds - 1005.0) / 2.0) ** 2)), lined=1
-    )
+    motion = 1e-3 * np.exp(-(((speeds - 1005.0) / 2.0) ** 2))
+    lined = response(speeds, np.where(last, 1.0, np.where(ever, 0.2, 0.0)), motion, lined=1)
     lined["max_von_mises"][:], lined["max_von_mises_ever"][:] = np.where(last, 2e9, 0.0), np.where(ever, 2e9, 0.0)
-    campbell = xr.Dataset(
-        {"crossing_speed": (("mode", "engine_order"), [[990.0], [np.nan], [np.nan]])},
-        {"mode": ["1B", "1T", "2B"], "engine_order": [4]},
-    )
-    (row,) = find_interactions(lined, campbell, CHOICE)
-    assert (row.crossing.mode, row.crossing.engine_order, row.note) == ("1B", 4, "")
+    (row,) = find_interactions(lined, campbell(), CHOICE)
+    assert (row.crossing.mode, row.crossing.engine_order, row.note) == ("1B", 6, "")
     assert (row.last_revolution.width_above_yield_rad_s, row.all_revolutions.width_ever_above_yield_rad_s) == (3.0, 5.0)
     assert row.all_revolutions.certain_length_rad_s == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
 
@@ -285,29 +235,14 @@ def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
     """Everywhere above yield while the motion only rises; a peak elsewhere has the row that it had."""
     speeds = np.arange(1000.0, 1011.0)
     rising_motion = response(speeds, np.ones(11), 1e-3 * speeds, lined=1)
-    campbell = xr.Dataset(
-        {"crossing_speed": (("mode", "engine_order"), np.full((3, 1), np.nan))},
-        {"mode": ["1B", "1T", "2B"], "engine_order": [4]},
-    )
-    (row,) = find_interactions(rising_motion, campbell, CHOICE)
+    (row,) = find_interactions(rising_motion, campbell(), CHOICE)
     every = row.all_revolutions
     assert (every.possible_from_rad_s, every.possible_to_rad_s, every.certain_length_rad_s) == (1000.0, 1010.0, 10.0)
     assert "without a peak" in row.note
 
 
-def test_a_blade_that_always_diverges_has_no_motion_and_is_above_yield():
-    speeds = np.arange(900.0, 1001.0, 10.0)
-    nothing = np.full(len(speeds), np.nan)
-    one = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
-    (row,) = find_interactions(one, None, CHOICE)
-    assert row.status == "diverged" and row.crossing.engine_order is None
-    assert np.isnan([row.peak_motion.peak_motion_m, row.peak_motion.peak_motion_scatter_m]).all()
-    found = robustness(one)
-    assert (found["length_certain_rad_s"], found["diverged_runs"]) == (100.0, 11)
-    assert np.isnan(found["largest_rms_m"])
-
-
 def test_robustness_counts_diverged_runs_as_above_yield():
+    """Also where all diverge, and there is no motion."""
     speeds = np.arange(900.0, 1001.0, 10.0)
     status = np.where(speeds == 950.0, RunStatus.DIVERGED, RunStatus.COMPLETED)
     shares = np.where(status == RunStatus.DIVERGED, np.nan, 0.0)
@@ -319,6 +254,14 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     assert set(found) == set(ROBUSTNESS)
     assert found["widest_range_rad_s"] == 10.0
     assert robustness(response(speeds, np.zeros(11), np.ones(11), lined=1))["widest_range_rad_s"] == 0.0
+    nothing = np.full(len(speeds), np.nan)
+    every = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
+    (row,) = find_interactions(every, None, CHOICE)
+    assert row.status == "diverged" and row.crossing.engine_order is None
+    assert np.isnan([row.peak_motion.peak_motion_m, row.peak_motion.peak_motion_scatter_m]).all()
+    found = robustness(every)
+    assert (found["length_certain_rad_s"], found["diverged_runs"]) == (100.0, 11)
+    assert np.isnan(found["largest_rms_m"])
 
 
 def of(certain, possible=0.0, stress=1e9):
@@ -328,14 +271,8 @@ def of(certain, possible=0.0, stress=1e9):
 
 
 def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
-    found = {
-        ("A", "x"): of(5.0),
-        ("B", "x"): of(1.0, 9.0),
-        ("C", "x"): of(1.0, 2.0),
-        ("A", "y"): of(0.0),
-        ("B", "y"): of(np.nan),
-    }
-    table = ranking_table(found)
+    lined = {("A", "x"): of(5.0), ("B", "x"): of(1.0, 9.0), ("C", "x"): of(1.0, 2.0)}
+    table = ranking_table(lined | {("A", "y"): of(0.0), ("B", "y"): of(np.nan)})
     assert list(table.columns[:4]) == ["blade", "scene", "rank", ROBUSTNESS[0]]
     assert list(zip(table["scene"], table["blade"], table["rank"], strict=True)) == [
         ("x", "C", 1), ("x", "B", 2), ("x", "A", 3), ("y", "A", 1), ("y", "B", pd.NA),

@@ -15,24 +15,16 @@ from r37core.results.ranking import ROBUSTNESS
 
 RANKING = pd.DataFrame(
     [
-        # blade, scene, rank, certain, possible, low, high, stress, chance
         ("Ref", "abradable", 2, 30.0, 60.0, 20.0, 45.0, 9e9, np.nan),
         ("L<50>", "abradable", 1, 10.0, 20.0, 5.0, 12.0, 4e9, 0.75),
         ("Ref", "direct", 1, 0.0, 100.0, np.nan, np.nan, 2e9, np.nan),
         ("L<50>", "direct", 2, 50.0, 55.0, np.nan, np.nan, 3e9, 0.25),
     ],
     columns=[
-        "blade",
-        "scene",
-        "rank",
-        "length_certain_rad_s",
-        "length_possible_rad_s",
-        "length_certain_rad_s_low",
-        "length_certain_rad_s_high",
-        "largest_median_stress_pa",
-        "chance_better_than_Ref",
+        "blade", "scene", "rank", "length_certain_rad_s", "length_possible_rad_s", "length_certain_rad_s_low",
+        "length_certain_rad_s_high", "largest_median_stress_pa", "chance_better_than_Ref",
     ],
-)
+)  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +60,7 @@ def column(page, name):
 
 
 def test_every_column_has_words():
-    """One glossary for the page and its tooltips."""
+    """And the unit of what it shows: one glossary for the page and its tooltips."""
     named = [*COLUMNS, *RANGES, "share_of_members", "robust"]
     assert [name for name in ROBUSTNESS if not glossary.word(name, glossary.RANKING)] == []
     assert [name for name in named if not glossary.word(name, glossary.INTERACTIONS)] == []
@@ -77,9 +69,6 @@ def test_every_column_has_words():
     assert glossary.word("length_certain_rad_s_median", glossary.RANKING).title == "above yield in most revolutions, median"
     assert glossary.word("length_certain_rad_s_scatter", glossary.RANKING).title == "above yield in most revolutions, scatter"
     assert glossary.word("never_heard_of", glossary.RANKING) is None
-
-
-def test_numbers_are_shown_in_the_units_of_their_columns():
     names = ("blade", "peak_rms_normal_m", "max_von_mises_pa", "drop")
     words = [glossary.INTERACTIONS[name] for name in names]
     assert [(word.unit, word.factor) for word in words] == [("", 1.0), ("mm", 1e3), ("MPa", 1e-6), ("%", 100.0)]
@@ -133,7 +122,7 @@ def test_a_click_on_a_head_sorts_and_says_what_it_is(at_ref):
 
 
 @pytest.mark.slow
-def test_the_two_stresses_have_their_names(at_ref, rows):
+def test_quantities_and_the_two_stresses_have_long_names_and_speeds_the_chosen_unit(at_ref):
     at_ref.click("#interactions tbody tr:has-text('1T/12')")
     now = at_ref.text_content("#now")
     assert now.startswith("Ref, abradable, 1000.3 rad/s")
@@ -141,10 +130,6 @@ def test_the_two_stresses_have_their_names(at_ref, rows):
     assert "largest stress, last revolution (MPa)" in at_ref.locator("#interactions th").all_text_contents()
     at_ref.click("#interactions tbody tr:has-text('1B/4')")
     assert "interaction" not in at_ref.text_content("#now")
-
-
-@pytest.mark.slow
-def test_quantities_have_long_names_and_speeds_the_chosen_unit(at_ref):
     options = at_ref.locator("#quantity option").all_text_contents()
     assert "largest von Mises stress on the submesh in the last revolution (MPa)" in options
     assert "share of the steps with a contact force" in options

@@ -65,11 +65,8 @@ def joined(data):
     )
     both = both.expand_dims(blade=["Ref"], scene=["lined"])
     both["yield_stress"] = (("blade", "scene"), [[YIELD]])
-    parts = {
-        "rms": ["rms_normal", "rms_tangential"],
-        "spectrum": ["amplitude", "amplitude_tangential"],
-        "stress": ["max_von_mises", "yield_stress"],
-    }
+    parts = {"rms": ["rms_normal", "rms_tangential"], "spectrum": ["amplitude", "amplitude_tangential"]}
+    parts |= {"stress": ["max_von_mises", "yield_stress"]}
     datasets = {kind: both[[*names, "status"]] for kind, names in parts.items()}
     bare = datasets["rms"].assign_coords(scene=["bare"])
     return datasets | {"rms": xr.concat([datasets["rms"], bare], "scene"), "campbell": campbell().expand_dims(blade=["Ref"])}
@@ -84,6 +81,7 @@ def test_a_row_of_each_branch():
     assert {row.crossing.direction for row in rows} == {"tangential"}
     last = rows[-1]
     assert last.peak.drop == pytest.approx(1.0, abs=0.02)
+    assert (last.peak.peak_rms_normal_m, last.peak.peak_rms_tangential_m) == pytest.approx((1e-5, 2e-3))
     # stress is twice yield at the peak, yield at half its height: 25 rad/s before it; after it the fall is within one step
     assert last.last_revolution.width_above_yield_rad_s == pytest.approx(25.0 + 5.0 * 1.0 / 1.99, rel=0.02)
     assert last.last_revolution.share_above_yield == pytest.approx(1.0)
@@ -92,50 +90,44 @@ def test_a_row_of_each_branch():
     assert np.isnan([rows[0].last_revolution.share_above_yield, last.max_wear_m]).all()
 
 
-def test_worn_through_is_the_largest_share_within_the_interaction():
-    data = response(tangential=[(1265.0, 8e-4, 5), (1715.0, 2e-3, 4)])
-    share = np.where(data["speed"] > 1690.0, 0.2, 0.0) * (data["speed"] < 1710.0)
-    rows = found(data.assign(worn_through_share=share))
-    assert [row.worn_through_share for row in rows] == [0.0, 0.2]
-    assert np.isnan(found(data)[0].worn_through_share)
-
-
 def test_single_speeds_below_yield_do_not_end_the_range():
     """Near the end of a branch the motion is chaotic: width is from the first to the last, the share says what is above."""
     data = response(tangential=[(1715.0, 4e-3, 4)], step=1.0)
-    whole = found(data)[0]
-    assert whole.last_revolution.width_above_yield_rad_s == pytest.approx(37.5 + 1.0 * 3.0 / 3.99, rel=0.01)
-    for speed in (1713.0, 1714.0):
-        for name in ("max_von_mises", "rms_tangential"):
-            data[name].loc[{"speed": speed}] *= 0.1
-    broken = found(data)[0]
-    assert broken.last_revolution.width_above_yield_rad_s == whole.last_revolution.width_above_yield_rad_s
+    whole = found(data)[0].last_revolution
+    for name in ("max_von_mises", "rms_tangential"):
+        data[name].loc[{"speed": [1713.0, 1714.0]}] *= 0.1
+    broken = found(data)[0].last_revolution
+    assert broken.width_above_yield_rad_s == whole.width_above_yield_rad_s
     # of the ratios 3.76, 0.384, 0.392 and 4 only the ends of the first and last interval are above yield
     below = 1.0 + (1.0 - 0.384) / (3.76 - 0.384) + (1.0 - 0.392) / (4.0 - 0.392)
-    assert broken.last_revolution.share_above_yield == pytest.approx(
-        1.0 - below / whole.last_revolution.width_above_yield_rad_s, rel=1e-3
-    )
+    assert broken.share_above_yield == pytest.approx(1.0 - below / whole.width_above_yield_rad_s, rel=1e-3)
 
 
-def test_the_largest_stress_is_that_of_the_interaction():
+def test_a_row_has_the_worst_within_its_interaction():
+    """Stress, what is worn through, and a run that diverged, which is above yield."""
     data = response(tangential=[(1715.0, 2e-3, 4), (900.0, 1e-3, 2)])
     data["max_von_mises"].loc[{"speed": [1705.0, 880.0]}] = [5e9, 9e9]
-    row = found(data)[-1]
-    stress = row.last_revolution
-    assert (stress.max_von_mises_pa, stress.max_von_mises_speed_rad_s, row.peak.peak_speed_rad_s) == (5e9, 1705.0, 1715.0)
+    data["status"].loc[{"speed": 1720.0}] = RunStatus.DIVERGED
+    for name in ("max_von_mises", "rms_tangential", "rms_normal"):
+        data[name].loc[{"speed": 1720.0}] = np.nan
+    share = np.where(data["speed"] > 1690.0, 0.2, 0.0) * (data["speed"] < 1710.0)
+    rows = found(data.assign(worn_through_share=share))
+    assert [row.status for row in rows] == ["completed", "diverged"]
+    stress = rows[-1].last_revolution
+    assert (stress.max_von_mises_pa, stress.max_von_mises_speed_rad_s) == (5e9, 1705.0)
+    assert stress.width_above_yield_rad_s == pytest.approx(1720.0 - 1690.0, rel=1e-3)
+    assert (rows[-1].peak.peak_speed_rad_s, [row.worn_through_share for row in rows]) == (1715.0, [0.0, 0.2])
+    assert np.isnan(found(data)[0].worn_through_share)
 
 
-def test_a_drop_need_not_follow_at_once():
+def test_a_drop_need_not_follow_at_once_and_is_that_of_the_row_s_own_peak():
     data = response(tangential=[(1001.0, 2e-3, 6)], step=1.0)
     data["rms_tangential"].loc[{"speed": slice(1002.0, 1005.0)}] = 0.97 * 2e-3
     assert found(data)[0].peak.drop == pytest.approx(1.0 - np.hypot(1e-5, 1e-5) / 2e-3, rel=1e-4)
     # but not anywhere: 24 rad/s above the peak
     data["rms_tangential"].loc[{"speed": slice(1002.0, 1026.0)}] = 0.97 * 2e-3
     assert found(data)[0].peak.drop == pytest.approx(0.03, rel=1e-3)
-
-
-def test_a_drop_is_that_of_the_row_s_own_peak():
-    """As S50 in direct contact: the tip moves more a little above a normal peak, tangentially and too little for a peak."""
+    # as S50 in direct contact: the tip moves more a little above a normal peak, tangentially and too little for a peak
     data = response(normal=[(1000.0, 1e-4, 2)], tangential=[(1715.0, 1e-2, 4)])
     data["rms_tangential"].loc[{"speed": 1005.0}] = 5e-4
     row = found(data)[0]
@@ -143,39 +135,33 @@ def test_a_drop_is_that_of_the_row_s_own_peak():
     assert row.peak.drop == pytest.approx(1.0 - np.sqrt(2.0) * 1e-5 / np.hypot(1e-4, 1e-5))
 
 
-def test_peaks_without_a_crossing_are_kept_apart():
-    rows = found(response(tangential=[(900.0, 1e-3, 2), (1500.0, 1.2e-3, 2)]))
-    assert [(row.crossing.mode, row.crossing.engine_order) for row in rows] == [("", 2), ("", 2)]
-    assert [row.peak.peak_speed_rad_s for row in rows] == [900.0, 1500.0]
-    assert np.isnan([row.crossing.campbell_speed_rad_s for row in rows]).all()
-    # as far apart as one crossing's peaks may be they are one, and of two orders they are two
-    (row,) = found(response(tangential=[(1400.0, 1e-3, 2), (1500.0, 1.2e-3, 2)]))
-    assert row.peak.peak_speed_rad_s == 1500.0
-    assert len(found(response(tangential=[(1400.0, 1e-3, 3), (1500.0, 1.2e-3, 2)]))) == 2
-
-
-def test_one_peak_is_listed_once():
-    """As S100's 1B/4: the normal motion has its peak there too, or a step away, of another order."""
-    for normal in ([(1640.0, 5e-5, 3)], [(1641.0, 5e-5, 3)]):
-        data = response(normal, [(1640.0, 9e-3, 4)], step=1.0)
-        (row,) = found(data)
-        assert (row.crossing.title, row.peak.peak_speed_rad_s) == ("1B/4", 1640.0)
-        assert titles([row]) == {1640.0: "1B/4"}
-        assert row.crossing.direction == ("both" if normal[0][0] == 1640.0 else "tangential")
-
-
-def test_peaks_of_one_crossing_are_one_interaction():
-    (row,) = found(response(tangential=[(1700.0, 2e-3, 4), (1755.0, 3e-3, 4)], normal=[(1722.0, 1e-3, 3)]))
-    assert (row.crossing.title, row.peak.peak_speed_rad_s) == ("1B/4", 1755.0)
-
-
-def test_an_interaction_that_moves_the_tip_tangentially_only():
-    """As of S100: the normal motion has its peak elsewhere, with another order; direction and its spectrum go together."""
-    rows = found(response([(1700.0, 5e-5, 2)], [(1640.0, 9e-3, 4)]))
-    met = [row.crossing for row in rows]
-    assert [(crossing.title, crossing.direction) for crossing in met] == [("1B/4", "tangential"), ("engine order 2", "normal")]
-    assert rows[0].peak.peak_rms_tangential_m == pytest.approx(9e-3)
-    assert rows[1].peak.peak_rms_normal_m == pytest.approx(5e-5)
+@pytest.mark.parametrize(
+    ("normal", "tangential", "rows"),
+    [
+        # without a crossing, far apart; as far apart as one crossing's peaks may be; of two orders; beside a crossing of others
+        ([], [(900.0, 1e-3, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 900.0), ("engine order 2", 1500.0)]),
+        ([], [(1400.0, 1e-3, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 1500.0)]),
+        ([], [(1400.0, 1e-3, 3), (1500.0, 1.2e-3, 2)], [("engine order 3", 1400.0), ("engine order 2", 1500.0)]),
+        ([], [(1715.0, 1e-3, 2)], [("engine order 2", 1715.0)]),
+        # before the end of the speeds, to which it falls by the prominence
+        ([], [(1995.0, 3e-3, 4)], [("engine order 4", 1995.0)]),
+        # of one crossing
+        ([(1722.0, 1e-3, 3)], [(1700.0, 2e-3, 4), (1755.0, 3e-3, 4)], [("1B/4", 1755.0)]),
+        # neighbours in both directions: of one crossing, and of two
+        ([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 4)], [("1B/4", 1700.0, "normal")]),
+        ([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 9)], [("1B/4", 1700.0, "normal"), ("1T/9", 1705.0)]),
+        # as S100's 1B/4: the normal motion, of another order, has its peak there too, a step away, or elsewhere
+        ([(1640.0, 5e-5, 3)], [(1640.0, 9e-3, 4)], [("1B/4", 1640.0, "both")]),
+        ([(1645.0, 5e-5, 3)], [(1640.0, 9e-3, 4)], [("1B/4", 1640.0)]),
+        ([(1700.0, 5e-5, 2)], [(1640.0, 9e-3, 4)], [("1B/4", 1640.0), ("engine order 2", 1700.0, "normal")]),
+    ],
+)
+def test_peaks_that_are_one_interaction_and_those_that_are_not(normal, tangential, rows):
+    """Title and peak speed of each row, and its direction where that is not tangential."""
+    both = found(response(normal, tangential))
+    assert titles(both) == {speed: title for title, speed, *_ in rows}
+    assert [row.crossing.direction for row in both] == [(*row, "tangential")[2] for row in rows]
+    assert all(np.isnan(row.crossing.campbell_speed_rad_s) for row in both if not row.crossing.mode)
 
 
 def test_the_end_of_the_speeds_is_no_peak():
@@ -186,8 +172,6 @@ def test_the_end_of_the_speeds_is_no_peak():
     falling = response(tangential=[(1265.0, 1e-3, 5)])
     falling["rms_tangential"][0] = 5e-3
     assert [one.peak.peak_speed_rad_s for one in found(falling)] == [1265.0]
-    # a fall before the end, by the prominence, makes it a peak
-    assert [one.peak.peak_speed_rad_s for one in found(response(tangential=[(1995.0, 3e-3, 4)]))] == [1995.0]
 
 
 def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
@@ -202,28 +186,14 @@ def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
 
 
 def test_the_crossing_is_the_nearest_and_the_order_the_strongest_whole_one():
-    (row,) = found(response(tangential=[(1685.0, 1e-3, 4)]).drop_vars(["amplitude", "amplitude_tangential"]))
-    assert row.crossing.title == "1T/9"
-    # 1B/4 at 1672 is 3 above and 1T/9 at 1680 is 11: nearest, not least
-    (row,) = found(response(tangential=[(1670.0, 1e-3, 4)]).drop_vars(["amplitude", "amplitude_tangential"]))
-    assert row.crossing.title == "1B/4"
+    """Between 1B/4 at 1672 and 1T/9 at 1680 the nearest, not the least; without a spectrum any order is as good."""
+    bare = {1685.0: "1T/9", 1670.0: "1B/4", 1450.0: "a peak of its own"}
+    for speed, title in bare.items():
+        (row,) = found(response(tangential=[(speed, 1e-3, 4)]).drop_vars(["amplitude", "amplitude_tangential"]))
+        assert row.crossing.title == title
     data = response(tangential=[(1715.0, 2e-3, 3.98)])
     data["amplitude_tangential"].loc[{"engine_order": 0.0}] = 1.0
     assert found(data)[0].crossing.title == "1B/4"
-    (row,) = found(response(tangential=[(1715.0, 1e-3, 2)]))
-    assert (row.crossing.title, row.crossing.mode) == ("engine order 2", "")
-    (alone,) = found(response(tangential=[(1450.0, 1e-3, 2)]).drop_vars(["amplitude", "amplitude_tangential"]))
-    assert alone.crossing.title == "a peak of its own"
-
-
-def test_a_run_that_diverged_is_above_yield():
-    data = response(tangential=[(1715.0, 4e-3, 4)])
-    for name in ("max_von_mises", "rms_tangential", "rms_normal"):
-        data[name].loc[{"speed": 1720.0}] = np.nan
-    data["status"].loc[{"speed": 1720.0}] = RunStatus.DIVERGED
-    (row,) = found(data)
-    assert row.last_revolution.width_above_yield_rad_s == pytest.approx(1720.0 - 1677.5, rel=1e-3)
-    assert row.status == "diverged"
 
 
 def test_the_table_of_all():
@@ -236,10 +206,7 @@ def test_the_table_of_all():
     # an order is a whole number in the file, and a scene without a spectrum has no order where nothing is near
     text = table.to_csv(index=False)
     assert "Ref,lined,1B,4,tangential,1672.0,1715.0," in text
-
-
-def test_speeds_of_the_file_are_those_of_the_datasets():
-    """Also in rpm, where a speed has sixteen digits."""
+    # speeds of the file are those of the datasets, also in rpm, where a speed has sixteen digits
     data = response(tangential=[(1265.0, 8e-4, 5)], step=5.0, unit=RAD_S["rpm"] * 9.5)
     table = summarise(joined(data), CHOICE)
     back = pd.read_csv(io.StringIO(table.to_csv(index=False)))
@@ -256,14 +223,6 @@ def test_no_response_no_interaction():
     assert summarise(joined(data), CHOICE).empty
     data["status"][:] = RunStatus.NOT_RUN
     assert found(data) == []
-
-
-def test_neighbouring_peaks_that_two_crossings_explain_are_two():
-    """Of one mode the normal motion, of the other the tangential one; with one crossing they are one."""
-    apart = found(response([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 9)]))
-    assert sorted(row.crossing.title for row in apart) == ["1B/4", "1T/9"]
-    (row,) = found(response([(1700.0, 5e-3, 4)], [(1705.0, 9e-3, 4)]))
-    assert row.crossing.title == "1B/4"
 
 
 def test_the_reach_of_a_peak_may_begin_and_end_with_the_speeds():

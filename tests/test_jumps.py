@@ -17,15 +17,13 @@ from r37core.time_integration.simulate import Simulation
 
 def both(model, scene, choice, speed, displacement=None, increment=None):
     """State and record of the same run with jumps and without."""
-    results = []
     for jumps in (True, False):
         simulation = Simulation(model, speed, scene, replace(choice, jumps=jumps))
         state = simulation.start()
         if displacement is not None:
             state.displacement[:] = displacement
             state.increment[:] = increment
-        results.append((simulation, state, simulation.advance(state, choice.revolutions)))
-    return results
+        yield state, simulation.advance(state, choice.revolutions)
 
 
 @pytest.mark.slow
@@ -35,7 +33,7 @@ def both(model, scene, choice, speed, displacement=None, increment=None):
 def test_long_run_with_jumps_is_the_plain_run(contact, scene, speed, integrator, step):
     """10 revolutions, 49,000 steps and more; after 20, a start moved by 1e-18 m makes a difference of 1e-8."""
     choice = IntegrationChoice(step, 10, 496, integrator=integrator)
-    (_, jumped, with_jumps), (_, plain, without) = both(contact, replace(scene, casing=Casing(0.356e-3)), choice, speed)
+    (jumped, with_jumps), (plain, without) = both(contact, replace(scene, casing=Casing(0.356e-3)), choice, speed)
     assert jumped.totals["steps_jumped"] > 0.1 * jumped.totals["steps"]
     assert plain.totals["steps_jumped"] == 0
     largest = np.abs(without.samples).max()
@@ -70,7 +68,7 @@ def test_no_contact_is_missed(contact, seed, excess, exact, lobes, cone_angle):
     open_scene = Scene(casing, exact_gap=exact, divergence_limit=10.0)
     reach = largest_reach(contact, open_scene, choice, displacement, increment)
     scene = replace(open_scene, casing=replace(casing, clearance=reach * (1.0 - excess)))
-    (_, jumped, _), (_, plain, _) = both(contact, scene, choice, 1500.0, displacement, increment)
+    (jumped, _), (plain, _) = both(contact, scene, choice, 1500.0, displacement, increment)
     assert (plain.totals["steps_in_contact"] > 0) == (excess > 0)
     assert jumped.totals["steps_in_contact"] == plain.totals["steps_in_contact"]
     scale = np.abs(plain.displacement).max()
@@ -101,7 +99,7 @@ def test_lobes_that_pass_during_a_jump_are_met():
     """A blade at rest is hit by every lobe of a casing deformed from the start, though no node moves."""
     model = oscillator(6000.0)
     scene = Scene(replace(AT_ONCE, lobes=7, width=0.01, amplitude=1.001))
-    (_, jumped, _), (_, plain, _) = both(model, scene, IntegrationChoice(1e-6, 2, 3), 1000.0)
+    (jumped, _), (plain, _) = both(model, scene, IntegrationChoice(1e-6, 2, 3), 1000.0)
     assert plain.totals["steps_in_contact"] > 0
     assert jumped.totals["steps_in_contact"] == plain.totals["steps_in_contact"]
     assert jumped.totals["steps_jumped"] > 0
@@ -139,15 +137,11 @@ def test_bound_beyond_the_tangent_is_reached_but_not_passed():
     for length, jump in zip(jump_lengths(77), plan.jumps, strict=True):
         beyond = np.abs((phases * eigenvalue**length).real - u - length * d).max()
         assert 0.99 * jump[7, 0] < beyond <= jump[7, 0] * (1.0 + 1e-6)
-
-
-def test_modes_that_follow_no_tangent_stay_within_their_amplitude():
+    # the faster of two does not follow its tangent, and stays within its amplitude
     plan = plan_jumps(central_difference(np.array([100.0, 200.0]), 0.0, 1e-6), 77, 1, followed=1)
     assert set(plan.slow_modes) == {1}
     assert np.all(plan.jumps[:, 7, 0] < 1e-3) and np.all(plan.jumps[:, 7, 1] == 1.0)
-
-
-def test_modes_that_do_not_oscillate_are_stepped():
+    # those that do not oscillate are stepped
     assert plan_jumps(central_difference(np.array([1e4, 1e6]), 1.0, 1e-7), 64, 8, followed=2) is None
 
 

@@ -1,12 +1,14 @@
 """What a run's file keeps, against closed forms and counts by hand."""
 
+from contextlib import nullcontext
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
-from integration_cases import DIRECT, LINING, oscillator
+from integration_cases import DIRECT, LINING, oscillator, random_model
 
 from r37core.contact.laws import wear_at_the_casing
 from r37core.time_integration.casing_of_run import CasingOfRun
@@ -22,9 +24,10 @@ from r37core.time_integration.time_grid import TimeGrid
 FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
 SPEED = 1000.0
 
-
 SWINGING = InitialMotion.from_arrays([1e-4], None)
 """Displacement (m) of the one mode as its run starts."""
+
+kept_of = partial(run_speed, spectrum_highest_order=31, wear_angles=90)
 
 
 def with_tip(normal, tangential):
@@ -38,16 +41,7 @@ def with_tip(normal, tangential):
 def test_statistics_of_a_free_oscillation():
     """Ten periods a revolution of 0.1 mm: rms amplitude/sqrt(2) in metres and one line of the spectrum, at both edges."""
     choice = IntegrationChoice(1e-7, 6, 620)
-    kept = run_speed(
-        with_tip([1.0, 3.0], [0.5, 2.0]),
-        SPEED,
-        FREE,
-        choice,
-        ("spectrum",),
-        spectrum_highest_order=31,
-        wear_angles=10,
-        motion=SWINGING,
-    )
+    kept = kept_of(with_tip([1.0, 3.0], [0.5, 2.0]), SPEED, FREE, choice, ("spectrum",), motion=SWINGING)
     expected = 1e-4 * np.array([[1.0, 1.0, 0.5], [3.0, 3.0, 2.0]])
     np.testing.assert_allclose(kept["rms"], expected / np.sqrt(2.0), rtol=1e-4)
     np.testing.assert_allclose(kept["peak"], expected, rtol=1e-3)
@@ -65,7 +59,7 @@ def test_contact_statistics_counted_step_by_step():
     model = oscillator(frequency)
     simulation = Simulation(model, SPEED, scene, choice)
     assert simulation.problem.grid.steps_per_sample == 1
-    kept = run_speed(model, SPEED, scene, choice, (), spectrum_highest_order=10, wear_angles=10)
+    kept = kept_of(model, SPEED, scene, choice, ())
     u = simulation.advance(simulation.start(), 2).samples[:, 0]
     u = np.concatenate([[0.0, 0.0], u])
     h = simulation.problem.grid.time_step
@@ -83,18 +77,9 @@ def test_either_edge_of_the_tip_can_diverge(edge):
     """The limit is on what any output moves, at the leading edge as at the trailing edge."""
     moves = [0.0, 0.0]
     moves[edge] = 5.0
-    choice = IntegrationChoice(1e-7, 4, 62)
+    model, choice = with_tip(moves, [0.0, 0.0]), IntegrationChoice(1e-7, 4, 62)
     for limit, status in ((6e-4, RunStatus.COMPLETED), (4e-4, RunStatus.DIVERGED)):
-        kept = run_speed(
-            with_tip(moves, [0.0, 0.0]),
-            SPEED,
-            replace(FREE, divergence_limit=limit),
-            choice,
-            (),
-            spectrum_highest_order=10,
-            wear_angles=10,
-            motion=SWINGING,
-        )
+        kept = kept_of(model, SPEED, replace(FREE, divergence_limit=limit), choice, (), motion=SWINGING)
         assert kept["status"] == status
 
 
@@ -115,23 +100,8 @@ def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
         return record
 
     monkeypatch.setattr(Simulation, "advance", worn_lining)
-    model = oscillator(6000.0)
-    two = replace(
-        model,
-        displacement_operator=np.repeat(model.displacement_operator, 2, axis=1),
-        radius=np.repeat(model.radius, 2),
-        theta=np.repeat(model.theta, 2),
-    )
     lining = replace(LINING, bars=bars)
-    kept = run_speed(
-        two,
-        SPEED,
-        replace(DIRECT, lining=lining),
-        IntegrationChoice(2e-7, 2, 62),
-        ("wear",),
-        spectrum_highest_order=10,
-        wear_angles=90,
-    )
+    kept = kept_of(random_model(2), SPEED, replace(DIRECT, lining=lining), IntegrationChoice(2e-7, 2, 62), ("wear",))
     assert kept["max_wear"] == worn.max()
     np.testing.assert_allclose(kept["wear"], worn.reshape(90, -1).max(axis=1), rtol=1e-6)
     harmonics = np.zeros(21)
@@ -156,12 +126,8 @@ def test_step_limit_of_a_lining_is_four_thirds():
     stiffness_per_pascal = soft.area(float(model.radius[0])) / soft.thickness
     for share, refused in ((0.999, False), (1.001, True)):
         lining = replace(soft, elastic_modulus=share * 4.0 / 3.0 / step**2 / stiffness_per_pascal)
-        scene = replace(DIRECT, lining=lining)
-        if refused:
-            with pytest.raises(UnstableStepError, match="limit for this lining"):
-                Problem(model, SPEED, scene, choice)
-        else:
-            Problem(model, SPEED, scene, choice)
+        with pytest.raises(UnstableStepError, match="limit for this lining") if refused else nullcontext():
+            Problem(model, SPEED, replace(DIRECT, lining=lining), choice)
 
 
 @pytest.mark.parametrize(("snapshots", "kept"), [(4, 2), (1, 1), (0, 2), (4, 0)])

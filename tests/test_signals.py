@@ -1,16 +1,17 @@
 """Time signals against closed forms: strain gauges, tip timing, engine orders, and records against the runs of the sweep."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
 import xarray as xr
 from box_mesh import box_mesh
-from defaults import Casing, IntegrationChoice, Scene
-from integration_cases import oscillator, with_static_modes
+from defaults import IntegrationChoice
+from integration_cases import with_static_modes
 from scipy.optimize import brentq
+from test_run_statistics import FREE, SPEED, with_tip
 
-from r37core.config.declaring import si_form
 from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.style import save
@@ -28,10 +29,6 @@ from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
 
 ELEMENTS = ("wedge15", "hexahedron20", "tetra10", "wedge", "hexahedron", "tetra")
-SPEED = 1000.0
-
-
-# strain gauges
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
@@ -46,30 +43,18 @@ def test_a_gauge_in_uniaxial_tension(element, side):
     np.testing.assert_allclose(gauge_rows(box, basis, gauges)[:, 0], np.repeat(expected, 3), atol=1e-14)
 
 
-def test_angles_of_gauges_are_given_in_degrees():
-    for degrees, radians in ((45.0, np.pi / 4), (-180.0, -np.pi), (90.0, np.pi / 2), (0.0, 0.0)):
-        entry = GaugeEntry(chord=0.5, span=0.25, side="suction", angle_deg=degrees)
-        assert si_form(Gauge, entry) == Gauge(0.5, 0.25, "suction", pytest.approx(radians, rel=1e-15))
-
-
 def test_the_sign_of_an_angle():
     """Shear u_x = g y, with chord along y: g sin a cos a, positive between span and trailing edge."""
-    box = box_mesh(0.3, 0.2, 0.05, (3, 2, 1), warp=0.3)
+    box = box_mesh(0.3, 0.2, 0.05, (3, 2, 1))
     basis = np.zeros((len(box.points), 3, 1))
     basis[:, 0, 0] = 2e-3 * box.points[:, 1]
-    # the warp leaves the sides plane but moves what lies in them: directions are those of the surface's own chord and span
-    flat = box_mesh(0.3, 0.2, 0.05, (3, 2, 1))
-    basis_flat = basis.copy()
-    basis_flat[:, 0, 0] = 2e-3 * flat.points[:, 1]
     gauges = [Gauge(0.4, 0.4, "suction", np.radians(angle)) for angle in (45.0, -45.0, 0.0)]
-    np.testing.assert_allclose(gauge_rows(flat, basis_flat, gauges)[:, 0], [1e-3, -1e-3, 0.0], atol=1e-15)
+    np.testing.assert_allclose(gauge_rows(box, basis, gauges)[:, 0], [1e-3, -1e-3, 0.0], atol=1e-15)
 
 
 def test_gauges_lie_where_they_are_asked_for(blade, mesh):
     """On the blade's own surface, to what the elements' sides differ from it; a rigid motion strains none."""
-    gauges = [
-        Gauge(chord, span, side, 0.7) for chord in (0.1, 0.5, 0.93) for span in (0.1, 0.8) for side in ("pressure", "suction")
-    ]
+    gauges = [Gauge(*place, 0.7) for place in product((0.1, 0.5, 0.93), (0.1, 0.8), ("pressure", "suction"))]
     thickness = np.array([{"pressure": -1.0, "suction": 1.0}[gauge.side] for gauge in gauges])
     chord, span = np.array([[gauge.chord, gauge.span] for gauge in gauges]).T
     there = blade.position(chord, span, thickness)
@@ -83,12 +68,7 @@ def test_gauges_of_an_imported_mesh(mesh):
     """Chord, span and sides found from the shape alone: some millimetres from those of the profiles, on the right side."""
     parameters, normals = blade_parameters(mesh.points, mesh.node_set("root"), mesh.node_set("tip"), True)
     imported = replace(mesh, parameters=parameters, normals=normals)
-    gauges = [
-        Gauge(chord, span, side, 0.0)
-        for chord in (0.1, 0.5, 0.9)
-        for span in (0.1, 0.5, 0.9)
-        for side in ("pressure", "suction")
-    ]
+    gauges = [Gauge(*place, 0.0) for place in product((0.1, 0.5, 0.9), (0.1, 0.5, 0.9), ("pressure", "suction"))]
     ours, theirs = gauge_points(mesh, gauges), gauge_points(imported, gauges)
     assert np.linalg.norm(ours - theirs, axis=1).max() < 3e-3
     across = np.sum((ours[1::2] - ours[::2]) * (theirs[1::2] - theirs[::2]), axis=1)
@@ -109,9 +89,6 @@ def test_a_place_that_is_not_on_the_mesh_is_refused():
     box = box_mesh(0.3, 0.2, 0.05, (3, 2, 1))
     with pytest.raises(ValueError, match=r"chord 1\.2 and span 0\.5 is not on the suction side of the mesh; .*signals\.gauges"):
         gauge_rows(box, np.zeros((len(box.points), 3, 1)), [Gauge(1.2, 0.5, "suction", 0.0)])
-
-
-# tip timing
 
 
 def test_arrivals_of_a_harmonic_motion():
@@ -135,14 +112,6 @@ def test_arrivals_of_a_harmonic_motion():
     assert np.isfinite(arrived).sum() >= 38
 
 
-def test_an_undisturbed_tip_is_on_time():
-    """The rotor turns towards negative theta: from theta = 0.5 a probe at 0.2 comes after 0.3 rad."""
-    times = np.linspace(0.0, 4 * np.pi / SPEED, 500)
-    arrived, rigid = arrival_times(times, np.zeros(500), 0.25, SPEED, np.array([0.5 - 0.2]), np.array([1, 2]))
-    np.testing.assert_allclose(rigid, [[0.3 / SPEED, (0.3 + 2.0 * np.pi) / SPEED]], rtol=1e-12)
-    np.testing.assert_allclose(arrived, rigid, rtol=1e-12)
-
-
 def test_a_tip_that_comes_back_counts_when_it_first_comes():
     """So large a swing that the tip passes the probe three times; and NaN after the end of the signal."""
     times = np.linspace(0.0, 2.0 * np.pi / SPEED, 2000)
@@ -153,9 +122,6 @@ def test_a_tip_that_comes_back_counts_when_it_first_comes():
     assert np.sum(np.diff(np.sign(turned - wanted)) != 0) == 3
     assert arrived[0, 0] == pytest.approx(times[np.argmax(turned >= wanted)], abs=times[1])
     assert np.isnan(arrived[0, 1])
-
-
-# engine orders
 
 
 @pytest.fixture
@@ -186,9 +152,7 @@ def test_tracks_of_orders(swelling):
     assert amplitudes[2].max() < 0.01
     np.testing.assert_array_equal(strongest_orders(signal, turn, 100, 2, 20), [4, 9])
     np.testing.assert_array_equal(strongest_orders(signal - 3.0, turn, 100, 5, 8)[:1], [4])
-
-
-def test_orders_below_a_hundredth_of_the_strongest_are_left_out():
+    # those below a hundredth of the strongest are left out
     turn = np.arange(3000) / 100
     signal = sum(size * np.cos(2.0 * np.pi * order * turn) for order, size in {3: 0.012, 5: 0.009, 7: 1.0, 9: 0.05}.items())
     np.testing.assert_array_equal(strongest_orders(signal, turn, 100, 10, 20), [3, 7, 9])
@@ -206,12 +170,6 @@ def test_a_diverged_signal_is_looked_at_as_far_as_it_goes(swelling):
     assert order_tracks(np.full(4000, np.nan), turn, 100, np.array([4]))[1].shape == (1, 0)
 
 
-# records
-
-
-FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.0)
-
-
 def test_a_free_oscillation_is_recorded(monkeypatch):
     """One mode, ten periods a revolution: its cosine at both edges and in a gauge, the last three of five revolutions."""
     start = Simulation.start
@@ -222,9 +180,7 @@ def test_a_free_oscillation_is_recorded(monkeypatch):
         return state
 
     monkeypatch.setattr(Simulation, "start", displaced)
-    operator = np.zeros((3, 2, 1))
-    operator[0, :, 0], operator[1, :, 0] = [1.0, 3.0], [0.5, 2.0]
-    model = with_static_modes(replace(oscillator(10.0 * SPEED), tip_displacement_operator=operator), 1e-9)
+    model = with_static_modes(with_tip([1.0, 3.0], [0.5, 2.0]), 1e-9)
     choice = IntegrationChoice(1e-7, 5, 620, integrator="exact_modal")
     record = record_signals(model, SPEED, FREE, choice, np.full((1, model.to_reduced.shape[0]), 7.0), 3)
     assert (len(record.turn), record.turn[0], record.turn[-1]) == (3 * 620, pytest.approx(2.0 + 1 / 620), 5.0)
@@ -270,9 +226,6 @@ def test_a_divergence_ends_the_record(contact, scene):
     assert np.abs(record.normal[known]).max() < 2e-5
 
 
-# datasets
-
-
 PLACE = np.array([0.2, 0.01, 0.02])
 TIP = RecoveryNodes(np.arange(2), np.array([[0.25, 0.0, 0.0], [0.24, 0.01, 0.03]]), np.zeros((2, 3, 1)), np.zeros((2, 3, 1)))
 
@@ -301,9 +254,7 @@ def test_dataset_of_a_scene(dataset):
     told = 1e-3 * np.sin(2.0 * np.pi * 4.0 * when)
     np.testing.assert_allclose(run["arrival_displacement"][1:-1], told[1:-1], atol=1e-6)
     assert {variable.attrs["units"] for variable in dataset.data_vars.values()} == {"m", "1", "s"}
-
-
-def test_what_was_not_asked_for_is_left_out():
+    # what was not asked for is left out
     bare = signals_dataset({1000.0: record_of(3, gauges=0)}, {}, {}, [], TIP)
     assert set(bare.data_vars) == {"normal", "tangential", "status"}
     assert dict(signals_dataset({}, {}, {"root": PLACE}, [10.0], TIP).sizes) == {"speed": 0}
@@ -323,10 +274,8 @@ def test_datasets_are_joined_by_run(dataset, tmp_path):
     assert joined.attrs["fidelity"] == "draft"
     assert list(joined["scene"].values) == ["abradable", "abradable", "direct"]
     picked = joined.set_index(run=["blade", "scene", "speed"]).sel(run=("Ref", "abradable", 900.5))
-    xr.testing.assert_equal(
-        picked["tangential"].reset_coords(drop=True),
-        dataset["tangential"].sel(speed=900.5).reset_coords(drop=True),
-    )
+    alone = dataset["tangential"].sel(speed=900.5)
+    xr.testing.assert_equal(picked["tangential"].reset_coords(drop=True), alone.reset_coords(drop=True))
     np.testing.assert_array_equal(joined["gauge_place"].isel(run=0, gauge=0), PLACE)
     short = joined.isel(run=2)
     assert np.isnan(short["normal"].sel(turn=slice(0, 7))).all()
@@ -342,27 +291,12 @@ def test_signals_are_drawn(dataset, tmp_path):
     """Two speeds in rows; signals, gauge and tip timing in columns."""
     spectrograms, orders = draw_spectrograms(dataset, "Ref, abradable"), draw_orders(dataset, "Ref, abradable")
     assert len([axes for axes in spectrograms.axes if axes.get_title()]) == 3
-    assert [axes.get_title() for axes in orders.axes[:4]] == [
-        "normal, leading edge",
-        "tangential, leading edge",
-        "gauge root",
-        "tip timing, leading edge",
-    ]
+    shown = ["normal, leading edge", "tangential, leading edge", "gauge root", "tip timing, leading edge"]
+    assert [axes.get_title() for axes in orders.axes[:4]] == shown
     (line,) = orders.axes[0].get_lines()
     assert line.get_label() == "4"
     np.testing.assert_allclose(line.get_ydata(), 1.0, rtol=1e-3)
     assert "1B/5\n1200 rad/s, 11459 rpm" in orders.axes[0].get_ylabel()
-    save(spectrograms, tmp_path / "one.png")
-    save(orders, tmp_path / "two.png")
     nothing = signals_dataset({}, {}, {}, [], TIP)
-    save(draw_orders(nothing, "Ref, direct"), tmp_path / "three.png")
-    save(draw_spectrograms(nothing, "Ref, direct"), tmp_path / "four.png")
-
-
-def test_gauges_of_the_reduced_model(whole, mesh):
-    """Bending: strain on both sides of opposite sign, largest at the root."""
-    shape = whole.modes(0.0, 1)[1][:, 0]
-    gauges = [Gauge(0.5, span, side, 0.0) for side in ("pressure", "suction") for span in (0.06, 0.5, 0.94)]
-    strain = (gauge_rows(mesh, whole.whole_blade.basis, gauges) @ shape).reshape(2, 3)
-    assert np.all(strain[0, :2] * strain[1, :2] < 0.0)
-    assert np.all(np.abs(strain[:, 0]) > 5.0 * np.abs(strain[:, 2]))
+    for figure in (spectrograms, orders, draw_orders(nothing, "Ref, direct"), draw_spectrograms(nothing, "Ref, direct")):
+        save(figure, tmp_path / "one.png")
