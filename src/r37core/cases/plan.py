@@ -103,7 +103,7 @@ def carries_coriolis(settings: Settings, choice: IntegrationChoice) -> bool:
 def model_of_level(settings: Settings, blade: str, level: str) -> ModelChoice | str:
     """The model of a fidelity level: on the mesh of the run where that is given, the run's own where matrices are."""
     entry, boundary = settings.levels[level], settings.structure.boundary
-    if settings.blades[blade].of_matrices:
+    if settings.blades[blade].is_matrices:
         return boundary.tip_line
     return ModelChoice(
         nodes=entry.mesh.nodes if settings.blades[blade].has_profiles else OWN_MESH,

@@ -163,7 +163,7 @@ class BladeSettings:
         return isinstance(self.definition, BladeDefinition)
 
     @property
-    def of_matrices(self) -> bool:
+    def is_matrices(self) -> bool:
         """Whether it is given by matrices, so that it has one model and no stress."""
         return isinstance(self.definition, MatricesSource)
 

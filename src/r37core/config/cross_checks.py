@@ -113,7 +113,7 @@ def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> N
 
 def matrices_hold_their_terms(settings: Settings) -> None:
     """No term of rotation is wanted that cannot be added to matrices of another program."""
-    blades = [name for name, blade in settings.blades.items() if blade.of_matrices]
+    blades = [name for name, blade in settings.blades.items() if blade.is_matrices]
     remedies = {
         "spin_softening": "put the term into its K_<speed>",
         "coriolis": "a Coriolis matrix of another program is not read",
@@ -130,7 +130,7 @@ def tips_have_room_for_patches(settings: Settings) -> None:
     for name, blade in settings.blades.items():
         for tip_line in dict.fromkeys(scene.tip_line for scene in settings.scenes.values()):
             boundary = settings.reduction_choice(name, tip_line).boundary
-            if boundary.contact == AREA_PATCHES and blade.of_matrices:
+            if boundary.contact == AREA_PATCHES and blade.is_matrices:
                 value = f"{AREA_PATCHES} with the blade '{name}', given by matrices, which say nothing of the tip's face"
                 allowed = "points, or patches of the nodes in its boundary.csv"
                 raise document.refusal(("structure", "boundary", "contact"), value, allowed)
@@ -176,7 +176,7 @@ def rotors_press_a_casing_that_is_carried(settings: Settings) -> None:
 def clearances_reach_all_speeds(settings: Settings) -> None:
     """The growth of a casing is given up to the highest speed; the blades' own follows from their mesh."""
     document = settings.documents.scenes
-    matrices = [name for name, blade in settings.blades.items() if blade.of_matrices]
+    matrices = [name for name, blade in settings.blades.items() if blade.is_matrices]
     for name, chosen in settings.scenes.items():
         casing, path = chosen.scene.casing, (name, "casing", "clearance")
         modelled, run = settings.structure.maximum_speed_rad_s, fastest_of(settings, name)

@@ -131,7 +131,7 @@ class Settings:
     def direct_on_points(self) -> tuple[list[str], list[str]]:
         """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
         scenes = [name for name in self.scene_names if self.scene_entries[name].lining is None]
-        meshed = [name for name, blade in self.blades.items() if not blade.of_matrices]
+        meshed = [name for name, blade in self.blades.items() if not blade.is_matrices]
         blades = [name for name in meshed if self.contact_of(name) == POINTS]
         return (scenes, blades) if scenes and blades else ([], [])
 
@@ -197,7 +197,7 @@ class Settings:
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
         """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes."""
         wanted = self.scenes[scene].results
-        matrices = self.blades[blade].of_matrices
+        matrices = self.blades[blade].is_matrices
         return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
 
     def integration_choice(

@@ -41,12 +41,12 @@ class Extent:
 
 def extents(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> dict[Pair, Extent]:
     """The extent of each blade and scene, with the samples `beside` it (see Samples)."""
-    by_pair: dict[Pair, Extent] = {}
+    pair_extents: dict[Pair, Extent] = {}
     for pair, plan in settings.speed_plans.items():
         several = [samples[pair] for samples in beside.values() if pair in samples]
         members = sum(len(sample.members) * plan.speed_count(sample.largest_share) for sample in several)
-        by_pair[pair] = Extent(len(plan.certain), most_runs(settings, *pair), members)
-    return by_pair
+        pair_extents[pair] = Extent(len(plan.certain), most_runs(settings, *pair), members)
+    return pair_extents
 
 
 def extent_of(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> Extent:

@@ -46,7 +46,7 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
         "tip_line": settings.structure.boundary.tip_line,
         "provenance": made.structure,
     }
-    from_rom = {"rom": "reduced_model"}
+    reduced = {"rom": "reduced_model"}
     return {
         "geometry": Stage("blade.steps.geometry", shape, "shape"),
         "mesh": Stage("fem.steps.mesh", {"mesh": plain(settings.fidelity.mesh)}, "mesh", {"geometry": "geometry"}),
@@ -58,10 +58,10 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
             "rom.steps.reduced_model", model, "matrices and reduced model, the longest stage", {"mesh": "mesh"}
         ),
         "contact_model": Stage(
-            "rom.steps.contact_model", {"tip_line": lambda wildcards: wildcards.tip_line}, "contact model", from_rom
+            "rom.steps.contact_model", {"tip_line": lambda wildcards: wildcards.tip_line}, "contact model", reduced
         ),
-        "stress_operator": Stage("stress.steps.stress_operator", {"material": structure.elastic}, "stress operator", from_rom),
-        "campbell_of_blade": Stage("results.steps.campbell_of_blade", diagram, "Campbell diagram", from_rom),
+        "stress_operator": Stage("stress.steps.stress_operator", {"material": structure.elastic}, "stress operator", reduced),
+        "campbell_of_blade": Stage("results.steps.campbell_of_blade", diagram, "Campbell diagram", reduced),
     }
 
 

@@ -148,7 +148,7 @@ def _case(settings: Settings, extreme: Extreme) -> Case:
 
 def _refusal(settings: Settings, blade: str, extreme: Extreme) -> str:
     """Why a blade cannot have an extreme, empty where it can."""
-    if extreme.model and settings.blades[blade].of_matrices:
+    if extreme.model and settings.blades[blade].is_matrices:
         return f"{blade} is given by matrices"
     if "nodes" in extreme.model and not settings.blades[blade].has_profiles:
         return f"{blade} is given by a mesh"

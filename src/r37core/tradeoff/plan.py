@@ -70,7 +70,7 @@ def _case(settings: Settings, parameter: str, value: str, scene: str) -> Case:
     section, chosen = settings.section(SECTION), settings.scenes[scene]
     blade, level = section.blade_of(settings), value if parameter == LEVEL else section.base_of(settings)
     assert blade is not None
-    stress = () if settings.blades[blade].of_matrices else ("stress", "instants")
+    stress = () if settings.blades[blade].is_matrices else ("stress", "instants")
     case = Case(
         blade,
         model_of_level(settings, blade, level),
@@ -125,7 +125,7 @@ def _wanted(settings: Settings) -> dict[str, Parameter[Any]]:
 
 def _given(settings: Settings, blade: str) -> tuple[str, ...]:
     """Parameters that a blade of another program has as they are."""
-    if settings.blades[blade].of_matrices:
+    if settings.blades[blade].is_matrices:
         return (*_OF_THE_MESH, *_OF_THE_MODEL)
     return () if settings.blades[blade].has_profiles else _OF_THE_MESH
 
@@ -144,7 +144,7 @@ def left_out(settings: Settings) -> str:
     if blade is None or not missing:
         return ""
     of_program = _given(settings, blade)
-    kind = "matrices" if settings.blades[blade].of_matrices else "a mesh"
+    kind = "matrices" if settings.blades[blade].is_matrices else "a mesh"
     lines = [
         (f"because {blade} is given by {kind}", [name for name in missing if name in of_program]),
         ("because fewer than two of their values can be run", [name for name in missing if name not in of_program]),
