@@ -21,16 +21,7 @@ for library in ("OPENBLAS", "OMP", "MKL"):
 
 CHECKOUT = Path(__file__).parent.parent
 CONFIGURATION = Path(__file__).parent / "config"
-DELIVERED = (
-    "cluster",
-    "docs",
-    "envs",
-    "examples",
-    "profiles",
-    "workflow",
-    "pyproject.toml",
-    "CITATION.cff",
-)
+DELIVERED = ("cluster", "docs", "envs", "examples", "profiles", "workflow", "pyproject.toml", "CITATION.cff")
 DELIVERED += ("Makefile", "MANIFEST.in", "Snakefile", "CHANGELOG.md", "CONTRIBUTING.md", "README.md")
 
 

@@ -11,13 +11,7 @@ from hypothesis import strategies as st
 from refinement_cases import CHOICE, GRID, PLAN, WINDOWS, asked, campbell, spiked
 
 from r37core.adaptive import criterion
-from r37core.adaptive.criterion import (
-    RefinementChoice,
-    dense_ranges,
-    known_of,
-    next_speeds,
-    window_speeds,
-)
+from r37core.adaptive.criterion import RefinementChoice, dense_ranges, known_of, next_speeds, window_speeds
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
 from r37core.adaptive.steps import refine as refine_step
 from r37core.config import ConfigError

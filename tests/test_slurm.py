@@ -71,10 +71,7 @@ class Slurm:
 
     def __init__(self, folder):
         self.folder = folder
-        self.environment = os.environ | {
-            "SLURM_CONF": str(folder / "slurm.conf"),
-            "PATH": f"{os.environ['PATH']}:/usr/sbin",
-        }
+        self.environment = os.environ | {"SLURM_CONF": str(folder / "slurm.conf"), "PATH": f"{os.environ['PATH']}:/usr/sbin"}
         for name in ("state", "spool"):
             (folder / name).mkdir()
         key = folder / "munge.key"

@@ -46,6 +46,13 @@ def copy_finished(finished, to):
     return to
 
 
+def lose_speed(file):
+    """Remove the file and what was made of it: Snakemake makes nothing again that only finished files would need."""
+    results = file.parents[2]
+    for lost in (file, file.parent / "response.nc", *results.glob("*.nc"), *results.glob("figures/*")):
+        lost.unlink()
+
+
 def own_package(project):
     """Let a copy have a package of its own, to be edited; `src/r37/config` is a link to the copy's configuration there."""
     source = project / "src"
