@@ -1,6 +1,7 @@
 """What many tests share: a clean project, the reference blade, a coarse mesh, its matrices and its reduced model."""
 
 import filecmp
+import io
 import os
 import shutil
 import tempfile
@@ -34,6 +35,11 @@ def edited_configuration():
     files = {str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")}
     files = {file for file in files if not file.startswith(("schemas", "my", "own/"))}
     return sorted(files.difference(filecmp.cmpfiles(*folders, files, shallow=False)[0]))
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
 
 
 LONGEST = ("workflow", "coriolis", "tradeoff", "refined_runs", "slurm", "your_blade", "reruns", "clearance", "run_ups")

@@ -81,11 +81,6 @@ def test_blades_of_readme_are_accepted(root, readme, config_copy):
     assert read_settings(config_copy).blade_names == ["Mine"]
 
 
-def test_readme_has_a_door_for_each_wish(readme):
-    doors = ["I have a mesh", "I want to compare blades", "I want to check a published number"]
-    assert [line[3:] for line in readme.splitlines() if line.startswith("## I ")] == doors
-
-
 @pytest.mark.parametrize("name", ["wrong_result", "failure", "wish"])
 def test_templates_of_issues_ask(name):
     template = safe_load((CHECKOUT / f".github/ISSUE_TEMPLATE/{name}.yml").read_text())

@@ -22,43 +22,11 @@ from r37core import __version__
 from r37core.io import FILE_ATTRIBUTES
 from r37core.product.extensions import EXTENSIONS
 
-LAYERS = [
-    "io",
-    "plain",
-    "units",
-    "process_wide",
-    "netcdf_access",
-    "dataset_file",
-    "alignment",
-    "lanes",
-    "program_constants",
-    "kept",
-    "user_cache",
-    "native",
-    "text_file",
-    "yaml_file",
-    "declared",
-    "rounding",
-    "speeds",
-    "blade",
-    "mesh",
-    "fem",
-    "rom",
-    "contact",
-    "stress",
-    "time_integration",
-    "results",
-    "adaptive",
-    "exchange",
-    "config",
-    "plans",
-    "figures",
-    "explorer",
-    "cases",
-    *(extension.name for extension in EXTENSIONS),
-    "product",
-    "console",
-]
+LAYERS = ["io", "plain", "units", "process_wide", "netcdf_access", "dataset_file", "alignment", "lanes", "program_constants"]
+LAYERS += ["kept", "user_cache", "native", "text_file", "yaml_file", "declared", "rounding", "speeds"]
+LAYERS += ["blade", "mesh", "fem", "rom", "contact", "stress", "time_integration", "results", "adaptive", "exchange"]
+LAYERS += ["config", "plans", "figures", "explorer", "cases", *(extension.name for extension in EXTENSIONS)]
+LAYERS += ["product", "console"]
 
 
 def test_the_lock_has_a_version_of_all_that_is_asked_for(root):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from refinement_cases import CHOICE, GRID, PLAN, WINDOWS, asked, campbell, spiked
 
 from r37core.adaptive import criterion
-from r37core.adaptive.criterion import RefinementChoice, dense_ranges, known_of, next_speeds, window_speeds
+from r37core.adaptive.criterion import dense_ranges, known_of, next_speeds, window_speeds
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
 from r37core.adaptive.steps import refine as refine_step
 from r37core.config import ConfigError
@@ -44,30 +44,25 @@ def test_names_of_speeds_are_exact():
 
 
 def test_a_number_inside_a_range_is_no_repetition():
-    plan = plan_speeds([{"start": 900, "stop": 1000, "step": 20, "refine_to": 1}, 920, 933, 933.5], 8.0)
+    plan = plan_speeds([refined(), 920, 933, 933.5], 8.0)
     assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)
     assert plan.speed_count(0.2) == 20 + 2
+
+
+def refined(**changes):
+    return {"start": 900, "stop": 1000, "step": 20, "refine_to": 1} | changes
 
 
 @pytest.mark.parametrize(
     ("entries", "message"),
     [
-        (
-            [{"start": 900, "stop": 1000, "step": 20, "refine_to": 3}],
-            "refine_to 3 with steps of 20 rad/s; allowed: the step is",
-        ),
+        ([refined(refine_to=3)], "refine_to 3 with steps of 20 rad/s; allowed: the step is"),
         ([{"start": 900, "stop": 1000, "refine_to": 3}], "refine_to 3 with steps of 8 rad/s"),
-        ([{"start": 900, "stop": 1000, "step": 1, "refine_to": 20}], "refine_to 20 with steps of 1 rad/s"),
-        ([{"start": 1000, "stop": 900, "step": 20, "refine_to": 1}], "range from 1000 to 900"),
-        (
-            [
-                {"start": 900, "stop": 1000, "step": 20, "refine_to": 1},
-                {"start": 995, "stop": 1100, "step": 20, "refine_to": 1},
-            ],
-            "ranges with refine_to that overlap, from 995 to 1000 rad/s",
-        ),
-        ([{"start": 900, "stop": 1000, "step": 20, "refine_to": 1}, 933, 933], "933 rad/s twice"),
-        ([{"start": 900, "stop": 1e6, "step": 20, "refine_to": 1}], "allowed: at most 100000 speeds together"),
+        ([refined(step=1, refine_to=20)], "refine_to 20 with steps of 1 rad/s"),
+        ([refined(start=1000, stop=900)], "range from 1000 to 900"),
+        ([refined(), refined(start=995, stop=1100)], "ranges with refine_to that overlap, from 995 to 1000 rad/s"),
+        ([refined(), 933, 933], "933 rad/s twice"),
+        ([refined(stop=1e6)], "allowed: at most 100000 speeds together"),
     ],
 )
 def test_ranges_that_cannot_be_refined(entries, message):
@@ -75,35 +70,22 @@ def test_ranges_that_cannot_be_refined(entries, message):
         plan_speeds(entries, 8.0)
 
 
+def windowed(**changes):
+    window = {"mode": "1B", "highest_engine_order": 4, "first": 0, "last": 0.1, "step_rad_s": 5}
+    return {"refinement": {"windows": [window | changes]}}
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
+        ({"speeds": [refined(refine_to=7)]}, r"config\.yaml: speeds: found refine_to 7 with"),
+        ({"speeds": [refined(refine_to=0)]}, r"speeds\.0\.refine_to: found 0; allowed: .*at least"),
+        (windowed(mode="3B"), r"refinement\.windows\.0\.mode: found '3B'; allowed: one of 1B, 1T, 2B"),
         (
-            {"speeds": [{"start": 750, "stop": 2000, "step": 20, "refine_to": 7}]},
-            r"config\.yaml: speeds: found refine_to 7 with",
-        ),
-        ({"speeds": [{"start": 750, "stop": 2000, "refine_to": 0}]}, r"speeds\.0\.refine_to: found 0; allowed: .*at least"),
-        (
-            {"refinement": {"windows": [{"mode": "3B"}]}},
-            r"refinement\.windows\.0\.mode: found '3B'; allowed: one of 1B, 1T, 2B",
-        ),
-        (
-            {
-                "speeds": [{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}],
-                "refinement": {
-                    "windows": [{"mode": "1B", "highest_engine_order": 21, "first": 0, "last": 0.1, "step_rad_s": 5}]
-                },
-            },
+            windowed(highest_engine_order=21),
             r"windows\.0\.highest_engine_order: found 21; allowed: at most campbell\.highest_engine_order \(20\)",
         ),
-        (
-            {
-                "refinement": {
-                    "windows": [{"mode": "1B", "highest_engine_order": 4, "first": 0.1, "last": 0.1, "step_rad_s": 5}]
-                }
-            },
-            r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)",
-        ),
+        (windowed(first=0.1), r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)"),
         ({"refinement": {"change": -1}}, r"refinement\.change: found -1; allowed: .*at least 0\.001"),
         ({"refinement": {"largest_share": 1.5}}, r"refinement\.largest_share: found 1\.5; allowed: .*at most 1"),
     ],
@@ -125,13 +107,10 @@ def test_windows_are_looked_at_more_closely():
     assert window_speeds(GRID, []) == []
 
 
-def test_orders_above_the_window_s_have_none():
-    assert dense_ranges(campbell([1200.0]), (replace(WINDOWS[0], highest_engine_order=3),)) == []
-
-
-def test_the_highest_order_of_a_window_has_one():
-    expected = dense_ranges(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=4),))
-    assert [one.low for one in expected] == [1200.0]
+def test_orders_above_the_highest_of_a_window_have_none():
+    for highest, expected in ((3, []), (4, [1200.0])):
+        windows = dense_ranges(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=highest),))
+        assert [one.low for one in windows] == expected
 
 
 def asked_of(values):
@@ -193,9 +172,7 @@ def test_where_stress_crosses_yield_is_found():
 
 
 def test_a_change_of_status_is_found():
-    response = spiked(diverged=range(1500, 1571))
-    speeds = asked(response)[1]
-    assert {1499.0, 1500.0, 1570.0, 1571.0} <= set(speeds)
+    assert {1499.0, 1500.0, 1570.0, 1571.0} <= set(asked(spiked(diverged=range(1500, 1571)))[1])
 
 
 def test_a_flat_response_asks_for_no_more():
@@ -288,10 +265,6 @@ def test_what_a_run_gives():
     assert measure(run, 8.0) == [0, 0.0, 2.0, 0.5]
     assert np.isnan(measure({name: value for name, value in run.items() if name != "max_von_mises"}, 8.0)[3])
     assert np.isnan(measure(run | {"status": np.array(1), "max_von_mises": np.array(np.nan)}, 8.0)[3])
-
-
-def test_choice_survives_the_way_to_a_job():
-    assert from_plain(RefinementChoice, to_plain(CHOICE)) == CHOICE
 
 
 def test_a_round_of_a_blade_without_stress(tmp_path):

@@ -11,16 +11,12 @@ import types
 
 import pytest
 import xarray as xr
+from conftest import Terminal
 
 import r37
 from r37.command import main
 from r37.stages import LOGGER, bar, stages
 from r37core.units import RAD_S
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
 
 
 class Notebook(io.StringIO):
