@@ -51,12 +51,9 @@ def test_a_case_is_plain_data():
 
 
 def test_a_model_has_the_name_of_its_choice():
-    for choice in (
-        ModelChoice(5000, 8, 0, False, "pressure_edge", corners=True),
-        ModelChoice(OWN_MESH, 2, 10, True, "camber", corners=False),
-    ):
-        assert re.fullmatch(MODEL_NAME, choice.name)
-        assert model_of_name(choice.name) == choice
+    for values in ((5000, 8, 0, False, "pressure_edge", True), (OWN_MESH, 2, 10, True, "camber", False)):
+        choice = ModelChoice(*values)
+        assert re.fullmatch(MODEL_NAME, choice.name) and model_of_name(choice.name) == choice
 
 
 def test_changes_leave_the_entry_alone():

@@ -26,10 +26,8 @@ def readme(root):
 def test_readme_has_the_levels_errors_and_costs(root, readme):
     """Those of config/fidelity.yaml: the larger error of lining and patches, that of points, and CPU time."""
     levels = load_yaml(root / "config/fidelity.yaml")
-    rows = {
-        line.split("`")[1]: line.strip("|\n ").split(" | ")
-        for line in section(readme, "table accuracy_levels").splitlines()[2:]
-    }
+    lines = section(readme, "table accuracy_levels").splitlines()[2:]
+    rows = {line.split("`")[1]: line.strip("|\n ").split(" | ") for line in lines}
     for name, (*_, lined, patches, points, cost) in rows.items():
         measured = levels[name]["measured"]
         assert f"{measured['cpu_s_per_run']:.2f}" == cost

@@ -33,9 +33,8 @@ def test_the_sample_is_of_each_blade_and_scene(root):
 
 def test_the_estimate_and_the_check_count_the_same_simulations(root, tmp_path, capsys):
     """Those of members, too."""
-    (file := tmp_path / "members.yaml").write_text(
-        "tolerances: { members: 4, of_scenes: { friction.coefficient: { uniform_percent: 5 } } }\n"
-    )
+    ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
+    (file := tmp_path / "members.yaml").write_text(f"tolerances: {{ members: 4, {ranges} }}\n")
     settings = read_settings(root, read_document(tmp_path, "members.yaml"))
     counted = extents(settings, beside(settings))
     runs = plan.values(settings, beside(settings))["runs"]

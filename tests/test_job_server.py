@@ -6,10 +6,10 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
+from workflow_runs import wait_until
 
 from r37core.console import job_server, snakemake_run
 
@@ -95,19 +95,12 @@ def run_script(starter):
 def process_of_the_job():
     """Number of the process of a job that sleeps, once it does."""
     wait_for(slept := Path("out.slept"))
-    wait_until(slept.read_text, slept)
+    wait_until(slept.read_text, LONGEST, slept)
     return int(slept.read_text())
 
 
 def wait_for(path, there=True):
-    wait_until(lambda: path.exists() == there, path)
-
-
-def wait_until(happened, path):
-    until = time.monotonic() + LONGEST
-    while not happened():
-        assert time.monotonic() < until, path
-        time.sleep(0.01)
+    wait_until(lambda: path.exists() == there, LONGEST, path)
 
 
 def parent():
@@ -308,7 +301,7 @@ def test_a_client_that_dies_while_it_asks_leaves_nothing(start):
         socket.send_fds(client, [b"o"], [1, 2])
     children = Path(f"/proc/{start.server.pid}/task/{start.server.pid}/children")
     # the process of the steps stays
-    wait_until(lambda: len(children.read_text().split()) < 2, children)
+    wait_until(lambda: len(children.read_text().split()) < 2, LONGEST, children)
 
 
 def test_modules_of_the_users_folder_are_not_the_servers(start):

@@ -25,10 +25,6 @@ def test_rules_quote_what_a_shell_sees(root):
 @pytest.mark.slow
 def test_a_part_of_a_sweep_on_slurm(folder):
     """What Slurm would run, without Slurm."""
-    slurm = {
-        "SLURM_SUBMIT_DIR": str(folder),
-        "SLURM_CPUS_PER_TASK": "1",
-        "SLURM_ARRAY_TASK_ID": "1",
-        "SLURM_ARRAY_TASK_COUNT": "1",
-    }
+    slurm = {f"SLURM_{name}": "1" for name in ("CPUS_PER_TASK", "ARRAY_TASK_ID", "ARRAY_TASK_COUNT")}
+    slurm["SLURM_SUBMIT_DIR"] = str(folder)
     assert "simulate" in run_in_odd_project(folder, "bash", "cluster/sweep.sbatch", "--dry-run", "--forceall", **slurm)

@@ -147,11 +147,8 @@ def test_no_machine_paths(root):
 
 def _modules(root):
     """Dotted name -> file, of all modules of the package."""
-    source = root / "src"
-    return {
-        ".".join(file.relative_to(source).with_suffix("").parts).removesuffix(".__init__"): file
-        for file in source.rglob("*.py")
-    }
+    files = {file.relative_to(root / "src").with_suffix(""): file for file in (root / "src").rglob("*.py")}
+    return {".".join(path.parts).removesuffix(".__init__"): file for path, file in files.items()}
 
 
 def test_one_name_one_thing(root):
@@ -186,9 +183,8 @@ def test_no_modules_import_each_other_in_a_circle(root):
             elif isinstance(node, ast.ImportFrom):
                 above = package.rsplit(".", node.level - 1)[0] if node.level else ""
                 module = ".".join(filter(None, (above, node.module)))
-                yield from (
-                    [f"{module}.{alias.name}" for alias in node.names if f"{module}.{alias.name}" in modules] or [module]
-                )
+                names = [f"{module}.{alias.name}" for alias in node.names]
+                yield from [name for name in names if name in modules] or [module]
 
     graph = {name: {one for one in imported(name) if one in modules and one != name} for name in modules}
     assert "r37core.contact.casing" in graph["r37core.contact.scene"]

@@ -363,16 +363,12 @@ def test_of_two_objectives_designs_that_none_beats_come_first_by_their_shares_of
     gave = [{"lined": (length, 0.0), "mass": (mass, 0.0)} for length, mass in zip(lengths, (2.2, 1.2, 0.3, 1.25), strict=True)]
     tried = {f"d{n:04d}": Design((0.5 * n, 0.2 * n), 0, None, of) for n, of in enumerate(gave)}
     search = search_dataset(SearchRound({}, tried, {"lined": (start, 0.0), "mass": (2.0, 0.0)}), wanted, [0.0, 0.0])
-    assert [search["design"].values[1:][search["order"].values[1:] == place + 1].item() for place in range(4)] == [
-        f"d{n:04d}" for n in order
-    ]
+    assert np.argsort(search["order"].values[1:]).tolist() == order
 
 
 def test_a_search_of_which_nothing_is_feasible_has_a_table():
-    designs = {
-        "d0000": Design((0.0, 0.0), 0, "crossed", {}),
-        "d0001": Design((1.0, 0.5), 0, None, {"lined": (1.0, 0.0), "mass": (9.0, 0.0)}),
-    }
+    heavy = Design((1.0, 0.5), 0, None, {"lined": (1.0, 0.0), "mass": (9.0, 0.0)})
+    designs = {"d0000": Design((0.0, 0.0), 0, "crossed", {}), "d0001": heavy}
     search = search_dataset(SearchRound({}, designs, START), choice(), [None, 0.0])
     assert search["order"].values.tolist() == [0, 0, 0] and "slice_mean" not in search
     assert search_table(search)["feasible"].tolist() == [1, 0, 0]

@@ -122,10 +122,8 @@ def test_the_command_answers_in_the_unit_of_the_speeds(monkeypatch, capsys):
     found = xr.Dataset(values | {"status": ("speed", [0])}, {"speed": [1700.0], "tip_point": ["leading_edge"]})
     monkeypatch.setitem(sys.modules, "r37.simulations", types.SimpleNamespace(sweep=lambda *_, **__: found))
     assert main(["simulate", "Ref", "direct", "1700", "--quiet"]) == 0
-    assert [line.split() for line in capsys.readouterr().out.splitlines()[1:]] == [
-        ["speed", "(rad/s)"],
-        ["1700.0", "1", "2", "completed"],
-    ]
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert lines[1:] == [["speed", "(rad/s)"], ["1700.0", "1", "2", "completed"]]
     assert main(["simulate", "Ref", "direct", f"{1700.0 / RAD_S['rpm']}", "--rpm", "--quiet"]) == 0
     head, name, row = capsys.readouterr().out.splitlines()
     assert head.split()[:2] == ["speed", "(rad/s)"] and name.strip() == "speed (rpm)"

@@ -74,9 +74,8 @@ def test_a_study_plans_what_the_repository_plans(study, tmp_path):
 def test_a_study_has_rules_of_its_own_and_changes_on_top(study):
     """`config:` of the module lies on top; rules get names of the user's choice, and feed the user's rules."""
     text = (study / "Snakefile").read_text()
-    text = text.replace(
-        "        SNAKEFILE\n", '        SNAKEFILE\n    config:\n        {"fidelity": "draft", "blades": ["CS50"]}\n'
-    )
+    on_top = '    config:\n        {"fidelity": "draft", "blades": ["CS50"]}\n'
+    text = text.replace("        SNAKEFILE\n", f"        SNAKEFILE\n{on_top}")
     text = text.replace("use rule * from r37\n", "use rule * from r37 as rub_*\n")
     (study / "Snakefile").write_text(text + '\n\nrule mine:\n    input: "results/campbell.nc"\n    output: "mine.txt"\n')
     jobs = planned(study, "mine.txt")

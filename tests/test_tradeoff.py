@@ -48,15 +48,14 @@ def small_case(rms):
 def test_errors_compare_means_over_neighbouring_speeds():
     responses = {"bars/1__lined": small_case([1.0, 2.0, 3.0, 1.0, 0.5]), "bars/2__lined": small_case([3.0, 2.0, 1.0, 1.0, 1.0])}
     together = gather_cases(responses, PLACES, {"bars": "2"})
-    error = together["error"].isel(case=0, scene=0).sel(quantity="rms_normal")
+    one = together.isel(case=0, scene=0)
+    error = one["error"].sel(quantity="rms_normal")
     assert error.sel(at="peak").item() == pytest.approx(0.0)  # means agree though no speed but one does
     assert error.sel(at="off_resonance").item() == pytest.approx(0.5)
-    assert together["scatter"].isel(case=0, scene=0).sel(quantity="rms_normal", at="peak").item() == pytest.approx(
-        np.sqrt((4 / 9 + 0 + 4) / 3)
-    )
-    first = (100 * 1 + 101 * 4 + 102 * 9 + 105) / 15
-    second = (100 * 9 + 101 * 4 + 102 + 105) / 15
-    assert together["peak_speed_error"].isel(case=0, scene=0).item() == pytest.approx(abs(first / second - 1))
+    scatter = one["scatter"].sel(quantity="rms_normal", at="peak").item()
+    assert scatter == pytest.approx(np.sqrt((4 / 9 + 0 + 4) / 3))
+    first, second = (100 * 1 + 101 * 4 + 102 * 9 + 105) / 15, (100 * 9 + 101 * 4 + 102 + 105) / 15
+    assert one["peak_speed_error"].item() == pytest.approx(abs(first / second - 1))
     assert np.all(together["error"].isel(case=1).sel(at="peak") == 0.0)
 
 
@@ -137,12 +136,9 @@ def test_exponent_of_a_power_law():
 
 @pytest.mark.parametrize("instants", [60, 1000])
 def test_stress_instants_are_among_the_samples(root, instants):
-    changes = command_line_document(
-        {"tradeoff": {"parameters": {"stress_instants": {"values": [62, instants], "reference": 62}}}}
-    )
-    message = rf"tradeoff\.parameters\.stress_instants\.values\.1: found {instants}; allowed: divisors of 496, the"
-    with pytest.raises(ConfigError, match=message):
-        read_settings(root, changes)
+    parameters = {"stress_instants": {"values": [62, instants], "reference": 62}}
+    with pytest.raises(ConfigError, match=rf"stress_instants\.values\.1: found {instants}; allowed: divisors of 496, the"):
+        read_settings(root, command_line_document({"tradeoff": {"parameters": parameters}}))
 
 
 def test_blades_of_ones_own_alone(config_copy):

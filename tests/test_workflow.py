@@ -360,10 +360,8 @@ def test_names_that_begin_alike_keep_their_files_apart(project):
     scenes = load_yaml(project / "config/scenes.yaml")
     (project / "config/scenes.yaml").write_text(yaml.safe_dump({"b_c": scenes["direct"], "c": scenes["direct"]}))
     jobs = plan(project, "all_blades", "--config", "blades=[A,A_b]", "scenes=[b_c,c]", "speeds=[900,1e3]")
-    spectra = {
-        job.outputs[0]: job.wildcards for job in jobs if job.wildcards.get("kind") == "spectrum" and job.rule == "map_figure"
-    }
-    assert spectra == {
+    maps = [job for job in jobs if job.rule == "map_figure" and job.wildcards["kind"] == "spectrum"]
+    assert {job.outputs[0]: job.wildcards for job in maps} == {
         f"results/figures/spectrum_{blade}__{scene}.png": {"kind": "spectrum", "blade": blade, "scene": scene}
         for blade in ("A", "A_b")
         for scene in ("b_c", "c")

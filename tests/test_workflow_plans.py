@@ -299,12 +299,8 @@ def test_run_ups_are_planned_like_speeds(root):
     }
     settings = read_settings(root, command_line_document({**PLACES, "run_ups": run_ups}))
     planned = RunUps(Sweep(settings))
-    assert planned.runs == [
-        ("Ref", "direct", "down"),
-        ("L50", "abradable", "climb"),
-        ("L50", "direct", "climb"),
-        ("L50", "direct", "down"),
-    ]
+    runs = ["Ref direct down", "L50 abradable climb", "L50 direct climb", "L50 direct down"]
+    assert [" ".join(run) for run in planned.runs] == runs
     climb = of(blade="L50", scene="abradable", run_up="climb")
     down = of(blade="Ref", scene="direct", run_up="down")
     assert set(planned.inputs(climb)) == {"prepared", "model", "stress"}

@@ -87,8 +87,7 @@ def copy_odd_project(root, to):
 
 def run_in_odd_project(folder, *command, **environment):
     """What the command prints. It may run nothing that stands in the folder's name."""
-    kept = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
-    environment = kept | {"PYTHONPATH": str(folder / "src")} | environment
+    environment = _environment(folder) | {"R37_FULL_LOG": ""} | environment
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert not list(folder.parent.rglob("EXECUTED"))
@@ -117,6 +116,13 @@ def kill_snakemake(folder, *arguments, when):
             time.sleep(0.01)
         with suppress(ProcessLookupError):
             os.killpg(number, signal.SIGKILL)
+
+
+def wait_until(happened, seconds, what):
+    end = time.monotonic() + seconds
+    while not happened():
+        assert time.monotonic() < end, f"waited {seconds} s for {what}"
+        time.sleep(0.02)
 
 
 def _environment(folder):
