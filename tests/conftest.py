@@ -12,6 +12,7 @@ from pathlib import Path
 import browser
 import pytest
 from hypothesis import settings
+from workflow_runs import copy_finished, copy_project
 
 # a busy machine is no error
 settings.register_profile("no_deadline", deadline=None)
@@ -194,14 +195,11 @@ def small_sweep(root, compiled, tmp_path_factory):
 
 @pytest.fixture
 def sweep_copy(small_sweep, tmp_path):
-    from workflow_runs import copy_finished
-
     return copy_finished(small_sweep, tmp_path / "sweep")
 
 
 @pytest.fixture
 def structure_copy(small_sweep, tmp_path):
-    """With what was made of the blades alone."""
     from shared_sweep import copy_structure
 
     return copy_structure(small_sweep, tmp_path / "structure")
@@ -209,15 +207,11 @@ def structure_copy(small_sweep, tmp_path):
 
 @pytest.fixture
 def config_copy(root, tmp_path):
-    """A folder with a copy of the configuration alone."""
     shutil.copytree(root / "config", tmp_path / "config")
     return tmp_path
 
 
 @pytest.fixture
 def project(root, tmp_path):
-    """A copy of the project with a small sweep."""
-    from workflow_runs import copy_project
-
     copy_project(root, tmp_path)
     return tmp_path

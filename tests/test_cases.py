@@ -165,8 +165,6 @@ def test_no_priced_run_compiles(tmp_path, monkeypatch):
         return run
 
     monkeypatch.setattr(runner, "run_speed", timed)
-    kept = {"spectrum_highest_order": 10, "wear_angles": 8}
-    case = Case("Ref", "pressure_edge", DIRECT, choice, (10.0, 180.0), ("energy",), material=None, kept=kept)
-    runner.run_case(case, model, None, tmp_path / "case.nc")
+    runner.run_case(case_of(choice, speeds=(10.0, 180.0)), model, None, tmp_path / "case.nc")
     assert compiled == [0, 0]
     assert counts[1] <= counts[0] - 8

@@ -1,8 +1,6 @@
 """The estimate: a sample of a sweep's runs, and the cost of all of them."""
 
-import pandas as pd
 import pytest
-from workflow_runs import snakemake
 
 from r37.command import main
 from r37core.config import command_line_document, read_document
@@ -55,13 +53,3 @@ def test_projection_by_hand(tmp_path):
     assert costs.loc["time integration", "core_s_per_simulation"] == 4.0
     costs.reset_index().to_csv(tmp_path / "estimate.csv", index=False)
     assert closing(tmp_path) == "10 simulations at most, 0.01 h on 2 cores"
-
-
-@pytest.mark.slow
-def test_estimate_of_a_small_sweep(compiled, project):
-    said = snakemake(project, "estimate", "--cores", "2")
-    assert "estimate: 12 simulations at most, " in said
-    costs = pd.read_csv(project / "results/estimate.csv").set_index("part")
-    assert 0.0 < costs.loc["time integration", "core_hours"] < 60.0 / 3600.0
-    assert 0.01 < costs.loc["start-up", "core_s_per_simulation"] < 2.0
-    assert (project / "results/figures/estimate.png").exists()

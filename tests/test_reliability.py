@@ -202,42 +202,33 @@ def test_another_trees_package_is_refused(root, tmp_path):
         source_folder(tmp_path)
 
 
-def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
-    settings = read_settings(root, command_line_document({"blades": ["Ref"], "scenes": ["direct"], "speeds": [900]}))
-    kept = ["Ref/direct/speed_900.npz", "Ref/mesh.vtu", "cases/a.nc", "runs/x/L50/a.nc", "exports/Ref/mesh.med", "rms.nc"]
-    kept += [f"figures/{name}.png" for name in ("response_Ref", "spectrum_Ref__direct", "response", "campbell")]
-    kept += ["figures/comparison_direct.png", "figures/waterfall_Ref__direct.pdf"]
-    gone = ["L50/mesh.vtu", "Ref/abradable/speed_900.npz", "Ref/direct/speed_901.npz", "figures/response_L50.png"]
-    gone += ["figures/comparison_abradable.pdf", "figures/response_L50.pdf"]
-    gone += ["figures/wear_Ref__abradable.png", "exports/L50/surface.step"]
-    for name in [*kept, *gone]:
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text("x")
-    found = {str(path.relative_to(tmp_path)) for path in leftovers(tmp_path, settings)}
-    assert found == {"L50", "Ref/abradable", "exports/L50", *gone[2:-1]}
-    assert leftovers(tmp_path / "none", settings) == []
-
-
-def test_leftovers_of_results_that_are_no_longer_asked_for(config_copy):
-    """Datasets, figures and models; not the user's own files, nor anything of a configuration that asks for all of them."""
+def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
+    """Of blades, scenes, speeds and results; not the user's own files, nor anything of a configuration that asks for all."""
     results, config = config_copy / "results", config_copy / "config"
-    few = {"blades": ["Ref"], "scenes": ["direct"], "exports": {"mesh_formats": ["vtu"]}}
-    direct = read_settings(config_copy, command_line_document(few))
+    few = {"blades": ["Ref"], "scenes": ["direct"], "speeds": [900], "exports": {"mesh_formats": ["vtu"]}}
+    settings = read_settings(config_copy, command_line_document(few))
+    assert leftovers(results, settings) == []
     kept = ["rms.nc", "stress.nc", "spectrum.nc", "campbell.nc", "summary.csv", "configuration.json", "explorer.html"]
     kept += ["report.zip", "notes.csv", "mine.nc", "figures/my_plot.png", "figures/campbell_Ref.pdf", "figures/blades.png"]
-    kept += ["Ref/contact_pressure_edge.npz", "Ref/rom_pressure_edge.nc", "Ref/direct/response.nc"]
-    kept += ["exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "cases/L50/rom.nc", "runs/x/wear.nc"]
-    kept += ["runs/x/signals.nc", "runs/x/rom_camber.nc"]
+    kept += [f"figures/{name}.png" for name in ("response_Ref", "spectrum_Ref__direct", "response", "campbell")]
+    kept += ["figures/comparison_direct.png", "figures/waterfall_Ref__direct.pdf"]
+    kept += ["Ref/contact_pressure_edge.npz", "Ref/rom_pressure_edge.nc", "Ref/direct/response.nc", "Ref/direct/speed_900.npz"]
+    kept += ["Ref/mesh.vtu", "exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "cases/L50/rom.nc"]
+    kept += ["runs/x/wear.nc", "runs/x/L50/a.nc", "runs/x/signals.nc", "runs/x/rom_camber.nc"]
     gone = ["wear.nc", "designs.csv", "signals.nc", "Ref/direct/signals.nc", "figures/designs_Sweep.png"]
     gone += ["figures/spectrogram_Ref__direct.png", "figures/orders_Ref__direct.pdf", "figures/shapes_Ref.png"]
-    gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf"]
+    gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf", "Ref/direct/speed_901.npz"]
+    gone += ["figures/response_L50.png", "figures/response_L50.pdf", "figures/comparison_abradable.pdf"]
+    gone += ["figures/wear_Ref__abradable.png", "exports/L50/mesh.bdf", "L50/mesh.vtu", "Ref/abradable/speed_900.npz"]
     for name in [*kept, *gone]:
         (results / name).parent.mkdir(parents=True, exist_ok=True)
         (results / name).write_text("x")
-    assert {str(path.relative_to(results)) for path in leftovers(results, direct)} == set(gone)
+    found = {str(path.relative_to(results)) for path in leftovers(results, settings)}
+    # of the last ones the whole folder
+    assert found == {*gone[:-3], "exports/L50", "L50", "Ref/abradable"}
 
-    every = {"blades": ["Ref", "Sweep"], "scenes": ["abradable", "direct"], "signals": {"speeds_rad_s": [900]}}
-    every |= {"exports": {"mesh_formats": ["vtu", "bdf"]}}
+    every = {"blades": ["Ref", "L50", "Sweep"], "scenes": ["abradable", "direct"], "speeds": [900, 901]}
+    every |= {"signals": {"speeds_rad_s": [900]}, "exports": {"mesh_formats": ["vtu", "bdf"]}}
     scenes = config / "scenes.yaml"
     scenes.write_text(scenes.read_text().replace("stress, energy]", "stress, energy, shapes]\n  tip_line: camber", 1))
     with open(config / "blades.yaml", "a") as stream:
@@ -273,20 +264,11 @@ def test_make_clean_lists_and_removes(config_copy):
     assert not (config_copy / "results/Gone").exists()
 
 
-def test_a_blade_that_buckles_is_refused_with_the_speed(model):
+def test_a_blade_that_buckles_is_refused_with_the_speed(model, contact):
+    diagram = {"modes": 6, "highest_engine_order": 8, "largest_tangential_displacement": 0.01, "tip_line": "pressure_edge"}
     weak = dataclasses.replace(model, geometric_stiffness=model.geometric_stiffness - 1e-3 * model.stiffness)
     with pytest.raises(BucklingError, match=r"no stable position at 50 rad/s: its stiffness is not positive .* stiffer"):
-        campbell_dataset(
-            weak,
-            speeds=np.linspace(0.0, 2000.0, 41),
-            modes=6,
-            highest_engine_order=8,
-            largest_tangential_displacement=0.01,
-            tip_line="pressure_edge",
-        )
-
-
-def test_a_simulation_of_a_blade_that_buckles_is_refused(contact):
+        campbell_dataset(weak, speeds=np.linspace(0.0, 2000.0, 41), **diagram)
     weak = dataclasses.replace(contact, stiffness_per_square=-np.diag(contact.squared_frequencies))
     with pytest.raises(BucklingError, match="no stable position at 900 rad/s"):
         Simulation(weak, 900.0, Scene(Casing(3.5e-4)), IntegrationChoice(2e-7, 2, 496))

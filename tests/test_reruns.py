@@ -3,10 +3,13 @@
 import os
 
 import pytest
+import yaml
 from overlays import overlay
-from plans_of_snakemake import plan, planned_outputs
+from plans_of_snakemake import planned_outputs
 from stubbed_runs import BLADES, SCENES, copy_stubbed, edit, refine, runs, simulated
 from workflow_runs import copy_finished, own_package, snakemake
+
+from r37core.yaml_file import load_yaml
 
 pytestmark = pytest.mark.slow
 
@@ -61,10 +64,12 @@ def test_an_added_speed_runs_alone(project, speeds, added):
     assert set(jobs) == DATASETS
 
 
-def test_a_removed_speed_runs_no_simulation(project):
-    overlay(project, "config.yaml", "speeds: [{ start: 750, stop: 1200 }]")
-    jobs = planned_outputs(project)
-    assert set(jobs) == DATASETS | {"response"}
+@pytest.mark.parametrize(
+    ("change", "again"), [("speeds: [{ start: 750, stop: 1200 }]", {"response"}), ("blades: [Ref]", OF_ALL_BLADES)]
+)
+def test_a_removed_speed_or_blade_runs_no_simulation(project, change, again):
+    overlay(project, "config.yaml", change)
+    assert set(planned_outputs(project)) == DATASETS | again
 
 
 def test_a_list_that_becomes_adaptive_runs_what_its_rounds_ask_for(project):
@@ -78,7 +83,6 @@ def test_a_list_that_becomes_adaptive_runs_what_its_rounds_ask_for(project):
 
 
 def test_an_added_blade_runs_its_own_jobs(project):
-    """By its lines in the configuration."""
     overlay(project, "config.yaml", "blades: [Ref, CS100, Eighth]")
     overlay(project, "blades.yaml", "Eighth: { base: Ref, chordwise_sweep_deg: 7.5 }")
     jobs = planned_outputs(project)
@@ -86,11 +90,6 @@ def test_an_added_blade_runs_its_own_jobs(project):
     for rule in STRUCTURE | {"response", "prepare_time_integration", "contact_model", "stress_operator"}:
         assert all("Eighth" in file for file in jobs.pop(rule)), rule
     assert set(jobs) == DATASETS | OF_ALL_BLADES
-
-
-def test_a_removed_blade_runs_no_simulation(project):
-    overlay(project, "config.yaml", "blades: [Ref]")
-    assert set(planned_outputs(project)) == DATASETS | OF_ALL_BLADES
 
 
 @pytest.mark.parametrize("scene", ["direct", "bare"])
@@ -154,11 +153,9 @@ def test_a_step_keeps_the_structure_and_back_keeps_all(project):
 
 def test_another_level_runs_what_differs_and_back_keeps_all(project):
     """A level with the same mesh and reduction, then one with another mesh, then the first again."""
-    same_mesh = (
-        "same_mesh:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 8 }\n"
-        "  time_integration: { time_step_s: 1.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
-    )
-    overlay(project, "fidelity.yaml", same_mesh)
+    level = load_yaml(project / "config/fidelity.yaml")["tiny"]
+    level["time_integration"]["time_step_s"] = 1.0e-7
+    overlay(project, "fidelity.yaml", yaml.safe_dump({"same_mesh": level}))
     jobs = planned_outputs(project, "all_blades", "--config", "fidelity=same_mesh")
     assert jobs.pop("simulate") == runs(SPEEDS)
     # the Campbell diagrams of all blades are gathered again: their file names the level
@@ -202,16 +199,6 @@ def test_a_rotation_option_keeps_meshes(project):
 def test_a_stress_history_runs_its_speed(project):
     overlay(project, "scenes.yaml", "direct: { stress_history_speeds_rad_s: [1150] }")
     assert planned_outputs(project)["simulate"] == runs(["1150"], scenes=["direct"])
-
-
-RULES_OF_MODULES = {
-    "time_integration/simulate.py": {"prepare_time_integration"},
-    "mesh/generate.py": {"mesh"},
-    "results/interactions.py": {"summary"},
-    "figures/maps.py": {"map_figure", "waterfall_figure"},
-    # together: none of them has a rule
-    "tradeoff/tables.py config/settings.py plans/sweep_plan.py": set(),
-}
 
 
 def planned_after_a_touch(project, files, *arguments):
@@ -261,17 +248,3 @@ def test_a_changed_line_runs_what_depends_on_it(project, file, old, new, first, 
     assert jobs["response"] == per_run("response.nc")
     assert jobs.get("simulate", set()) == simulated
     assert first in jobs and (first == "geometry" or not {"geometry", "mesh", "reduced_model"} & set(jobs))
-
-
-@pytest.mark.parametrize(("modules", "rules"), RULES_OF_MODULES.items())
-def test_an_edited_module_runs_the_rules_that_import_it(project, modules, rules):
-    """A statement runs the rules that have the module in their closure."""
-    own_package(project)
-    for module in modules.split():
-        with open(project / "src/r37core" / module, "a") as stream:
-            stream.write("\nEDITED = True\n")
-    jobs = plan(project)
-    changed = {job.rule for job in jobs if job.because_of_params}
-    assert changed == rules
-    # a renewed stamp runs the simulations
-    assert "prepare_time_integration" not in changed or any(job.rule == "simulate" for job in jobs)

@@ -10,7 +10,7 @@ from contextlib import suppress
 import pandas as pd
 import pytest
 import xarray as xr
-from workflow_runs import copy_project, snakemake, wait_until
+from workflow_runs import copy_project, digests, snakemake, wait_until
 
 import r37
 from r37 import workflow_process
@@ -39,13 +39,7 @@ def once(config, tmp_path_factory):
     return folder
 
 
-def content(folder):
-    """What a run has made, but Snakemake's own notes and logs."""
-    return {str(file.relative_to(folder)): file.read_bytes() for file in (folder / "results").rglob("*") if file.is_file()}
-
-
 def processes_of(folder):
-    """Processes that work in a folder."""
     numbers = []
     for number in filter(str.isdigit, os.listdir("/proc")):
         with suppress(OSError):
@@ -71,16 +65,16 @@ def test_a_folder_has_all_of_a_run_and_snakemake_finds_nothing_to_do(once, confi
     assert list(r37.open_results(once / "results")) == ["campbell", "rms", "stress"]
     # tables travel with it
     assert (once / "config/profiles/rotor37.csv").is_file()
-    before = content(once)
+    before = digests(once)
     again = r37.run(**ASKED, config=config, folder=once)
-    assert content(once) == before and again.folder == once / "results"
+    assert digests(once) == before and again.folder == once / "results"
     # what was asked for once more is made, and the rest stays
     more = r37.run(**{**ASKED, "speeds": [750, 1150, 1550]}, config=config, cores=2, folder=once)
     assert list(more["rms"].speed.values) == [750.0, 1150.0, 1550.0]
     speed = "results/Ref/abradable/speed_750.npz"
-    assert content(once)[speed] == before[speed]
+    assert digests(once)[speed] == before[speed]
     r37.run(**ASKED, config=config, cores=2, folder=once)
-    assert {name: content(once)[name] for name in before} == before
+    assert {name: digests(once)[name] for name in before} == before
 
 
 @pytest.mark.slow
@@ -93,9 +87,9 @@ def test_a_run_that_was_ended_leaves_no_process_and_goes_on_with_the_same_bytes(
     call.wait(3.0)
     # whoever is killed cannot wait for the others
     wait_until(lambda: not processes_of(folder), 10.0, "its processes")
-    reached = content(folder)
+    reached = digests(folder)
     r37.run(**ASKED, config=config, cores=2, folder=folder)
-    done, other = content(folder), content(once)
+    done, other = digests(folder), digests(once)
     assert done == {name: other[name] for name in done} and "results/ranking.csv" in done
     simulated = [name for name in reached if name.endswith(".npz")]
     assert simulated and {name: reached[name] for name in simulated} == {name: done[name] for name in simulated}

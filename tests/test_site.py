@@ -104,7 +104,6 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
 
 @pytest.mark.slow
 def test_a_broken_link_is_refused(built):
-    """A link to a heading that is not there, in a site of one page."""
     _, status, errors = built[1]
     assert status
     assert "three" in errors
@@ -116,9 +115,13 @@ def formulas(page):
     return [one for pair in re.findall(r"\$\$(.+?)\$\$|\$([^$]+)\$", text, re.DOTALL) for one in pair if one]
 
 
-def test_every_equation_can_be_drawn(root):
+@pytest.fixture
+def drawing(root):
     need("sphinx", "ziamath")
-    drawing = runpy.run_path(str(root / "docs/site/equations.py"))["drawing"]
+    return runpy.run_path(str(root / "docs/site/equations.py"))["drawing"]
+
+
+def test_every_equation_can_be_drawn(root, drawing):
     found = {page.name: formulas(page.read_text()) for page in (root / "docs").glob("*.md")}
     assert sum(map(len, found.values())) > 20
     for name, equations in found.items():
@@ -126,17 +129,14 @@ def test_every_equation_can_be_drawn(root):
             assert "<path" in drawing(latex, inline=False), name
 
 
-def test_an_unknown_command_of_latex_is_refused(root):
-    need("sphinx", "ziamath")
+def test_an_unknown_command_of_latex_is_refused(drawing):
     from sphinx.errors import SphinxError
 
-    drawing = runpy.run_path(str(root / "docs/site/equations.py"))["drawing"]
     with pytest.raises(SphinxError, match="nosuchcommand"):
         drawing(r"a + \nosuchcommand{b}", inline=True)
 
 
 def test_every_page_is_in_the_site(root):
-    """Pages that nobody finds are lost."""
     index = (root / "docs/index.md").read_text()
     for page in (root / "docs").glob("*.md"):
         assert page.stem == "index" or re.search(rf"^{page.stem}$|<{page.stem}>$", index, re.MULTILINE), page.name

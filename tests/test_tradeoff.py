@@ -1,5 +1,6 @@
 """The trade-off: its numbers by hand, and small real runs, on a blade of another program too."""
 
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -206,5 +207,9 @@ def test_a_mesh_of_another_program(root, drawn, tmp_path):  # noqa: F811
     assert boundary["error_rms_normal"].iloc[1] == 0.0 and boundary["cpu_s"].iloc[0] > 0.0
     refused = tables["stability"].query("outcome == 'refused'")
     assert set(refused["what"]) == {"boundary_nodes", "mesh_nodes"}
+    assert re.search(r"estimate: \d+ simulations at most, ", said)
+    costs = tables["estimate"].set_index("part")
+    assert 0.0 < costs.loc["time integration", "core_hours"] < 60.0 / 3600.0
+    assert 0.01 < costs.loc["start-up", "core_s_per_simulation"] < 2.0
     for name in ("tradeoff", "tradeoff_boundary_nodes", "tradeoff_revolutions", "stability", "estimate"):
         assert (project / f"results/figures/{name}.png").exists()

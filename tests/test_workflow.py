@@ -1,7 +1,6 @@
 """The workflow through Snakemake: what is planned, what is re-run, and a small real run."""
 
 import contextlib
-import hashlib
 import json
 import re
 import shutil
@@ -19,7 +18,7 @@ import yaml
 from browser import opened
 from overlays import overlay
 from plans_of_snakemake import plan, planned
-from workflow_runs import LONGEST, copy_odd_project, lose_speed, run_in_odd_project, snakemake
+from workflow_runs import LONGEST, copy_odd_project, digests, lose_speed, run_in_odd_project, snakemake
 
 from r37core.config import ConfigError
 from r37core.dataset_file import read_dataset
@@ -260,11 +259,6 @@ def test_one_core_gives_the_same_bits_in_any_folder(root, small_sweep, tmp_path)
     """One whose name a shell would take apart, and by `make`."""
     project = copy_odd_project(root, tmp_path)
     run_in_odd_project(project, "make", "all_blades", "CORES=1")
-
-    def digests(folder):
-        files = [f for f in sorted(folder.glob("results/**/*")) if f.is_file()]
-        return {str(f.relative_to(folder)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
-
     assert digests(project) == digests(small_sweep)
 
 
@@ -355,7 +349,6 @@ def test_readme_commands_exist(root):
 
 
 def test_names_that_begin_alike_keep_their_files_apart(project):
-    """Blades A and A_b with scenes b_c and c: four figures, each of its own blade and scene."""
     overlay(project, "blades.yaml", "{ A: { base: Ref }, A_b: { base: Ref } }")
     scenes = load_yaml(project / "config/scenes.yaml")
     (project / "config/scenes.yaml").write_text(yaml.safe_dump({"b_c": scenes["direct"], "c": scenes["direct"]}))

@@ -1,5 +1,6 @@
 """Copies of the project with a small sweep, and Snakemake run on them."""
 
+import hashlib
 import os
 import shutil
 import signal
@@ -44,6 +45,12 @@ def copy_finished(finished, to):
     """A copy of a project and of all that was made in it, with the times of its files: nothing has to be made again."""
     shutil.copytree(finished, to, symlinks=True, copy_function=shutil.copy2)
     return to
+
+
+def digests(project):
+    """SHA-256 of all files in `results`, by their paths in the project."""
+    files = [file for file in sorted((project / "results").rglob("*")) if file.is_file()]
+    return {str(file.relative_to(project)): hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
 
 
 def lose_speed(file):
