@@ -16,11 +16,13 @@ from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
 
 
-class Clock:
-    now = 0.0
+@pytest.fixture
+def clock():
+    def clock():
+        return clock.now
 
-    def __call__(self):
-        return self.now
+    clock.now = 0.0
+    return clock
 
 
 def said(progress, event=None, message="", **fields):
@@ -36,11 +38,6 @@ def simulate(progress, clock, number, blade, output="none.npz"):
     said(progress, "job_started", "")
     said(progress, "job_finished", f"Finished jobid: {number}", job_id=number)
     said(progress, "progress", "steps", done=number, total=100)
-
-
-@pytest.fixture
-def clock():
-    return Clock()
 
 
 def test_messages_of_single_jobs_are_kept_back_and_failures_are_not(clock):

@@ -21,6 +21,8 @@ from r37core.console.leftovers import leftovers
 from r37core.product.reading import read_settings
 from r37core.time_integration.status import RunStatus
 
+pytestmark = pytest.mark.slow
+
 COARSE, ADDED = ("750", "1150", "1550"), ("1149", "1150.5")
 
 
@@ -46,7 +48,6 @@ def test_one_command_runs_all_rounds_and_each_speed_once(first_run):
     assert planned_outputs(first_run[0]) == {}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "change", "expected"),
     [
@@ -59,7 +60,6 @@ def test_a_new_blade_or_friction_runs_all_its_rounds(project, name, change, expe
     assert sorted(simulated(snakemake(project, "all_blades", "--cores", "2"))) == sorted(expected)
 
 
-@pytest.mark.slow
 def test_another_criterion_asks_anew_and_simulates_nothing_that_is_there(project):
     overlay(project, "config.yaml", "refinement: { change: 0.5 }")
     text = snakemake(project, "all_blades", "--cores", "2")
@@ -68,13 +68,11 @@ def test_another_criterion_asks_anew_and_simulates_nothing_that_is_there(project
     assert planned_outputs(project) == {}
 
 
-@pytest.mark.slow
 def test_a_lost_speed_of_a_later_round_runs_alone(project):
     lose_speed(project / "results/CS100/direct/speed_1149.npz")
     assert simulated(snakemake(project, "all_blades", "--cores", "2")) == ["CS100/direct/speed_1149.npz"]
 
 
-@pytest.mark.slow
 def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
     copy_stubbed(root, tmp_path)
     overlay(tmp_path, "config.yaml", f"speeds_for: [{{ scenes: [direct], speeds: [{REFINED}] }}]")
@@ -83,7 +81,6 @@ def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
     assert not list(tmp_path.glob("results/*/abradable/round_*.json"))
 
 
-@pytest.mark.slow
 def test_members_are_run_by_the_rules_of_the_sweep(project):
     """Beside it, at speeds that all of a sample share; more of them run alone, and so does what a member's model is made of."""
 
@@ -143,7 +140,6 @@ refinement:
 """
 
 
-@pytest.mark.slow
 def test_real_rounds_stay_on_their_grid(real):
     for scene in SCENES:
         folder = real / "results/CS100" / scene
@@ -163,7 +159,6 @@ def test_real_rounds_stay_on_their_grid(real):
     assert planned_outputs(real) == {}
 
 
-@pytest.mark.slow
 def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
     """Killed in the middle of its rounds, again and again; in the end every file is that of an undisturbed run."""
     project = prepare_real(small_sweep, tmp_path / "project")
@@ -204,7 +199,6 @@ def with_extensions(real, tmp_path_factory):
     return folder
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("cores", [1, 2])
 def test_python_has_the_same_rounds_members_and_run_ups(with_extensions, cores, monkeypatch):
     """To the last bit, on one core and on two."""

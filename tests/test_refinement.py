@@ -202,12 +202,9 @@ def test_a_round_takes_half_of_what_is_left_or_the_last_sixteen(left, next_round
     assert len(next_speeds(GRID, known_of(rows), replace(CHOICE, largest_share=share))) == next_round
 
 
-def test_diverged_and_missing_numbers_are_no_peaks():
+def test_diverged_and_missing_numbers_are_no_peaks_nor_are_speeds_off_the_grid():
     rows = {speed: [int(RunStatus.DIVERGED), np.nan, np.nan, np.nan] for speed in PLAN.certain}
     assert next_speeds(GRID, known_of(rows), CHOICE) == []
-
-
-def test_speeds_off_the_grid_are_not_refined_about():
     plan = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}, 999.5, 2500], 8.0)
     rows = {speed: [0, 1e-5, 1e-5, 0.1] for speed in plan.certain} | {999.5: [0, 1.0, 1.0, 9.0], 2500.0: [0, 1.0, 1.0, 9.0]}
     assert next_speeds(plan.refined[0], known_of(rows), CHOICE) == []
@@ -237,12 +234,6 @@ def test_one_or_two_speeds_are_a_range_too(stop):
     one = first_round(plan, campbell([890.0]), CHOICE)
     assert one.new == plan.certain == (900.0, 901.0)[: stop - 899]
     assert round_after(one, {speed: [0, 1e-3, 1e-3, 2.0] for speed in one.new}, plan, CHOICE).new == ()
-
-
-def test_rounds_do_not_depend_on_the_order_of_what_is_known():
-    rows = {speed: [0, 1e-4 * np.sin(speed), 1e-4, 0.5] for speed in PLAN.certain}
-    backwards = dict(reversed(rows.items()))
-    assert next_speeds(GRID, known_of(rows), CHOICE) == next_speeds(GRID, known_of(backwards), CHOICE)
 
 
 def test_a_round_s_file_says_what_it_was(tmp_path):
@@ -276,13 +267,14 @@ def test_a_round_of_a_blade_without_stress(tmp_path):
     assert np.isnan(stress)
 
 
-def test_the_size_of_a_curve_does_not_matter():
-    """Not of one far below a tenth, either."""
+def test_the_size_of_a_curve_does_not_matter_nor_does_the_order_of_what_is_known():
+    """Not a size far below a tenth, either."""
     rows = {speed: [0, 1e-3 + 1e-2 * np.sin(0.01 * speed) ** 8, 1e-3, 1e-3] for speed in PLAN.certain}
     rows[PLAN.certain[3]] = [1, np.nan, np.nan, np.nan]
     small = {speed: [status, 1e-6 * normal, *others] for speed, (status, normal, *others) in rows.items()}
     asked_for = next_speeds(GRID, known_of(rows), CHOICE)
     assert asked_for and next_speeds(GRID, known_of(small), CHOICE) == asked_for
+    assert next_speeds(GRID, known_of(dict(reversed(rows.items()))), CHOICE) == asked_for
 
 
 def test_without_a_width_a_peak_has_its_two_intervals():

@@ -136,6 +136,7 @@ def test_a_file_that_may_not_be_as_large_is_one_line(tmp_path, write):
 def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, outcome):
     """From every writer, and where r37 keeps structures; other errors are as they were."""
     monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10 - free, free))
+    monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
 
     def fails(*_):
         raise error
@@ -144,18 +145,12 @@ def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, o
         with atomic_write(tmp_path / "a.nc"):
             fails()
 
-    def made():
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setenv("R37_CACHE", str(tmp_path / "cache"))
-            patch.setattr(structure_files, "kept_file", fails)
-            structure_files.Recipe("Ref", Stage("rom.steps.reduced_model", {}), "a.nc", {}, {}).file()
-
-    for write in (written, made):
+    monkeypatch.setattr(structure_files, "kept_file", fails)
+    for write in (written, structure_files.Recipe("Ref", Stage("rom.steps.reduced_model", {}), "a.nc", {}, {}).file):
         with pytest.raises(outcome) as raised:
             write()
-        told = type(raised.value) is OutputFileError
-        assert told == (outcome is OutputFileError)
-        assert not told or re.search(r"a\S*\.nc: cannot be written: the disk is full; free some space \(", str(raised.value))
+        told = r"a\S*\.nc: cannot be written: the disk is full; free some space \(" if outcome is OutputFileError else ""
+        assert type(raised.value) is outcome and re.search(told, str(raised.value))
 
 
 def test_what_cannot_be_kept_is_there_nevertheless(tmp_path, monkeypatch):
@@ -345,29 +340,28 @@ def test_a_file_that_cannot_be_planned_with_is_told_in_one_line(tmp_path, settin
         assert record.getMessage() == (line or text)
 
 
-def test_a_damaged_round_is_one_line_and_its_speeds_are_held_against_the_grid(tmp_path):
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ('{"new": [800, 802.6]}', "it asks for 802.6 rad/s, which is no speed of the configuration"),
+        ('{"new": [7197, 800]}', "it asks for 7197 rad/s"),
+        ('{"new": ["x"]}', "could not convert"),
+        ('{"new": 800}', "not iterable"),
+        ('{"old": []}', "KeyError: 'new'"),
+        ("[]", "TypeError"),
+        ('{"new": [800', "JSONDecodeError"),
+    ],
+)
+def test_a_damaged_round_is_one_line_and_its_speeds_are_held_against_the_grid(tmp_path, text, reason):
     plan = plan_speeds([{"start": 800, "stop": 820, "step": 10, "refine_to": 2.5}], 1.0)
-    file = tmp_path / "round_0.json"
-    write_json({"new": [800, 802.5], "measured": []}, file)
-    assert speeds_of_round(str(file), plan) == [800.0, 802.5]
-    for number, (text, reason) in enumerate(
-        (
-            ('{"new": [800, 802.6]}', "it asks for 802.6 rad/s, which is no speed of the configuration"),
-            ('{"new": [7197, 800]}', "it asks for 7197 rad/s"),
-            ('{"new": ["x"]}', "could not convert"),
-            ('{"new": 800}', "not iterable"),
-            ('{"old": []}', "KeyError: 'new'"),
-            ("[]", "TypeError"),
-            ('{"new": [800', "JSONDecodeError"),
-        )
-    ):
-        file.write_text(text)
-        os.utime(file, (number, number))
-        with pytest.raises(InputFileError) as refused:
-            speeds_of_round(str(file), plan)
-        message = str(refused.value)
-        assert reason in message and message.count("cannot be read") == 1 and "\n" not in message, message
-        assert message.endswith("; if it is a result, delete it and run again")
+    (tmp_path / "sound.json").write_text('{"new": [800, 802.5]}')
+    assert speeds_of_round(str(tmp_path / "sound.json"), plan) == [800.0, 802.5]
+    (tmp_path / "round_0.json").write_text(text)
+    with pytest.raises(InputFileError) as refused:
+        speeds_of_round(str(tmp_path / "round_0.json"), plan)
+    message = str(refused.value)
+    assert reason in message and message.count("cannot be read") == 1 and "\n" not in message, message
+    assert message.endswith("; if it is a result, delete it and run again")
 
 
 @pytest.mark.slow

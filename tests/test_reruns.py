@@ -142,15 +142,6 @@ def test_signals_run_no_simulation_of_the_sweep(project):
     assert planned_outputs(project)["signals_of_run"] == per_run("signals.nc", blades=["Ref"])
 
 
-def test_a_step_keeps_the_structure_and_back_keeps_all(project):
-    overlay(project, "fidelity.yaml", "tiny: { time_integration: { time_step_s: 1.0e-7 } }")
-    jobs = planned_outputs(project)
-    assert jobs.pop("simulate") == runs(SPEEDS)
-    assert not (STRUCTURE | {"contact_model"} | OF_ALL_BLADES) & set(jobs)
-    overlay(project, "fidelity.yaml", "tiny: { time_integration: { time_step_s: 2.0e-7 } }")
-    assert planned_outputs(project) == {}
-
-
 def test_another_level_runs_what_differs_and_back_keeps_all(project):
     """A level with the same mesh and reduction, then one with another mesh, then the first again."""
     level = load_yaml(project / "config/fidelity.yaml")["tiny"]

@@ -48,6 +48,8 @@ search:
   first: 2
   batch: 2
 """
+CROSSING = "measure: crossing_margin_percent, mode: 1B, speed_rad_s: 9"
+WIDE = "of_blades: { thickness_percent: { uniform_percent: 200 } }"
 TOLERANCES = "objectives: { lined: { quantile: 0.9 } }, tolerances: { members: 4, "
 
 
@@ -61,7 +63,6 @@ def folder(config_copy):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ("{ blade: Nope }", "search.blade: found 'Nope'; allowed: one that is run .Free."),
         ("{ blade: Ref }", "search.blade: found 'Ref'; allowed: one that is run .Free."),
         ("{ variables: { nothing: [0, 1] } }", "search.variables.nothing: .*found unknown key nothing"),
         ("{ variables: { stagger_deg.middle: [0, 1] } }", "search.variables.stagger_deg.middle: .*allowed keys: hub, tip"),
@@ -74,15 +75,9 @@ def folder(config_copy):
         ("{ objectives: { lined: { scenes: [nope] } } }", "objectives.lined.scenes: found 'nope'; allowed: scenes that"),
         ("{ objectives: { other: { measure: speed } } }", "objectives.other.measure: found 'speed'; allowed: one of length_"),
         ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
-        (
-            "{ objectives: { other: { measure: frequency_hz, mode: 1b } } }",
-            r"other.mode: found 1b; allowed: one of the Campbell diagram, 1B, 1T, 2B, 4, 5, 6, 7, 8, 9, 10 \(campbell.modes\)",
-        ),
+        ("{ objectives: { other: { measure: frequency_hz, mode: 1b } } }", "other.mode: found 1b; allowed: .*, 1B, 1T, 2B, 4"),
         ("{ objectives: { other: { measure: mass_kg, mode: 1B } } }", "other.mode: found mode with mass_kg; .*left out"),
-        (
-            "{ objectives: { other: { measure: crossing_margin_percent, mode: 1B, engine_order: 21, speed_rad_s: 9 } } }",
-            "other.engine_order: found 21; allowed: at most campbell.highest_engine_order",
-        ),
+        (f"{{ objectives: {{ other: {{ {CROSSING}, engine_order: 21 }} }} }}", "other.engine_order: found 21; .*campbell.high"),
         ("{ objectives: { Lined: { measure: mass_kg } } }", "names that differ in more than capitals"),
         ("{ objectives: { other: { measure: mass_kg, quantile: 0.9 } } }", "other.quantile: found a quantile of mass_kg"),
         ("{ objectives: { lined: { quantile: 0.9 } } }", "lined.quantile: found a quantile; allowed: tolerances beside it"),
@@ -98,7 +93,7 @@ def folder(config_copy):
         (f"{{ {TOLERANCES} of_scenes: {{ nope: {{ uniform: 1 }} }} }} }}", "tolerances.of_scenes.nope: found nope; allowed"),
         (f"{{ {TOLERANCES} of_blades: {{ nope: {{ uniform: 1 }} }} }} }}", "tolerances.of_blades.nope: found nope; allowed"),
         (
-            f"{{ {TOLERANCES} of_blades: {{ thickness_percent: {{ uniform_percent: 200 }} }} }} }}",
+            f"{{ {TOLERANCES} {WIDE} }} }}",
             "tolerances.of_blades.thickness_percent: a member of the start: .*a narrower tolerance",
         ),
     ],
@@ -187,12 +182,10 @@ def test_rounds_spend_the_budget_in_batches_and_the_same_seed_gives_the_same(met
     assert [design.round for design in tried.values()] == [0, 0, 0, 1, 1, 2, 2]
     assert tried["d0001"].refused == "crossed" and tried["d0001"].quantities == {}
     assert tried["d0001"].evaluated("d0001", choice(), START).status == "refused"
+    if method == "quasi_random":
+        assert [design.values for design in tried.values()] == first_designs(VARIABLES, 7, 0)
     # a larger budget changes no design that is there
     assert list(searched(choice(method), (3, 2, 2, 1, 0))[-1].tried.items())[:7] == list(tried.items())
-
-
-def test_plain_sampling_goes_on_with_its_sequence():
-    assert [design.values for design in searched(choice())[-1].tried.values()] == first_designs(VARIABLES, 7, 0)
 
 
 def test_margins_are_of_the_start_in_percent():

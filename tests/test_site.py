@@ -20,19 +20,13 @@ def need(*packages):
         pytest.importorskip(name, reason="the packages of the site (make site)")
 
 
-@pytest.fixture
-def notebook(root):
-    need("nbformat")
+def test_the_notebook_is_that_of_the_script(root):
+    """`make tutorial` renews it."""
+    need("nbformat", "jupytext")
+    import jupytext
     import nbformat
 
-    return nbformat.read(root / "docs/tutorial.ipynb", as_version=4)
-
-
-def test_the_notebook_is_that_of_the_script(root, notebook):
-    """`make tutorial` renews it."""
-    need("jupytext")
-    import jupytext
-
+    notebook = nbformat.read(root / "docs/tutorial.ipynb", as_version=4)
     script = jupytext.read(root / "docs/tutorial.py")
     assert [cell.source for cell in notebook.cells] == [cell.source for cell in script.cells]
     assert all(cell.execution_count for cell in notebook.cells if cell.cell_type == "code")

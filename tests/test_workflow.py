@@ -32,14 +32,13 @@ pytestmark = pytest.mark.slow
 
 def test_results_of_a_real_run(small_sweep):
     results = small_sweep / "results"
-    names = ("campbell", "rms", "wear", "stress", "spectrum", "CS100/rom_pressure_edge")
-    campbell, rms, wear, stress, spectrum, model = (read_dataset(results / f"{name}.nc") for name in names)
+    names = ("campbell", "rms", "wear", "stress", "CS100/rom_pressure_edge")
+    campbell, rms, wear, stress, model = (read_dataset(results / f"{name}.nc") for name in names)
     assert list(campbell["blade"].values) == ["Ref", "CS100"]
     assert campbell["frequency"].sel(blade="Ref", mode="1B", speed=0.0).item() == pytest.approx(839.3, rel=0.01)
     assert campbell["crossing_speed"].sel(blade="Ref", mode="1B", engine_order=4).item() == pytest.approx(1672, rel=0.01)
     assert [model.attrs[name] for name in ("blade", "fidelity", "basis_columns")] == ["CS100", "tiny", 96]
     assert len(rms.attrs["input_hash"]) == 16
-    assert rms["rms_normal"].dims == ("blade", "scene", "speed", "tip_point")
     assert rms["rms_normal"].shape == (2, 2, 3, 2)
     assert (rms["status"] == 0).all()
     assert (rms["rms_normal"] > 0.0).all()
@@ -47,7 +46,6 @@ def test_results_of_a_real_run(small_sweep):
     assert float(balance.max()) < 1e-9
     assert list(wear["scene"].values) == ["abradable"]
     assert (wear["max_wear"] > 0.0).all() and (stress["max_von_mises"] > 0.0).all()
-    assert float(spectrum["engine_order"][1]) == 0.25
     columns = "blade,scene,mode,engine_order,direction,campbell_speed_rad_s"
     assert (results / "summary.csv").read_text().startswith(columns)
     drawn = ["campbell", "campbell_Ref", "campbell_CS100", "blades", "response", "response_Ref", "spectrum_Ref__direct"]
