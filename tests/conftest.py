@@ -1,5 +1,6 @@
 """What many tests share: a clean project, the reference blade, a coarse mesh, its matrices and its reduced model."""
 
+import contextlib
 import filecmp
 import io
 import os
@@ -94,10 +95,8 @@ def root(tmp_path_factory):
 @pytest.fixture(scope="session", autouse=True)
 def elsewhere(tmp_path_factory):
     """A working directory without results: no test sees those of the checkout."""
-    before = Path.cwd()
-    os.chdir(tmp_path_factory.mktemp("elsewhere"))
-    yield
-    os.chdir(before)
+    with contextlib.chdir(tmp_path_factory.mktemp("elsewhere")):
+        yield
 
 
 @pytest.fixture(scope="session")

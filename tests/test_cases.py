@@ -63,26 +63,19 @@ def test_changes_leave_the_entry_alone():
     assert entry == {"casing": {"lobes": 2}, "damping_ratio": 0.1}
 
 
-@pytest.fixture
-def made(mesh, steel, choice, tmp_path):
-    """Model files of a mesh of the run, with so many contact nodes."""
+def test_a_case_of_a_model_that_the_mesh_cannot_have_is_refused(mesh, steel, choice, tmp_path):
+    names = {"rom": "rom.nc", "contact": "contact.npz", "cost": "cost.json"}
+    files = {name: str(tmp_path / file) for name, file in names.items()}
+    write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
 
     def make(nodes):
-        write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
-        names = {"rom": "rom.nc", "contact": "contact.npz", "cost": "cost.json"}
-        files = {name: str(tmp_path / file) for name, file in names.items()}
         wanted = ModelChoice(OWN_MESH, nodes, 3, False, "pressure_edge", corners=True)
         params = {"choice": to_plain(wanted), "reduction": to_plain(choice), "material": to_plain(steel), "provenance": {}}
         model_step(Named(mesh=str(tmp_path / "mesh.vtu")), Named(**files), Named(**params))
-        return files
 
-    return make
-
-
-def test_a_case_of_a_model_that_the_mesh_cannot_have_is_refused(made, tmp_path):
-    files = made(3)
+    make(3)
     assert len(read_contact_model(files["contact"]).radius) == 3 and read_json(files["cost"])["cpu_s"] > 0.0
-    files = made(150)
+    make(150)
     assert read_json(files["cost"]).keys() == {"refused"}
     run_case_of_files(case_of(IntegrationChoice(2e-7, 4, 62)), files, tmp_path / "case.nc")
     response = read_dataset(tmp_path / "case.nc")

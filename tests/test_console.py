@@ -42,14 +42,14 @@ def test_settings_have_their_names(where, names):
     assert section in inspect.getsource(snakemake_run)
 
 
-def test_the_workflow_has_what_is_asked_of_it():
+def test_what_is_asked_of_snakemake_is_there():
     names = ("is_main_process", "basedir", "current_basedir", "local_exec", "modifier", "scheduler")
     assert all(hasattr(api.Workflow, name) for name in names)
     assert hasattr(modules.WorkflowModifier, "is_main_snakefile")
     assert types.DeploymentMethod.CONDA.name == "CONDA"
-
-
-def test_the_handler_and_the_events_have_their_names():
+    # where the lock lies that is lifted
+    assert f'os.path.join(self.path, "{_LOCKS.name}")' in inspect.getsource(persistence)
+    assert _LOCKS.parent == Path(".snakemake")
     assert f'"{progress.HANDLER}"' in inspect.getsource(logging.LoggerManager._default_streamhandler)
     assert {str(event) for event in LogEvent} >= progress.QUIET_EVENTS
 
@@ -78,11 +78,6 @@ def test_scripts_are_started_with_the_interpreter_s_name_as_it_stands():
     about = inspect.getsource(script.PythonScript)
     assert "py_exec = sys.executable" in about
     assert '"{py_exec} {fname:q}"' in about
-
-
-def test_the_lock_is_where_it_is_lifted():
-    assert f'os.path.join(self.path, "{_LOCKS.name}")' in inspect.getsource(persistence)
-    assert _LOCKS.parent == Path(".snakemake")
 
 
 def test_an_interruption_while_the_rules_are_read_is_one_line(root, capsys, monkeypatch):

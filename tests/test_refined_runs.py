@@ -24,6 +24,7 @@ from r37core.time_integration.status import RunStatus
 pytestmark = pytest.mark.slow
 
 COARSE, ADDED = ("750", "1150", "1550"), ("1149", "1150.5")
+WINDOWS = "windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.03, step_rad_s: 40 }], largest_share: 0.9"
 
 
 @pytest.fixture(scope="module")
@@ -128,16 +129,8 @@ def real(small_sweep, tmp_path_factory):
 def prepare_real(small_sweep, folder):
     copy_structure(small_sweep, folder)
     refine(folder, "{ start: 1000, stop: 1240, step: 80, refine_to: 20 }")
-    overlay(folder, "config.yaml", "blades: [CS100]\n" + _REFINEMENT)
+    overlay(folder, "config.yaml", f"{{ blades: [CS100], refinement: {{ {WINDOWS}, direct: {{ {WINDOWS} }} }} }}")
     return folder
-
-
-_REFINEMENT = """
-refinement:
-  windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.03, step_rad_s: 40 }]
-  largest_share: 0.9
-  direct: { windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.03, step_rad_s: 40 }], largest_share: 0.9 }
-"""
 
 
 def test_real_rounds_stay_on_their_grid(real):

@@ -32,6 +32,10 @@ def test_a_range_has_its_coarse_speeds_and_its_end():
     assert from_plain(SpeedPlan, to_plain(plan)) == plan
     assert plan_speeds([{"start": 900, "stop": 1000, "refine_to": 1}], 8.0).refined[0].coarse == 8
     assert PLAN.speed_count(0.2) == 250
+    # a number inside a range is no repetition
+    plan = plan_speeds([refined(), 920, 933, 933.5], 8.0)
+    assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)
+    assert plan.speed_count(0.2) == 20 + 2
 
 
 def test_names_of_speeds_are_exact():
@@ -41,12 +45,6 @@ def test_names_of_speeds_are_exact():
     assert names[:5] == ["750", "750.1", "750.2", "750.3", "750.4"]
     assert len(set(names)) == 21
     assert [float(name) for name in names] == grid.every_speed()
-
-
-def test_a_number_inside_a_range_is_no_repetition():
-    plan = plan_speeds([refined(), 920, 933, 933.5], 8.0)
-    assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)
-    assert plan.speed_count(0.2) == 20 + 2
 
 
 def refined(**changes):

@@ -214,13 +214,15 @@ def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
     gone += ["figures/spectrogram_Ref__direct.png", "figures/orders_Ref__direct.pdf", "figures/shapes_Ref.png"]
     gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf", "Ref/direct/speed_901.npz"]
     gone += ["figures/response_L50.png", "figures/response_L50.pdf", "figures/comparison_abradable.pdf"]
-    gone += ["figures/wear_Ref__abradable.png", "exports/L50/mesh.bdf", "L50/mesh.vtu", "Ref/abradable/speed_900.npz"]
-    for name in [*kept, *gone]:
+    gone += ["figures/wear_Ref__abradable.png", "shapes/Ref.html", "shapes/L50.html"]
+    folders = ["exports/L50", "L50", "Ref/abradable", "shapes/Ref", "shapes/L50"]
+    inside = ["exports/L50/mesh.bdf", "L50/mesh.vtu", "Ref/abradable/speed_900.npz", "shapes/L50/modes/mode_1.glb"]
+    inside += [f"shapes/Ref/{name}.glb" for name in ("modes/mode_1", "stress_direct/stress_900", "stress_abradable/stress_900")]
+    for name in [*kept, *gone, *inside]:
         (results / name).parent.mkdir(parents=True, exist_ok=True)
         (results / name).write_text("x")
     found = {str(path.relative_to(results)) for path in leftovers(results, settings)}
-    # of the last ones the whole folder
-    assert found == {*gone[:-3], "exports/L50", "L50", "Ref/abradable"}
+    assert found == {*gone, *folders}
 
     every = {"blades": ["Ref", "L50", "Sweep"], "scenes": ["abradable", "direct"], "speeds": [900, 901]}
     every |= {"signals": {"speeds_rad_s": [900]}, "exports": {"mesh_formats": ["vtu", "bdf"]}}
@@ -228,22 +230,9 @@ def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
     scenes.write_text(scenes.read_text().replace("stress, energy]", "stress, energy, shapes]\n  tip_line: camber", 1))
     with open(config / "blades.yaml", "a") as stream:
         stream.write("Sweep: { base: Ref, vary: { chordwise_sweep_deg: [5] } }\n")
-    assert leftovers(results, read_settings(config_copy, command_line_document(every))) == []
-
-
-def test_leftovers_of_shapes(config_copy):
-    """Those of blades that are gone, and of scenes that no longer ask."""
-    settings = read_settings(config_copy, command_line_document({"blades": ["Ref"]}))
-    scenes, results = config_copy / "config/scenes.yaml", config_copy / "results"
-    shapes = results / "shapes"
-    scenes.write_text(scenes.read_text().replace("stress, wear, energy]", "stress, wear, energy, shapes]", 1))
-    asked = read_settings(config_copy, command_line_document({"blades": ["Ref"]}))
-    for name in ("Ref/modes", "Ref/stress_abradable", "Ref/stress_direct", "L50/modes"):
-        (shapes / name).mkdir(parents=True)
-    for name in ("Ref.html", "L50.html"):
-        (shapes / name).write_text("x")
-    assert leftovers(results, asked) == [shapes / "L50", shapes / "L50.html", shapes / "Ref/stress_direct"]
-    assert leftovers(results, settings) == [shapes / "L50", shapes / "L50.html", shapes / "Ref", shapes / "Ref.html"]
+    # only direct contact asks for shapes
+    left = leftovers(results, read_settings(config_copy, command_line_document(every)))
+    assert left == [results / "shapes/Ref/stress_abradable"]
 
 
 @pytest.mark.slow

@@ -81,7 +81,7 @@ def test_a_word_that_computes_nothing_imports_nothing_that_computes(root, name):
     assert "r37core.config" not in names or name == "study_folder"
 
 
-def test_words_that_compute_nothing(root, capsys):
+def test_words_that_compute_nothing_and_what_is_refused(root, capsys):
     config = str(root / "config/config.yaml")
     for words, said in {
         ("--version",): f"r37 {r37.__version__}\n",
@@ -98,9 +98,6 @@ def test_words_that_compute_nothing(root, capsys):
     with pytest.raises(SystemExit):
         main(["--print-completion", "ksh"])
     assert "found 'ksh'; allowed: bash, zsh" in capsys.readouterr().err
-
-
-def test_two_files_of_blades_are_refused(capsys):
     assert main(["campbell", "mine.yaml", "--blades", "other.yaml"]) == 1
     assert capsys.readouterr().err == "r37: --blades: found other.yaml beside the file mine.yaml; allowed: one of them\n"
 

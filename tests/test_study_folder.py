@@ -4,7 +4,7 @@ import pytest
 from plans_of_snakemake import planned
 from workflow_runs import copy_project, snakemake
 
-from r37 import SNAKEFILE, ConfigError
+from r37 import ConfigError
 from r37.command import main
 from r37.study_folder import init
 
@@ -58,10 +58,6 @@ def test_init_replaces_nothing(tmp_path, capsys):
     assert [entry.name for entry in tmp_path.iterdir()] == ["notes.txt"]
     (tmp_path / "empty").mkdir()
     assert init(tmp_path / "empty").is_dir()
-
-
-def test_the_snakefile_of_the_repository_is_the_module(root):
-    assert SNAKEFILE.name == "Snakefile" and (SNAKEFILE.parent / "workflow/rules/common.smk").exists()
 
 
 @pytest.mark.slow
