@@ -26,11 +26,10 @@ from r37core.time_integration.compiled.engine import _program
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.speed_run import run_speed
 
-KEPT = {"spectrum_highest_order": 12, "wear_angles": 100}
-
 
 def case_of(choice, scene=DIRECT, speeds=(1500.0,), results=("energy",), **fields):
-    return Case("Ref", "pressure_edge", scene, choice, speeds, results, None, KEPT, **fields)
+    kept = {"spectrum_highest_order": 12, "wear_angles": 100}
+    return Case("Ref", "pressure_edge", scene, choice, speeds, results, None, kept, **fields)
 
 
 def test_cases_are_planned_without_what_runs_them():

@@ -24,7 +24,8 @@ def test_found_where_and_how_long(tmp_path):
     assert closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0)[1] == f"look at {tmp_path}/summary.csv"
     (tmp_path / "explorer.html").touch()
     (tmp_path / "figures").mkdir()
-    found, where, took = closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0)
+    found, remark, where, took = closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0, ["contact acts on points"])
+    assert remark == "contact acts on points"
     what, worst = found.split("; ")
     assert what == "found 4 interactions, 2 of them above yield"
     assert worst == "the largest stress 9.50 GPa, S50 in abradable at 1686 rad/s (engine order 4)"
@@ -68,11 +69,6 @@ def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
     assert said.startswith("y: A and B are above yield at the fewest speeds (0 rad/s), C at the most (9 rad/s); ")
     (tmp_path / "ranking.csv").write_text(head + rows[0])
     assert len(closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)) == 4
-
-
-def test_what_there_is_to_remark_stands_before_where_to_look(tmp_path):
-    lines = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0, ["contact acts on points"])
-    assert len(lines) == 4 and lines[1] == "contact acts on points"
 
 
 def test_lengths_of_time(tmp_path):

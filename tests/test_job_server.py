@@ -40,9 +40,9 @@ LONGEST = 200.0
 
 @pytest.fixture
 def starter(root, tmp_path):
-    """start.py in a folder of scripts that has job.py as one of its own."""
+    """The command of start.py in a folder of scripts that has job.py as one of its own."""
     (tmp_path / "start.py").write_text((root / "workflow/scripts/start.py").read_text())
-    return str(tmp_path / "start.py")
+    return [sys.executable, "-S", "-E", str(tmp_path / "start.py")]
 
 
 @pytest.fixture
@@ -74,7 +74,7 @@ def start(serve, starter):
     _, server = serve(SCRIPT)
 
     def one(*arguments, out="out", **options):
-        command = [sys.executable, "-S", "-E", starter, "job.py", out, *arguments]
+        command = [*starter, "job.py", out, *arguments]
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
     one.server, one.said = server, serve.said
@@ -86,8 +86,7 @@ def run_script(starter):
     """Runs a script as a rule does, to its end."""
 
     def run(*command, **options):
-        command = [sys.executable, "-S", "-E", starter, *map(str, command)]
-        return subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, **options)
+        return subprocess.run([*starter, *command], capture_output=True, text=True, timeout=LONGEST, **options)
 
     return run
 
@@ -251,8 +250,7 @@ def test_a_server_is_gone_before_its_snakemake(serve, tmp_path):
         "import os, sys\nfrom pathlib import Path\nfrom r37core.console import job_server\n"
         "job_server._END_S = float(sys.argv[1])\n"
         "assert job_server.start(Path('job.py'), Path(sys.executable), print)\n"
-        "os.kill(job_server._KEPT[0].pid, int(sys.argv[2]))\n"
-        "print('done')\n"
+        "os.kill(job_server._KEPT[0].pid, int(sys.argv[2]))\nprint('done')\n"
     )
     Path("job.py").write_text(SCRIPT)
     for seconds, signal_number in ((LONGEST, 0), (0.2, signal.SIGSTOP)):

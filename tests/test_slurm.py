@@ -133,8 +133,7 @@ def values(folder):
 def project(root, folder):
     copy_project(root, folder)
     shutil.copytree(root / "cluster", folder / "cluster")
-    speeds = "{ start: 1000, stop: 1400, step: 100, refine_to: 12.5 }"
-    overlay(folder, "config.yaml", f"{{ speeds: [{speeds}], scenes: [abradable] }}")
+    overlay(folder, "config.yaml", "{ speeds: [{ start: 1000, stop: 1400, step: 100, refine_to: 12.5 }], scenes: [abradable] }")
     return folder
 
 

@@ -157,15 +157,13 @@ def test_a_blade_that_is_not_run_asks_for_nothing(root):
     assert filled(plan.targets(Sweep(settings))) == [] and plan.left_out(settings) == ""
 
 
-SMALL = (
-    "tradeoff: { parameters: { level: { values: [tiny, draft], reference: draft }, "
-    "bars: { values: [3000, 10000], reference: 10000 }, revolutions: { values: [2, 3, 4], reference: 4 } } }"
-)
-
-
 @pytest.mark.slow
 def test_tradeoff_of_a_small_sweep(compiled, project):
-    overlay(project, "config.yaml", SMALL)
+    asked = (
+        "tradeoff: { parameters: { level: { values: [tiny, draft], reference: draft }, "
+        "bars: { values: [3000, 10000], reference: 10000 }, revolutions: { values: [2, 3, 4], reference: 4 } } }"
+    )
+    overlay(project, "config.yaml", asked)
     said = snakemake(project, "tradeoff", "--cores", "2")
     assert " the tolerance of 5%" in said and "look at results/figures/tradeoff.png" in said
     results = r37.open_results(project / "results")
@@ -187,18 +185,16 @@ def test_python_makes_what_a_section_asks_for(monkeypatch, root):
     assert asked == [["tables", "tradeoff"], ["tables"], ["stability"]]
 
 
-OF_FAN = (
-    "tradeoff: { scenes: [direct], parameters: { boundary_nodes: { values: [2, 3, 90], reference: 3 }, "
-    "mesh_nodes: { values: [2500, 5000], reference: 5000 }, revolutions: { values: [2, 4], reference: 4 } } }\n"
-    "stability: { scenes: [direct], extremes: [boundary_nodes, mesh_nodes] }"
-)
-
-
 @pytest.mark.slow
 def test_a_mesh_of_another_program(root, drawn, tmp_path):  # noqa: F811
     """The mesh stays as it is; contact nodes and runs vary."""
     project = with_example(root, drawn, tmp_path, copy_project)
-    overlay(project, "config.yaml", OF_FAN)
+    asked = (
+        "tradeoff: { scenes: [direct], parameters: { boundary_nodes: { values: [2, 3, 90], reference: 3 }, "
+        "mesh_nodes: { values: [2500, 5000], reference: 5000 }, revolutions: { values: [2, 4], reference: 4 } } }\n"
+        "stability: { scenes: [direct], extremes: [boundary_nodes, mesh_nodes] }"
+    )
+    overlay(project, "config.yaml", asked)
     said = snakemake(project, "tradeoff", "stability", "estimate", "--cores", "2")
     assert "left out: mesh_nodes, because Fan is given by a mesh" in said
     tables = r37.open_results(project / "results").tables

@@ -87,20 +87,14 @@ def test_a_round_reads_what_the_one_before_asked_for(refining):
     }
 
 
-TOLERANCES = {
-    "members": 2,
-    "sensitivity": True,
-    "blades": ["Ref"],
-    "largest_share": 0.4,
-    "of_scenes": {"lining.thickness_m": {"uniform_percent": 5.0}},
-    "of_blades": {"material.yield_stress_pa": {"values": [1.0e9]}, "thickness_percent": {"values": [100.0, 102.0]}},
-}
-
-
 @pytest.fixture
 def with_members(root, tmp_path):
     """The same with members beside it: of the sample one has the nominal blade and one another, all yield early."""
-    settings = read_settings(root, command_line_document(REFINED | {"tolerances": TOLERANCES}))
+    tolerances = {"members": 2, "sensitivity": True, "blades": ["Ref"], "largest_share": 0.4}
+    tolerances["of_scenes"] = {"lining.thickness_m": {"uniform_percent": 5.0}}
+    thickness = {"thickness_percent": {"values": [100.0, 102.0]}}
+    tolerances["of_blades"] = {"material.yield_stress_pa": {"values": [1.0e9]}} | thickness
+    settings = read_settings(root, command_line_document(REFINED | {"tolerances": tolerances}))
     (tmp_path / "round.json").write_text('{"new": [925], "measured": []}')
 
     def file_of_round(member, blade, scene, round):
