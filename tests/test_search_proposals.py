@@ -131,6 +131,11 @@ def test_two_threads_propose_what_one_does(searches):
         assert run.stdout.decode().strip() == str(expected), run.stderr.decode()
 
 
+def test_no_two_designs_are_near_copies(searches):
+    for evaluated in searches.values():
+        assert smallest_difference([design.values for design in evaluated]) >= NEAR - 1e-4
+
+
 def test_a_batch_spreads_once_its_first_design_is_believed():
     batches = [propose(SQUARE, tried(first_designs(SQUARE, 8, seed), 1.0), 4, seed) for seed in range(4)]
     assert np.median([smallest_difference(batch) for batch in batches]) > 3 * NEAR
