@@ -180,10 +180,9 @@ def rules(root):
 
 def test_every_rule_of_a_step_names_one_that_is_there(rules):
     assert len(rules) > 25
-    for names in rules.values():
-        for name in names[1:2]:
-            module, function = name.rsplit(".", 1)
-            assert list(inspect.signature(getattr(import_module(module), function)).parameters) == ["input", "output", "params"]
+    for name in {names[1] for names in rules.values() if len(names) > 1}:
+        module, function = name.rsplit(".", 1)
+        assert list(inspect.signature(getattr(import_module(module), function)).parameters) == ["input", "output", "params"]
 
 
 def test_a_figure_s_parameters_have_the_code_of_its_module(root):

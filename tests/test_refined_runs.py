@@ -170,10 +170,8 @@ def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
 
 
 CROSSING = {"mode": "1B", "engine_order": 6, "first": 0.02, "last": 0.01}
-RUN_UPS = {
-    "up": {"from_rpm": 9500, "to_rpm": 9600, "revolutions": 4, "scenes": ["abradable"]},
-    "down": {"crossing": CROSSING, "rate_rad_s2": 500, "scenes": ["abradable"]},
-}
+RUN_UPS = {"up": {"from_rpm": 9500, "to_rpm": 9600, "revolutions": 4, "scenes": ["abradable"]}}
+RUN_UPS["down"] = {"crossing": CROSSING, "rate_rad_s2": 500, "scenes": ["abradable"]}
 TOLERANCES = {"members": 2, "largest_share": 0.9, "of_scenes": {"friction.coefficient": {"uniform_percent": 20}}}
 TOLERANCES["of_blades"] = {"material.youngs_modulus_pa": {"uniform_percent": 1}}
 
