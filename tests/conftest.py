@@ -1,6 +1,8 @@
 """What many tests share: a clean project, the reference blade, a coarse mesh, its matrices and its reduced model."""
 
+import contextlib
 import filecmp
+import io
 import os
 import shutil
 import tempfile
@@ -11,6 +13,7 @@ from pathlib import Path
 import browser
 import pytest
 from hypothesis import settings
+from workflow_runs import copy_finished, copy_project
 
 # a busy machine is no error
 settings.register_profile("no_deadline", deadline=None)
@@ -21,16 +24,7 @@ for library in ("OPENBLAS", "OMP", "MKL"):
 
 CHECKOUT = Path(__file__).parent.parent
 CONFIGURATION = Path(__file__).parent / "config"
-DELIVERED = (
-    "cluster",
-    "docs",
-    "envs",
-    "examples",
-    "profiles",
-    "workflow",
-    "pyproject.toml",
-    "CITATION.cff",
-)
+DELIVERED = ("cluster", "docs", "envs", "examples", "profiles", "workflow", "pyproject.toml", "CITATION.cff")
 DELIVERED += ("Makefile", "MANIFEST.in", "Snakefile", "CHANGELOG.md", "CONTRIBUTING.md", "README.md")
 
 
@@ -43,6 +37,11 @@ def edited_configuration():
     files = {str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")}
     files = {file for file in files if not file.startswith(("schemas", "my", "own/"))}
     return sorted(files.difference(filecmp.cmpfiles(*folders, files, shallow=False)[0]))
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
 
 
 LONGEST = ("workflow", "coriolis", "tradeoff", "refined_runs", "slurm", "your_blade", "reruns", "clearance", "run_ups")
@@ -96,10 +95,8 @@ def root(tmp_path_factory):
 @pytest.fixture(scope="session", autouse=True)
 def elsewhere(tmp_path_factory):
     """A working directory without results: no test sees those of the checkout."""
-    before = Path.cwd()
-    os.chdir(tmp_path_factory.mktemp("elsewhere"))
-    yield
-    os.chdir(before)
+    with contextlib.chdir(tmp_path_factory.mktemp("elsewhere")):
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -197,14 +194,11 @@ def small_sweep(root, compiled, tmp_path_factory):
 
 @pytest.fixture
 def sweep_copy(small_sweep, tmp_path):
-    from workflow_runs import copy_finished
-
     return copy_finished(small_sweep, tmp_path / "sweep")
 
 
 @pytest.fixture
 def structure_copy(small_sweep, tmp_path):
-    """With what was made of the blades alone."""
     from shared_sweep import copy_structure
 
     return copy_structure(small_sweep, tmp_path / "structure")
@@ -212,7 +206,6 @@ def structure_copy(small_sweep, tmp_path):
 
 @pytest.fixture
 def config_copy(root, tmp_path):
-    """A folder with a copy of the configuration alone."""
     shutil.copytree(root / "config", tmp_path / "config")
     return tmp_path
 
@@ -234,8 +227,5 @@ def with_blades(config_copy):
 
 @pytest.fixture
 def project(root, tmp_path):
-    """A copy of the project with a small sweep."""
-    from workflow_runs import copy_project
-
     copy_project(root, tmp_path)
     return tmp_path

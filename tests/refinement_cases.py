@@ -9,9 +9,8 @@ from r37core.speeds import plan_speeds
 from r37core.time_integration.status import RunStatus
 
 WINDOWS = (Window("1B", 8, 0.0, 0.05, 5.0),)
-CHOICE = RefinementChoice(
-    windows=WINDOWS, change=0.25, peak=0.1, largest_share=0.25, prominence=0.1, steep_change=0.8, steep_prominence=0.01
-)
+STEEP = {"steep_change": 0.8, "steep_prominence": 0.01}
+CHOICE = RefinementChoice(windows=WINDOWS, change=0.25, peak=0.1, largest_share=0.25, prominence=0.1, **STEEP)
 PLAN = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}], 8.0)
 GRID = PLAN.refined[0]
 

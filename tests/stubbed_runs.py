@@ -5,6 +5,9 @@ import re
 from overlays import overlay
 from workflow_runs import copy_project
 
+BLADES, SCENES = ("Ref", "CS100"), ("abradable", "direct")
+REFINED = "{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"
+
 # the job server, which reads the script with fewer arguments, makes nothing
 _STUB = """
 import sys
@@ -69,9 +72,14 @@ def edit(project, name, old, new):
     file.write_text(text.replace(old, new, 1))
 
 
-def refine(folder, entry="{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"):
+def refine(folder, entry=REFINED):
     """Make the speeds of a copy adaptive."""
     overlay(folder, "config.yaml", f"speeds: [{entry}]")
+
+
+def runs(speeds, blades=BLADES, scenes=SCENES):
+    """Files of these simulations, in `results`."""
+    return {f"{blade}/{scene}/speed_{speed}.npz" for blade in blades for scene in scenes for speed in speeds}
 
 
 def simulated(text):

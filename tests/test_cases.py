@@ -26,11 +26,10 @@ from r37core.time_integration.compiled.engine import _program
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.speed_run import run_speed
 
-KEPT = {"spectrum_highest_order": 12, "wear_angles": 100}
-
 
 def case_of(choice, scene=DIRECT, speeds=(1500.0,), results=("energy",), **fields):
-    return Case("Ref", "pressure_edge", scene, choice, speeds, results, None, KEPT, **fields)
+    kept = {"spectrum_highest_order": 12, "wear_angles": 100}
+    return Case("Ref", "pressure_edge", scene, choice, speeds, results, None, kept, **fields)
 
 
 def test_cases_are_planned_without_what_runs_them():
@@ -51,38 +50,24 @@ def test_a_case_is_plain_data():
 
 
 def test_a_model_has_the_name_of_its_choice():
-    for choice in (
-        ModelChoice(5000, 8, 0, False, "pressure_edge", corners=True),
-        ModelChoice(OWN_MESH, 2, 10, True, "camber", corners=False),
-    ):
-        assert re.fullmatch(MODEL_NAME, choice.name)
-        assert model_of_name(choice.name) == choice
+    for values in ((5000, 8, 0, False, "pressure_edge", True), (OWN_MESH, 2, 10, True, "camber", False)):
+        choice = ModelChoice(*values)
+        assert re.fullmatch(MODEL_NAME, choice.name) and model_of_name(choice.name) == choice
 
 
-@pytest.fixture
-def made(mesh, steel, choice, tmp_path):
-    """Model files of a mesh of the run, with so many contact nodes."""
+def test_a_case_of_a_model_that_the_mesh_cannot_have_is_refused(mesh, steel, choice, tmp_path):
+    names = {"rom": "rom.nc", "contact": "contact.npz", "cost": "cost.json"}
+    files = {name: str(tmp_path / file) for name, file in names.items()}
+    write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
 
     def make(nodes):
-        write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
-        names = {"rom": "rom.nc", "contact": "contact.npz", "cost": "cost.json"}
-        files = {name: str(tmp_path / file) for name, file in names.items()}
         wanted = ModelChoice(OWN_MESH, nodes, 3, False, "pressure_edge", corners=True)
         params = {"choice": to_plain(wanted), "reduction": to_plain(choice), "material": to_plain(steel), "provenance": {}}
         model_step(Named(mesh=str(tmp_path / "mesh.vtu")), Named(**files), Named(**params))
-        return files
 
-    return make
-
-
-def test_a_model_of_a_given_mesh(made):
-    files = made(3)
-    assert len(read_contact_model(files["contact"]).radius) == 3
-    assert read_json(files["cost"])["cpu_s"] > 0.0
-
-
-def test_a_case_of_a_model_that_the_mesh_cannot_have_is_refused(made, tmp_path):
-    files = made(150)
+    make(3)
+    assert len(read_contact_model(files["contact"]).radius) == 3 and read_json(files["cost"])["cpu_s"] > 0.0
+    make(150)
     assert read_json(files["cost"]).keys() == {"refused"}
     run_case_of_files(case_of(IntegrationChoice(2e-7, 4, 62)), files, tmp_path / "case.nc")
     response = read_dataset(tmp_path / "case.nc")
@@ -161,8 +146,6 @@ def test_no_priced_run_compiles(tmp_path, monkeypatch):
         return run
 
     monkeypatch.setattr(runner, "run_speed", timed)
-    kept = {"spectrum_highest_order": 10, "wear_angles": 8}
-    case = Case("Ref", "pressure_edge", DIRECT, choice, (10.0, 180.0), ("energy",), material=None, kept=kept)
-    runner.run_case(case, model, None, tmp_path / "case.nc")
+    runner.run_case(case_of(choice, speeds=(10.0, 180.0)), model, None, tmp_path / "case.nc")
     assert compiled == [0, 0]
     assert counts[1] <= counts[0] - 8

@@ -3,23 +3,19 @@
 import os
 
 import numpy as np
-import pytest
 import xarray as xr
 
 from r37core.console.closing import closing_lines
 from r37core.results.closing import counted, interaction_title
 
-HEAD = "blade,scene,mode,engine_order,max_von_mises_speed_rad_s,width_above_yield_rad_s,max_von_mises_pa\n"
-ROWS = (
-    "Ref,abradable,1B,7,838,13.5,8.56e+09\n",
-    "S50,abradable,,4,1686,2,9.5e+09\n",
-    "Ref,direct,1T,9,1344,0,1e+10\n",
-    "L50,direct,,2,800,,\n",
-)
+HEAD = "blade,scene,mode,engine_order,max_von_mises_speed_rad_s,width_above_yield_rad_s,max_von_mises_pa"
+ROWS = ("Ref,abradable,1B,7,838,13.5,8.56e+09", "S50,abradable,,4,1686,2,9.5e+09")
+ROWS += ("Ref,direct,1T,9,1344,0,1e+10", "L50,direct,,2,800,,")
 
 
-def written(folder, *rows, time=1000.0):
-    (folder / "summary.csv").write_text(HEAD + "".join(rows))
+def written(folder, *rows, columns="", time=1000.0):
+    """A folder with a summary, which may have more columns."""
+    (folder / "summary.csv").write_text("\n".join([HEAD + columns, *rows]) + "\n")
     os.utime(folder / "summary.csv", (time, time))
     return folder
 
@@ -28,7 +24,8 @@ def test_found_where_and_how_long(tmp_path):
     assert closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0)[1] == f"look at {tmp_path}/summary.csv"
     (tmp_path / "explorer.html").touch()
     (tmp_path / "figures").mkdir()
-    found, where, took = closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0)
+    found, remark, where, took = closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0, ["contact acts on points"])
+    assert remark == "contact acts on points"
     what, worst = found.split("; ")
     assert what == "found 4 interactions, 2 of them above yield"
     assert worst == "the largest stress 9.50 GPa, S50 in abradable at 1686 rad/s (engine order 4)"
@@ -39,31 +36,23 @@ def test_found_where_and_how_long(tmp_path):
 
 def test_the_largest_stress_is_that_of_all_scenes(tmp_path):
     """Rows of direct contact have no stress of a single revolution."""
-    head = HEAD.strip() + ",peak_speed_rad_s,certain_from_rad_s,high_von_mises_pa\n"
-    rows = ("Ref,abradable,1B,4,1725,30,7.26e8,1725,1700,7.1e8\n", "S100,direct,,2,,,,1344,900,4.12e10\n")
-    (tmp_path / "summary.csv").write_text(head + "".join(rows))
-    said = closing_lines(tmp_path, 0.0, 1.0)[0]
+    rows = ("Ref,abradable,1B,4,1725,30,7.26e8,1725,1700,7.1e8", "S100,direct,,2,,,,1344,900,4.12e10")
+    folder = written(tmp_path, *rows, columns=",peak_speed_rad_s,certain_from_rad_s,high_von_mises_pa")
+    said = closing_lines(folder, 0.0, 1.0)[0]
     assert said.endswith("; the largest stress 41.20 GPa, S100 in direct about 1344 rad/s (engine order 2)")
 
 
 def test_a_lining_that_is_worn_through_is_counted(tmp_path):
-    (tmp_path / "summary.csv").write_text(
-        HEAD.strip()
-        + ",worn_through_share\n"
-        + "".join(f"{row.strip()},{share}\n" for row, share in zip(ROWS, ("0.2", "0", "", ""), strict=True))
-    )
-    said = closing_lines(tmp_path, 0.0, 1.0)[0]
-    assert said.startswith(
-        "found 4 interactions, 2 of them above yield, 1 with the lining worn through to the casing; the largest"
-    )
+    rows = [f"{row},{share}" for row, share in zip(ROWS, ("0.2", "0", "", ""), strict=True)]
+    said = closing_lines(written(tmp_path, *rows, columns=",worn_through_share"), 0.0, 1.0)[0]
+    assert ", 2 of them above yield, 1 with the lining worn through to the casing; the largest" in said
 
 
 def test_a_stress_with_a_range_has_the_digits_that_it_bears(tmp_path):
-    columns = HEAD.strip() + ",max_von_mises_pa_low,max_von_mises_pa_median,max_von_mises_pa_high\n"
+    columns = ",max_von_mises_pa_low,max_von_mises_pa_median,max_von_mises_pa_high"
     for ends, said in ((",2.02e9,8.6e9,1.41e10", "9 GPa (2 to 14 in nine tenths of the members)"), (",,,", "8.56 GPa")):
-        (tmp_path / "summary.csv").write_text(columns + ROWS[0].strip() + ends + "\n")
-        os.utime(tmp_path / "summary.csv", (1000.0, 1000.0))
-        assert f"the largest stress {said}, Ref" in closing_lines(tmp_path, 400.0, 500.0)[0]
+        folder = written(tmp_path, ROWS[0] + ends, columns=columns)
+        assert f"the largest stress {said}, Ref" in closing_lines(folder, 400.0, 500.0)[0]
 
 
 def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
@@ -82,16 +71,9 @@ def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
     assert len(closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)) == 4
 
 
-def test_what_there_is_to_remark_stands_before_where_to_look(tmp_path):
-    lines = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0, ["contact acts on points"])
-    assert len(lines) == 4 and lines[1] == "contact acts on points"
-
-
-@pytest.mark.parametrize(
-    ("seconds", "text"), [(59.4, "59 s"), (60.0, "1 min 0 s"), (3600.0, "1 h 0 min"), (12_345.0, "3 h 25 min")]
-)
-def test_lengths_of_time(tmp_path, seconds, text):
-    assert closing_lines(written(tmp_path), 0.0, seconds)[2] == f"took {text}"
+def test_lengths_of_time(tmp_path):
+    for seconds, text in {59.4: "59 s", 60.0: "1 min 0 s", 3600.0: "1 h 0 min", 12_345.0: "3 h 25 min"}.items():
+        assert closing_lines(written(tmp_path), 0.0, seconds)[2] == f"took {text}"
 
 
 def test_runs_that_diverged_are_counted(tmp_path):

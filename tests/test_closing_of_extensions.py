@@ -71,12 +71,8 @@ STRESS = {"max_von_mises_pa": [2.314e9, np.nan]}
 
 
 def test_run_ups(tmp_path):
-    numbers = {
-        "status": ["completed", "diverged"],
-        "yield_stress_pa": [1.38e9] * 2,
-        "max_von_mises_speed_rad_s": [1718.2, np.nan],
-    }
-    table(tmp_path, "run_ups.csv", **WHERE, **STRESS, **numbers)
+    numbers = {"yield_stress_pa": [1.38e9] * 2, "max_von_mises_speed_rad_s": [1718.2, np.nan]}
+    table(tmp_path, "run_ups.csv", **WHERE, **STRESS, **numbers, status=["completed", "diverged"])
     largest = "the largest stress 2.31 GPa, Ref in lined at 1718.2 rad/s"
     assert run_ups.closing(tmp_path) == f"2 run-ups, 1 of them above yield, 1 diverged; {largest}"
     table(tmp_path, "run_ups.csv", **WHERE, status=["completed"] * 2)
@@ -101,11 +97,8 @@ def test_tolerances(tmp_path):
     ends = {"max_von_mises_pa_low": [2.02e9, np.nan], "max_von_mises_pa_high": [1.41e10, np.nan]}
     xr.Dataset({"status": (("member", "speed"), [[0, 1, 2], [0, 0, 2]])}).to_netcdf(tmp_path / "tolerances.nc")
     table(tmp_path, "tolerances.csv", **WHERE, members=[32, 32], robust=[True, False], **ends)
-    said = (
-        "2 interactions in up to 32 members, 1 of them in at least half of those; 1 of 4 runs diverged; "
-        "the largest stress 2 to 14 GPa, Ref in lined"
-    )
-    assert tolerances.closing(tmp_path) == said
+    count, largest = "1 of them in at least half of those; 1 of 4 runs diverged", "the largest stress 2 to 14 GPa, Ref in lined"
+    assert tolerances.closing(tmp_path) == f"2 interactions in up to 32 members, {count}; {largest}"
     table(tmp_path, "tolerances.csv", **{name: [] for name in (*WHERE, "members", "robust", *ends)})
     assert tolerances.closing(tmp_path).startswith("0 interactions in up to 0 members")
 

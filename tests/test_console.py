@@ -14,7 +14,6 @@ from snakemake.scheduling import job_scheduler
 from snakemake.settings import types
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from r37core.config import ConfigError
 from r37core.console import failures, progress, snakemake_run
 from r37core.console.lock import _LOCKS
 
@@ -28,32 +27,29 @@ def test_the_version_is_the_one_that_the_console_was_written_for(root):
 
 
 @pytest.mark.parametrize(
-    ("where", "name"),
+    ("where", "names"),
     [
-        (types.ConfigSettings, "configfiles"),
-        (types.ConfigSettings, "config"),
-        (types.ConfigSettings, "replace_workflow_config"),
-        (types.OutputSettings, "dryrun"),
-        (types.OutputSettings, "verbose"),
-        (types.DAGSettings, "targets"),
-        (types.DeploymentSettings, "deployment_method"),
+        (types.ConfigSettings, {"configfiles", "config", "replace_workflow_config"}),
+        (types.OutputSettings, {"dryrun", "verbose"}),
+        (types.DAGSettings, {"targets"}),
+        (types.DeploymentSettings, {"deployment_method"}),
     ],
 )
-def test_settings_have_their_names(where, name):
-    assert name in {field.name for field in fields(where)}
+def test_settings_have_their_names(where, names):
+    assert names <= {field.name for field in fields(where)}
     section = where.__name__.removesuffix("Settings").lower() + "_settings"
     assert section in api.Workflow.__annotations__
     assert section in inspect.getsource(snakemake_run)
 
 
-def test_the_workflow_has_what_is_asked_of_it():
+def test_what_is_asked_of_snakemake_is_there():
     names = ("is_main_process", "basedir", "current_basedir", "local_exec", "modifier", "scheduler")
     assert all(hasattr(api.Workflow, name) for name in names)
     assert hasattr(modules.WorkflowModifier, "is_main_snakefile")
     assert types.DeploymentMethod.CONDA.name == "CONDA"
-
-
-def test_the_handler_and_the_events_have_their_names():
+    # where the lock lies that is lifted
+    assert f'os.path.join(self.path, "{_LOCKS.name}")' in inspect.getsource(persistence)
+    assert _LOCKS.parent == Path(".snakemake")
     assert f'"{progress.HANDLER}"' in inspect.getsource(logging.LoggerManager._default_streamhandler)
     assert {str(event) for event in LogEvent} >= progress.QUIET_EVENTS
 
@@ -73,8 +69,8 @@ def test_messages_have_the_fields_that_the_line_is_made_of(source, event, names)
 
 def test_the_limit_that_a_run_takes_away_is_still_there():
     """Of jobs per second: the console sets it to None, which must not become a name that nobody reads."""
-    assert "job_rate_limiter" in job_scheduler.JobScheduler.__init__.__code__.co_names
-    assert "job_rate_limiter" in job_scheduler.JobScheduler.schedule.__code__.co_names
+    scheduler = job_scheduler.JobScheduler
+    assert all("job_rate_limiter" in function.__code__.co_names for function in (scheduler.__init__, scheduler.schedule))
 
 
 def test_scripts_are_started_with_the_interpreter_s_name_as_it_stands():
@@ -82,19 +78,6 @@ def test_scripts_are_started_with_the_interpreter_s_name_as_it_stands():
     about = inspect.getsource(script.PythonScript)
     assert "py_exec = sys.executable" in about
     assert '"{py_exec} {fname:q}"' in about
-
-
-def test_the_lock_is_where_it_is_lifted():
-    assert f'os.path.join(self.path, "{_LOCKS.name}")' in inspect.getsource(persistence)
-    assert _LOCKS.parent == Path(".snakemake")
-
-
-def test_a_refusal_is_snakemake_s_own():
-    class Shown(Exception):
-        pass
-
-    with pytest.raises(Shown, match="found nothing"), snakemake_run._refused(Shown):
-        raise ConfigError("found nothing")
 
 
 def test_an_interruption_while_the_rules_are_read_is_one_line(root, capsys, monkeypatch):
@@ -107,8 +90,5 @@ def test_an_interruption_while_the_rules_are_read_is_one_line(root, capsys, monk
     sys.excepthook(ValueError, error := ValueError("x"), None)
     assert shown == [(ValueError, error, None)]
     lines = [line for line in (root / "Snakefile").read_text().splitlines() if line and not line.startswith("#")]
-    assert lines[: lines.index("failures.end_interruptions_in_one_line()")] == [
-        "import os",
-        "import sys",
-        "from r37core.console import failures",
-    ]
+    before = lines[: lines.index("failures.end_interruptions_in_one_line()")]
+    assert before == ["import os", "import sys", "from r37core.console import failures"]

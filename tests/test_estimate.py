@@ -1,8 +1,6 @@
 """The estimate: a sample of a sweep's runs, and the cost of all of them."""
 
-import pandas as pd
 import pytest
-from workflow_runs import snakemake
 
 from r37.command import main
 from r37core.config import command_line_document, read_document
@@ -32,9 +30,8 @@ def test_the_sample_is_of_each_blade_and_scene(root):
 
 def test_the_estimate_and_the_check_count_the_same_simulations(root, tmp_path, capsys):
     """Those of members, too."""
-    (file := tmp_path / "members.yaml").write_text(
-        "tolerances: { members: 4, of_scenes: { friction.coefficient: { uniform_percent: 5 } } }\n"
-    )
+    ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
+    (file := tmp_path / "members.yaml").write_text(f"tolerances: {{ members: 4, {ranges} }}\n")
     settings = read_settings(root, read_document(tmp_path, "members.yaml"))
     counted = extents(settings, beside(settings))
     runs = plan.values(settings, beside(settings))["runs"]
@@ -55,13 +52,3 @@ def test_projection_by_hand(tmp_path):
     assert costs.loc["time integration", "core_s_per_simulation"] == 4.0
     costs.reset_index().to_csv(tmp_path / "estimate.csv", index=False)
     assert closing(tmp_path) == "10 simulations at most, 0.01 h on 2 cores"
-
-
-@pytest.mark.slow
-def test_estimate_of_a_small_sweep(compiled, project):
-    said = snakemake(project, "estimate", "--cores", "2")
-    assert "estimate: 12 simulations at most, " in said
-    costs = pd.read_csv(project / "results/estimate.csv").set_index("part")
-    assert 0.0 < costs.loc["time integration", "core_hours"] < 60.0 / 3600.0
-    assert 0.01 < costs.loc["start-up", "core_s_per_simulation"] < 2.0
-    assert (project / "results/figures/estimate.png").exists()

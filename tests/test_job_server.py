@@ -6,10 +6,10 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
+from workflow_runs import wait_until
 
 from r37core.console import job_server, snakemake_run
 
@@ -40,9 +40,9 @@ LONGEST = 200.0
 
 @pytest.fixture
 def starter(root, tmp_path):
-    """start.py in a folder of scripts that has job.py as one of its own."""
+    """The command of start.py in a folder of scripts that has job.py as one of its own."""
     (tmp_path / "start.py").write_text((root / "workflow/scripts/start.py").read_text())
-    return str(tmp_path / "start.py")
+    return [sys.executable, "-S", "-E", str(tmp_path / "start.py")]
 
 
 @pytest.fixture
@@ -74,26 +74,32 @@ def start(serve, starter):
     _, server = serve(SCRIPT)
 
     def one(*arguments, out="out", **options):
-        command = [sys.executable, "-S", "-E", starter, "job.py", out, *arguments]
+        command = [*starter, "job.py", out, *arguments]
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
     one.server, one.said = server, serve.said
     return one
 
 
+@pytest.fixture
+def run_script(starter):
+    """Runs a script as a rule does, to its end."""
+
+    def run(*command, **options):
+        return subprocess.run([*starter, *command], capture_output=True, text=True, timeout=LONGEST, **options)
+
+    return run
+
+
 def process_of_the_job():
     """Number of the process of a job that sleeps, once it does."""
     wait_for(slept := Path("out.slept"))
-    while not (number := slept.read_text()):
-        time.sleep(0.01)
-    return int(number)
+    wait_until(slept.read_text, LONGEST, slept)
+    return int(slept.read_text())
 
 
 def wait_for(path, there=True):
-    until = time.monotonic() + LONGEST
-    while path.exists() != there:
-        assert time.monotonic() < until, path
-        time.sleep(0.01)
+    wait_until(lambda: path.exists() == there, LONGEST, path)
 
 
 def parent():
@@ -114,47 +120,40 @@ def test_output_and_status_are_those_of_the_job(start, what, status):
     assert parent() == start.server.pid
 
 
-def test_what_a_script_imports_is_there_before_its_job(start, starter):
+def test_what_a_script_imports_is_there_before_its_job(start, run_script):
     """Of other scripts than the server's first, and only what it finds; the environment is that of the job."""
     Path("figure.step.py").write_text(
         "import sys, tempfile\nearly = {'wave', 'xml.dom.minidom', 'tempfile'} & set(sys.modules)\n"
         "import wave\nfrom xml.dom import minidom\nprint(sorted(early), tempfile.gettempdir())\nimport missing\n"
     )
-    command = [sys.executable, "-S", "-E", starter, "figure.step.py"]
     for _ in range(2):
-        job = subprocess.run(command, env=os.environ | {"TMPDIR": os.getcwd()}, capture_output=True, text=True, timeout=LONGEST)
+        job = run_script("figure.step.py", env=os.environ | {"TMPDIR": os.getcwd()})
         assert job.stdout == f"['tempfile', 'wave', 'xml.dom.minidom'] {os.getcwd()}\n"
         assert job.returncode == 1 and "ModuleNotFoundError: No module named 'missing'" in job.stderr
     assert start("0").wait(LONGEST) == 0
 
 
-def test_steps_have_a_process_of_their_own(serve, starter):
+def test_steps_have_a_process_of_their_own(serve, run_script):
     """What they import is not in the simulations' jobs; where that process is killed steps run by themselves."""
     script, server = serve("import sys\nprint('wave' in sys.modules)\n")
     Path("figure.step.py").write_text("import os, wave\nprint(os.getppid())\n")
-
-    def said(name):
-        command = [sys.executable, "-S", "-E", starter, name]
-        return subprocess.run(command, capture_output=True, text=True, timeout=LONGEST).stdout.strip()
-
-    first = int(said("figure.step.py"))
+    first = int(run_script("figure.step.py").stdout)
     assert parent_of(first) == server.pid
-    assert said(str(script)) == "False"
-    assert int(said("figure.step.py")) == first
+    assert run_script(script).stdout == "False\n"
+    assert int(run_script("figure.step.py").stdout) == first
     os.kill(first, signal.SIGKILL)
     wait_for(Path(f"/proc/{first}"), there=False)
-    assert int(said("figure.step.py")) == os.getpid()
-    assert said(str(script)) == "False"
+    assert int(run_script("figure.step.py").stdout) == os.getpid()
+    assert run_script(script).stdout == "False\n"
 
 
-def test_scripts_of_others_run_by_themselves(start, starter, tmp_path):
+def test_scripts_of_others_run_by_themselves(start, run_script, tmp_path):
     """What they leave open is closed by Python's own end. Snakemake's copies of ours are ours."""
     text = "import os, sys\nprint(os.getppid())\ndef line():\n    return 'x'\nout = open(sys.argv[1], 'w')\nout.write(line())\n"
-    command = [sys.executable, "-S", "-E", starter]
     for ours in (False, True):
         folder = str(tmp_path) if ours else "/somewhere/else"
         Path(".snakemake/copy.step.py").write_text(f"__real_file__ = __file__; __file__ = {folder + '/mine.py'!r};\n{text}")
-        job = subprocess.run([*command, ".snakemake/copy.step.py", "out"], capture_output=True, text=True, timeout=LONGEST)
+        job = run_script(".snakemake/copy.step.py", "out")
         assert (parent_of(int(job.stdout)) == start.server.pid) if ours else (int(job.stdout) == os.getpid())
         assert ours or Path("out").read_text() == "x"
 
@@ -213,8 +212,7 @@ def test_a_server_that_ends_is_reported_and_leaves_nothing(start, monkeypatch):
     folder = Path(os.environ[job_server.ADDRESS]).parent
     start.server.send_signal(signal.SIGSTOP)
     # a job that waits for it is done by itself
-    job = start("2")
-    assert job.wait(LONGEST) == 2 and parent() == os.getpid()
+    assert start("2").wait(LONGEST) == 2 and parent() == os.getpid()
     wait_for(folder, there=False)
     (line,) = start.said
     assert f"job server (process {start.server.pid}) was stopped or killed" in line and "the same command again" in line
@@ -244,9 +242,6 @@ def test_folders_of_servers_that_were_killed_are_removed(serve):
 def test_only_the_owner_reaches_the_server(start):
     folder = Path(os.environ[job_server.ADDRESS]).parent
     assert folder.stat().st_mode & 0o777 == 0o700
-    start.server.stdin.close()
-    start.server.wait(LONGEST)
-    assert not folder.exists()
 
 
 def test_a_server_is_gone_before_its_snakemake(serve, tmp_path):
@@ -255,8 +250,7 @@ def test_a_server_is_gone_before_its_snakemake(serve, tmp_path):
         "import os, sys\nfrom pathlib import Path\nfrom r37core.console import job_server\n"
         "job_server._END_S = float(sys.argv[1])\n"
         "assert job_server.start(Path('job.py'), Path(sys.executable), print)\n"
-        "os.kill(job_server._KEPT[0].pid, int(sys.argv[2]))\n"
-        "print('done')\n"
+        "os.kill(job_server._KEPT[0].pid, int(sys.argv[2]))\nprint('done')\n"
     )
     Path("job.py").write_text(SCRIPT)
     for seconds, signal_number in ((LONGEST, 0), (0.2, signal.SIGSTOP)):
@@ -269,18 +263,13 @@ def test_a_server_is_gone_before_its_snakemake(serve, tmp_path):
 def test_a_killed_server_is_done_without(start):
     start.server.kill()
     start.server.wait(LONGEST)
-    job = start("2")
-    assert job.communicate(timeout=LONGEST)[0] == "said\n"
-    assert job.returncode == 2
-    assert parent() == os.getpid()
+    assert start("2").wait(LONGEST) == 2 and parent() == os.getpid()
 
 
 def test_a_job_that_is_killed_in_the_server_is_done_again_by_itself(start):
     job = start("sleep")
     os.kill(process_of_the_job(), signal.SIGKILL)
-    job.communicate(timeout=LONGEST)
-    assert job.returncode == 0
-    assert parent() == os.getpid()
+    assert job.wait(LONGEST) == 0 and parent() == os.getpid()
 
 
 def test_a_job_whose_client_is_killed_ends(start):
@@ -306,11 +295,8 @@ def test_a_client_that_dies_while_it_asks_leaves_nothing(start):
         client.sendall((100).to_bytes(8, "little"))
         socket.send_fds(client, [b"o"], [1, 2])
     children = Path(f"/proc/{start.server.pid}/task/{start.server.pid}/children")
-    until = time.monotonic() + LONGEST
     # the process of the steps stays
-    while len(children.read_text().split()) > 1:
-        assert time.monotonic() < until
-        time.sleep(0.01)
+    wait_until(lambda: len(children.read_text().split()) < 2, LONGEST, children)
 
 
 def test_modules_of_the_users_folder_are_not_the_servers(start):
@@ -333,26 +319,21 @@ def test_a_folder_without_sockets_has_no_server(tmp_path, monkeypatch):
     assert job_server.ADDRESS not in os.environ
 
 
-def test_what_jobs_have_in_common_is_loaded_in_the_server(serve, starter):
+def test_what_jobs_have_in_common_is_loaded_in_the_server(serve, run_script):
     """Before each job, with its arguments; a failure there is not the job's."""
     script, _ = serve(
         "import sys\n"
         "def make_ready(what):\n    sys.ready = [*getattr(sys, 'ready', []), what]\n    int(what)\n"
         "if __name__ == '__main__':\n    print(sys.ready)\n"
     )
-    command = [sys.executable, "-S", "-E", starter, str(script)]
-    said = [
-        subprocess.run([*command, what], capture_output=True, text=True, timeout=LONGEST).stdout for what in ("1", "one", "2")
-    ]
+    said = [run_script(script, what).stdout for what in ("1", "one", "2")]
     assert said == ["['1']\n", "['1', 'one']\n", "['1', 'one', '2']\n"]
 
 
-def test_what_a_job_s_parameters_name_is_there_before_it(start, starter, root):
+def test_what_a_job_s_parameters_name_is_there_before_it(start, run_script):
     """Of a step, whose script names no module: the line that Snakemake puts before its copy does."""
     parameters = {"step": "r37core.blade.steps.geometry", "draw": "r37core.figures.maps.draw_map", "other": "r37core.none"}
     line = f"import pickle; parameters = pickle.loads({pickle.dumps(parameters, protocol=4)})\n"
     Path("copy.step.py").write_text(f"{line}import sys\nprint(*(name in sys.modules for name in sys.argv[1:]))\n")
-    modules = ["r37core.blade.steps", "r37core.figures.maps", "r37core.rom.steps"]
-    command = [sys.executable, "-S", "-E", starter, "copy.step.py", *modules]
-    job = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST)
+    job = run_script("copy.step.py", "r37core.blade.steps", "r37core.figures.maps", "r37core.rom.steps")
     assert job.stdout == "True True False\n", job.stderr

@@ -6,11 +6,6 @@ import pytest
 from workflow_runs import copy_odd_project, run_in_odd_project
 
 
-@pytest.fixture(scope="module")
-def folder(root, tmp_path_factory):
-    return copy_odd_project(root, tmp_path_factory.mktemp("odd"))
-
-
 def test_rules_quote_what_a_shell_sees(root):
     commands = [
         command
@@ -23,12 +18,9 @@ def test_rules_quote_what_a_shell_sees(root):
 
 
 @pytest.mark.slow
-def test_a_part_of_a_sweep_on_slurm(folder):
+def test_a_part_of_a_sweep_on_slurm(root, tmp_path):
     """What Slurm would run, without Slurm."""
-    slurm = {
-        "SLURM_SUBMIT_DIR": str(folder),
-        "SLURM_CPUS_PER_TASK": "1",
-        "SLURM_ARRAY_TASK_ID": "1",
-        "SLURM_ARRAY_TASK_COUNT": "1",
-    }
+    folder = copy_odd_project(root, tmp_path)
+    slurm = {f"SLURM_{name}": "1" for name in ("CPUS_PER_TASK", "ARRAY_TASK_ID", "ARRAY_TASK_COUNT")}
+    slurm["SLURM_SUBMIT_DIR"] = str(folder)
     assert "simulate" in run_in_odd_project(folder, "bash", "cluster/sweep.sbatch", "--dry-run", "--forceall", **slurm)

@@ -13,22 +13,18 @@ import yaml
 from overlays import overlay
 from plans_of_snakemake import planned_outputs
 from shared_sweep import copy_structure
-from stubbed_runs import copy_stubbed, refine, simulated
-from workflow_runs import copy_finished, kill_snakemake, snakemake
+from stubbed_runs import BLADES, REFINED, SCENES, copy_stubbed, refine, runs, simulated
+from workflow_runs import copy_finished, digests, kill_snakemake, lose_speed, snakemake
 
 import r37
 from r37core.console.leftovers import leftovers
 from r37core.product.reading import read_settings
-from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
-BLADES, SCENES = ("Ref", "CS100"), ("abradable", "direct")
+pytestmark = pytest.mark.slow
+
 COARSE, ADDED = ("750", "1150", "1550"), ("1149", "1150.5")
-DATASETS = {"configuration", "sweep_dataset", "summary", "response_figure", "response_overview", "map_figure"}
-
-
-def runs(speeds, blades=BLADES, scenes=SCENES):
-    return {f"{blade}/{scene}/speed_{speed}.npz" for blade in blades for scene in scenes for speed in speeds}
+WINDOWS = "windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.03, step_rad_s: 40 }], largest_share: 0.9"
 
 
 @pytest.fixture(scope="module")
@@ -50,27 +46,21 @@ def test_one_command_runs_all_rounds_and_each_speed_once(first_run):
     assert set(done) == runs(COARSE + ADDED)
     assert len(done) == len(set(done))
     assert (first_run[0] / "results/summary.csv").exists()
+    assert planned_outputs(first_run[0]) == {}
 
 
-def test_nothing_after_a_run(project):
-    assert planned_outputs(project) == {}
+@pytest.mark.parametrize(
+    ("name", "change", "expected"),
+    [
+        ("config", "blades: [Ref, CS100, L50]", runs(COARSE + ADDED, blades=["L50"])),
+        ("scenes", "direct: { friction: { coefficient: 0.2 } }", runs(COARSE + ADDED, scenes=["direct"])),
+    ],
+)
+def test_a_new_blade_or_friction_runs_all_its_rounds(project, name, change, expected):
+    overlay(project, f"{name}.yaml", change)
+    assert sorted(simulated(snakemake(project, "all_blades", "--cores", "2"))) == sorted(expected)
 
 
-@pytest.mark.slow
-def test_an_added_blade_runs_its_own_jobs(project):
-    overlay(project, "config.yaml", "blades: [Ref, CS100, L50]")
-    done = simulated(snakemake(project, "all_blades", "--cores", "2"))
-    assert set(done) == runs(COARSE + ADDED, blades=["L50"])
-
-
-@pytest.mark.slow
-def test_friction_runs_all_rounds_of_its_scene(project):
-    overlay(project, "scenes.yaml", "direct: { friction: { coefficient: 0.2 } }")
-    done = simulated(snakemake(project, "all_blades", "--cores", "2"))
-    assert sorted(done) == sorted(runs(COARSE + ADDED, scenes=["direct"]))
-
-
-@pytest.mark.slow
 def test_another_criterion_asks_anew_and_simulates_nothing_that_is_there(project):
     overlay(project, "config.yaml", "refinement: { change: 0.5 }")
     text = snakemake(project, "all_blades", "--cores", "2")
@@ -79,41 +69,27 @@ def test_another_criterion_asks_anew_and_simulates_nothing_that_is_there(project
     assert planned_outputs(project) == {}
 
 
-@pytest.mark.slow
 def test_a_lost_speed_of_a_later_round_runs_alone(project):
-    (project / "results/CS100/direct/speed_1149.npz").unlink()
-    # Snakemake makes nothing again that only finished files would need
-    for later in (
-        project / "results/CS100/direct/response.nc",
-        *project.glob("results/*.nc"),
-        *project.glob("results/figures/*"),
-    ):
-        later.unlink()
+    lose_speed(project / "results/CS100/direct/speed_1149.npz")
     assert simulated(snakemake(project, "all_blades", "--cores", "2")) == ["CS100/direct/speed_1149.npz"]
 
 
-@pytest.mark.slow
 def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
     copy_stubbed(root, tmp_path)
-    refined = "{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"
-    overlay(tmp_path, "config.yaml", f"speeds_for: [{{ scenes: [direct], speeds: [{refined}] }}]")
+    overlay(tmp_path, "config.yaml", f"speeds_for: [{{ scenes: [direct], speeds: [{REFINED}] }}]")
     done = simulated(snakemake(tmp_path, "all_blades", "--cores", "2"))
     assert set(done) == runs(COARSE) | runs(ADDED, scenes=["direct"])
     assert not list(tmp_path.glob("results/*/abradable/round_*.json"))
 
 
-@pytest.mark.slow
 def test_members_are_run_by_the_rules_of_the_sweep(project):
     """Beside it, at speeds that all of a sample share; more of them run alone, and so does what a member's model is made of."""
 
     def members(number):
         return {f"tolerances/{member}/{run}" for member in range(number) for run in runs(COARSE + ADDED, blades=["Ref"])}
 
-    tolerances = (
-        "tolerances:\n  members: 2\n  blades: [Ref]\n  of_scenes: { friction.coefficient: { uniform_percent: 5 } }\n"
-        "  of_blades: { thickness_percent: { values: [101] } }\n"
-    )
-    overlay(project, "config.yaml", tolerances)
+    ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }, of_blades: { thickness_percent: { values: [101] } }"
+    overlay(project, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], {ranges} }}")
     text = snakemake(project, "all_blades", "--cores", "2")
     assert sorted(simulated(text)) == sorted(members(2))
     # both members have the same blade, made once beside the nominal one
@@ -153,25 +129,10 @@ def real(small_sweep, tmp_path_factory):
 def prepare_real(small_sweep, folder):
     copy_structure(small_sweep, folder)
     refine(folder, "{ start: 1000, stop: 1240, step: 80, refine_to: 20 }")
-    overlay(folder, "config.yaml", "blades: [CS100]\n" + _REFINEMENT)
+    overlay(folder, "config.yaml", f"{{ blades: [CS100], refinement: {{ {WINDOWS}, direct: {{ {WINDOWS} }} }} }}")
     return folder
 
 
-_REFINEMENT = """
-refinement:
-  windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.03, step_rad_s: 40 }]
-  largest_share: 0.9
-  direct:
-    windows: [{ mode: 1B, highest_engine_order: 8, first: 0.02, last: 0.03, step_rad_s: 40 }]
-    largest_share: 0.9
-"""
-
-
-def speed_files(folder):
-    return {str(file.relative_to(folder)): file for file in folder.glob("results/*/*/speed_*.npz")}
-
-
-@pytest.mark.slow
 def test_real_rounds_stay_on_their_grid(real):
     for scene in SCENES:
         folder = real / "results/CS100" / scene
@@ -191,75 +152,46 @@ def test_real_rounds_stay_on_their_grid(real):
     assert planned_outputs(real) == {}
 
 
-@pytest.mark.slow
 def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
-    """Killed in the middle of its rounds, again and again; in the end every array is bit for bit that of an undisturbed run."""
+    """Killed in the middle of its rounds, again and again; in the end every file is that of an undisturbed run."""
     project = prepare_real(small_sweep, tmp_path / "project")
     command, moments = ("all_blades", "--cores", "2"), random.Random(7)
     for files in (2, 7, 10, 13):
 
         def there(files=files):
-            if len(speed_files(project)) < files:
+            if len(list(project.glob("results/*/*/speed_*.npz"))) < files:
                 return False
             time.sleep(moments.random())
             return True
 
         kill_snakemake(project, *command, when=there)
     snakemake(project, *command)
-    undisturbed = speed_files(real)
-    assert speed_files(project).keys() == undisturbed.keys()
-    for name, file in speed_files(project).items():
-        one, other = read_speed(file), read_speed(undisturbed[name])
-        assert one.keys() == other.keys()
-        assert all(np.array_equal(one[key], other[key], equal_nan=one[key].dtype.kind == "f") for key in other), name
-    for name in ("rms", "spectrum", "stress", "wear"):
-        with xr.open_dataset(project / f"results/{name}.nc") as one, xr.open_dataset(real / f"results/{name}.nc") as other:
-            assert one.identical(other)
-    assert (project / "results/summary.csv").read_bytes() == (real / "results/summary.csv").read_bytes()
-    for file in real.glob("results/*/*/round_*.json"):
-        assert (project / file.relative_to(real)).read_bytes() == file.read_bytes()
-    assert not list(project.glob("results/**/.*partial*"))
+    assert digests(project) == digests(real)
 
 
-RUN_UPS = {
-    "up": {"from_rpm": 9500, "to_rpm": 9600, "revolutions": 4, "scenes": ["abradable"]},
-    "down": {
-        "crossing": {"mode": "1B", "engine_order": 6, "first": 0.02, "last": 0.01},
-        "rate_rad_s2": 500,
-        "scenes": ["abradable"],
-    },
-}
-TOLERANCES = {
-    "members": 2,
-    "largest_share": 0.9,
-    "of_scenes": {"friction.coefficient": {"uniform_percent": 20}},
-    "of_blades": {"material.youngs_modulus_pa": {"uniform_percent": 1}},
-}
+CROSSING = {"mode": "1B", "engine_order": 6, "first": 0.02, "last": 0.01}
+RUN_UPS = {"up": {"from_rpm": 9500, "to_rpm": 9600, "revolutions": 4, "scenes": ["abradable"]}}
+RUN_UPS["down"] = {"crossing": CROSSING, "rate_rad_s2": 500, "scenes": ["abradable"]}
+TOLERANCES = {"members": 2, "largest_share": 0.9, "of_scenes": {"friction.coefficient": {"uniform_percent": 20}}}
+TOLERANCES["of_blades"] = {"material.youngs_modulus_pa": {"uniform_percent": 1}}
 
 
 @pytest.fixture(scope="module")
 def with_extensions(real, tmp_path_factory):
-    """The same with run-ups and tolerances."""
     folder = copy_finished(real, tmp_path_factory.mktemp("extensions") / "project")
-    overlay(
-        folder,
-        "config.yaml",
-        yaml.safe_dump({"run_ups": RUN_UPS, "tolerances": {**TOLERANCES, "scenes": ["abradable"]}}, sort_keys=False),
-    )
+    extensions = {"run_ups": RUN_UPS, "tolerances": {**TOLERANCES, "scenes": ["abradable"]}}
+    overlay(folder, "config.yaml", yaml.safe_dump(extensions, sort_keys=False))
     files = [f"results/{name}" for name in ("tolerances.nc", "tolerances.csv", "run_ups.nc")]
     snakemake(folder, *files, "--cores", "2")
     return folder
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("cores", [1, 2])
 def test_python_has_the_same_rounds_members_and_run_ups(with_extensions, cores, monkeypatch):
     """To the last bit, on one core and on two."""
     monkeypatch.setenv("R37_CACHE", str(with_extensions / "cache"))
-    results, common = (
-        r37.open_results(with_extensions / "results"),
-        {"config": with_extensions / "config/config.yaml", "cores": cores},
-    )
+    results = r37.open_results(with_extensions / "results")
+    common = {"config": with_extensions / "config/config.yaml", "cores": cores}
     speeds = {"start": 1000, "stop": 1240, "step": 80, "refine_to": 20}
     again = r37.tolerances("CS100", "abradable", speeds, **TOLERANCES, **common)
     xr.testing.assert_identical(again.response("CS100", "abradable"), results.response("CS100", "abradable"))

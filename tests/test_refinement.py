@@ -11,13 +11,7 @@ from hypothesis import strategies as st
 from refinement_cases import CHOICE, GRID, PLAN, WINDOWS, asked, campbell, spiked
 
 from r37core.adaptive import criterion
-from r37core.adaptive.criterion import (
-    RefinementChoice,
-    dense_ranges,
-    known_of,
-    next_speeds,
-    window_speeds,
-)
+from r37core.adaptive.criterion import dense_ranges, known_of, next_speeds, window_speeds
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
 from r37core.adaptive.steps import refine as refine_step
 from r37core.config import ConfigError
@@ -38,6 +32,10 @@ def test_a_range_has_its_coarse_speeds_and_its_end():
     assert from_plain(SpeedPlan, to_plain(plan)) == plan
     assert plan_speeds([{"start": 900, "stop": 1000, "refine_to": 1}], 8.0).refined[0].coarse == 8
     assert PLAN.speed_count(0.2) == 250
+    # a number inside a range is no repetition
+    plan = plan_speeds([refined(), 920, 933, 933.5], 8.0)
+    assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)
+    assert plan.speed_count(0.2) == 20 + 2
 
 
 def test_names_of_speeds_are_exact():
@@ -49,31 +47,20 @@ def test_names_of_speeds_are_exact():
     assert [float(name) for name in names] == grid.every_speed()
 
 
-def test_a_number_inside_a_range_is_no_repetition():
-    plan = plan_speeds([{"start": 900, "stop": 1000, "step": 20, "refine_to": 1}, 920, 933, 933.5], 8.0)
-    assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)
-    assert plan.speed_count(0.2) == 20 + 2
+def refined(**changes):
+    return {"start": 900, "stop": 1000, "step": 20, "refine_to": 1} | changes
 
 
 @pytest.mark.parametrize(
     ("entries", "message"),
     [
-        (
-            [{"start": 900, "stop": 1000, "step": 20, "refine_to": 3}],
-            "refine_to 3 with steps of 20 rad/s; allowed: the step is",
-        ),
+        ([refined(refine_to=3)], "refine_to 3 with steps of 20 rad/s; allowed: the step is"),
         ([{"start": 900, "stop": 1000, "refine_to": 3}], "refine_to 3 with steps of 8 rad/s"),
-        ([{"start": 900, "stop": 1000, "step": 1, "refine_to": 20}], "refine_to 20 with steps of 1 rad/s"),
-        ([{"start": 1000, "stop": 900, "step": 20, "refine_to": 1}], "range from 1000 to 900"),
-        (
-            [
-                {"start": 900, "stop": 1000, "step": 20, "refine_to": 1},
-                {"start": 995, "stop": 1100, "step": 20, "refine_to": 1},
-            ],
-            "ranges with refine_to that overlap, from 995 to 1000 rad/s",
-        ),
-        ([{"start": 900, "stop": 1000, "step": 20, "refine_to": 1}, 933, 933], "933 rad/s twice"),
-        ([{"start": 900, "stop": 1e6, "step": 20, "refine_to": 1}], "allowed: at most 100000 speeds together"),
+        ([refined(step=1, refine_to=20)], "refine_to 20 with steps of 1 rad/s"),
+        ([refined(start=1000, stop=900)], "range from 1000 to 900"),
+        ([refined(), refined(start=995, stop=1100)], "ranges with refine_to that overlap, from 995 to 1000 rad/s"),
+        ([refined(), 933, 933], "933 rad/s twice"),
+        ([refined(stop=1e6)], "allowed: at most 100000 speeds together"),
     ],
 )
 def test_ranges_that_cannot_be_refined(entries, message):
@@ -81,35 +68,19 @@ def test_ranges_that_cannot_be_refined(entries, message):
         plan_speeds(entries, 8.0)
 
 
+def windowed(**changes):
+    window = {"mode": "1B", "highest_engine_order": 4, "first": 0, "last": 0.1, "step_rad_s": 5}
+    return {"refinement": {"windows": [window | changes]}}
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        (
-            {"speeds": [{"start": 750, "stop": 2000, "step": 20, "refine_to": 7}]},
-            r"config\.yaml: speeds: found refine_to 7 with",
-        ),
-        ({"speeds": [{"start": 750, "stop": 2000, "refine_to": 0}]}, r"speeds\.0\.refine_to: found 0; allowed: .*at least"),
-        (
-            {"refinement": {"windows": [{"mode": "3B"}]}},
-            r"refinement\.windows\.0\.mode: found '3B'; allowed: one of 1B, 1T, 2B",
-        ),
-        (
-            {
-                "speeds": [{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}],
-                "refinement": {
-                    "windows": [{"mode": "1B", "highest_engine_order": 21, "first": 0, "last": 0.1, "step_rad_s": 5}]
-                },
-            },
-            r"windows\.0\.highest_engine_order: found 21; allowed: at most campbell\.highest_engine_order \(20\)",
-        ),
-        (
-            {
-                "refinement": {
-                    "windows": [{"mode": "1B", "highest_engine_order": 4, "first": 0.1, "last": 0.1, "step_rad_s": 5}]
-                }
-            },
-            r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)",
-        ),
+        ({"speeds": [refined(refine_to=7)]}, r"config\.yaml: speeds: found refine_to 7 with"),
+        ({"speeds": [refined(refine_to=0)]}, r"speeds\.0\.refine_to: found 0; allowed: .*at least"),
+        (windowed(mode="3B"), r"refinement\.windows\.0\.mode: found '3B'; allowed: one of 1B, 1T, 2B"),
+        (windowed(highest_engine_order=21), r"highest_engine_order: found 21; allowed: at most campbell\.highest_.* \(20\)"),
+        (windowed(first=0.1), r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)"),
         ({"refinement": {"change": -1}}, r"refinement\.change: found -1; allowed: .*at least 0\.001"),
         ({"refinement": {"largest_share": 1.5}}, r"refinement\.largest_share: found 1\.5; allowed: .*at most 1"),
     ],
@@ -131,13 +102,10 @@ def test_windows_are_looked_at_more_closely():
     assert window_speeds(GRID, []) == []
 
 
-def test_orders_above_the_window_s_have_none():
-    assert dense_ranges(campbell([1200.0]), (replace(WINDOWS[0], highest_engine_order=3),)) == []
-
-
-def test_the_highest_order_of_a_window_has_one():
-    expected = dense_ranges(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=4),))
-    assert [one.low for one in expected] == [1200.0]
+def test_orders_above_the_highest_of_a_window_have_none():
+    for highest, expected in ((3, []), (4, [1200.0])):
+        windows = dense_ranges(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=highest),))
+        assert [one.low for one in windows] == expected
 
 
 def asked_of(values):
@@ -199,21 +167,17 @@ def test_where_stress_crosses_yield_is_found():
 
 
 def test_a_change_of_status_is_found():
-    response = spiked(diverged=range(1500, 1571))
-    speeds = asked(response)[1]
-    assert {1499.0, 1500.0, 1570.0, 1571.0} <= set(speeds)
+    assert {1499.0, 1500.0, 1570.0, 1571.0} <= set(asked(spiked(diverged=range(1500, 1571)))[1])
 
 
 def test_a_flat_response_asks_for_no_more():
     flat = spiked()
     flat["rms_normal"][:] = flat["rms_tangential"][:] = 1e-5
     flat["max_von_mises"][:] = 1e7
-    assert asked(flat)[0] == [list(PLAN.certain)]
-    assert asked(spiked())[0] == [list(PLAN.certain)]
     silent = spiked()
     for name in ("rms_normal", "rms_tangential", "max_von_mises"):
         silent[name][:] = 0.0
-    assert asked(silent)[0] == [list(PLAN.certain)]
+    assert asked(flat)[0] == asked(silent)[0] == asked(spiked())[0] == [list(PLAN.certain)]
 
 
 def test_the_share_is_kept_and_the_largest_goes_first():
@@ -234,12 +198,9 @@ def test_a_round_takes_half_of_what_is_left_or_the_last_sixteen(left, next_round
     assert len(next_speeds(GRID, known_of(rows), replace(CHOICE, largest_share=share))) == next_round
 
 
-def test_diverged_and_missing_numbers_are_no_peaks():
+def test_diverged_and_missing_numbers_are_no_peaks_nor_are_speeds_off_the_grid():
     rows = {speed: [int(RunStatus.DIVERGED), np.nan, np.nan, np.nan] for speed in PLAN.certain}
     assert next_speeds(GRID, known_of(rows), CHOICE) == []
-
-
-def test_speeds_off_the_grid_are_not_refined_about():
     plan = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}, 999.5, 2500], 8.0)
     rows = {speed: [0, 1e-5, 1e-5, 0.1] for speed in plan.certain} | {999.5: [0, 1.0, 1.0, 9.0], 2500.0: [0, 1.0, 1.0, 9.0]}
     assert next_speeds(plan.refined[0], known_of(rows), CHOICE) == []
@@ -271,12 +232,6 @@ def test_one_or_two_speeds_are_a_range_too(stop):
     assert round_after(one, {speed: [0, 1e-3, 1e-3, 2.0] for speed in one.new}, plan, CHOICE).new == ()
 
 
-def test_rounds_do_not_depend_on_the_order_of_what_is_known():
-    rows = {speed: [0, 1e-4 * np.sin(speed), 1e-4, 0.5] for speed in PLAN.certain}
-    backwards = dict(reversed(rows.items()))
-    assert next_speeds(GRID, known_of(rows), CHOICE) == next_speeds(GRID, known_of(backwards), CHOICE)
-
-
 def test_a_round_s_file_says_what_it_was(tmp_path):
     one = Round((900.1, 1000.0), {850.0: [0, 1e-5, 0.1 + 0.2, np.nan], 860.0: [1, np.nan, np.nan, np.nan]})
     write_round(one, tmp_path / "round_3.json")
@@ -296,10 +251,6 @@ def test_what_a_run_gives():
     assert np.isnan(measure(run | {"status": np.array(1), "max_von_mises": np.array(np.nan)}, 8.0)[3])
 
 
-def test_choice_survives_the_way_to_a_job():
-    assert from_plain(RefinementChoice, to_plain(CHOICE)) == CHOICE
-
-
 def test_a_round_of_a_blade_without_stress(tmp_path):
     """A blade given by matrices has no material: its rounds go by rms and status alone."""
     write_round(Round((900.0,)), tmp_path / "round_0.json")
@@ -312,13 +263,14 @@ def test_a_round_of_a_blade_without_stress(tmp_path):
     assert np.isnan(stress)
 
 
-def test_the_size_of_a_curve_does_not_matter():
-    """Not of one far below a tenth, either."""
+def test_the_size_of_a_curve_does_not_matter_nor_does_the_order_of_what_is_known():
+    """Not a size far below a tenth, either."""
     rows = {speed: [0, 1e-3 + 1e-2 * np.sin(0.01 * speed) ** 8, 1e-3, 1e-3] for speed in PLAN.certain}
     rows[PLAN.certain[3]] = [1, np.nan, np.nan, np.nan]
     small = {speed: [status, 1e-6 * normal, *others] for speed, (status, normal, *others) in rows.items()}
     asked_for = next_speeds(GRID, known_of(rows), CHOICE)
     assert asked_for and next_speeds(GRID, known_of(small), CHOICE) == asked_for
+    assert next_speeds(GRID, known_of(dict(reversed(rows.items()))), CHOICE) == asked_for
 
 
 def test_without_a_width_a_peak_has_its_two_intervals():

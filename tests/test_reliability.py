@@ -13,6 +13,7 @@ import tempfile
 import time
 from types import SimpleNamespace
 
+import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
@@ -63,11 +64,30 @@ def test_a_failure_is_one_line_and_its_traceback_is_in_the_log(folder, capsys):
     assert log.startswith("working\nTraceback")
     assert failures.taken() == ["rule mesh: too thin; make it thicker (blade Ref, details in a.log)"]
     assert failures.taken() == []
-
-
-def test_lines_to_be_copied_stay_lines(folder):
     fail(ValueError("no tip; write:\n  tip: crown\nthen run again"))
+    # lines to be copied stay lines
     assert failures.taken() == ["rule mesh: no tip; write:\n  tip: crown\nthen run again (details in a.log)"]
+
+
+FULL_DISK = OSError(errno.ENOSPC, "No space left on device", "x.nc")
+
+
+@pytest.mark.parametrize(
+    ("error", "free", "said"),
+    [
+        (ZeroDivisionError(), 10**9, "ZeroDivisionError ("),
+        (MemoryError(), 10**9, "not enough memory (MemoryError); run fewer jobs at once"),
+        (FULL_DISK, 10**9, "the disk is full"),
+        # netCDF says something else
+        (RuntimeError("HDF error"), 10, "the disk is full (HDF error); free some space and give the same command again"),
+        # which says it itself
+        (OutputFileError("a.nc: the disk is full"), 10, "a.nc: the disk is full (details in a.log)\n"),
+    ],
+)
+def test_an_error_is_said_as_what_it_is(folder, capsys, monkeypatch, error, free, said):
+    monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10 - free, free))
+    fail(error)
+    assert capsys.readouterr().err.startswith(f"rule mesh: {said}")
 
 
 def test_runs_side_by_side_keep_their_failures_apart(folder):
@@ -79,25 +99,10 @@ def test_runs_side_by_side_keep_their_failures_apart(folder):
     assert failures.taken() == ["rule mesh: of this run"]
 
 
-def test_an_error_without_words_is_named(folder, capsys):
-    fail(ZeroDivisionError())
-    assert capsys.readouterr().err.startswith("rule mesh: ZeroDivisionError (")
-
-
 def test_many_failures_are_not_all_repeated(folder):
     for number in range(9):
         failures.note(f"rule {number % 7}")
     assert failures.taken(3) == ["rule 0", "rule 1", "rule 2", "... and 4 more, see the logs"]
-
-
-def test_a_full_disk_is_said_as_such(folder, capsys, monkeypatch):
-    fail(OSError(28, "No space left on device", "x.nc"))
-    assert "rule mesh: the disk is full" in capsys.readouterr().err
-    # netCDF says something else
-    monkeypatch.setattr(failures.shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10, 10, 0))
-    fail(RuntimeError("NetCDF: HDF error"))
-    line = capsys.readouterr().err
-    assert "the disk is full (NetCDF: HDF error); free some space and give the same command again" in line
 
 
 DATASET = xr.Dataset({"a": (("x",), np.arange(20_000.0), about("m", "a"))}, {"x": ("x", np.arange(20_000.0))})
@@ -119,7 +124,7 @@ def test_a_file_that_may_not_be_as_large_is_one_line(tmp_path, write):
 @pytest.mark.parametrize(
     ("error", "free", "outcome"),
     [
-        (OSError(errno.ENOSPC, "No space left on device"), 10**9, OutputFileError),
+        (FULL_DISK, 10**9, OutputFileError),
         (OSError(errno.EDQUOT, "Disk quota exceeded"), 10**9, OutputFileError),
         (RuntimeError("NetCDF: HDF error"), 10, OutputFileError),
         (OSError(-101, "NetCDF: HDF error"), 10, OutputFileError),
@@ -131,6 +136,7 @@ def test_a_file_that_may_not_be_as_large_is_one_line(tmp_path, write):
 def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, outcome):
     """From every writer, and where r37 keeps structures; other errors are as they were."""
     monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10 - free, free))
+    monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
 
     def fails(*_):
         raise error
@@ -139,18 +145,12 @@ def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, o
         with atomic_write(tmp_path / "a.nc"):
             fails()
 
-    def made():
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setenv("R37_CACHE", str(tmp_path / "cache"))
-            patch.setattr(structure_files, "kept_file", fails)
-            structure_files.Recipe("Ref", Stage("rom.steps.reduced_model", {}), "a.nc", {}, {}).file()
-
-    for write in (written, made):
+    monkeypatch.setattr(structure_files, "kept_file", fails)
+    for write in (written, structure_files.Recipe("Ref", Stage("rom.steps.reduced_model", {}), "a.nc", {}, {}).file):
         with pytest.raises(outcome) as raised:
             write()
-        told = type(raised.value) is OutputFileError
-        assert told == (outcome is OutputFileError)
-        assert not told or re.search(r"a\S*\.nc: cannot be written: the disk is full; free some space \(", str(raised.value))
+        told = r"a\S*\.nc: cannot be written: the disk is full; free some space \(" if outcome is OutputFileError else ""
+        assert type(raised.value) is outcome and re.search(told, str(raised.value))
 
 
 def test_what_cannot_be_kept_is_there_nevertheless(tmp_path, monkeypatch):
@@ -162,21 +162,8 @@ def test_what_cannot_be_kept_is_there_nevertheless(tmp_path, monkeypatch):
 
 def test_no_temporary_folder_is_one_line(tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
-    with (
-        pytest.raises(OutputFileError, match="no temporary folder can be made: free some space, or set TMPDIR"),
-        scratch_folder(),
-    ):
+    with pytest.raises(OutputFileError, match=r"no temporary folder can be made: .*set TMPDIR"), scratch_folder():
         pass
-
-
-def test_a_job_on_a_full_disk_says_so_once(folder, capsys):
-    fail(OutputFileError("a.nc: cannot be written: the disk is full"))
-    assert capsys.readouterr().err == "rule mesh: a.nc: cannot be written: the disk is full (details in a.log)\n"
-
-
-def test_too_little_memory_is_said_as_such(folder, capsys):
-    fail(MemoryError())
-    assert "not enough memory (MemoryError); run fewer jobs at once" in capsys.readouterr().err
 
 
 def test_the_lock_of_a_killed_run_is_lifted(folder):
@@ -210,64 +197,42 @@ def test_another_trees_package_is_refused(root, tmp_path):
         source_folder(tmp_path)
 
 
-def test_leftovers_of_removed_blades_scenes_and_speeds(root, tmp_path):
-    changes = command_line_document({"blades": ["Ref"], "scenes": ["direct"], "speeds": [900]})
-    settings = read_settings(root, changes)
-    kept = ["Ref/direct/speed_900.npz", "Ref/mesh.vtu", "cases/a.nc", "runs/x/L50/a.nc", "figures/response_Ref.png"]
-    kept += ["rms.nc", "figures/spectrum_Ref__direct.png", "figures/response.png", "figures/campbell.png"]
-    kept += ["exports/Ref/mesh.med"]
-    gone = ["L50/mesh.vtu", "Ref/abradable/speed_900.npz", "Ref/direct/speed_901.npz", "figures/response_L50.png"]
-    kept += ["figures/comparison_direct.png", "figures/waterfall_Ref__direct.pdf"]
-    gone += ["figures/comparison_abradable.pdf", "figures/response_L50.pdf"]
-    gone += ["figures/wear_Ref__abradable.png", "exports/L50/surface.step"]
-    for name in [*kept, *gone]:
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text("x")
-    found = {str(path.relative_to(tmp_path)) for path in leftovers(tmp_path, settings)}
-    assert found == {"L50", "Ref/abradable", "exports/L50", *gone[2:-1]}
-    assert leftovers(tmp_path / "none", settings) == []
-
-
-def test_leftovers_of_results_that_are_no_longer_asked_for(config_copy):
-    """Datasets, figures and models; not the user's own files, nor anything of a configuration that asks for all of them."""
+def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
+    """Of blades, scenes, speeds and results; not the user's own files, nor anything of a configuration that asks for all."""
     results, config = config_copy / "results", config_copy / "config"
-    few = {"blades": ["Ref"], "scenes": ["direct"], "exports": {"mesh_formats": ["vtu"]}}
-    direct = read_settings(config_copy, command_line_document(few))
+    few = {"blades": ["Ref"], "scenes": ["direct"], "speeds": [900], "exports": {"mesh_formats": ["vtu"]}}
+    settings = read_settings(config_copy, command_line_document(few))
+    assert leftovers(results, settings) == []
     kept = ["rms.nc", "stress.nc", "spectrum.nc", "campbell.nc", "summary.csv", "configuration.json", "explorer.html"]
     kept += ["report.zip", "notes.csv", "mine.nc", "figures/my_plot.png", "figures/campbell_Ref.pdf", "figures/blades.png"]
-    kept += ["Ref/contact_pressure_edge.npz", "Ref/rom_pressure_edge.nc", "Ref/direct/response.nc"]
-    kept += ["exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "cases/L50/rom.nc", "runs/x/wear.nc"]
-    kept += ["runs/x/signals.nc", "runs/x/rom_camber.nc"]
+    kept += [f"figures/{name}.png" for name in ("response_Ref", "spectrum_Ref__direct", "response", "campbell")]
+    kept += ["figures/comparison_direct.png", "figures/waterfall_Ref__direct.pdf"]
+    kept += ["Ref/contact_pressure_edge.npz", "Ref/rom_pressure_edge.nc", "Ref/direct/response.nc", "Ref/direct/speed_900.npz"]
+    kept += ["Ref/mesh.vtu", "exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "cases/L50/rom.nc"]
+    kept += ["runs/x/wear.nc", "runs/x/L50/a.nc", "runs/x/signals.nc", "runs/x/rom_camber.nc"]
     gone = ["wear.nc", "designs.csv", "signals.nc", "Ref/direct/signals.nc", "figures/designs_Sweep.png"]
     gone += ["figures/spectrogram_Ref__direct.png", "figures/orders_Ref__direct.pdf", "figures/shapes_Ref.png"]
-    gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf"]
-    for name in [*kept, *gone]:
+    gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf", "Ref/direct/speed_901.npz"]
+    gone += ["figures/response_L50.png", "figures/response_L50.pdf", "figures/comparison_abradable.pdf"]
+    gone += ["figures/wear_Ref__abradable.png", "shapes/Ref.html", "shapes/L50.html"]
+    folders = ["exports/L50", "L50", "Ref/abradable", "shapes/Ref", "shapes/L50"]
+    inside = ["exports/L50/mesh.bdf", "L50/mesh.vtu", "Ref/abradable/speed_900.npz", "shapes/L50/modes/mode_1.glb"]
+    inside += [f"shapes/Ref/{name}.glb" for name in ("modes/mode_1", "stress_direct/stress_900", "stress_abradable/stress_900")]
+    for name in [*kept, *gone, *inside]:
         (results / name).parent.mkdir(parents=True, exist_ok=True)
         (results / name).write_text("x")
-    assert {str(path.relative_to(results)) for path in leftovers(results, direct)} == set(gone)
+    found = {str(path.relative_to(results)) for path in leftovers(results, settings)}
+    assert found == {*gone, *folders}
 
-    every = {"blades": ["Ref", "Sweep"], "scenes": ["abradable", "direct"], "signals": {"speeds_rad_s": [900]}}
-    every |= {"exports": {"mesh_formats": ["vtu", "bdf"]}}
+    every = {"blades": ["Ref", "L50", "Sweep"], "scenes": ["abradable", "direct"], "speeds": [900, 901]}
+    every |= {"signals": {"speeds_rad_s": [900]}, "exports": {"mesh_formats": ["vtu", "bdf"]}}
     scenes = config / "scenes.yaml"
     scenes.write_text(scenes.read_text().replace("stress, energy]", "stress, energy, shapes]\n  tip_line: camber", 1))
     with open(config / "blades.yaml", "a") as stream:
         stream.write("Sweep: { base: Ref, vary: { chordwise_sweep_deg: [5] } }\n")
-    assert leftovers(results, read_settings(config_copy, command_line_document(every))) == []
-
-
-def test_leftovers_of_shapes(config_copy):
-    """Those of blades that are gone, and of scenes that no longer ask."""
-    settings = read_settings(config_copy, command_line_document({"blades": ["Ref"]}))
-    scenes, results = config_copy / "config/scenes.yaml", config_copy / "results"
-    shapes = results / "shapes"
-    scenes.write_text(scenes.read_text().replace("stress, wear, energy]", "stress, wear, energy, shapes]", 1))
-    asked = read_settings(config_copy, command_line_document({"blades": ["Ref"]}))
-    for name in ("Ref/modes", "Ref/stress_abradable", "Ref/stress_direct", "L50/modes"):
-        (shapes / name).mkdir(parents=True)
-    for name in ("Ref.html", "L50.html"):
-        (shapes / name).write_text("x")
-    assert leftovers(results, asked) == [shapes / "L50", shapes / "L50.html", shapes / "Ref/stress_direct"]
-    assert leftovers(results, settings) == [shapes / "L50", shapes / "L50.html", shapes / "Ref", shapes / "Ref.html"]
+    # only direct contact asks for shapes
+    left = leftovers(results, read_settings(config_copy, command_line_document(every)))
+    assert left == [results / "shapes/Ref/stress_abradable"]
 
 
 @pytest.mark.slow
@@ -283,20 +248,11 @@ def test_make_clean_lists_and_removes(config_copy):
     assert not (config_copy / "results/Gone").exists()
 
 
-def test_a_blade_that_buckles_is_refused_with_the_speed(model):
+def test_a_blade_that_buckles_is_refused_with_the_speed(model, contact):
+    diagram = {"modes": 6, "highest_engine_order": 8, "largest_tangential_displacement": 0.01, "tip_line": "pressure_edge"}
     weak = dataclasses.replace(model, geometric_stiffness=model.geometric_stiffness - 1e-3 * model.stiffness)
     with pytest.raises(BucklingError, match=r"no stable position at 50 rad/s: its stiffness is not positive .* stiffer"):
-        campbell_dataset(
-            weak,
-            speeds=np.linspace(0.0, 2000.0, 41),
-            modes=6,
-            highest_engine_order=8,
-            largest_tangential_displacement=0.01,
-            tip_line="pressure_edge",
-        )
-
-
-def test_a_simulation_of_a_blade_that_buckles_is_refused(contact):
+        campbell_dataset(weak, speeds=np.linspace(0.0, 2000.0, 41), **diagram)
     weak = dataclasses.replace(contact, stiffness_per_square=-np.diag(contact.squared_frequencies))
     with pytest.raises(BucklingError, match="no stable position at 900 rad/s"):
         Simulation(weak, 900.0, Scene(Casing(3.5e-4)), IntegrationChoice(2e-7, 2, 496))
@@ -304,9 +260,8 @@ def test_a_simulation_of_a_blade_that_buckles_is_refused(contact):
 
 def test_a_filter_below_the_first_mode_is_refused(contact):
     choice = IntegrationChoice(2e-7, 2, 496, highest_frequency=100.0)
-    with pytest.raises(
-        ValueError, match=r"highest_frequency_hz: found 100; allowed: more than the first mode's, [89]\d\d\.\d+ Hz"
-    ):
+    message = r"highest_frequency_hz: found 100; allowed: more than the first mode's, [89]\d\d\.\d+ Hz"
+    with pytest.raises(ValueError, match=message):
         Simulation(contact, 900.0, Scene(Casing(3.5e-4)), choice)
 
 
@@ -324,8 +279,6 @@ def test_a_flipped_bit_is_found(tmp_path):
 
 
 def test_a_flipped_bit_of_a_response_is_found(tmp_path):
-    import netCDF4
-
     file = tmp_path / "a.nc"
     # any bits: nothing to compress, so that the file has them as they are, byte by byte of all numbers
     values = np.frombuffer(np.random.default_rng(1).bytes(2400))
@@ -360,14 +313,9 @@ def test_a_refusal_names_no_files_of_ours():
     text = format_exception_to_string(shown.value, {__file__: dict.fromkeys(range(2000), 1)})
     assert text == "ConfigError:\nconfig.yaml:3: speeds: found none"
     # as it would without
-    assert __file__ in format_exception_to_string(_raised(WorkflowError("x")), {__file__: dict.fromkeys(range(2000), 1)})
-
-
-def _raised(error):
-    try:
-        raise error
-    except WorkflowError as raised:
-        return raised
+    with pytest.raises(WorkflowError) as shown:
+        raise WorkflowError("x")
+    assert __file__ in format_exception_to_string(shown.value, {__file__: dict.fromkeys(range(2000), 1)})
 
 
 def test_a_file_that_cannot_be_planned_with_is_told_in_one_line(tmp_path, settings):
@@ -381,28 +329,28 @@ def test_a_file_that_cannot_be_planned_with_is_told_in_one_line(tmp_path, settin
         assert record.getMessage() == (line or text)
 
 
-def test_a_damaged_round_is_one_line_and_its_speeds_are_held_against_the_grid(tmp_path):
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ('{"new": [800, 802.6]}', "it asks for 802.6 rad/s, which is no speed of the configuration"),
+        ('{"new": [7197, 800]}', "it asks for 7197 rad/s"),
+        ('{"new": ["x"]}', "could not convert"),
+        ('{"new": 800}', "not iterable"),
+        ('{"old": []}', "KeyError: 'new'"),
+        ("[]", "TypeError"),
+        ('{"new": [800', "JSONDecodeError"),
+    ],
+)
+def test_a_damaged_round_is_one_line_and_its_speeds_are_held_against_the_grid(tmp_path, text, reason):
     plan = plan_speeds([{"start": 800, "stop": 820, "step": 10, "refine_to": 2.5}], 1.0)
-    file = tmp_path / "round_0.json"
-    write_json({"new": [800, 802.5], "measured": []}, file)
-    assert speeds_of_round(str(file), plan) == [800.0, 802.5]
-    for number, (text, reason) in enumerate(
-        (
-            ('{"new": [800, 802.6]}', "it asks for 802.6 rad/s, which is no speed of the configuration"),
-            ('{"new": [7197, 800]}', "it asks for 7197 rad/s"),
-            ('{"new": ["x"]}', "could not convert"),
-            ('{"new": 800}', "not iterable"),
-            ('{"old": []}', "KeyError: 'new'"),
-            ("[]", "TypeError"),
-            ('{"new": [800', "JSONDecodeError"),
-        )
-    ):
-        file.write_text(text)
-        os.utime(file, (number, number))
-        with pytest.raises(InputFileError) as refused:
-            speeds_of_round(str(file), plan)
-        message = str(refused.value)
-        assert reason in message and message.count("cannot be read") == 1 and "\n" not in message, message
+    (tmp_path / "sound.json").write_text('{"new": [800, 802.5]}')
+    assert speeds_of_round(str(tmp_path / "sound.json"), plan) == [800.0, 802.5]
+    (tmp_path / "round_0.json").write_text(text)
+    with pytest.raises(InputFileError) as refused:
+        speeds_of_round(str(tmp_path / "round_0.json"), plan)
+    message = str(refused.value)
+    assert reason in message and message.count("cannot be read") == 1 and "\n" not in message, message
+    assert message.endswith("; if it is a result, delete it and run again")
 
 
 @pytest.mark.slow
@@ -421,10 +369,8 @@ def test_replaced_results_are_announced(root, folder):
     (folder / "results").mkdir()
     write_json(draft.merged(), folder / "results/configuration.json")
     assert replaced_level(draft) == []
-    line = replaced_level(read_settings(root, command_line_document({"fidelity": "fine"})))[0]
-    assert line.startswith(
-        "fidelity: results in results that depend on the level are replaced, draft by fine; give this run a name"
-    )
+    (line,) = replaced_level(read_settings(root, command_line_document({"fidelity": "fine"})))
+    assert "results in results that depend on the level are replaced, draft by fine; give this run a name" in line
     named = read_settings(root, command_line_document({"fidelity": "fine", "run": {"name": "trial"}}))
     assert replaced_level(named) == []
 
@@ -438,7 +384,7 @@ def test_the_clear_line_comes_last(root, tmp_path):
     last = text.strip().splitlines()[-1]
     assert last.startswith("rule geometry: blade Ref: span 50%: no ")
     assert last.endswith("(blade Ref, details in logs/Ref/geometry.log)")
-    assert "Traceback" not in text
+    assert "Traceback" not in text and not (tmp_path / "results/Ref/geometry.nc").exists()
 
 
 @pytest.mark.slow

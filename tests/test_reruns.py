@@ -3,14 +3,17 @@
 import os
 
 import pytest
+import yaml
 from overlays import overlay
-from plans_of_snakemake import plan, planned_outputs
-from stubbed_runs import copy_stubbed, edit, refine, simulated
+from plans_of_snakemake import planned_outputs
+from stubbed_runs import BLADES, SCENES, copy_stubbed, edit, refine, runs, simulated
 from workflow_runs import copy_finished, own_package, snakemake
+
+from r37core.yaml_file import load_yaml
 
 pytestmark = pytest.mark.slow
 
-BLADES, SCENES, SPEEDS = ("Ref", "CS100"), ("abradable", "direct"), ("750", "1150", "1550")
+SPEEDS = ("750", "1150", "1550")
 
 # what follows any change of a simulation
 DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview", "map_figure"}
@@ -32,36 +35,24 @@ def project(finished, tmp_path):
     return copy_finished(finished, tmp_path / "project")
 
 
-def runs(speeds=SPEEDS, blades=BLADES, scenes=SCENES):
-    return {f"{blade}/{scene}/speed_{speed}.npz" for blade in blades for scene in scenes for speed in speeds}
-
-
 def per_run(file, blades=BLADES, scenes=SCENES):
     return {f"{blade}/{scene}/{file}" for blade in blades for scene in scenes}
 
 
 def test_maps_are_of_the_runs_that_have_their_kind(finished):
-    maps = {f"spectrum_{blade}__{scene}" for blade in BLADES for scene in SCENES} | {
-        f"wear_{blade}__abradable" for blade in BLADES
-    }
-    others = {f"waterfall_{blade}__{scene}" for blade in BLADES for scene in SCENES}
-    others |= {f"{kind}_{blade}" for kind in ("campbell", "response") for blade in BLADES}
+    maps = {f"{kind}_{blade}__{scene}" for kind in ("spectrum", "waterfall") for blade in BLADES for scene in SCENES}
+    maps |= {f"wear_{blade}__abradable" for blade in BLADES}
+    others = {f"{kind}_{blade}" for kind in ("campbell", "response") for blade in BLADES}
     others |= {"campbell", "response", "blades", "ranking", *(f"comparison_{scene}" for scene in SCENES)}
     drawn = {file.name for file in (finished / "results/figures").iterdir()}
     assert drawn == {f"{name}.{suffix}" for name in maps | others for suffix in ("png", "pdf")}
-
-
-def test_nothing_after_a_run(project):
-    assert planned_outputs(project) == {}
+    assert planned_outputs(finished) == {}
 
 
 @pytest.mark.parametrize(
     ("speeds", "added"),
     [
-        (
-            "[{ start: 350, stop: 2400 }, 1000.5, 100, 3000]",
-            {"350", "1950", "2350", "1000.5", "100", "3000"},
-        ),
+        ("[{ start: 350, stop: 2400 }, 1000.5, 100, 3000]", {"350", "1950", "2350", "1000.5", "100", "3000"}),
         ("[750, 750.0000000001, 1150, 1550]", {"750.0000000001"}),
     ],
 )
@@ -73,10 +64,10 @@ def test_an_added_speed_runs_alone(project, speeds, added):
     assert set(jobs) == DATASETS
 
 
-def test_a_removed_speed_runs_no_simulation(project):
-    overlay(project, "config.yaml", "speeds: [{ start: 750, stop: 1200 }]")
-    jobs = planned_outputs(project)
-    assert set(jobs) == DATASETS | {"response"}
+@pytest.mark.parametrize(("change", "again"), [("speeds: [750, 1150]", {"response"}), ("blades: [Ref]", OF_ALL_BLADES)])
+def test_a_removed_speed_or_blade_runs_no_simulation(project, change, again):
+    overlay(project, "config.yaml", change)
+    assert set(planned_outputs(project)) == DATASETS | again
 
 
 def test_a_list_that_becomes_adaptive_runs_what_its_rounds_ask_for(project):
@@ -90,44 +81,35 @@ def test_a_list_that_becomes_adaptive_runs_what_its_rounds_ask_for(project):
 
 
 def test_an_added_blade_runs_its_own_jobs(project):
-    """By its lines in the configuration."""
     overlay(project, "config.yaml", "blades: [Ref, CS100, Eighth]")
     overlay(project, "blades.yaml", "Eighth: { base: Ref, chordwise_sweep_deg: 7.5 }")
     jobs = planned_outputs(project)
-    assert jobs.pop("simulate") == runs(blades=["Eighth"])
+    assert jobs.pop("simulate") == runs(SPEEDS, blades=["Eighth"])
     for rule in STRUCTURE | {"response", "prepare_time_integration", "contact_model", "stress_operator"}:
         assert all("Eighth" in file for file in jobs.pop(rule)), rule
     assert set(jobs) == DATASETS | OF_ALL_BLADES
 
 
-def test_a_removed_blade_runs_no_simulation(project):
-    overlay(project, "config.yaml", "blades: [Ref]")
-    assert set(planned_outputs(project)) == DATASETS | OF_ALL_BLADES
-
-
-def test_a_renamed_scene_runs_its_own_jobs(project):
-    edit(project, "scenes.yaml", "direct:", "bare:")
-    overlay(project, "config.yaml", "scenes: [abradable, bare]")
+@pytest.mark.parametrize("scene", ["direct", "bare"])
+def test_friction_or_a_new_name_runs_its_scene(project, scene):
+    edit(project, "scenes.yaml", "direct:", f"{scene}:")
+    overlay(project, "config.yaml", f"scenes: [abradable, {scene}]")
+    if scene == "direct":
+        overlay(project, "scenes.yaml", "direct: { friction: { coefficient: 0.2 } }")
     jobs = planned_outputs(project)
-    assert jobs.pop("simulate") == runs(scenes=["bare"])
-    assert jobs.pop("response") == per_run("response.nc", scenes=["bare"])
-    assert jobs.pop("prepare_time_integration") == per_run("time_integration.stamp", scenes=["bare"])
+    assert jobs.pop("simulate") == runs(SPEEDS, scenes=[scene])
+    assert jobs.pop("response") == per_run("response.nc", scenes=[scene])
+    assert jobs.pop("prepare_time_integration") == per_run("time_integration.stamp", scenes=[scene])
     assert set(jobs) == DATASETS
 
 
-def test_friction_runs_its_scene(project):
-    overlay(project, "scenes.yaml", "direct: { friction: { coefficient: 0.2 } }")
+@pytest.mark.parametrize(
+    ("change", "speeds"), [("results: [signal, stress, energy]", SPEEDS), ("stress_history_speeds_rad_s: [1150]", ["1150"])]
+)
+def test_a_wanted_result_runs_its_scene_and_a_history_its_speed(project, change, speeds):
+    overlay(project, "scenes.yaml", f"direct: {{ {change} }}")
     jobs = planned_outputs(project)
-    assert jobs.pop("simulate") == runs(scenes=["direct"])
-    assert jobs.pop("response") == per_run("response.nc", scenes=["direct"])
-    assert jobs.pop("prepare_time_integration") == per_run("time_integration.stamp", scenes=["direct"])
-    assert set(jobs) == DATASETS
-
-
-def test_a_wanted_result_runs_its_scene(project):
-    overlay(project, "scenes.yaml", "direct: { results: [signal, stress, energy] }")
-    jobs = planned_outputs(project)
-    assert jobs.pop("simulate") == runs(scenes=["direct"])
+    assert jobs.pop("simulate") == runs(speeds, scenes=["direct"])
     assert not (STRUCTURE | {"contact_model"}) & set(jobs)
 
 
@@ -161,24 +143,13 @@ def test_signals_run_no_simulation_of_the_sweep(project):
     assert planned_outputs(project)["signals_of_run"] == per_run("signals.nc", blades=["Ref"])
 
 
-def test_a_step_keeps_the_structure_and_back_keeps_all(project):
-    overlay(project, "fidelity.yaml", "tiny: { time_integration: { time_step_s: 1.0e-7 } }")
-    jobs = planned_outputs(project)
-    assert jobs.pop("simulate") == runs()
-    assert not (STRUCTURE | {"contact_model"} | OF_ALL_BLADES) & set(jobs)
-    overlay(project, "fidelity.yaml", "tiny: { time_integration: { time_step_s: 2.0e-7 } }")
-    assert planned_outputs(project) == {}
-
-
 def test_another_level_runs_what_differs_and_back_keeps_all(project):
     """A level with the same mesh and reduction, then one with another mesh, then the first again."""
-    same_mesh = (
-        "same_mesh:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 8 }\n"
-        "  time_integration: { time_step_s: 1.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n"
-    )
-    overlay(project, "fidelity.yaml", same_mesh)
+    level = load_yaml(project / "config/fidelity.yaml")["tiny"]
+    level["time_integration"]["time_step_s"] = 1.0e-7
+    overlay(project, "fidelity.yaml", yaml.safe_dump({"same_mesh": level}))
     jobs = planned_outputs(project, "all_blades", "--config", "fidelity=same_mesh")
-    assert jobs.pop("simulate") == runs()
+    assert jobs.pop("simulate") == runs(SPEEDS)
     # the Campbell diagrams of all blades are gathered again: their file names the level
     assert not (STRUCTURE | {"contact_model"}) & set(jobs)
     jobs = planned_outputs(project, "all_blades", "--config", "fidelity=draft")
@@ -193,47 +164,23 @@ def test_editing_one_blade_runs_that_blade(project):
     jobs = planned_outputs(project)
     assert jobs["geometry"] == {"CS100/geometry.nc"}
     assert jobs["reduced_model"] == {"CS100/rom_pressure_edge.nc"}
-    assert jobs["simulate"] == runs(blades=["CS100"])
+    assert jobs["simulate"] == runs(SPEEDS, blades=["CS100"])
 
 
 @pytest.mark.parametrize(
-    ("material", "again", "kept"),
+    ("name", "change", "again", "kept"),
     [
-        ("density_kg_m3: 8001.0", {"reduced_model", "simulate", "response"}, {"geometry", "mesh"}),
-        (
-            "yield_stress_pa: 1.39e+9",
-            {"response"},
-            STRUCTURE | {"contact_model", "simulate", "prepare_time_integration"},
-        ),
+        ("blades", "Ref: { material: { density_kg_m3: 8001.0 } }", {"simulate", "response"}, {"geometry", "mesh"}),
+        ("blades", "Ref: { material: { yield_stress_pa: 1.39e+9 } }", {"response"}, STRUCTURE | {"contact_model", "simulate"}),
+        ("config", "structure: { spin_softening: true }", {"reduced_model"}, {"geometry", "mesh", "abaqus_deck"}),
     ],
 )
-def test_a_material_runs_what_depends_on_it(project, material, again, kept):
-    overlay(project, "blades.yaml", f"Ref: {{ material: {{ {material} }} }}")
+def test_a_material_or_rotation_option_runs_what_depends_on_it(project, name, change, again, kept):
+    overlay(project, f"{name}.yaml", change)
     jobs = planned_outputs(project)
-    assert again <= set(jobs)
-    assert not kept & set(jobs)
-
-
-def test_a_rotation_option_keeps_meshes(project):
-    overlay(project, "config.yaml", "structure: { spin_softening: true }")
-    jobs = planned_outputs(project)
-    assert jobs["reduced_model"] == {f"{blade}/rom_pressure_edge.nc" for blade in BLADES}
-    assert not {"geometry", "mesh", "abaqus_deck"} & set(jobs)
-
-
-def test_a_stress_history_runs_its_speed(project):
-    overlay(project, "scenes.yaml", "direct: { stress_history_speeds_rad_s: [1150] }")
-    assert planned_outputs(project)["simulate"] == runs(["1150"], scenes=["direct"])
-
-
-RULES_OF_MODULES = {
-    "time_integration/simulate.py": {"prepare_time_integration"},
-    "mesh/generate.py": {"mesh"},
-    "results/interactions.py": {"summary"},
-    "figures/maps.py": {"map_figure", "waterfall_figure"},
-    # together: none of them has a rule
-    "tradeoff/tables.py config/settings.py plans/sweep_plan.py": set(),
-}
+    assert again <= set(jobs) and not kept & set(jobs)
+    # the base of the other blade, too
+    assert "reduced_model" in kept or jobs["reduced_model"] == {f"{blade}/rom_pressure_edge.nc" for blade in BLADES}
 
 
 def planned_after_a_touch(project, files, *arguments):
@@ -268,10 +215,10 @@ def test_a_new_time_of_any_file_of_ours_runs_nothing(project, profile):
     ("file", "old", "new", "first", "simulated"),
     [
         # how the lining is worn
-        ("src/r37core/contact/laws.py", "wear + thickness * excess", "wear + excess", "prepare_time_integration", runs()),
+        ("src/r37core/contact/laws.py", "wear + thickness * excess", "wear + excess", "prepare_time_integration", runs(SPEEDS)),
         ("src/r37core/stress/statistic.py", "HIGH = 0.9", "HIGH = 0.8", "response", set()),
-        ("workflow/scripts/simulate.py", "return None", "return 0", "simulate", runs()),
-        ("workflow/scripts/step.py", "return None", "return 0", "geometry", runs()),
+        ("workflow/scripts/simulate.py", "return None", "return 0", "simulate", runs(SPEEDS)),
+        ("workflow/scripts/step.py", "return None", "return 0", "geometry", runs(SPEEDS)),
     ],
 )
 def test_a_changed_line_runs_what_depends_on_it(project, file, old, new, first, simulated):
@@ -283,28 +230,3 @@ def test_a_changed_line_runs_what_depends_on_it(project, file, old, new, first, 
     assert jobs["response"] == per_run("response.nc")
     assert jobs.get("simulate", set()) == simulated
     assert first in jobs and (first == "geometry" or not {"geometry", "mesh", "reduced_model"} & set(jobs))
-
-
-def add_to_modules(project, modules, line):
-    if (project / "src").is_symlink():
-        own_package(project)
-    for module in modules.split():
-        with open(project / "src/r37core" / module, "a") as stream:
-            stream.write(f"\n{line}\n")
-
-
-def test_a_comment_in_a_module_runs_nothing(project):
-    for modules in RULES_OF_MODULES:
-        add_to_modules(project, modules, "# the end")
-    assert planned_outputs(project) == {}
-
-
-@pytest.mark.parametrize(("modules", "rules"), RULES_OF_MODULES.items())
-def test_an_edited_module_runs_the_rules_that_import_it(project, modules, rules):
-    """A statement runs the rules that have the module in their closure."""
-    add_to_modules(project, modules, "EDITED = True")
-    jobs = plan(project)
-    changed = {job.rule for job in jobs if job.because_of_params}
-    assert changed == rules
-    # a renewed stamp runs the simulations
-    assert "prepare_time_integration" not in changed or any(job.rule == "simulate" for job in jobs)

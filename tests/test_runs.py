@@ -5,13 +5,12 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from contextlib import suppress
 
 import pandas as pd
 import pytest
 import xarray as xr
-from workflow_runs import copy_project, snakemake
+from workflow_runs import copy_project, digests, snakemake, wait_until
 
 import r37
 from r37 import workflow_process
@@ -40,13 +39,7 @@ def once(config, tmp_path_factory):
     return folder
 
 
-def content(folder):
-    """What a run has made, but Snakemake's own notes and logs."""
-    return {str(file.relative_to(folder)): file.read_bytes() for file in (folder / "results").rglob("*") if file.is_file()}
-
-
 def processes_of(folder):
-    """Processes that work in a folder."""
     numbers = []
     for number in filter(str.isdigit, os.listdir("/proc")):
         with suppress(OSError):
@@ -63,13 +56,6 @@ def started(config, folder):
     return subprocess.Popen([sys.executable, "-W", "ignore", "-c", code], stderr=subprocess.PIPE, preexec_fn=default)
 
 
-def wait_until(happened, seconds=120.0):
-    end = time.monotonic() + seconds
-    while not happened() and time.monotonic() < end:
-        time.sleep(0.02)
-    assert happened()
-
-
 @pytest.mark.slow
 def test_a_folder_has_all_of_a_run_and_snakemake_finds_nothing_to_do(once, config):
     assert "Nothing to be done" in snakemake(once, "tables", "--cores", "1", "--dry-run")
@@ -79,16 +65,16 @@ def test_a_folder_has_all_of_a_run_and_snakemake_finds_nothing_to_do(once, confi
     assert list(r37.open_results(once / "results")) == ["campbell", "rms", "stress"]
     # tables travel with it
     assert (once / "config/profiles/rotor37.csv").is_file()
-    before = content(once)
+    before = digests(once)
     again = r37.run(**ASKED, config=config, folder=once)
-    assert content(once) == before and again.folder == once / "results"
+    assert digests(once) == before and again.folder == once / "results"
     # what was asked for once more is made, and the rest stays
     more = r37.run(**{**ASKED, "speeds": [750, 1150, 1550]}, config=config, cores=2, folder=once)
     assert list(more["rms"].speed.values) == [750.0, 1150.0, 1550.0]
     speed = "results/Ref/abradable/speed_750.npz"
-    assert content(once)[speed] == before[speed]
+    assert digests(once)[speed] == before[speed]
     r37.run(**ASKED, config=config, cores=2, folder=once)
-    assert {name: content(once)[name] for name in before} == before
+    assert {name: digests(once)[name] for name in before} == before
 
 
 @pytest.mark.slow
@@ -96,14 +82,14 @@ def test_a_folder_has_all_of_a_run_and_snakemake_finds_nothing_to_do(once, confi
 def test_a_run_that_was_ended_leaves_no_process_and_goes_on_with_the_same_bytes(once, config, tmp_path, end):
     folder = tmp_path / "ended"
     call = started(config, folder)
-    wait_until(lambda: list((folder / "results").glob("*/abradable/speed_*.npz")))
+    wait_until(lambda: list((folder / "results").glob("*/abradable/speed_*.npz")), 120.0, "a simulation")
     call.send_signal(end)
     call.wait(3.0)
     # whoever is killed cannot wait for the others
-    wait_until(lambda: not processes_of(folder), 10.0)
-    reached = content(folder)
+    wait_until(lambda: not processes_of(folder), 10.0, "its processes")
+    reached = digests(folder)
     r37.run(**ASKED, config=config, cores=2, folder=folder)
-    done, other = content(folder), content(once)
+    done, other = digests(folder), digests(once)
     assert done == {name: other[name] for name in done} and "results/ranking.csv" in done
     simulated = [name for name in reached if name.endswith(".npz")]
     assert simulated and {name: reached[name] for name in simulated} == {name: done[name] for name in simulated}
@@ -170,20 +156,17 @@ def test_a_folder_says_what_the_call_said(config, written, tmp_path):
     assert settings.scene_entries["smooth"] == smooth.entry
     r37.designs("S100", "abradable", [1150], vary=table, config=config, folder=tmp_path / "b")
     assert written[-1][0].blade_names == ["Near", "Far"]
-    shares = {
-        name: r37.blade("S100", config=config, sweep_percent=share).settings.definition.stacking
-        for name, share in (("Near", 50), ("Far", 80))
-    }
-    assert {name: written[-1][0].blades[name].definition.stacking for name in shares} == shares
+    for name, share in (("Near", 50), ("Far", 80)):
+        expected = r37.blade("S100", config=config, sweep_percent=share).settings.definition.stacking
+        assert written[-1][0].blades[name].definition.stacking == expected
     # a table of the same name from elsewhere lies beside the other
     other = tmp_path / "other/config"
     shutil.copytree(config.parent, other)
     rows = (other / "profiles/rotor37.csv").read_text()
-    (other / "blades.yaml").write_text(
-        f"A: {{ profiles: {config.parent}/profiles/rotor37.csv, material: {{ youngs_modulus_pa: 1.0e+11, density_kg_m3: 4430, "
-        f"poissons_ratio: 0.3, yield_stress_pa: 1.0e+9 }} }}\nB: {{ profiles: {other}/profiles/rotor37.csv, "
-        "material: { youngs_modulus_pa: 1.0e+11, density_kg_m3: 4430, poissons_ratio: 0.3, yield_stress_pa: 1.0e+9 } }\n"
-    )
+    material = "{ youngs_modulus_pa: 1.0e+11, density_kg_m3: 4430, poissons_ratio: 0.3, yield_stress_pa: 1.0e+9 }"
+    entries = {"A": config.parent, "B": other}.items()
+    lines = [f"{name}: {{ profiles: {place}/profiles/rotor37.csv, material: {material} }}\n" for name, place in entries]
+    (other / "blades.yaml").write_text("".join(lines))
     (other / "profiles/rotor37.csv").write_text(rows.replace("\r", "") + "\n")
     r37.run(["A", "B"], "abradable", [1150], config=other / "config.yaml", folder=tmp_path / "c")
     assert {file.name for file in (tmp_path / "c/config/tables").iterdir()} == {"rotor37.csv", "_rotor37.csv"}

@@ -20,9 +20,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import beside
 from r37core.product.reading import read_settings
 from r37core.rom.reduction_choice import StressSubmesh
-from r37core.search import checks
 from r37core.search.dataset import entries_of, search_dataset, search_table, write_entries
-from r37core.search.gaussian_processes import SearchPackageMissing
 from r37core.search.plan import Search, choice_of, designs_of, is_asked
 from r37core.search.problem import Constraint, Design, SearchChoice, SearchVariable
 from r37core.search.proposal import first_designs
@@ -50,6 +48,8 @@ search:
   first: 2
   batch: 2
 """
+CROSSING = "measure: crossing_margin_percent, mode: 1B, speed_rad_s: 9"
+WIDE = "of_blades: { thickness_percent: { uniform_percent: 200 } }"
 TOLERANCES = "objectives: { lined: { quantile: 0.9 } }, tolerances: { members: 4, "
 
 
@@ -63,34 +63,19 @@ def folder(config_copy):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ("{ blade: Nope }", "search.blade: found 'Nope'; allowed: one that is run .Free."),
         ("{ blade: Ref }", "search.blade: found 'Ref'; allowed: one that is run .Free."),
         ("{ variables: { nothing: [0, 1] } }", "search.variables.nothing: .*found unknown key nothing"),
         ("{ variables: { stagger_deg.middle: [0, 1] } }", "search.variables.stagger_deg.middle: .*allowed keys: hub, tip"),
-        (
-            "{ variables: { sweep_lean.1.sweep_cm: [-90, 1] } }",
-            r"sweep_lean\.1\.sweep_cm: .*found a sweep of -90 cm; allowed: up to",
-        ),
+        ("{ variables: { sweep_lean.1.sweep_cm: [-90, 1] } }", "sweep_lean.1.sweep_cm: .*found a sweep of -90 cm; allowed: up"),
         ("{ variables: { sweep_lean.7.sweep_cm: [0, 1] } }", "sweep_lean.7.sweep_cm: .*counted from 0"),
         ("{ variables: { stagger_deg.tip: [-300, 1] } }", "search.variables.stagger_deg.tip: .*at least -90, at most 90"),
-        ("{ variables: { stagger_deg.tip: [2, 1] } }", "search.variables.stagger_deg.tip: .*a lower and a higher value"),
         ("{ variables: { stagger_deg: [-1, 1] } }", "variables.stagger_deg.tip: found stagger_deg.tip beside stagger_deg"),
         ("{ variables: { chordwise_sweep_deg: [-1, 1] } }", "chordwise_sweep_deg: .*at most one of"),
-        (
-            "{ objectives: { lined: { scenes: [nope] } } }",
-            "objectives.lined.scenes: found 'nope'; allowed: scenes that",
-        ),
         ("{ objectives: { other: { measure: speed } } }", "objectives.other.measure: found 'speed'; allowed: one of length_"),
         ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
-        (
-            "{ objectives: { other: { measure: frequency_hz, mode: 1b } } }",
-            r"other.mode: found 1b; allowed: one of the Campbell diagram, 1B, 1T, 2B, 4, 5, 6, 7, 8, 9, 10 \(campbell.modes\)",
-        ),
+        ("{ objectives: { other: { measure: frequency_hz, mode: 1b } } }", "other.mode: found 1b; allowed: .*, 1B, 1T, 2B, 4"),
         ("{ objectives: { other: { measure: mass_kg, mode: 1B } } }", "other.mode: found mode with mass_kg; .*left out"),
-        (
-            "{ objectives: { other: { measure: crossing_margin_percent, mode: 1B, engine_order: 21, speed_rad_s: 9 } } }",
-            "other.engine_order: found 21; allowed: at most campbell.highest_engine_order",
-        ),
+        (f"{{ objectives: {{ other: {{ {CROSSING}, engine_order: 21 }} }} }}", "other.engine_order: found 21; .*campbell.high"),
         ("{ objectives: { Lined: { measure: mass_kg } } }", "names that differ in more than capitals"),
         ("{ objectives: { other: { measure: mass_kg, quantile: 0.9 } } }", "other.quantile: found a quantile of mass_kg"),
         ("{ objectives: { lined: { quantile: 0.9 } } }", "lined.quantile: found a quantile; allowed: tolerances beside it"),
@@ -98,23 +83,14 @@ def folder(config_copy):
         ("{ constraints: { round: { measure: mass_kg, at_most: 1 } } }", "constraints.round: .*column of search.csv"),
         ("{ constraints: { lined_scatter: { measure: mass_kg, at_most: 1 } } }", "constraints.lined_scatter: .*search.csv"),
         ("{ constraints: { mass: { measure: mass_kg } } }", "constraints.mass: found no bound; allowed: at_least or at_most"),
-        (
-            "{ constraints: { mass: { measure: mass_kg, at_most: 1, at_most_percent: 9 } } }",
-            "at_most_percent: .*one of them",
-        ),
-        (
-            "{ constraints: { mass: { measure: mass_kg, at_most: 1, at_least: 3 } } }",
-            "at_least: found 3; .*not above",
-        ),
+        ("{ constraints: { mass: { measure: mass_kg, at_most: 1, at_most_percent: 9 } } }", "at_most_percent: .*one of them"),
+        ("{ constraints: { mass: { measure: mass_kg, at_most: 1, at_least: 3 } } }", "at_least: found 3; .*not above"),
         ("{ first: 6 }", "search.first: found 6; allowed: at most designs"),
         ("{ tolerances: { members: 4 } }", "search.tolerances: found tolerances that no objective needs"),
         (f"{{ {TOLERANCES} }} }}", "lined.quantile: found a quantile; allowed: tolerances beside it, with numbers that spread"),
         (f"{{ {TOLERANCES} of_scenes: {{ nope: {{ uniform: 1 }} }} }} }}", "tolerances.of_scenes.nope: found nope; allowed"),
         (f"{{ {TOLERANCES} of_blades: {{ nope: {{ uniform: 1 }} }} }} }}", "tolerances.of_blades.nope: found nope; allowed"),
-        (
-            f"{{ {TOLERANCES} of_blades: {{ thickness_percent: {{ uniform_percent: 200 }} }} }} }}",
-            "tolerances.of_blades.thickness_percent: a member of the start: .*a narrower tolerance",
-        ),
+        (f"{{ {TOLERANCES} {WIDE} }} }}", "of_blades.thickness_percent: a member of the start: .*a narrower tolerance"),
     ],
 )
 def test_what_cannot_be_searched_is_refused_in_one_line(folder, changes, message):
@@ -141,32 +117,29 @@ def test_all_designs_may_be_of_the_first_round(folder):
     assert choice_of(settings).objectives == {"lined": Quantity("length_certain_rad_s", ("abradable",))}
 
 
-def test_what_the_start_does_not_have_can_neither_vary_nor_spread(folder):
-    overlay(folder, "config.yaml", "{ blades: [Ref], search: { blade: Ref } }")
+def vary(folder, variables):
+    """Give the search these variables alone; what config.yaml has then."""
     file = folder / "config/config.yaml"
     content = yaml.safe_load(file.read_text())
-    content["search"]["variables"] = {"sweep_percent": [50, 150]}
+    content["search"]["variables"] = variables
     file.write_text(yaml.safe_dump(content, sort_keys=False))
+    return content
+
+
+def test_what_the_start_does_not_have_can_neither_vary_nor_spread(folder):
+    overlay(folder, "config.yaml", "{ blades: [Ref], search: { blade: Ref } }")
+    vary(folder, {"sweep_percent": [50, 150]})
     with pytest.raises(ConfigError, match=r"search.variables.sweep_percent: .*has no table of sweep and lean"):
         read_settings(folder)
-    content["search"]["variables"] = {"stagger_deg.tip": [-1, 1]}
-    file.write_text(yaml.safe_dump(content, sort_keys=False))
+    vary(folder, {"stagger_deg.tip": [-1, 1]})
     overlay(folder, "config.yaml", f"search: {{ {TOLERANCES} of_blades: {{ sweep_percent: {{ uniform: 5 }} }} }} }}")
     with pytest.raises(ConfigError, match=r"of_blades.sweep_percent: found sweep_percent, which 'Ref' does not have"):
         read_settings(folder)
 
 
-def test_without_contact_or_stress_or_the_package_nothing_starts(folder, monkeypatch):
+def test_without_stress_nothing_starts(folder):
     overlay(folder, "scenes.yaml", "abradable: { results: [spectrum] }")
     with pytest.raises(ConfigError, match=r"lined.scenes: found 'abradable', without stress"):
-        read_settings(folder)
-    overlay(folder, "scenes.yaml", "abradable: { results: [stress] }")
-
-    def missing():
-        raise SearchPackageMissing("pip install '.[search]'")
-
-    monkeypatch.setattr(checks, "library", missing)
-    with pytest.raises(ConfigError, match=r"config.yaml:\d+: search: pip install"):
         read_settings(folder)
 
 
@@ -204,12 +177,10 @@ def test_rounds_spend_the_budget_in_batches_and_the_same_seed_gives_the_same(met
     assert [design.round for design in tried.values()] == [0, 0, 0, 1, 1, 2, 2]
     assert tried["d0001"].refused == "crossed" and tried["d0001"].quantities == {}
     assert not tried["d0001"].evaluated("d0001", choice(), START).is_done
+    if method == "quasi_random":
+        assert [design.values for design in tried.values()] == first_designs(VARIABLES, 7, 0)
     # a larger budget changes no design that is there
     assert list(searched(choice(method), (3, 2, 2, 1, 0))[-1].tried.items())[:7] == list(tried.items())
-
-
-def test_plain_sampling_goes_on_with_its_sequence():
-    assert [design.values for design in searched(choice())[-1].tried.values()] == first_designs(VARIABLES, 7, 0)
 
 
 def test_margins_are_of_the_start_in_percent():
@@ -316,24 +287,19 @@ def test_members_of_a_design_have_models_of_their_own_where_the_blade_changes(fo
 def test_folders_of_members_are_told_apart(folder):
     settings = read_settings(folder)
     samples = Samples(settings, beside(settings))
-    for part in ("", "search/d0001/", "search/d0001/3/", "search/start/", "tolerances/", "tolerances/3/"):
-        assert fullmatch(samples.pattern, part), part
-    for part in ("search/", "search/3/", "Free/", "search/d0001"):
-        assert not fullmatch(samples.pattern, part), part
-    parts = {
-        part: folder_and_name(SimpleNamespace(member=part)) for part in ("search/d0001/3/", "search/d0001/", "tolerances/3/")
-    }
-    assert list(parts.values()) == [("search/d0001", "3"), ("search/d0001", ""), ("tolerances", "3")]
+    parts = ("", "search/d0001/", "search/d0001/3/", "search/start/", "tolerances/", "tolerances/3/", "tolerances/0f1/")
+    assert [part for part in parts if not fullmatch(samples.pattern, part)] == []
+    others = ("search/", "search/3/", "Free/", "search/d0001", "tolerances/0/1/", "other/0/")
+    assert [part for part in others if fullmatch(samples.pattern, part)] == []
+    names = [folder_and_name(SimpleNamespace(member=part)) for part in ("search/d0001/3/", "search/d0001/", "tolerances/3/")]
+    assert names == [("search/d0001", "3"), ("search/d0001", ""), ("tolerances", "3")]
 
 
 @pytest.mark.parametrize("start", ["Free", "Ref", "S100"])
 def test_a_best_design_is_the_blade_that_its_entry_gives(folder, start):
     """Whether the start has rows, no table, or rows of its name in a file."""
     overlay(folder, "config.yaml", f"{{ blades: [{start}], search: {{ blade: {start} }} }}")
-    file = folder / "config/config.yaml"
-    content = yaml.safe_load(file.read_text())
-    content["search"]["variables"] = {"stagger_deg.tip": [-3, 3], "material.density_kg_m3": [7000, 9000]}
-    file.write_text(yaml.safe_dump(content, sort_keys=False))
+    content = vary(folder, {"stagger_deg.tip": [-3, 3], "material.density_kg_m3": [7000, 9000]})
     settings = read_settings(folder)
     wanted = designs_of(settings)
     values = (1.2345, 8100.0)
@@ -345,9 +311,8 @@ def test_a_best_design_is_the_blade_that_its_entry_gives(folder, start):
     made = entries_of(search, ["d0004"], start, entries)
     write_entries(search, made, ["d0004"], entries, folder / "config/best.yaml")
     del content["search"]
-    file.write_text(
-        yaml.safe_dump(content | {"blades_file": "config/best.yaml", "blades": [start, f"{start}_best1"]}, sort_keys=False)
-    )
+    content |= {"blades_file": "config/best.yaml", "blades": [start, f"{start}_best1"]}
+    (folder / "config/config.yaml").write_text(yaml.safe_dump(content))
     pasted = read_settings(folder).blades
     for blade, expected in ((pasted[start], settings.blades[start]), (pasted[f"{start}_best1"], wanted.blade("d0004", values))):
         assert (blade.material, blade.contact) == (expected.material, expected.contact)
@@ -386,16 +351,12 @@ def test_of_two_objectives_designs_that_none_beats_come_first_by_their_shares_of
     gave = [{"lined": (length, 0.0), "mass": (mass, 0.0)} for length, mass in zip(lengths, (2.2, 1.2, 0.3, 1.25), strict=True)]
     tried = {f"d{n:04d}": Design((0.5 * n, 0.2 * n), 0, None, of) for n, of in enumerate(gave)}
     search = search_dataset(SearchRound({}, tried, {"lined": (start, 0.0), "mass": (2.0, 0.0)}), wanted, [0.0, 0.0])
-    assert [search["design"].values[1:][search["order"].values[1:] == place + 1].item() for place in range(4)] == [
-        f"d{n:04d}" for n in order
-    ]
+    assert np.argsort(search["order"].values[1:]).tolist() == order
 
 
 def test_a_search_of_which_nothing_is_feasible_has_a_table():
-    designs = {
-        "d0000": Design((0.0, 0.0), 0, "crossed", {}),
-        "d0001": Design((1.0, 0.5), 0, None, {"lined": (1.0, 0.0), "mass": (9.0, 0.0)}),
-    }
+    heavy = Design((1.0, 0.5), 0, None, {"lined": (1.0, 0.0), "mass": (9.0, 0.0)})
+    designs = {"d0000": Design((0.0, 0.0), 0, "crossed", {}), "d0001": heavy}
     search = search_dataset(SearchRound({}, designs, START), choice(), [None, 0.0])
     assert search["order"].values.tolist() == [0, 0, 0] and "slice_mean" not in search
     assert search_table(search)["feasible"].tolist() == [1, 0, 0]

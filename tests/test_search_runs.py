@@ -11,6 +11,8 @@ from workflow_runs import copy_finished, kill_snakemake, snakemake
 from r37core.console.leftovers import leftovers
 from r37core.product.reading import read_settings
 
+pytestmark = pytest.mark.slow
+
 SEARCH = """
 search:
   blade: CS100
@@ -43,7 +45,6 @@ def designs_of(folder):
     return {name: tuple(of) for file in files for name, of in json.loads(file.read_text())["new"].items()}
 
 
-@pytest.mark.slow
 def test_designs_are_ordinary_jobs_and_one_that_cannot_be_built_asks_for_no_model(first_run):
     folder, text = first_run
     designs = designs_of(folder)
@@ -58,7 +59,6 @@ def test_designs_are_ordinary_jobs_and_one_that_cannot_be_built_asks_for_no_mode
     assert leftovers(folder / "results", read_settings(folder)) == []
 
 
-@pytest.mark.slow
 def test_a_killed_search_goes_on_with_the_same_designs(first_run, root, tmp_path):
     copy_stubbed(root, tmp_path)
     overlay(tmp_path, "config.yaml", SEARCH)
@@ -69,7 +69,6 @@ def test_a_killed_search_goes_on_with_the_same_designs(first_run, root, tmp_path
     assert designs_of(tmp_path) == designs_of(first_run[0])
 
 
-@pytest.mark.slow
 def test_more_designs_make_only_the_new_ones(project):
     before = designs_of(project)
     overlay(project, "config.yaml", "search: { designs: 5 }")
@@ -78,7 +77,6 @@ def test_more_designs_make_only_the_new_ones(project):
     assert {name: values for name, values in designs_of(project).items() if name in before} == before
 
 
-@pytest.mark.slow
 def test_other_bounds_make_other_designs_and_nothing_stays_of_the_old(project):
     before = designs_of(project)
     overlay(project, "config.yaml", "search: { variables: { stagger_deg.tip: [-2, 2] } }")

@@ -39,10 +39,9 @@ def test_a_run_with_a_name_reduces_nothing_again(structure_copy, monkeypatch):
         snakemake(structure_copy, file, "--cores", "1", "--config", f"run={{name: {name}}}")
         log = (structure_copy / f"logs/runs/{name}/Ref/reduced_model_pressure_edge.log").read_text()
         assert f"kept as {structure_copy}/cache/rom-" in log and ("independent at" in log) == reduced
-    before, first, same, heavy = (
-        read_dataset(structure_copy / f"results/{folder}Ref/rom_pressure_edge.nc")
-        for folder in ("", "runs/first/", "runs/same/", "runs/heavy/")
-    )
+    folders = ("Ref", "runs/first/Ref", "runs/same/Ref", "runs/heavy/Ref")
+    files = [structure_copy / f"results/{folder}/rom_pressure_edge.nc" for folder in folders]
+    before, first, same, heavy = map(read_dataset, files)
     xr.testing.assert_identical(before, first)
     xr.testing.assert_identical(first, same)
     assert not before["mass"].equals(heavy["mass"])

@@ -18,7 +18,6 @@ from r37core.figures.style import save
 from r37core.io import InputFileError
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.signals.dataset import gather_signals, signals_dataset
-from r37core.signals.extension import GaugeEntry
 from r37core.signals.figures import draw_orders, draw_spectrograms
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.orders import order_tracks, spectrogram, strongest_orders

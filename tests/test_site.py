@@ -20,19 +20,13 @@ def need(*packages):
         pytest.importorskip(name, reason="the packages of the site (make site)")
 
 
-@pytest.fixture
-def notebook(root):
-    need("nbformat")
+def test_the_notebook_is_that_of_the_script(root):
+    """`make tutorial` renews it."""
+    need("nbformat", "jupytext")
+    import jupytext
     import nbformat
 
-    return nbformat.read(root / "docs/tutorial.ipynb", as_version=4)
-
-
-def test_the_notebook_is_that_of_the_script(root, notebook):
-    """`make tutorial` renews it."""
-    need("jupytext")
-    import jupytext
-
+    notebook = nbformat.read(root / "docs/tutorial.ipynb", as_version=4)
     script = jupytext.read(root / "docs/tutorial.py")
     assert [cell.source for cell in notebook.cells] == [cell.source for cell in script.cells]
     assert all(cell.execution_count for cell in notebook.cells if cell.cell_type == "code")
@@ -104,7 +98,6 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
 
 @pytest.mark.slow
 def test_a_broken_link_is_refused(built):
-    """A link to a heading that is not there, in a site of one page."""
     _, status, errors = built[1]
     assert status
     assert "three" in errors
@@ -116,9 +109,13 @@ def formulas(page):
     return [one for pair in re.findall(r"\$\$(.+?)\$\$|\$([^$]+)\$", text, re.DOTALL) for one in pair if one]
 
 
-def test_every_equation_can_be_drawn(root):
+@pytest.fixture
+def drawing(root):
     need("sphinx", "ziamath")
-    drawing = runpy.run_path(str(root / "docs/site/equations.py"))["drawing"]
+    return runpy.run_path(str(root / "docs/site/equations.py"))["drawing"]
+
+
+def test_every_equation_can_be_drawn(root, drawing):
     found = {page.name: formulas(page.read_text()) for page in (root / "docs").glob("*.md")}
     assert sum(map(len, found.values())) > 20
     for name, equations in found.items():
@@ -126,17 +123,14 @@ def test_every_equation_can_be_drawn(root):
             assert "<path" in drawing(latex, inline=False), name
 
 
-def test_an_unknown_command_of_latex_is_refused(root):
-    need("sphinx", "ziamath")
+def test_an_unknown_command_of_latex_is_refused(drawing):
     from sphinx.errors import SphinxError
 
-    drawing = runpy.run_path(str(root / "docs/site/equations.py"))["drawing"]
     with pytest.raises(SphinxError, match="nosuchcommand"):
         drawing(r"a + \nosuchcommand{b}", inline=True)
 
 
 def test_every_page_is_in_the_site(root):
-    """Pages that nobody finds are lost."""
     index = (root / "docs/index.md").read_text()
     for page in (root / "docs").glob("*.md"):
         assert page.stem == "index" or re.search(rf"^{page.stem}$|<{page.stem}>$", index, re.MULTILINE), page.name

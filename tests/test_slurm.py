@@ -14,7 +14,7 @@ import netCDF4
 import numpy as np
 import pytest
 from overlays import overlay
-from workflow_runs import copy_project, snakemake
+from workflow_runs import copy_project, snakemake, wait_until
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
 MISSING = [program for program in PROGRAMS if not shutil.which(program, path=f"{os.environ['PATH']}:/usr/sbin")]
@@ -59,58 +59,41 @@ def free_port():
         return any_port.getsockname()[1]
 
 
-def wait_until(true, seconds, what):
-    end = time.monotonic() + seconds
-    while not true():
-        assert time.monotonic() < end, f"waited {seconds} s for {what}"
-        time.sleep(0.2)
-
-
 class Slurm:
     """Daemons of a cluster of one node, in a folder of their own."""
 
     def __init__(self, folder):
         self.folder = folder
-        self.environment = os.environ | {
-            "SLURM_CONF": str(folder / "slurm.conf"),
-            "PATH": f"{os.environ['PATH']}:/usr/sbin",
-        }
+        self.environment = os.environ | {"SLURM_CONF": str(folder / "slurm.conf"), "PATH": f"{os.environ['PATH']}:/usr/sbin"}
         for name in ("state", "spool"):
             (folder / name).mkdir()
         key = folder / "munge.key"
         key.write_bytes(np.random.default_rng().bytes(128))
         key.chmod(0o400)
-        (folder / "slurm.conf").write_text(
-            CONFIGURATION.format(
-                host=socket.gethostname().split(".")[0], controller=free_port(), node=free_port(), folder=folder
-            )
-        )
+        ports = {"controller": free_port(), "node": free_port()}
+        text = CONFIGURATION.format(host=socket.gethostname().split(".")[0], folder=folder, **ports)
+        (folder / "slurm.conf").write_text(text)
         files = {"key-file": key, "socket": folder / "munge.socket", "pid-file": folder / "munge.pid"}
         files |= {"log-file": folder / "munge.log", "seed-file": folder / "munge.seed"}
         options = [f"--{option}={file}" for option, file in files.items()]
         commands = (["munged", "--foreground", "--force", *options], ["slurmctld", "-D", "-c"], ["slurmd", "-D", "-c"])
         self.daemons = []
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         for command in commands:
-            self.daemons.append(
-                subprocess.Popen(
-                    command, env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
-                )
-            )
+            self.daemons.append(subprocess.Popen(command, env=self.environment, start_new_session=True, **quiet))
             if command[0] == "munged":
                 wait_until(files["socket"].exists, 20, "munged")
         wait_until(lambda: "idle" in self.call("sinfo", "--noheader", "--format=%t"), 60, "an idle node")
 
     def call(self, *command, cwd=None, **environment):
-        done = subprocess.run(
-            command, env=self.environment | environment, cwd=cwd, capture_output=True, text=True, timeout=60, check=False
-        )
+        environment = self.environment | environment
+        done = subprocess.run(command, env=environment, cwd=cwd, capture_output=True, text=True, timeout=60, check=False)
         return done.stdout + done.stderr
 
     def submit(self, project, *options, **environment):
         command = ("sbatch", "--parsable", "--cpus-per-task=1", *options, "cluster/sweep.sbatch")
-        said = self.call(
-            *command, cwd=project, R37_PYTHON=sys.executable, PYTHONPATH=str(project / "src"), **environment
-        ).strip()
+        environment |= {"R37_PYTHON": sys.executable, "PYTHONPATH": str(project / "src")}
+        said = self.call(*command, cwd=project, **environment).strip()
         assert said.isdigit(), said
         return said
 
@@ -150,8 +133,7 @@ def values(folder):
 def project(root, folder):
     copy_project(root, folder)
     shutil.copytree(root / "cluster", folder / "cluster")
-    speeds = "{ start: 1000, stop: 1400, step: 100, refine_to: 12.5 }"
-    overlay(folder, "config.yaml", f"{{ speeds: [{speeds}], scenes: [abradable] }}")
+    overlay(folder, "config.yaml", "{ speeds: [{ start: 1000, stop: 1400, step: 100, refine_to: 12.5 }], scenes: [abradable] }")
     return folder
 
 

@@ -24,14 +24,11 @@ from r37core.stability.figures import COLOURS, draw_stability
 from r37core.stability.judging import OUTCOMES, judge
 
 
-def test_every_extreme_has_a_name_of_its_own(settings):
+def test_every_extreme_has_a_name_of_its_own_and_says_what_the_configuration_refuses(settings):
     names = [extreme.name for extreme in plan.extremes(settings)]
     assert len(names) == len(set(names)) > 90
     # direct contact has no lining
     assert "bars_10__abradable" in names and "bars_10__direct" not in names
-
-
-def test_extremes_that_the_configuration_refuses_report_it(settings):
     planned = plan.cases(settings)
     assert len(planned) > 200
     refused = [case.refused for case in planned.values() if case.scene is None]

@@ -11,16 +11,12 @@ import types
 
 import pytest
 import xarray as xr
+from conftest import Terminal
 
 import r37
 from r37.command import main
 from r37.stages import LOGGER, bar, stages
 from r37core.units import RAD_S
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
 
 
 class Notebook(io.StringIO):
@@ -85,7 +81,7 @@ def test_a_word_that_computes_nothing_imports_nothing_that_computes(root, name):
     assert "r37core.config" not in names or name == "study_folder"
 
 
-def test_words_that_compute_nothing(root, capsys):
+def test_words_that_compute_nothing_and_what_is_refused(root, capsys):
     config = str(root / "config/config.yaml")
     for words, said in {
         ("--version",): f"r37 {r37.__version__}\n",
@@ -102,9 +98,6 @@ def test_words_that_compute_nothing(root, capsys):
     with pytest.raises(SystemExit):
         main(["--print-completion", "ksh"])
     assert "found 'ksh'; allowed: bash, zsh" in capsys.readouterr().err
-
-
-def test_two_files_of_blades_are_refused(capsys):
     assert main(["campbell", "mine.yaml", "--blades", "other.yaml"]) == 1
     assert capsys.readouterr().err == "r37: --blades: found other.yaml beside the file mine.yaml; allowed: one of them\n"
 
@@ -126,10 +119,8 @@ def test_the_command_answers_in_the_unit_of_the_speeds(monkeypatch, capsys):
     found = xr.Dataset(values | {"status": ("speed", [0])}, {"speed": [1700.0], "tip_point": ["leading_edge"]})
     monkeypatch.setitem(sys.modules, "r37.simulations", types.SimpleNamespace(sweep=lambda *_, **__: found))
     assert main(["simulate", "Ref", "direct", "1700", "--quiet"]) == 0
-    assert [line.split() for line in capsys.readouterr().out.splitlines()[1:]] == [
-        ["speed", "(rad/s)"],
-        ["1700.0", "1", "2", "completed"],
-    ]
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert lines[1:] == [["speed", "(rad/s)"], ["1700.0", "1", "2", "completed"]]
     assert main(["simulate", "Ref", "direct", f"{1700.0 / RAD_S['rpm']}", "--rpm", "--quiet"]) == 0
     head, name, row = capsys.readouterr().out.splitlines()
     assert head.split()[:2] == ["speed", "(rad/s)"] and name.strip() == "speed (rpm)"

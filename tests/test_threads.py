@@ -1,6 +1,7 @@
 """Calls of r37 from several threads give the bits of one, and leave the process as it was."""
 
 import copy
+import os
 import pickle
 import subprocess
 import sys
@@ -17,7 +18,7 @@ from r37core.dataset_file import NETCDF_LOCK, lazy_dataset, write_dataset
 from r37core.kept import kept_file
 from r37core.process_wide import ProcessWide
 
-SIMULATIONS = """
+IMPORTS = """
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -27,6 +28,8 @@ import xarray as xr
 import r37
 
 config, folder = sys.argv[1], Path(sys.argv[2])
+"""
+SIMULATIONS = """
 speeds = [1000.0 + 10.0 * number for number in range(20)]
 
 
@@ -48,14 +51,6 @@ for responses in of_threads:
 """
 
 CALLS = """
-import sys
-from concurrent.futures import ThreadPoolExecutor
-
-import xarray as xr
-
-import r37
-
-config = sys.argv[1]
 adaptive = {"start": 1100, "stop": 1200, "step": 50, "refine_to": 25}
 calls = {
     "campbell": lambda: r37.campbell("Ref", config=config),
@@ -79,30 +74,25 @@ def study(root, tmp_path_factory):
     return folder
 
 
-def run(code, study):
-    """Run code in a process of its own, which a crash ends, and give what it prints."""
-    command = [sys.executable, "-c", code, study / "config/config.yaml", study]
-    ended = subprocess.run(command, capture_output=True, text=True, timeout=500)
+def run(code, study, cache):
+    """Run code in a process of its own, which a crash ends, with structures of a cache of its own; give what it prints."""
+    command = [sys.executable, "-c", IMPORTS + code, study / "config/config.yaml", study]
+    environment = os.environ | {"R37_CACHE": str(cache)}
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=500)
     assert ended.returncode == 0, ended.stderr[-2000:]
     return ended.stdout
 
 
-@pytest.fixture
-def environment(tmp_path, monkeypatch):
-    """Structures of a cache of its own."""
-    monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
-
-
 @pytest.mark.slow
-def test_eight_threads_of_twenty_runs_give_the_bits_of_one(compiled, study, environment):
-    printed = run(SIMULATIONS, study)
+def test_eight_threads_of_twenty_runs_give_the_bits_of_one(compiled, study, tmp_path):
+    printed = run(SIMULATIONS, study, tmp_path)
     # nothing that a caller prints is lost
     assert sorted(printed.split("\n")) == ["", *(f"thread {number}" for number in range(9))]
 
 
 @pytest.mark.slow
-def test_every_call_may_run_in_two_threads(compiled, study, environment):
-    run(CALLS, study)
+def test_every_call_may_run_in_two_threads(compiled, study, tmp_path):
+    run(CALLS, study, tmp_path)
 
 
 def test_a_setting_of_the_process_lasts_as_long_as_any_thread_wants_it():

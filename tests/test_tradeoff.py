@@ -1,5 +1,6 @@
 """The trade-off: its numbers by hand, and small real runs, on a blade of another program too."""
 
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -48,15 +49,14 @@ def small_case(rms):
 def test_errors_compare_means_over_neighbouring_speeds():
     responses = {"bars/1__lined": small_case([1.0, 2.0, 3.0, 1.0, 0.5]), "bars/2__lined": small_case([3.0, 2.0, 1.0, 1.0, 1.0])}
     together = gather_cases(responses, PLACES, {"bars": "2"})
-    error = together["error"].isel(case=0, scene=0).sel(quantity="rms_normal")
+    one = together.isel(case=0, scene=0)
+    error = one["error"].sel(quantity="rms_normal")
     assert error.sel(at="peak").item() == pytest.approx(0.0)  # means agree though no speed but one does
     assert error.sel(at="off_resonance").item() == pytest.approx(0.5)
-    assert together["scatter"].isel(case=0, scene=0).sel(quantity="rms_normal", at="peak").item() == pytest.approx(
-        np.sqrt((4 / 9 + 0 + 4) / 3)
-    )
-    first = (100 * 1 + 101 * 4 + 102 * 9 + 105) / 15
-    second = (100 * 9 + 101 * 4 + 102 + 105) / 15
-    assert together["peak_speed_error"].isel(case=0, scene=0).item() == pytest.approx(abs(first / second - 1))
+    scatter = one["scatter"].sel(quantity="rms_normal", at="peak").item()
+    assert scatter == pytest.approx(np.sqrt((4 / 9 + 0 + 4) / 3))
+    first, second = (100 * 1 + 101 * 4 + 102 * 9 + 105) / 15, (100 * 9 + 101 * 4 + 102 + 105) / 15
+    assert one["peak_speed_error"].item() == pytest.approx(abs(first / second - 1))
     assert np.all(together["error"].isel(case=1).sel(at="peak") == 0.0)
 
 
@@ -137,12 +137,9 @@ def test_exponent_of_a_power_law():
 
 @pytest.mark.parametrize("instants", [60, 1000])
 def test_stress_instants_are_among_the_samples(root, instants):
-    changes = command_line_document(
-        {"tradeoff": {"parameters": {"stress_instants": {"values": [62, instants], "reference": 62}}}}
-    )
-    message = rf"tradeoff\.parameters\.stress_instants\.values\.1: found {instants}; allowed: divisors of 496, the"
-    with pytest.raises(ConfigError, match=message):
-        read_settings(root, changes)
+    parameters = {"stress_instants": {"values": [62, instants], "reference": 62}}
+    with pytest.raises(ConfigError, match=rf"stress_instants\.values\.1: found {instants}; allowed: divisors of 496, the"):
+        read_settings(root, command_line_document({"tradeoff": {"parameters": parameters}}))
 
 
 def test_blades_of_ones_own_alone(config_copy):
@@ -160,15 +157,13 @@ def test_a_blade_that_is_not_run_asks_for_nothing(root):
     assert filled(plan.targets(Sweep(settings))) == [] and plan.left_out(settings) == ""
 
 
-SMALL = (
-    "tradeoff: { parameters: { level: { values: [tiny, draft], reference: draft }, "
-    "bars: { values: [3000, 10000], reference: 10000 }, revolutions: { values: [2, 3, 4], reference: 4 } } }"
-)
-
-
 @pytest.mark.slow
 def test_tradeoff_of_a_small_sweep(compiled, project):
-    overlay(project, "config.yaml", SMALL)
+    asked = (
+        "tradeoff: { parameters: { level: { values: [tiny, draft], reference: draft }, "
+        "bars: { values: [3000, 10000], reference: 10000 }, revolutions: { values: [2, 3, 4], reference: 4 } } }"
+    )
+    overlay(project, "config.yaml", asked)
     said = snakemake(project, "tradeoff", "--cores", "2")
     assert " the tolerance of 5%" in said and "look at results/figures/tradeoff.png" in said
     results = r37.open_results(project / "results")
@@ -190,18 +185,16 @@ def test_python_makes_what_a_section_asks_for(monkeypatch, root):
     assert asked == [["tables", "tradeoff"], ["tables"], ["stability"]]
 
 
-OF_FAN = (
-    "tradeoff: { scenes: [direct], parameters: { boundary_nodes: { values: [2, 3, 90], reference: 3 }, "
-    "mesh_nodes: { values: [2500, 5000], reference: 5000 }, revolutions: { values: [2, 4], reference: 4 } } }\n"
-    "stability: { scenes: [direct], extremes: [boundary_nodes, mesh_nodes] }"
-)
-
-
 @pytest.mark.slow
 def test_a_mesh_of_another_program(root, drawn, tmp_path):  # noqa: F811
     """The mesh stays as it is; contact nodes and runs vary."""
     project = with_example(root, drawn, tmp_path, copy_project)
-    overlay(project, "config.yaml", OF_FAN)
+    asked = (
+        "tradeoff: { scenes: [direct], parameters: { boundary_nodes: { values: [2, 3, 90], reference: 3 }, "
+        "mesh_nodes: { values: [2500, 5000], reference: 5000 }, revolutions: { values: [2, 4], reference: 4 } } }\n"
+        "stability: { scenes: [direct], extremes: [boundary_nodes, mesh_nodes] }"
+    )
+    overlay(project, "config.yaml", asked)
     said = snakemake(project, "tradeoff", "stability", "estimate", "--cores", "2")
     assert "left out: mesh_nodes, because Fan is given by a mesh" in said
     tables = r37.open_results(project / "results").tables
@@ -210,5 +203,9 @@ def test_a_mesh_of_another_program(root, drawn, tmp_path):  # noqa: F811
     assert boundary["error_rms_normal"].iloc[1] == 0.0 and boundary["cpu_s"].iloc[0] > 0.0
     refused = tables["stability"].query("outcome == 'refused'")
     assert set(refused["what"]) == {"boundary_nodes", "mesh_nodes"}
+    assert re.search(r"estimate: \d+ simulations at most, ", said)
+    costs = tables["estimate"].set_index("part")
+    assert 0.0 < costs.loc["time integration", "core_hours"] < 60.0 / 3600.0
+    assert 0.01 < costs.loc["start-up", "core_s_per_simulation"] < 2.0
     for name in ("tradeoff", "tradeoff_boundary_nodes", "tradeoff_revolutions", "stability", "estimate"):
         assert (project / f"results/figures/{name}.png").exists()

@@ -2,7 +2,6 @@
 
 import json
 import math
-import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -13,12 +12,11 @@ from r37core.config import ConfigError, command_line_document
 from r37core.config.speed_choice import most_runs
 from r37core.contact.scene import Scene
 from r37core.estimate import plan as estimate
-from r37core.io import InputFileError
 from r37core.plain import from_plain
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
-from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep, speeds_of_round
+from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
@@ -27,17 +25,14 @@ from r37core.speeds import SpeedPlan
 from r37core.tolerances.members import members_of
 from r37core.tolerances.plan import RESPONSE_OF_MEMBER, Tolerances
 
+PLACES = {"blades": ["Ref", "L50"], "scenes": ["abradable", "direct"]}
+
 
 @pytest.fixture(scope="module")
 def chosen(root):
     """Two blades in two scenes, at two speeds of which one is of one blade only."""
-    changes = {
-        "blades": ["Ref", "L50"],
-        "scenes": ["abradable", "direct"],
-        "speeds": [900, 1234.5],
-        "speeds_for": [{"blades": ["L50"], "scenes": ["direct"], "speeds": [1000.25]}],
-    }
-    return read_settings(root, command_line_document(changes))
+    rule = {"blades": ["L50"], "scenes": ["direct"], "speeds": [1000.25]}
+    return read_settings(root, command_line_document({**PLACES, "speeds": [900, 1234.5], "speeds_for": [rule]}))
 
 
 def of(**wildcards):
@@ -58,11 +53,7 @@ def test_speeds_and_their_files(chosen):
     assert sweep.speed_files(L50) == ["<results>/L50/direct/speed_1000.25.npz"]
 
 
-REFINED = {
-    "blades": ["Ref", "L50"],
-    "scenes": ["abradable", "direct"],
-    "speeds": [{"start": 900, "stop": 1000, "step": 50, "refine_to": 5}],
-}
+REFINED = {**PLACES, "speeds": [{"start": 900, "stop": 1000, "step": 50, "refine_to": 5}]}
 
 
 @pytest.fixture
@@ -79,7 +70,8 @@ def refining(root, tmp_path):
     return Sweep(read_settings(root, command_line_document(REFINED)), file_of_round)
 
 
-def test_speeds_of_all_rounds_are_reduced(refining):
+def test_speeds_of_all_rounds_are_reduced_and_their_estimate_is_their_share(refining):
+    assert estimate.values(refining.settings, {})["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
     names = [file.rsplit("_", 1)[1] for file in refining.speed_files(REF)]
     assert names == ["900.npz", "925.npz", "950.npz", "1000.npz"]
     with pytest.raises(KeyError):
@@ -95,20 +87,14 @@ def test_a_round_reads_what_the_one_before_asked_for(refining):
     }
 
 
-TOLERANCES = {
-    "members": 2,
-    "sensitivity": True,
-    "blades": ["Ref"],
-    "largest_share": 0.4,
-    "of_scenes": {"lining.thickness_m": {"uniform_percent": 5.0}},
-    "of_blades": {"material.yield_stress_pa": {"values": [1.0e9]}, "thickness_percent": {"values": [100.0, 102.0]}},
-}
-
-
 @pytest.fixture
 def with_members(root, tmp_path):
     """The same with members beside it: of the sample one has the nominal blade and one another, all yield early."""
-    settings = read_settings(root, command_line_document(REFINED | {"tolerances": TOLERANCES}))
+    tolerances = {"members": 2, "sensitivity": True, "blades": ["Ref"], "largest_share": 0.4}
+    tolerances["of_scenes"] = {"lining.thickness_m": {"uniform_percent": 5.0}}
+    thickness = {"thickness_percent": {"values": [100.0, 102.0]}}
+    tolerances["of_blades"] = {"material.yield_stress_pa": {"values": [1.0e9]}} | thickness
+    settings = read_settings(root, command_line_document(REFINED | {"tolerances": tolerances}))
     (tmp_path / "round.json").write_text('{"new": [925], "measured": []}')
 
     def file_of_round(member, blade, scene, round):
@@ -153,10 +139,8 @@ def test_members_keep_no_history_of_the_stress(with_members):
     history = settings.scene_entries["abradable"].model_copy(update={"stress_history_speeds_rad_s": [900.0]})
     settings = replace(settings, scene_entries=settings.scene_entries | {"abradable": history})
     sweep = Sweep(settings, None, {"tolerances": Tolerances(settings).samples})
-    kept = [
-        json.loads(Simulations(sweep).task(of(**vars(REF), member=member, speed="900")))["choice"]["snapshot_revolutions"]
-        for member in ("", "tolerances/0/")
-    ]
+    places = [of(**vars(REF), member=member, speed="900") for member in ("", "tolerances/0/")]
+    kept = [json.loads(Simulations(sweep).task(place))["choice"]["snapshot_revolutions"] for place in places]
     assert kept == [settings.scenes["abradable"].revolutions, settings.scenes["abradable"].revolutions // 2]
 
 
@@ -173,16 +157,6 @@ def test_a_round_of_members_reads_those_of_the_sample(with_members):
     assert rounds.refinement_choice(sample)["largest_share"] == 0.4 != rounds.refinement_choice(REF)["largest_share"]
     assert len(tolerances.runs) == 2 * 2 * 5 - 2 and len(tolerances.runs_of_sample) == 2 * 2
     assert filled({RESPONSE_OF_MEMBER: tolerances.runs})[0] == "<results>/tolerances/0/Ref/abradable/response.nc"
-
-
-@pytest.mark.parametrize(
-    ("part", "fits"),
-    [("", True), ("tolerances/", True), ("tolerances/0f1/", True), ("tolerances/0/1/", False), ("other/0/", False)],
-)
-def test_the_wildcard_of_a_member(with_members, part, fits):
-    tolerances, _ = with_members
-    pattern = Sweep(tolerances.settings, None, {"tolerances": tolerances.samples}).samples.pattern
-    assert bool(re.fullmatch(pattern, part)) == fits
 
 
 def test_what_a_round_is_told_is_what_it_takes(refining):
@@ -213,24 +187,11 @@ def test_without_a_lining_a_round_has_a_share_of_its_own_and_no_windows(root):
         read_settings(root, command_line_document(run | chosen))
 
 
-@pytest.mark.parametrize("content", ["{}", '{"new": 3}', '{"new": ["x"]}', "{"])
-def test_a_damaged_round_is_named(content, tmp_path):
-    (tmp_path / "round_0.json").write_text(content)
-    with pytest.raises(InputFileError, match=r"round_0\.json: cannot be read .*; if it is a result, delete it and run again"):
-        speeds_of_round(str(tmp_path / "round_0.json"))
-
-
-def test_estimate_of_speeds_that_refine_themselves_is_their_share(refining):
-    assert estimate.values(refining.settings, {})["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
-
-
-def test_models_of_a_scene(chosen):
+def test_models_of_a_scene_and_without_stress_no_basis(chosen):
     sweep = Sweep(chosen)
     assert sweep.contact_model(REF) == "<results>/Ref/contact_pressure_edge.npz"
     assert sweep.stress_operator(L50) == ["<results>/L50/stress_pressure_edge.npz"]
-
-
-def test_a_scene_without_stress_needs_no_basis(chosen):
+    assert Structure(chosen).reduction(of(blade="Ref", tip_line="camber"))["boundary"]["tip_line"] == "camber"
     plain = chosen.scene_entries["direct"].model_copy(update={"results": ["spectrum"]})
     sweep = Sweep(replace(chosen, scene_entries=chosen.scene_entries | {"direct": plain}))
     assert sweep.stress_operator(L50) == []
@@ -256,20 +217,6 @@ def test_datasets_join_the_runs_that_have_their_kind(chosen):
     assert datasets.runs(of(kind="rms")) == every
     assert datasets.runs(of(kind="wear")) == [("Ref", "abradable"), ("L50", "abradable")]
     assert datasets.responses(of(kind="wear")) == [f"<results>/{blade}/abradable/response.nc" for blade in ("Ref", "L50")]
-
-
-def test_blades_are_finished_one_after_another(chosen):
-    simulations = Simulations(Sweep(chosen))
-    assert simulations.priority(of(blade="Ref")) == 1.0
-    assert 0.0 < simulations.priority(of(blade="L50")) < 1.0
-
-
-def test_matrices_do_not_depend_on_the_yield_stress(chosen):
-    structure = Structure(chosen)
-    assert structure.material(REF)["yield_stress"] == 1.38e9
-    assert structure.elastic(REF) == structure.material(REF) | {"yield_stress": math.inf}
-    assert structure.definition(REF) != structure.definition(L50)
-    assert structure.reduction(of(blade="Ref", tip_line="camber"))["boundary"]["tip_line"] == "camber"
 
 
 def test_provenance(chosen):
@@ -340,22 +287,14 @@ def test_targets_are_what_the_configuration_asks_for(config_copy):
 def test_run_ups_are_planned_like_speeds(root):
     """Of chosen blades, families among them, and scenes; from the Campbell diagram where they are about a crossing of it."""
     crossing = {"mode": "1B", "engine_order": 4, "first": -0.02, "last": 0.08}
-    changes = {
-        "blades": ["Ref", "L50"],
-        "scenes": ["abradable", "direct"],
-        "run_ups": {
-            "climb": {"from_rpm": 9000, "to_rpm": 12000, "rate_rpm_s": 300, "blades": ["L50"]},
-            "down": {"crossing": crossing, "revolutions": 40, "scenes": ["direct"], "revolutions_before": 30},
-        },
+    run_ups = {
+        "climb": {"from_rpm": 9000, "to_rpm": 12000, "rate_rpm_s": 300, "blades": ["L50"]},
+        "down": {"crossing": crossing, "revolutions": 40, "scenes": ["direct"], "revolutions_before": 30},
     }
-    settings = read_settings(root, command_line_document(changes))
+    settings = read_settings(root, command_line_document({**PLACES, "run_ups": run_ups}))
     planned = RunUps(Sweep(settings))
-    assert planned.runs == [
-        ("Ref", "direct", "down"),
-        ("L50", "abradable", "climb"),
-        ("L50", "direct", "climb"),
-        ("L50", "direct", "down"),
-    ]
+    runs = ["Ref direct down", "L50 abradable climb", "L50 direct climb", "L50 direct down"]
+    assert [" ".join(run) for run in planned.runs] == runs
     climb = of(blade="L50", scene="abradable", run_up="climb")
     down = of(blade="Ref", scene="direct", run_up="down")
     assert set(planned.inputs(climb)) == {"prepared", "model", "stress"}

@@ -27,14 +27,6 @@ COMMON += ("snakemake.cli", "snakemake.dag", "snakemake.profiles", "snakemake.st
 """What Snakemake imports for every plan; what the rules import is read from them."""
 
 
-_used = [0.0]
-
-
-def cpu_time():
-    """CPU time (s) of all commands that have ended, for which only their server waits."""
-    return _used[0]
-
-
 def run(folder, arguments, environment, seconds, jobs=None):
     """Exit status and what is printed, output before errors; killed after `seconds`.
 
@@ -57,9 +49,7 @@ def started(folder, arguments, environment, seconds, jobs=None):
         number = int(server.stdout.readline())
 
         def end():
-            status, used = server.stdout.readline().split()
-            _used[0] += float(used)
-            return int(status), "".join(Path(file).read_text() for file in files)
+            return int(server.stdout.readline()), "".join(Path(file).read_text() for file in files)
 
         yield number, end
 
@@ -73,7 +63,7 @@ def _server():
 
 
 def _serve():
-    """Answer each line of JSON, an order, with its process, and then with the exit status and the CPU time (s).
+    """Answer each line of JSON, an order, with its process, and then with the exit status.
 
     Returns in the fork, with its order; None at the end.
     """
@@ -86,8 +76,7 @@ def _serve():
             # whoever comes first
             os.setpgid(child, child)
         print(child, flush=True)
-        _, status, used = os.wait4(child, 0)
-        print(os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime, flush=True)
+        print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
     return None
 
 

@@ -1,5 +1,6 @@
 """Copies of the project with a small sweep, and Snakemake run on them."""
 
+import hashlib
 import os
 import shutil
 import signal
@@ -46,6 +47,19 @@ def copy_finished(finished, to):
     return to
 
 
+def digests(project):
+    """SHA-256 of all files in `results`, by their paths in the project."""
+    files = [file for file in sorted((project / "results").rglob("*")) if file.is_file()]
+    return {str(file.relative_to(project)): hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+
+
+def lose_speed(file):
+    """Remove the file and what was made of it: Snakemake makes nothing again that only finished files would need."""
+    results = file.parents[2]
+    for lost in (file, file.parent / "response.nc", *results.glob("*.nc"), *results.glob("figures/*")):
+        lost.unlink()
+
+
 def own_package(project):
     """Let a copy have a package of its own, to be edited; `src/r37/config` is a link to the copy's configuration there."""
     source = project / "src"
@@ -80,8 +94,7 @@ def copy_odd_project(root, to):
 
 def run_in_odd_project(folder, *command, **environment):
     """What the command prints. It may run nothing that stands in the folder's name."""
-    kept = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
-    environment = kept | {"PYTHONPATH": str(folder / "src")} | environment
+    environment = _environment(folder) | {"R37_FULL_LOG": ""} | environment
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert not list(folder.parent.rglob("EXECUTED"))
@@ -110,6 +123,13 @@ def kill_snakemake(folder, *arguments, when):
             time.sleep(0.01)
         with suppress(ProcessLookupError):
             os.killpg(number, signal.SIGKILL)
+
+
+def wait_until(happened, seconds, what):
+    end = time.monotonic() + seconds
+    while not happened():
+        assert time.monotonic() < end, f"waited {seconds} s for {what}"
+        time.sleep(0.02)
 
 
 def _environment(folder):
