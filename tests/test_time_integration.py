@@ -263,3 +263,22 @@ def test_the_tip_is_the_line_wherever_its_contact_nodes_lie(model, contact):
     assert inner.displacement_operator.shape[1] == len(line.nodes[2:-2:3])
     np.testing.assert_array_equal(inner.tip_displacement_operator, contact.tip_displacement_operator)
     assert inner.tip_cone_angle == contact.tip_cone_angle
+
+
+def test_discrete_energy_tends_to_the_exact_one_with_the_step():
+    """A damped oscillator keeps exp(-2 xi omega t) of its energy; what is off shrinks with the step."""
+    frequency, ratio = 50_000.0, 0.01
+    errors = []
+    for step in (4e-6, 2e-6, 1e-6):
+        scene = Scene(Casing(1.0, lobes=0), damping_ratio=ratio)
+        choice = IntegrationChoice(step, 2, 100)
+        simulation = Simulation(oscillator(frequency), 1000.0, scene, choice)
+        state = simulation.start()
+        state.displacement[:] = 1e-3
+        simulation.advance(state, choice.revolutions)
+        exact = 0.5 * (frequency * 1e-3) ** 2
+        lost = exact * (1.0 - np.exp(-2.0 * ratio * frequency * simulation.problem.grid.duration))
+        errors.append(abs(state.totals["loss"] / lost - 1.0))
+        assert simulation.energy(state) + state.totals["loss"] == pytest.approx(exact, rel=1e-10)
+    assert errors[0] < 0.01
+    assert errors[2] < errors[1] < errors[0]

@@ -30,7 +30,7 @@ from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
 from r37core.tolerances.figures import draw_tolerances
 from r37core.tolerances.members import members_of
-from r37core.tolerances.number_ranks import ranking, share_ends
+from r37core.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
 from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.table import _matched, range_table, ranges
 
@@ -592,3 +592,11 @@ def test_each_nominal_interaction_has_its_share_and_members_go_to_the_nearest():
     low, high = interactions_of((1000.0, 0.01, 3)), interactions_of((1500.0, 0.01, 3))
     assert shares_of_members(low, {"0": high}, wide) == [1.0]
     assert shares_of_members(low, {"0": high}, InteractionChoice(below=0.0, above=0.49)) == [0.0]
+
+
+@pytest.mark.parametrize("chance", [0.02, 0.5, 0.93])
+def test_the_interval_of_a_chance_misses_it_as_seldom_as_said(chance):
+    counts = np.random.default_rng(0).binomial(16, chance, 20000)
+    low, high = share_ends(counts, 16)
+    assert np.mean((low > chance) | (high < chance)) <= 1.0 - CONFIDENCE
+    assert low[counts == 0].sum() == 0.0 and np.all(high[counts == 16] == 1.0)
