@@ -60,7 +60,7 @@ def _draw_response(axes: Axes, runs: dict[str, Any]) -> None:
             axes.plot(row.peak, 1.08 * top, "v", color=SCENES["lined"][1], markersize=5, linestyle="none", label=label)
     axes.plot(DIRECT_PEAK, 1.08 * top, "v", color=SCENES["direct"][1], markersize=5, linestyle="none")
     axes.set(xlabel="speed (rad/s)", ylabel="rms of the tip's motion (mm)", ylim=(0.0, 1.25 * top))
-    axes.legend(loc="upper left", bbox_to_anchor=(0.49, 0.8))
+    axes.legend(loc="upper left", bbox_to_anchor=(0.49, 0.76), handlelength=1.2)
 
 
 def _save(figure: Figure, file: str) -> None:

@@ -38,7 +38,7 @@ class Reduction(Section):
 
 
 class Measured(Section):
-    """Error and cost on the worst of seven blades (docs/accuracy.md), for `fidelity: auto`."""
+    """Error and cost on the worst measured blade (docs/accuracy.md), for `fidelity: auto`."""
 
     error: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = left_out(
         "Mean relative error of rms, except with bare casing on points; auto needs it"

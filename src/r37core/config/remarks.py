@@ -14,7 +14,7 @@ LONG_RUN = 10.0
 """CPU time (s) of one simulation from which on it is said before a run starts."""
 
 LARGE_FRICTION = 0.2
-"""Coefficient up to which the two integrators agree within 2% in direct contact on patches, where the motion is settled."""
+"""Coefficient up to which the two integrators agree within 2% on average, in direct contact on patches, at settled speeds."""
 
 
 def remarks_of_pipeline(settings: Settings) -> list[str]:
