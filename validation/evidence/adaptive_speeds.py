@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from r37core.adaptive.refinement_choice import RefinementChoice
 from r37core.adaptive.replay import replay
 from r37core.config import plain
 from r37core.dataset_file import read_dataset
@@ -84,7 +85,7 @@ def tables(input: Any, output: Any, params: Any) -> None:
     for file in as_list(input.files):
         blade, scene = Path(file).parts[-3:-1]
         response, campbell, plan = read_dataset(file), diagrams.sel(blade=blade), settings.speed_plans[blade, scene]
-        choice = rounds.refinement_choice(SimpleNamespace(blade=blade, scene=scene))
+        choice = from_plain(RefinementChoice, rounds.refinement_choice(SimpleNamespace(blade=blade, scene=scene)))
         ways = {"adaptive": replay(response, campbell, plan, choice)}
         ways |= {f"every {step:g} rad/s": [plain_grid(plan, step)] for step in STEPS}
         outcomes[blade, scene] = {way: compare(response, campbell, speeds, interactions) for way, speeds in ways.items()}
