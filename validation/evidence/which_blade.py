@@ -51,7 +51,7 @@ class Models:
 
 def length_text(length: float, scatter: float = np.nan) -> str:
     """A length (rad/s), with its scatter where it has one."""
-    return f"{length:.0f}" + ("" if np.isnan(scatter) else f" ± {max(scatter, 1.0):.0f}")
+    return f"{length:.0f}" + ("" if pd.isna(scatter) else f" ± {max(scatter, 1.0):.0f}")
 
 
 def lengths(response: xr.Dataset) -> str:
@@ -69,7 +69,7 @@ def rankings(input: Any, output: Any, params: Any) -> None:
         cells = [blade]
         for scene in SCENES:
             row = tables["patches"].loc[scene, blade]
-            cells += [str(row["rank"])] + [_lengths_of_row(table.loc[scene, blade]) for table in tables.values()]
+            cells += [f"{row['rank']:g}"] + [_lengths_of_row(table.loc[scene, blade]) for table in tables.values()]
         rows.append(cells)
     kinds = ("place", *tables)
     write_table(["blade", *(f"{words}: {kind}" for words in SCENES.values() for kind in kinds)], rows, output.table)
