@@ -36,7 +36,7 @@ use rule evidence as accuracy_on_mesh with:
 
 use rule evidence as accuracy_levels with:
     input:
-        files=accuracy_runs,
+        unpack(behind_engine(*accuracy_runs)),
     output:
         levels=f"{TABLES}/accuracy_levels.csv",
         steep=f"{TABLES}/accuracy_steep.csv",
@@ -49,7 +49,7 @@ use rule evidence as accuracy_levels with:
 
 use rule evidence as accuracy_convergence with:
     input:
-        files=accuracy_runs,
+        unpack(behind_engine(*accuracy_runs)),
     output:
         mesh=f"{TABLES}/accuracy_mesh.csv",
         motion=f"{TABLES}/accuracy_motion.csv",
@@ -62,7 +62,7 @@ use rule evidence as accuracy_convergence with:
 
 use rule evidence as accuracy_chance with:
     input:
-        files=[file for file in accuracy_runs if file.endswith("_20000.csv")],
+        unpack(behind_engine(*[file for file in accuracy_runs if file.endswith("_20000.csv")])),
     output:
         table=f"{TABLES}/accuracy_chance.csv",
         friction=f"{TABLES}/accuracy_friction.csv",
@@ -74,7 +74,7 @@ use rule evidence as accuracy_chance with:
 
 use rule evidence as accuracy_patches with:
     input:
-        files=accuracy_runs,
+        unpack(behind_engine(*accuracy_runs)),
     output:
         blades=f"{TABLES}/accuracy_patches_blades.csv",
         published=f"{TABLES}/accuracy_published_direct.csv",
@@ -88,7 +88,7 @@ use rule evidence as accuracy_patches with:
 
 use rule evidence as accuracy_picture with:
     input:
-        files=accuracy_runs,
+        unpack(behind_engine(*accuracy_runs)),
     output:
         picture="docs/contact_patches.png",
     log:

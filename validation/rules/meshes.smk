@@ -25,7 +25,7 @@ use rule evidence as remeshed_blade with:
 
 use rule evidence as remeshed with:
     input:
-        files=[f"results/validation/remeshed/{blade}.json" for blade in REMESHED],
+        unpack(behind_engine(*[f"results/validation/remeshed/{blade}.json" for blade in REMESHED])),
     output:
         table=f"{TABLES}/remeshed.csv",
     log:

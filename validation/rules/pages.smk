@@ -3,7 +3,7 @@
 
 use rule evidence as page with:
     input:
-        lambda wildcards: pages.tables(f"{wildcards.page}.md"),
+        unpack(lambda wildcards: behind_engine(*pages.tables(f"{wildcards.page}.md"))(wildcards)),
     output:
         update("{page}.md"),
     log:

@@ -104,7 +104,7 @@ use rule evidence as published_checks with:
 
 use rule evidence as published_choices with:
     input:
-        histories("standard", *windows.ALL_CHOICES),
+        unpack(behind_engine(*histories("standard", *windows.ALL_CHOICES))),
     output:
         table=f"{TABLES}/modelling_choices.csv",
         short=f"{TABLES}/modelling_choices_short.csv",
@@ -117,7 +117,7 @@ use rule evidence as published_choices with:
 
 use rule evidence as published_ranges with:
     input:
-        histories("paper", "standard", *windows.ALL_MEMBERS),
+        unpack(behind_engine(*histories("paper", "standard", *windows.ALL_MEMBERS))),
     output:
         table=f"{TABLES}/validation_ranges.csv",
         short=f"{TABLES}/validation_ranges_short.csv",

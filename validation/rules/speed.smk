@@ -46,7 +46,7 @@ use rule evidence as speed_steps with:
 
 use rule evidence as speed_growth with:
     input:
-        files=accuracy_runs,
+        unpack(behind_engine(*accuracy_runs)),
     output:
         table=f"{TABLES}/speed_growth.csv",
     log:
