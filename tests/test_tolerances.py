@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 import yaml
 from defaults import InteractionChoice
+from matplotlib.colors import to_rgb
 from test_interactions import campbell, response
 
 from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
@@ -18,6 +19,7 @@ from r37core.config import ConfigError, Document
 from r37core.config.spread import Spread
 from r37core.console.leftovers import leftovers
 from r37core.dataset_file import write_dataset
+from r37core.figures import style
 from r37core.io import InputFileError
 from r37core.plans.member_values import is_of_sample, number_of, sobol_points
 from r37core.product.reading import read_settings
@@ -446,6 +448,8 @@ def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
     assert found["sobol_place_low"].isnull().all()
     figure = draw_tolerances(tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable"), branch(1700.0), "Ref")
     assert len(figure.subfigs) == 3
+    named = [[handle.get_facecolor()[:3] for handle in part.axes[0].get_legend().legend_handles] for part in figure.subfigs[1:]]
+    assert named == 2 * [[to_rgb(colour) for colour in style.COLOURS[:3]]]
     plt.close(figure)
 
 

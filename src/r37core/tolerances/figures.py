@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from r37core.figures import style
 from r37core.results.measures import leading_edge
@@ -87,15 +88,14 @@ def _numbers(axes: Axes, tolerances: xr.Dataset, size: str, rank: str) -> None:
     low, high = (tolerances[f"{rank}_{end}"] for end in ("low", "high"))
     # a number that may have any place has none
     known = low.notnull() & (high - low + 1 < tolerances[size].notnull().sum("number"))
-    for row, (measure, label) in enumerate(_MEASURES.items()):
+    for row, measure in enumerate(_MEASURES):
         places = np.arange(len(numbers)) + (row - 0.5 * (len(_MEASURES) - 1)) * width
         bottom, value, top = (tolerances[f"{size}{end}"].sel(measure=measure).values for end in ("_low", "", "_high"))
         clear = known.sel(measure=measure).values
         look: dict[str, Any] = {"color": style.COLOURS[row], "error_kw": {"linewidth": 0.6, "ecolor": "0.3"}}
         for chosen, alpha in ((clear, 0.7), (~clear, 0.15)):
             ends = np.abs(np.array([bottom, top]) - value)[:, chosen]
-            shown = label if chosen is clear else None
-            axes.bar(places[chosen], value[chosen], 0.9 * width, yerr=ends, alpha=alpha, label=shown, **look)
+            axes.bar(places[chosen], value[chosen], 0.9 * width, yerr=ends, alpha=alpha, **look)
         for x, height, first, last in zip(
             places[clear], top[clear], *(of.sel(measure=measure).values[clear] for of in (low, high)), strict=True
         ):
@@ -108,4 +108,6 @@ def _numbers(axes: Axes, tolerances: xr.Dataset, size: str, rank: str) -> None:
     # room for the legend
     bottom_end, top_end = axes.get_ylim()
     axes.set_ylim(bottom_end, top_end + 0.25 * (top_end - bottom_end))
-    axes.legend(loc="upper right", ncols=3)
+    # not those of the bars: a measure may have none whose place is known
+    named = [Patch(color=style.COLOURS[row], alpha=0.7, label=label) for row, label in enumerate(_MEASURES.values())]
+    axes.legend(handles=named, loc="upper right", ncols=3)
