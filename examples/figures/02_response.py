@@ -1,6 +1,6 @@
 """Response over speed.
 
-Adaptive speeds are close at the peaks, which lie slightly above the dotted crossings.
+Adaptive speeds are close at the peaks; the largest lie slightly above dotted crossings.
 """
 
 import r37
