@@ -23,7 +23,7 @@ from r37core.io import FILE_ATTRIBUTES
 from r37core.product.extensions import EXTENSIONS
 
 LAYERS = ["io", "plain", "units", "process_wide", "dataset_file", "alignment", "lanes", "program_constants"]
-LAYERS += ["kept", "native", "yaml_file", "declared", "rounding", "speeds"]
+LAYERS += ["kept", "user_cache", "native", "yaml_file", "declared", "rounding", "speeds"]
 LAYERS += ["blade", "mesh", "fem", "rom", "contact", "stress", "time_integration", "results", "adaptive", "exchange"]
 LAYERS += ["config", "plans", "figures", "explorer", "cases", *(extension.name for extension in EXTENSIONS)]
 LAYERS += ["product", "console"]

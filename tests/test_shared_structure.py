@@ -6,7 +6,7 @@ import xarray as xr
 from overlays import overlay
 from workflow_runs import snakemake
 
-from r37core import kept
+from r37core import user_cache
 from r37core.dataset_file import read_dataset
 
 
@@ -14,17 +14,17 @@ def test_what_cannot_be_kept_is_made_where_it_is_needed(tmp_path, monkeypatch):
     """A cache folder that cannot be written is no failure of a run; what making raises is."""
     monkeypatch.setenv("R37_CACHE", str(tmp_path / "file" / "cache"))
     (tmp_path / "file").write_text("")
-    assert kept.kept_for_user("a.txt", "made of", lambda file: file.write_text("a")) is None
+    assert user_cache.kept_for_user("a.txt", "made of", lambda file: file.write_text("a")) is None
     monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
-    file = kept.kept_for_user("a.txt", "made of", lambda file: file.write_text("a"))
+    file = user_cache.kept_for_user("a.txt", "made of", lambda file: file.write_text("a"))
     assert file.read_text() == "a" and file.parent == tmp_path / "cache"
-    assert kept.kept_for_user("a.txt", "made of", None) == file
+    assert user_cache.kept_for_user("a.txt", "made of", None) == file
     with pytest.raises(ValueError, match="impossible"):
-        kept.kept_for_user("a.txt", "others", lambda file: (_ for _ in ()).throw(ValueError("impossible")))
+        user_cache.kept_for_user("a.txt", "others", lambda file: (_ for _ in ()).throw(ValueError("impossible")))
 
 
 def test_other_processors_and_libraries_make_other_numbers():
-    here = kept.numerics("numpy", "no such library")
+    here = user_cache.numerics("numpy", "no such library")
     assert here[:2] == [np.__version__, ""] and all(here[2:])
 
 

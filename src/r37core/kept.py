@@ -1,9 +1,8 @@
 """Results that take long to make, in files by a hash of all that their content follows from; each is checked when it is read.
 
-They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says;
-structures, which calls from Python and runs of the workflow share, in a folder of the user's own. A file that is cut short
-or damaged is made again; all may be removed at any time. Of several processes and threads that need the same one makes it
-and the others wait, so that a core is not busy twice with one thing. Light: simulation jobs import it.
+They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says. A
+file that is cut short or damaged is made again; all may be removed at any time. Of several processes and threads that need
+the same one makes it and the others wait, so that a core is not busy twice with one thing. Light: simulation jobs import it.
 """
 
 import fcntl
@@ -12,7 +11,6 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
@@ -79,47 +77,6 @@ def users_cache() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "r37"
 
 
-def named_folder() -> Path:
-    """Path of the user's folder of structures, which may not be there yet: that of R37_CACHE, else the user's cache folder."""
-    named = os.environ.get("R37_CACHE")
-    return Path(named) if named else users_cache()
-
-
-def writable_folder() -> Path:
-    """The user's folder of structures, made where it is missing. Raises OSError where it cannot be written."""
-    folder = named_folder()
-    folder.mkdir(parents=True, exist_ok=True)
-    tempfile.TemporaryFile(dir=folder).close()
-    return folder
-
-
-def kept_for_user(name: str, made_of: object, make: Callable[[Path], None]) -> Path | None:
-    """`kept_file` in `named_folder`; None where that cannot be written. Raises what `make` raises but OSErrors."""
-    with suppress(OSError):
-        return kept_file(name, made_of, make, writable_folder())
-    return None
-
-
-@cache
-def numerics(*libraries: str) -> list[str]:
-    """Versions of libraries that numbers come from, and what their linear algebra is compiled for: others round otherwise."""
-    from threadpoolctl import threadpool_info
-
-    kernels = {str(library["architecture"]) for library in threadpool_info() if "architecture" in library}
-    return [*map(_version, libraries), *sorted(kernels)]
-
-
-def _version(library: str) -> str:
-    # takes long to import
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version(library)
-    except PackageNotFoundError:
-        # installed by another way than pip's
-        return ""
-
-
 def _hashed(name: str, made_of: object) -> str:
     digest = hashlib.sha256(repr((name, made_of)).encode()).hexdigest()[:32]
     return f"{Path(name).stem}-{digest}{Path(name).suffix}"
@@ -181,6 +138,8 @@ def _folder() -> Path:
 
 
 def _writable(folder: Path) -> bool:
-    with suppress(OSError):
+    try:
         folder.mkdir(exist_ok=True)
+    except OSError:
+        return False
     return os.access(folder, os.W_OK)
