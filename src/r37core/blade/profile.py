@@ -5,6 +5,7 @@ engines: numerical benchmark and design guidelines based on NASA rotor 37".
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -129,8 +130,7 @@ def centreline(p: ProfileParameters) -> DoubleArc:
 class Profile:
     """A profile on its cone, built from its table row.
 
-    Attributes: `cone`, `centreline`, `surfaces` by side (`SUCTION`, `PRESSURE`), `leading_edge` and `trailing_edge` circles;
-    on the unrolled cone `area` (m2), round edges included, and its centre `centroid`, as (m, theta).
+    Attributes: `cone`, `centreline`, `surfaces` by side (`SUCTION`, `PRESSURE`), `leading_edge` and `trailing_edge` circles.
 
     Raises BladeShapeError where a thickness is not positive, a point is out of order or |sin kappa| passes 1.
     """
@@ -144,7 +144,6 @@ class Profile:
         self._theta_outlet = float(self.centreline.rear.point(self.centreline.rear_length)[1])
         self.surfaces = {side: self._build_surface(side) for side in (PRESSURE, SUCTION)}
         self.leading_edge, self.trailing_edge = self._build_edges()
-        self.area, self.centroid = self._area_and_centroid()
 
     def _build_surface(self, side: int) -> DoubleArc:
         p = self.parameters
@@ -238,11 +237,23 @@ class Profile:
         m, theta = (np.concatenate(coordinate) for coordinate in zip(*parts, strict=True))
         return m, theta
 
-    def _area_and_centroid(self) -> tuple[float, tuple[float, float]]:
-        area, along, across = area_and_centroid(*self.cone.unroll(0.0, 0.0, *self.outline()))
+    @cached_property
+    def _area_and_centroid(self) -> tuple[float, float, float]:
+        m, theta = self.outline()
+        area, along, across = area_and_centroid(*self.cone.unroll(0.0, 0.0, m, theta))
         direction, distance = np.arctan2(across, along), np.hypot(along, across)
         m_centroid, theta_centroid = self.cone.offset(0.0, 0.0, direction, distance)
-        return abs(area), (float(m_centroid), float(theta_centroid))
+        return abs(area), float(m_centroid), float(theta_centroid)
+
+    @property
+    def area(self) -> float:
+        """Area on the unrolled cone (m2), round edges included."""
+        return self._area_and_centroid[0]
+
+    @property
+    def centroid(self) -> tuple[float, float]:
+        """Centre of area on the unrolled cone, as (m, theta)."""
+        return self._area_and_centroid[1:]
 
     @property
     def stagger(self) -> float:

@@ -124,9 +124,15 @@ def _speeds_of_round(file: str, _time: int, plan: SpeedPlan | None) -> list[floa
     content = read_json(file)
     with readable(file):
         speeds = [float(speed) for speed in content["new"]]
-        if strange := set() if plan is None else set(speeds).difference(plan.every_speed()):
+        if strange := set() if plan is None else set(speeds).difference(_all_of(plan)):
             raise ValueError(f"it asks for {min(strange):.9g} rad/s, which is no speed of the configuration")
         return speeds
+
+
+@cache
+def _all_of(plan: SpeedPlan) -> frozenset[float]:
+    """All speeds (rad/s) of a plan: each of its rounds is checked against them."""
+    return frozenset(plan.every_speed())
 
 
 @dataclass(frozen=True)
