@@ -10,6 +10,7 @@ that are static follow these forces at once, and the nodes have no mass: `static
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -32,7 +33,7 @@ class Blade:
     theta: np.ndarray
     radius: np.ndarray
     speed: float
-    scene: object
+    scene: Any
     duration: float
     flexibility: np.ndarray | None = None
     edge_flexibility: np.ndarray | None = None
