@@ -33,16 +33,3 @@ use rule evidence as better_blade_depends with:
         "logs/validation/better_blade_depends.log",
     params:
         **evidence("better_blade.depends"),
-
-
-use rule copy as better_blade_picture with:
-    input:
-        unpack(
-            lambda wildcards: behind_engine(f"results/runs/search/figures/search_{wildcards.picture}.png")(wildcards)
-        ),
-    output:
-        "docs/search_{picture}.png",
-    log:
-        "logs/validation/better_blade_picture_{picture}.log",
-    wildcard_constraints:
-        picture="designs|slices",

@@ -29,12 +29,3 @@ use rule evidence as blades_correlations with:
         "logs/validation/blades_correlations.log",
     params:
         **evidence("designs.correlations"),
-
-
-use rule copy as blades_picture with:
-    input:
-        unpack(behind_engine("results/runs/families/figures/designs_Sweep.png")),
-    output:
-        "docs/designs_Sweep.png",
-    log:
-        "logs/validation/blades_picture.log",

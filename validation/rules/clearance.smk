@@ -39,12 +39,3 @@ use rule evidence as clearance_effect with:
         "logs/validation/clearance_effect.log",
     params:
         **evidence("clearance.effect"),
-
-
-use rule copy as clearance_picture with:
-    input:
-        unpack(behind_engine(f"{CLEARANCE}/figures/clearance_growing_abradable.png")),
-    output:
-        "docs/clearance_growing_abradable.png",
-    log:
-        "logs/validation/clearance_picture.log",

@@ -46,13 +46,3 @@ rule evidence:
         ROOT / "envs/r37.yaml"
     script:
         "../step.py"
-
-
-# a picture of a run that a page shows
-rule copy:
-    log:
-        "logs/validation/copy.log",
-    conda:
-        ROOT / "envs/r37.yaml"
-    shell:
-        "cp {input:q} {output:q}"

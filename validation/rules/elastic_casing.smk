@@ -130,21 +130,3 @@ use rule evidence as casing_coincidences with:
         "logs/validation/casing_coincidences.log",
     params:
         **evidence("casing_waves.coincidences"),
-
-
-use rule copy as picture_casing_Ref with:
-    input:
-        unpack(behind_engine("results/runs/elastic_casing/figures/casing_Ref__elastic_abradable.png")),
-    output:
-        "docs/casing_Ref.png",
-    log:
-        "logs/validation/picture_casing_Ref.log",
-
-
-use rule copy as picture_campbell_elastic_casing with:
-    input:
-        unpack(behind_engine("results/runs/elastic_casing/figures/campbell_Ref.png")),
-    output:
-        "docs/campbell_elastic_casing.png",
-    log:
-        "logs/validation/picture_campbell_elastic_casing.log",

@@ -77,12 +77,3 @@ use rule evidence as rotor_kinds with:
     params:
         **evidence("rotor.kinds"),
         windows=ROTOR_WINDOWS,
-
-
-use rule copy as rotor_picture with:
-    input:
-        unpack(behind_engine("results/runs/rotors/figures/rotor_Ref__rotor_abradable.png")),
-    output:
-        "docs/rotor.png",
-    log:
-        "logs/validation/rotor_picture.log",

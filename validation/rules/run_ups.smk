@@ -69,21 +69,3 @@ use rule evidence as run_up_cost with:
     threads: workflow.cores
     params:
         **evidence("run_ups.cost"),
-
-
-use rule copy as picture_run_up_rates with:
-    input:
-        unpack(behind_engine(f"{RUN_UPS}/figures/run_up_rates_abradable.png")),
-    output:
-        "docs/run_up_rates.png",
-    log:
-        "logs/validation/picture_run_up_rates.log",
-
-
-use rule copy as picture_run_ups_Ref with:
-    input:
-        unpack(behind_engine(f"{RUN_UPS}/figures/run_ups_Ref__abradable.png")),
-    output:
-        "docs/run_ups_Ref.png",
-    log:
-        "logs/validation/picture_run_ups_Ref.log",

@@ -71,12 +71,3 @@ use rule evidence as tolerance_clearances with:
         "logs/validation/tolerance_clearances.log",
     params:
         **evidence("tolerances.clearances"),
-
-
-use rule copy as tolerances_picture with:
-    input:
-        unpack(behind_engine("results/runs/members/figures/tolerances_Ref__abradable.png")),
-    output:
-        "docs/tolerances_Ref.png",
-    log:
-        "logs/validation/tolerances_picture.log",

@@ -119,12 +119,3 @@ use rule evidence as which_blade_chances with:
         "logs/validation/which_blade_chances.log",
     params:
         **evidence("which_blade.chances"),
-
-
-use rule copy as which_blade_picture with:
-    input:
-        unpack(behind_engine("results/runs/patches/figures/ranking.png")),
-    output:
-        "docs/which_blade.png",
-    log:
-        "logs/validation/which_blade_picture.log",
