@@ -22,6 +22,10 @@ JOB_LOG = logging.getLogger("r37core")
 """Logger of the steps, for the log of their job; from Python nobody hears it who does not ask for this logger's level DEBUG."""
 
 
+FULL_DISK = 2**20
+"""Bytes left on a disk that counts as full."""
+
+
 class InputFileError(RuntimeError):
     """Error of a file that is missing, corrupt or written by another program; the message names the file and the remedy."""
 
@@ -40,7 +44,10 @@ class TextFileError(ValueError):
 
 @contextmanager
 def atomic_write(file: Path | str) -> Iterator[Path]:
-    """A temporary path beside `file`: it becomes `file` if the block ends well, else vanishes. OutputFileError without room."""
+    """Give a temporary path next to `file`; it becomes `file` when the block ends well and vanishes when it does not.
+
+    Raises OutputFileError where there is no room for it.
+    """
     file = Path(file)
     with room_for(file):
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -65,12 +72,12 @@ def room_for(file: Path) -> Iterator[None]:
 
 
 def _no_room(error: Exception, folder: Path) -> str | None:
-    """Message about lacking room, and the remedy; None for an error of another kind. Below 1 MiB a disk counts as full."""
+    """Message about lacking room, and the remedy; None for an error of another kind."""
     number = getattr(error, "errno", None)
     # netCDF has numbers of its own, below 0, which say nothing of the cause
     unknown = number is None or number < 0
     limited = resource.getrlimit(resource.RLIMIT_FSIZE)[0] != resource.RLIM_INFINITY
-    if number in (errno.ENOSPC, errno.EDQUOT) or (unknown and folder.is_dir() and shutil.disk_usage(folder).free < 2**20):
+    if number in (errno.ENOSPC, errno.EDQUOT) or (unknown and folder.is_dir() and shutil.disk_usage(folder).free < FULL_DISK):
         return "the disk is full; free some space"
     if number == errno.EFBIG or (unknown and limited):
         return "files may not be as large here; raise the limit (ulimit -f)"

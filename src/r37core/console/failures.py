@@ -16,7 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
-from r37core.io import JOB_LOG, OutputFileError
+from r37core.io import FULL_DISK, JOB_LOG, OutputFileError
 
 _NOTES = "R37_FAILURES"
 """Environment variable that names the file, one for each run: several may go on in one folder."""
@@ -132,8 +132,7 @@ def _explained(error: Exception) -> str:
     if isinstance(error, OutputFileError):
         return text
     full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
-    # below 1 MiB a disk counts as full, as in r37core.io
-    if full or shutil.disk_usage(".").free < 2**20:
+    if full or shutil.disk_usage(".").free < FULL_DISK:
         return f"the disk is full ({text}); free some space and give the same command again"
     if isinstance(error, MemoryError):
         return f"not enough memory ({text}); run fewer jobs at once (--cores), or choose a smaller fidelity level"
