@@ -33,8 +33,6 @@ class Choice:
     base: str | None = None
 
     kind: ClassVar[str]
-    checked: ClassVar[str]
-    """Property that raises ConfigError for what the entry cannot be."""
 
     @property
     def label(self) -> str:
@@ -91,7 +89,7 @@ class Choice:
 
     def check(self) -> None:
         """Raises ConfigError for what the entry cannot be."""
-        getattr(self, self.checked)
+        raise NotImplementedError
 
     def refusal(self, error: ConfigError) -> ConfigError:
         """What was refused, and how a value inside a section is written in Python, where one stands in place of the section."""
@@ -113,7 +111,6 @@ class BladeChoice(Choice):
     """
 
     kind: ClassVar[str] = "blade"
-    checked: ClassVar[str] = "settings"
 
     @cached_property
     def settings(self) -> BladeSettings:
@@ -126,6 +123,10 @@ class BladeChoice(Choice):
             return blade_settings(self.name, designs.entries, root, designs.document)
         except ConfigError as error:
             raise self.refusal(error) from None
+
+    def check(self) -> None:
+        """Raises ConfigError for what the blade cannot be."""
+        _ = self.settings
 
     def _copied(self, entry: Any, original: str, changes: Mapping[str, Any]) -> Any:
         if not isinstance(entry, Mapping) or "stacking_table" not in entry:
@@ -152,8 +153,11 @@ class SceneChoice(Choice):
     """
 
     kind: ClassVar[str] = "scene"
-    checked: ClassVar[str] = "entry"
     results: tuple[str, ...] | None = None
+
+    def check(self) -> None:
+        """Raises ConfigError for what the scene cannot be."""
+        _ = self.entry
 
     @cached_property
     def above(self) -> Document | None:

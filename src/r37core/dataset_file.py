@@ -131,13 +131,19 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
 
 
 def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> xr.Dataset:
-    """A netCDF file in memory, at the labels in `part` of dimensions that it has; InputFileError when it cannot be read."""
+    """Read a netCDF file into memory; InputFileError when it cannot be read.
+
+    `part`: labels of dimensions, as far as the file has these, at which alone it is read.
+    """
     with open_dataset(file) as dataset:
         return dataset.sel({name: label for name, label in (part or {}).items() if name in dataset.dims}).load()
 
 
 def hash_of_parts(files: Iterable[Path | str]) -> str:
-    """Hash of what `files`, in any order, say of their making, for what joins them; InputFileError if one cannot be read."""
+    """Input hash of a file that joins others: of what each of them, in any order, says of its making.
+
+    Raises InputFileError for a file that cannot be read.
+    """
     attributes = []
     for file in files:
         with open_netcdf(file) as dataset:

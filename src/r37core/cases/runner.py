@@ -171,8 +171,12 @@ class Runs:
         with writing:
             write_speed(run, file, {})
         self.files[speed] = file
-        costs = (integration.cpu, integration.wall, writing.cpu, file.stat().st_size)
-        self.costs[speed] = dict(zip(COSTS, costs, strict=True))
+        self.costs[speed] = {
+            "cpu_s": integration.cpu,
+            "wall_s": integration.wall,
+            "file_cpu_s": writing.cpu,
+            "bytes_written": file.stat().st_size,
+        }
 
     def write(self, output: Path | str, attributes: Mapping[str, object]) -> None:
         """The response of all runs, ascending, with COSTS."""

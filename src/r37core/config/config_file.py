@@ -147,8 +147,10 @@ class Config(Section):
     structure: StructureSection = StructureSection()
     interactions: Interactions = Interactions()
     refinement: RefinementSection = RefinementSection()
-    tolerance: Annotated[float, Field(ge=1e-6, le=1)] = Field(
+    tolerance: float = Field(
         default=0.05,
+        ge=1e-6,
+        le=1,
         description="Accepted relative error of rms, displacement and stress at an interaction; fidelity auto uses it",
     )
     run: Run = Run()

@@ -26,8 +26,11 @@ HANDLER = "DefaultStreamHandler"
 """Name of Snakemake's handler of messages on the terminal."""
 
 _CHATTER = (
-    *("Select jobs to execute", "Execute ", "DAG of jobs will be updated"),
-    *("Updating checkpoint dependencies", "Touching output"),
+    "Select jobs to execute",
+    "Execute ",
+    "DAG of jobs will be updated",
+    "Updating checkpoint dependencies",
+    "Touching output",
 )
 """Beginnings of messages without an event that come with every job."""
 

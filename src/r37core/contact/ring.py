@@ -37,7 +37,10 @@ class RingMode:
 
 @dataclass(frozen=True)
 class Ring:
-    """A ring of one material on a `radial_foundation` and `tangential_foundation`, stiffnesses per length of circumference."""
+    """A ring of one material on an elastic foundation.
+
+    `radial_foundation` and `tangential_foundation`: stiffness per length of its circumference.
+    """
 
     radius: Annotated[float, Key("Radius of the middle line, from the tip's to a quarter more", "_m", ge=1e-3, le=100)]
     thickness: Annotated[float, Key("Radial thickness, at most a fifth of the radius", "_m", ge=1e-6, le=10)]
@@ -135,7 +138,10 @@ class RingMotion:
         return self._twice([(mode.radial or mode.tangential) / np.sqrt(mode.modal_mass) for mode in self.modes])
 
     def displacement(self, theta: np.ndarray) -> np.ndarray:
-        """Radial, tangential, axial displacement (m) per coordinate at angles `theta` (rad): shape (3, nodes, 2 modes)."""
+        """Radial, tangential and axial displacement (m) of the casing at angles (rad), per coordinate.
+
+        `theta`, shape (nodes,). Returns shape (3, nodes, 2 modes).
+        """
         radial, tangential, mass = np.array([(mode.radial, mode.tangential, mode.modal_mass) for mode in self.modes]).T
         angles = theta[:, None] * self.nodal_diameters
         cosine, sine = np.cos(angles) / np.sqrt(mass), np.sin(angles) / np.sqrt(mass)

@@ -58,7 +58,10 @@ class Lining:
 
 @dataclass(frozen=True)
 class Friction:
-    """Always-sliding Coulomb friction; `vector`: along the sliding of rotation plus vibration, else the latter is neglected."""
+    """Always-sliding Coulomb friction.
+
+    `vector`: along the real sliding velocity (rotation plus vibration), else the vibration is neglected.
+    """
 
     coefficient: Annotated[float, Key("Coulomb coefficient", ge=0, le=10)]
     vector: Annotated[

@@ -16,7 +16,10 @@ _DRAWN = (*STRUCTURE, "shift_1b_rad_s", "length_certain_rad_s", "length_possible
 
 
 def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades: Sequence[str] | None = None) -> Figure:
-    """What a family (or some `blades` of it) is chosen by, per scene, over the one key that varies or the designs by name."""
+    """What a family is chosen by, a line or points per scene: over the one key that varies, or over the designs by name.
+
+    `blades`: those of the table that are drawn, or all.
+    """
     if blades is not None:
         table = table[table["blade"].isin(blades)]
     figure, grid = plt.subplots(3, 3, figsize=(style.PAGE, 6.4), sharex=True)

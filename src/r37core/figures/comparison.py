@@ -15,7 +15,10 @@ _CERTAIN, _POSSIBLE = "length_certain_rad_s", "length_possible_rad_s"
 
 
 def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
-    """The lowest engine order of those that cross 1B of most blades between `low` and `high` (rad/s); None where none does."""
+    """The engine order whose crossings with 1B most blades have between `low` and `high` (rad/s), of several the lowest.
+
+    None where no blade has any.
+    """
     crossing = campbell["crossing_speed"].sel(mode="1B")
     count = ((crossing >= low) & (crossing <= high)).sum("blade").values
     return int(campbell["engine_order"].values[int(np.argmax(count))]) if count.max() else None
@@ -61,7 +64,7 @@ def draw_comparison(
 
 
 def draw_ranking(ranking: pd.DataFrame) -> Figure:
-    """Bars of certain and possible length of speed above yield, a panel per scene, blades in the order of the first one."""
+    """Bars of the speeds above yield in most and in some revolutions, a panel per scene, blades in the order of the first."""
     scenes = list(dict.fromkeys(ranking["scene"]))
     first = ranking[ranking["scene"] == scenes[0]].sort_values("rank", kind="stable")["blade"]
     blades = list(dict.fromkeys([*first, *ranking["blade"]]))
@@ -99,7 +102,7 @@ def _draw_bars(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def _range(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, str]:
-    """How far the certain length may lie below and above (rad/s), shape (blades,) each, NaN if unknown, and by what."""
+    """Reach (rad/s) of the length in most revolutions, below and above, shape (blades,), NaN if unknown, and its meaning."""
     if f"{_CERTAIN}_low" in rows and rows[f"{_CERTAIN}_low"].notna().any():
         low, high = rows[_CERTAIN] - rows[f"{_CERTAIN}_low"], rows[f"{_CERTAIN}_high"] - rows[_CERTAIN]
         return low.clip(lower=0.0).values, high.clip(lower=0.0).values, "nine tenths of the members"

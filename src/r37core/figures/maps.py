@@ -127,7 +127,10 @@ def _edges(middles: np.ndarray) -> np.ndarray:
 
 
 def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
-    """Level of forward and backward waves (dB below the largest) over speed and nodal diameter; below, the casing's energy."""
+    """Level of forward and backward waves over speed and nodal diameter, below it the casing's energy.
+
+    In decibels below the largest level of the whole map.
+    """
     # neither speeds that diverged, nor modes of other scenes or too fast for the samples
     maps = maps.dropna("speed", how="all", subset=["casing_energy"])
     maps = maps.dropna("casing_mode", how="all", subset=["casing_energy"])

@@ -17,7 +17,10 @@ def counted(number: int, name: str) -> str:
 
 
 def largest_stress_text(table: pd.DataFrame, speed: str) -> str:
-    """The largest max_von_mises_pa of a table, and its blade, scene and `speed` (column's name); empty without a stress."""
+    """The largest stress of a table with the columns blade, scene and max_von_mises_pa, and where; `speed`: a column's name.
+
+    Empty where no row has a stress.
+    """
     if "max_von_mises_pa" not in table or table["max_von_mises_pa"].isna().all():
         return ""
     row = table.loc[table["max_von_mises_pa"].idxmax()]

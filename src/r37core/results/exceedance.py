@@ -91,7 +91,10 @@ class Exceedance:
 
     @cached_property
     def _drawn(self) -> np.ndarray:
-        """Smoothed shares by chance, shape (draws, speeds), always the same: each is of neighbours, drawn by the weights."""
+        """Smoothed shares as chance could have had them, shape (draws, speeds); the same every time.
+
+        Each speed's share is one of its neighbours', drawn by the weights.
+        """
         random, indices = np.random.default_rng(_SEED), np.arange(len(self.speeds))
         chosen = np.array([random.choice(indices, _DRAWS, p=row) for row in self.weights])
         return (self.weights @ self.shares[chosen]).T

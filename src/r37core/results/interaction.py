@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any, get_type_hints
+from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
 import xarray as xr
@@ -139,6 +139,9 @@ def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
     return columns
 
 
+_Part = TypeVar("_Part", LastRevolution, AllRevolutions, PeakMotion)
+
+
 def interaction_row(
     response: xr.Dataset, index: int, reach: xr.Dataset, crossing: Crossing, more: Mapping[str, Any], note: str = ""
 ) -> Interaction:
@@ -155,7 +158,7 @@ def interaction_row(
         **more,
     }
 
-    def part(kind: type[Any]) -> Any:
+    def part(kind: type[_Part]) -> _Part:
         return kind(**{field.name: columns[field.name] for field in fields(kind) if field.name in columns})
 
     return Interaction(

@@ -43,7 +43,10 @@ def peak_speed(response: xr.Dataset) -> float:
 
 
 def drop_after(response: xr.Dataset, index: int | None = None) -> float:
-    """Share of the motion at an `index`, by default the peak's, lost within DROP_WITHIN above it; NaN without a speed there."""
+    """Share of the motion at an `index` among the speeds, by default the peak, that is lost within DROP_WITHIN above it.
+
+    NaN without a speed there.
+    """
     level, speed = motion(response), response["speed"].values
     peak = int(np.argmax(level)) if index is None else index
     after = level[(speed > speed[peak]) & (speed <= speed[peak] + DROP_WITHIN + 1e-6)]

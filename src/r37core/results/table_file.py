@@ -14,7 +14,9 @@ def write_table(table: pd.DataFrame, file: Path | str, digits: int | None = None
 
 
 def read_table(file: Path | str) -> pd.DataFrame:
-    """A table that a rule wrote; an empty field is NaN. Raises InputFileError where it cannot be read."""
+    """A table that a rule wrote; an empty field is NaN. Raises InputFileError where it cannot be read.
+
+    A blade may be called NA, inf or 1e5.
+    """
     with readable(file):
-        # a blade may be called NA, inf or 1e5
         return pd.read_csv(file, dtype=dict.fromkeys(("blade", "scene", "mode"), str), keep_default_na=False, na_values=[""])

@@ -1,4 +1,7 @@
-"""A whole rotor: motion of its leading edges (normal and tangential together), worst stress, growth, and nodal diameters."""
+"""A whole rotor over speed: a map of its blades, the worst stress, growth, and nodal diameters.
+
+Motion is the leading edge's displacement, normal and tangential together.
+"""
 
 import matplotlib.pyplot as plt
 import numpy as np

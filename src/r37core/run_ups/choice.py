@@ -80,7 +80,10 @@ class RunUpChoice:
     ] = False
 
     def run_up(self, samples_per_revolution: int, crossing_speed: float | None = None) -> RunUp:
-        """The run-up in numbers, about a `crossing_speed` (rad/s) if any; RunUpError for too few or too many revolutions."""
+        """The run-up in numbers; `crossing_speed` (rad/s): of the crossing, where there is one.
+
+        Raises RunUpError for one of too few or too many revolutions.
+        """
         start, stop = self.start, self.stop
         if crossing_speed is not None:
             start, stop = crossing_speed * (1.0 + start), crossing_speed * (1.0 + stop)

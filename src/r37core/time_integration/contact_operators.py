@@ -42,7 +42,10 @@ class ContactOperators:
 
     @cached_property
     def _shapes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement in the modes at rest per u and d of all modes, of the casing's none; no column of d without Coriolis."""
+        """Displacement in the modes at rest per u and per d of all modes; no column of the second without Coriolis.
+
+        The casing's move no mode of the blade.
+        """
         none = np.zeros((len(self.blade.modes), len(self._ring_rows[0, 0])))
         if self.blade.complex_modes is None:
             return np.hstack([self.blade.modes, none]), np.empty((len(self.blade.modes), 0))
@@ -133,7 +136,10 @@ class ContactOperators:
 
     @property
     def state_shapes(self) -> np.ndarray:
-        """Displacement in the modes at rest per number of a snapshot: stepped modes' u, with Coriolis d, contact forces (N)."""
+        """Displacement in the modes at rest per number of a snapshot.
+
+        They are the stepped modes' u, with Coriolis their d, then the contact forces (N).
+        """
         return np.hstack([*self._shapes, self.static_shapes])
 
     @cached_property
@@ -165,7 +171,10 @@ class ContactOperators:
 
     @cached_property
     def coupling(self) -> np.ndarray:
-        """Normal displacement (m/N) of the last node a step on, per force on the first; shape (3 directions, nodes, nodes)."""
+        """Normal displacement (m/N) of the last node, one step on, per normal, tangential or meridional force on the first.
+
+        Shape (3, nodes, nodes).
+        """
         return self.coupling_of(self.recursion.inverse)
 
     def coupling_of(self, inverse: np.ndarray) -> np.ndarray:

@@ -46,7 +46,10 @@ class BladesRecord:
 
 
 class BladesSimulation:
-    """Time integration of a scene's blade, or all of its `rotor`, at one speed (rad/s). Raises as Problem, blade_problems."""
+    """The time integration of all blades of a scene at one speed (rad/s): of one, or of those of its `rotor`.
+
+    Raises what Problem and blade_problems raise.
+    """
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         self.rotor = scene.rotor

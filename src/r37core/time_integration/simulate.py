@@ -50,7 +50,10 @@ class Simulation:
         self.engine: Any = _ENGINES[problem.choice.engine](problem, self.segments, before, beside)
 
     def start(self, motion: InitialMotion | None = None) -> SimulationState:
-        """The blade at rest or in `motion`, in a lining unworn or cut by it. Raises what InitialMotion.put raises."""
+        """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
+
+        Raises what InitialMotion.put raises.
+        """
         state = rest_state(self.problem)
         if motion is not None:
             motion.put(self.problem, state)

@@ -1,8 +1,9 @@
 """Members of a sample: a blade and a scene with other values of the numbers under `tolerances`."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 from r37core.config import BladeSettings, ConfigError, Settings
 from r37core.config.changed_numbers import (
@@ -19,6 +20,8 @@ from r37core.contact.scene import Scene
 from r37core.plans.member_values import drawn, is_of_sample, number_of, sobol_points
 
 from .section import SECTION
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -125,16 +128,23 @@ class Members:
         changes = {number: value for number, value in zip(self.numbers, values, strict=True) if value is not None}
         return Member(*self._changed(blade, scene, changes, f"member {name} of {blade} in {scene}"), values)
 
-    def _changed(self, blade: str, scene: str, moved: Mapping[tuple[str, str], float], who: str) -> tuple[BladeSettings, Scene]:
+    def _changed(
+        self, blade: str, scene: str, values: Mapping[tuple[str, str], float], who: str
+    ) -> tuple[BladeSettings, Scene]:
         """A blade and a scene with other values of some numbers."""
-        settings, changes = self._settings, dict[str, dict[str, float]](of_blades={}, of_scenes={})
-        for (section, key), value in moved.items():
-            changes[section][key] = value
-        section = "of_blades"
+        settings = self._settings
+        blade_changes, scene_changes = (
+            {key: value for (section, key), value in values.items() if section == wanted}
+            for wanted in ("of_blades", "of_scenes")
+        )
+        return (
+            self._possible("of_blades", who, lambda: changed_blade(settings.blades[blade], blade_changes)),
+            self._possible("of_scenes", who, lambda: changed_scene(settings.scene_entries[scene], scene_changes)),
+        )
+
+    def _possible(self, section: str, who: str, change: Callable[[], T]) -> T:
         try:
-            other = changed_blade(settings.blades[blade], changes[section])
-            section = "of_scenes"
-            return other, changed_scene(settings.scene_entries[scene], changes[section])
+            return change()
         except ImpossibleValueError as error:
             known = (section, error.key) in self.numbers
             path, text = (error.key,) if known else (), str(error) if known else f"{error.key}: {error}"

@@ -43,8 +43,14 @@ def _rows(together: xr.Dataset, references: Mapping[str, str]) -> Iterator[dict[
 
 
 LEVEL_COLUMNS = (
-    *("level", "reference", "error", "error_of_largest_values"),
-    *("cpu_s_per_run", "model_cpu_s", "tolerance", "recommended"),
+    "level",
+    "reference",
+    "error",
+    "error_of_largest_values",
+    "cpu_s_per_run",
+    "model_cpu_s",
+    "tolerance",
+    "recommended",
 )
 
 

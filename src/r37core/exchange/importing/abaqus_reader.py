@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -18,6 +18,8 @@ from r37core.fem.elements import ELEMENTS
 
 from .deck_text import deck_lines, included, keyword_and_options
 from .raw_mesh import RawMesh, solid_blocks
+
+T = TypeVar("T")
 
 CLAMPED = "BOUNDARY"
 """Name of the set of the nodes that *BOUNDARY clamps."""
@@ -173,7 +175,7 @@ def _take_elements(deck: _Deck, options: dict[str, str], rows: list[list[str]]) 
     _add(deck.element_sets, options.get("ELSET"), [number for number, _ in elements])
 
 
-def _define(known: dict[int, Any], what: str, entries: list[tuple[int, Any]]) -> None:
+def _define(known: dict[int, list[T]], what: str, entries: list[tuple[int, list[T]]]) -> None:
     """Add `entries` by number; a number that comes twice must have the same values both times."""
     for number, values in entries:
         if known.setdefault(number, values) != values:

@@ -180,7 +180,7 @@ class CompiledEngine:
         return self.numbers_of_mode * self.mode_lanes + (0 if self.kind.published else 3 * self._node_lanes)
 
     def call(self, addresses: np.ndarray) -> int:
-        """Do what the records at `addresses` ask for: the own, or of one capacity and kind; returns the blocks done."""
+        """Do what the records at `addresses` ask for: its own, or those of several of one kind; returns the blocks done."""
         return int(self._advance(addresses.ctypes.data, len(addresses)))
 
     def _lay_out(self, problem: Problem) -> None:
@@ -221,9 +221,16 @@ class CompiledEngine:
     def _lay_out_casing(self, problem: Problem, before: CompiledEngine | None) -> None:
         m, casing = self.record[0], problem.scene.casing
         rise = casing.rise_rate(problem.grid.duration) * problem.grid.time_step
-        angle, period = problem.casing.cone_angle, 2.0 * np.pi / max(casing.lobes, 1)
-        # the fields of CASING
-        m["casing"] = casing.lobe_height, rise, period, casing.width, np.cos(angle), np.sin(angle)
+        numbers = {
+            "amplitude": casing.lobe_height,
+            "rise": rise,
+            "period": 2.0 * np.pi / max(casing.lobes, 1),
+            "width": casing.width,
+            "cosine": np.cos(problem.casing.cone_angle),
+            "sine": np.sin(problem.casing.cone_angle),
+        }
+        for name, number in numbers.items():
+            m["casing"][name] = number
         kept = None if before is None else before._tables
         self._tables = kept if kept is not None and kept.fits(problem) else _CasingTables(problem, self._node_lanes)
         m["call"]["casing_shape"] = self._tables.shape.ctypes.data

@@ -318,7 +318,10 @@ def push_lanes(m, first, end, work, lost):
 
 @inlined
 def add_pushes(m, first, second, both):
-    """Add what the forces of two nodes, or one, are to all modes: two at once, as a sum in memory waits for its last store."""
+    """Add what the forces of two nodes, or of the first alone, are to all modes.
+
+    Two at once, because a sum that is kept in memory waits for its last store.
+    """
     # loaded once: a store may change them, for all that the compiler knows
     first_force = m.force[first], m.friction_force[0, first], m.friction_force[1, first]
     second_force = m.force[second], m.friction_force[0, second], m.friction_force[1, second]

@@ -19,7 +19,7 @@ from r37core.contact.scene import Lining
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
-from .motion import CoupledMotion, MotionWithCasing, RealMotion
+from .motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
 
 _MOST_SWEEPS = 200
 
@@ -45,8 +45,7 @@ class ReferenceEngine:
         """Go on at this one of the speeds."""
         self._speed_index, recursion = speed_index, self._segments.recursion[speed_index]
         blade = (RealMotion if self.problem.blade.complex_modes is None else CoupledMotion)(self.problem, recursion)
-        # of what its motions are made, each of the three knows alone
-        self.motion: Any = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
+        self.motion: Motion = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
         self.clearance = self._segments.clearance[speed_index]
         # a revolution has as many steps at every speed
         faster = self._segments.speeds[speed_index] / self.problem.speed
@@ -101,7 +100,10 @@ class ReferenceEngine:
         return done, bounded
 
     def record(self, motion: Any, first: int, done: int, state: SimulationState, out: SimulationRecord) -> bool:
-        """Sample number `done` after the `first`, and a snapshot if one is due; whether the outputs are within the limit."""
+        """Keep sample number `done` after the `first`, and a snapshot where one is due.
+
+        Returns whether the outputs are within the limit.
+        """
         problem = self.problem
         static = state.contact_force.ravel() if problem.choice.second_order else np.empty(0)
         numbers = np.concatenate([self.motion.numbers(motion), static])

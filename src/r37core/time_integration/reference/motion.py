@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -9,6 +10,36 @@ from ..gyroscopic import ComplexRecursion, imaginary_part
 from ..integrators import Recursion
 from ..problem import Problem
 from ..state import SimulationState
+
+
+class Motion(Protocol):
+    """Interface of a motion to the reference engine."""
+
+    response: np.ndarray
+
+    def read(self, state: SimulationState) -> Any:
+        """Motion of a state."""
+
+    def write(self, motion: Any, state: SimulationState) -> None:
+        """Put the motion back into the state."""
+
+    def numbers(self, motion: Any) -> np.ndarray:
+        """Numbers of a snapshot."""
+
+    def flown(self, motion: Any) -> Any:
+        """Motion one step on, without force."""
+
+    def pushed(self, motion: Any, force: np.ndarray) -> Any:
+        """Motion with the addition of a force in a step."""
+
+    def displacement(self, motion: Any) -> np.ndarray:
+        """Displacement in the coordinates of the nodes' rows."""
+
+    def slid(self, motion: Any) -> np.ndarray:
+        """Displacement in the last step."""
+
+    def work_and_loss(self, before: Any, after: Any, force: np.ndarray) -> tuple[float, float]:
+        """Work and loss of a step under a force."""
 
 
 class RealMotion:
