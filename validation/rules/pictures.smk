@@ -35,7 +35,7 @@ use rule evidence as your_blade_pictures with:
         **evidence("user_code.worked_example"),
 
 
-# shapes and signals of Ref with abradable lining, which a scene has where it asks for them
+# shapes and signals of Ref with abradable lining, which a scene has where it asks for them; three peaks fit a page
 module shapes_and_signals:
     snakefile:
         "../../Snakefile"
@@ -45,7 +45,7 @@ module shapes_and_signals:
             blades=["Ref"],
             scenes_file="validation/shapes_and_signals.yaml",
             scenes=["abradable"],
-            signals={"speeds_rad_s": "interactions"},
+            signals={"speeds_rad_s": [1002, 1260, 1729]},
         )
 
 
