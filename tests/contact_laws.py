@@ -100,7 +100,7 @@ def press_nodes(matrix, gap, bar=None, area=0.0, wear=0.0, start=0.0):
     listed = np.arange(nodes) < count
     c["found"] = np.packbits(listed, bitorder="little")
     if bar is not None:
-        room["lining"], room[0]["lining"]["area"] = _numbers_of(bar), area
+        room["lining"], c["area"][:count] = _numbers_of(bar), area
     change = _sweep(room, count, np.abs(gap).max(), bar is not None)
     pressure = c["pressure"].copy()
     assert not pressure[count:].any()

@@ -2,7 +2,6 @@
 
 import itertools
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -42,10 +41,14 @@ def test_circular_casing_and_casing_deformed_from_the_start():
     np.testing.assert_allclose(at_once.lobe(theta, 0.0, 10.0), 2e-3 * at_once.shape(theta))
 
 
-def test_bar_area():
-    bar = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=1e-3)
-    assert bar.area(0.2523) == pytest.approx(1.585e-7, rel=1e-3)
-    assert Lining(5e-3, 20e9, 5e9, 1.5, bar_width=1e-3, bar_area=3e-6).area(0.2523) == 3e-6
+def test_pressed_areas_are_of_the_tip_or_as_published_of_a_bar():
+    """Only the published one depends on the number of bars, and not on the length of tip that a node stands for."""
+    lining, lengths = Lining(5e-3, 20e9, 5e9, 1.5, contact_length=2e-4), np.array([1e-3, 4e-3])
+    for bars in (2500, 40_000):
+        np.testing.assert_allclose(replace(lining, bars=bars).pressed_areas(lengths, 0.25), [2e-7, 8e-7])
+    published = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=1e-3)
+    np.testing.assert_allclose(published.pressed_areas(lengths, 0.2523), 1.585e-7, rtol=1e-3)
+    np.testing.assert_array_equal(replace(published, bar_area=3e-6).pressed_areas(lengths, 0.2523), 3e-6)
 
 
 def test_bar_pushed_released_and_pushed_again():
@@ -224,11 +227,9 @@ AREA = 1e-6
 @given(**LAW)
 def test_lines_of_a_bar_are_its_return_mapping_in_series(elastic, plastic, yield_stress, flexibility, pushes):
     """Pushed again and again, with a flexibility behind it, never worn through."""
-    lining, wear = Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3), 0.0
-    # the area in place of the method, as the compiled time integration has it
-    bar = SimpleNamespace(**vars(lining) | {"area": AREA})
+    bar, wear = Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3), 0.0
     series = laws.series_modulus(elastic, elastic * AREA / bar.thickness, flexibility)
-    line, offset, slope = laws.lines_of_bar(series, bar)
+    line, offset, slope = laws.lines_of_bar(series, AREA, bar)
     for push in pushes:
         stress, expected = laws.return_mapping(push, wear, series, bar)
         scale = line * bar.thickness

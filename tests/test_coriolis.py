@@ -237,7 +237,7 @@ def test_a_pressed_node_rests_where_the_stiffness_says():
     model = point_in_space([4e4, 3e4, 5.6e4])
     flexibility = 2e-7
     simulation = Simulation(with_static_modes(model, flexibility), speed, scene, replace(CHOICE, time_step=1.5e-5))
-    stiffness = 1.0 / (1.0 / simulation.problem.casing.bar_stiffness + flexibility)
+    stiffness = 1.0 / (1.0 / simulation.problem.casing.lining_stiffness[0] + flexibility)
     force = stiffness * penetration / (1.0 + stiffness / frequency**2) * np.array([-1.0, 0.3, 0.0])
     state = resting(simulation, force)
     assert np.abs(state.increment).max() > 1e-3 * np.abs(state.displacement).max()

@@ -57,14 +57,14 @@ def series_modulus(elastic_modulus: float, stiffness: float, flexibility: Any) -
     return elastic_modulus / (1.0 + stiffness * flexibility)
 
 
-def lines_of_bar(elastic_modulus: Any, lining: Any) -> tuple[Any, Any, Any]:
+def lines_of_bar(elastic_modulus: Any, area: Any, lining: Any) -> tuple[Any, Any, Any]:
     """The force of return_mapping as two lines: stiffness (N/m) of the elastic, offset (N) and stiffness of the plastic one.
 
     The bar pressed to x, worn by w before, has the force max(0, min(elastic (x - w), offset + plastic x)), until it is worn
     through: elastic E A/e, offset and plastic E/(E + K) A times the yield stress and K/e, with the area A and the thickness e.
-    `elastic_modulus` E (Pa), of the bar or in series; `lining`: as of return_mapping, with the `area` (m2) of a bar.
+    `elastic_modulus` E (Pa), of the bar or in series; `area` (m2) that is pressed; `lining`: as of return_mapping.
     """
-    axial_stiffness, per_thickness = elastic_modulus * lining.area, 1.0 / lining.thickness
+    axial_stiffness, per_thickness = elastic_modulus * area, 1.0 / lining.thickness
     share = axial_stiffness / (elastic_modulus + lining.plastic_modulus)
     return axial_stiffness * per_thickness, share * lining.yield_stress, share * (lining.plastic_modulus * per_thickness)
 

@@ -33,8 +33,9 @@ def set_laws(c, count, lining, lined):
         store(c.own, g, own)
         store(c.stiffness, g, 1.0 / own)
         if lined:
-            bar = lining.elastic_modulus * lining.area * (1.0 / lining.thickness)
-            elastic, offset, plastic = _lines_of_bar(_series_modulus(lining.elastic_modulus, bar, own), lining)
+            area = load(c.area, g)
+            bar = lining.elastic_modulus * area * (1.0 / lining.thickness)
+            elastic, offset, plastic = _lines_of_bar(_series_modulus(lining.elastic_modulus, bar, own), area, lining)
             store(c.elastic, g, elastic)
             store(c.offset, g, offset)
             store(c.plastic, g, plastic)

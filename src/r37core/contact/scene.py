@@ -35,25 +35,49 @@ class Rotor:
 
 @dataclass(frozen=True)
 class Lining:
-    """Lining of bars in front of the casing.
+    """Lining in front of the casing, as bars in rings: every contact node has a ring of its own.
 
     Law after Legrand, Batailly and Pierre, J. Comput. Nonlinear Dyn. 7 (2012): yield in compression with linear hardening;
-    the plastic shortening is the wear. Every contact node has a ring of bars of its own.
+    the plastic shortening is the wear. A node presses an area of lining at a time: the length of tip that it stands for, along
+    the casing's meridian, times `contact_length`. The published model has in its place that of one bar, the same for all
+    nodes: `bar_area`, or `bar_width` times the arc length of a bar.
     """
 
     thickness: Annotated[float, Key("Distance from its surface to the casing behind it", "_m", ge=1e-6, le=1)]
     elastic_modulus: Annotated[float, Key("Elastic modulus of a bar", "_pa", ge=1e3, le=1e15)]
     plastic_modulus: Annotated[float, Key("Hardening modulus of a bar as it wears", "_pa", ge=0, le=1e15)]
     yield_stress: Annotated[float, Key("Stress at which a bar starts to wear", "_pa", ge=0, le=1e15)]
-    bars: Annotated[int, Key("Number of bars round the circumference", ge=10, le=10_000_000)] = 10000
-    bar_width: Annotated[float, Key("Width of a bar along the casing's meridian", "_m", ge=1e-6, le=1)] = 0.001
+    bars: Annotated[int, Key("Number of bars round the circumference: the resolution of wear", ge=10, le=10_000_000)] = 10000
+    contact_length: Annotated[
+        float, Key("Circumferential length of lining that the tip presses at a time", "_m", ge=1e-6, le=1)
+    ] = 1.585e-4
+    bar_width: Annotated[
+        float | None,
+        Key("Published model: pressed width at each contact node, times the arc length of a bar", "_m", ge=1e-6, le=1),
+    ] = None
     bar_area: Annotated[
-        float | None, Key("Area of a bar, in place of width times arc length at the tip", "_m2", ge=1e-12, le=1)
+        float | None, Key("Published model: pressed area at each contact node, in place of bar_width_m", "_m2", ge=1e-12, le=1)
     ] = None
 
-    def area(self, radius: float) -> float:
-        """Area of one bar (m2): its width times the arc length of a bar at `radius` (m)."""
-        return 2.0 * np.pi * radius / self.bars * self.bar_width if self.bar_area is None else self.bar_area
+    @property
+    def published(self) -> bool:
+        """True where the pressed area is that of a bar."""
+        return self.bar_width is not None or self.bar_area is not None
+
+    def arc(self, radius: float) -> float:
+        """Arc length (m) of a bar at `radius` (m)."""
+        return 2.0 * np.pi * radius / self.bars
+
+    def pressed_areas(self, tip_lengths: np.ndarray, radius: float) -> np.ndarray:
+        """Area (m2) of lining that each contact node presses at a time, shape (nodes,).
+
+        `tip_lengths` (m), shape (nodes,): lengths of tip that the nodes stand for; `radius` (m) of the tip, of the published
+        model.
+        """
+        if not self.published:
+            return tip_lengths * self.contact_length
+        area = self.arc(radius) * (self.bar_width or 0.0) if self.bar_area is None else self.bar_area
+        return np.full(len(tip_lengths), area)
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,8 @@ class ContactModel:
     `squared_frequencies` (rad2/s2), shape (modes,); `stiffness_per_square` (1/rad2), shape (modes, modes): change of the
     stiffness per Omega^2; `displacement_operator`, shape (3, nodes, modes): radial, tangential (growing theta) and axial
     displacement of the contact nodes, from leading to trailing edge; `radius` (m) and `theta` (rad) of the nodes, shape
-    (nodes,); `tip_cone_angle` (rad): half angle of the tip line's cone, negative where it narrows downstream;
+    (nodes,); `tip_lengths` (m), shape (nodes,): length of tip along the casing's meridian that each stands for;
+    `tip_cone_angle` (rad): half angle of the tip line's cone, negative where it narrows downstream;
     `tip_displacement_operator`, shape (3, 2, modes): the same displacements of the tip's leading and trailing edge;
     `to_reduced`, shape (coordinates, modes): modes at rest in the reduced model's coordinates. `rotation_shapes` (m s2/rad2),
     shape (3, nodes, shapes), and `rotation_stiffening` (s2/rad2), shape (shapes,): what rotation does to the contact nodes, in
@@ -39,6 +40,7 @@ class ContactModel:
     displacement_operator: np.ndarray
     radius: np.ndarray
     theta: np.ndarray
+    tip_lengths: np.ndarray
     tip_cone_angle: float
     tip_displacement_operator: np.ndarray
     to_reduced: np.ndarray

@@ -46,6 +46,18 @@ def weights_along(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice)
     return _means(choice, chord, [chain_trace(points, np.stack([numbers[:-1], numbers[1:]], axis=1))])
 
 
+def tip_lengths(points: np.ndarray, chord: np.ndarray, positions: np.ndarray) -> np.ndarray:
+    """Length (m) of tip, along the casing's meridian, that each contact node stands for, shape (positions,).
+
+    The integral of the nodes' hats over the tip's line: together they cover it once. `points` (m), shape (nodes, 3), and
+    fractions `chord` of the nodes on the line, in order; `positions`: fractions of the contact nodes.
+    """
+    radius, axial = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+    meridian = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(radius), np.diff(axial)))])
+    hats = np.array([np.interp(chord, positions, unit) for unit in np.eye(len(positions))])
+    return np.trapezoid(hats, meridian, axis=1)
+
+
 def mean_positions(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
     """Positions (m), shape (contact nodes, 3): weighted means of radius, angle and axial position, so on the tip's cone."""
     alone = np.diff(weights.indptr) == 1

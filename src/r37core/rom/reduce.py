@@ -6,7 +6,7 @@ import scipy.sparse as sp
 from r37core.fem.matrices import StructuralMatrices
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
-from .contact_weights import contact_weights, mean_positions
+from .contact_weights import contact_weights, mean_positions, tip_lengths
 from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
 from .reduced_model import RecoveryNodes, ReducedModel
@@ -53,6 +53,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         contact=choice.boundary.contact,
         contact_nodes=contact_nodes(weights, line, chord, RecoveryNodes(np.arange(len(chord)), mesh.points, whole, rotated)),
         contact_chord=weights @ chord,
+        contact_tip_lengths=tip_lengths(mesh.points[line], chord[line], choice.boundary.chord_positions(choice.boundary.nodes)),
         tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
         stress_submesh=recovery(stress_nodes),
         stress_elements={name: np.searchsorted(stress_nodes, nodes) for name, nodes in stress_blocks.items()},

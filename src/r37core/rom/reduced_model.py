@@ -62,9 +62,9 @@ class ReducedModel:
     `stiffness` (N/m), `geometric_stiffness` (per Omega^2), `mass` (kg), and, only when asked for, `spin_softening`
     (per Omega^2) and `coriolis` (see CORIOLIS_TERM): each of shape (coordinates, coordinates). `contact`: what contact acts
     on (see r37core.rom.contact_weights); `contact_nodes`: mean displacements there, with the number of the nearest node of the
-    tip line; `contact_chord`: their chord fractions. `tip_lines`: recovery along each tip line; `stress_submesh` with
-    `stress_elements`, element type -> shape (elements, nodes of the type), indexing its nodes, and `stress_region`, what it is
-    in words; `whole_blade` only on request.
+    tip line; `contact_chord`: their chord fractions; `contact_tip_lengths` (m): see r37core.rom.contact_weights.
+    `tip_lines`: recovery along each tip line; `stress_submesh` with `stress_elements`, element type -> shape (elements, nodes
+    of the type), indexing its nodes, and `stress_region`, what it is in words; `whole_blade` only on request.
     `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the
     ideal bending and torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis.
     `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation; none of a blade whose
@@ -80,6 +80,7 @@ class ReducedModel:
     contact: str
     contact_nodes: RecoveryNodes
     contact_chord: np.ndarray
+    contact_tip_lengths: np.ndarray
     tip_lines: dict[str, RecoveryNodes]
     stress_submesh: RecoveryNodes
     stress_elements: dict[str, np.ndarray]
@@ -161,6 +162,7 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
         displacement_operator=_cylindrical_parts(nodes, nodes.basis @ modes),
         radius=np.hypot(nodes.points[:, 0], nodes.points[:, 1]),
         theta=np.arctan2(nodes.points[:, 1], nodes.points[:, 0]),
+        tip_lengths=model.contact_tip_lengths,
         tip_cone_angle=line.cone_angle,
         tip_displacement_operator=_cylindrical_parts(ends, ends.basis @ modes),
         to_reduced=modes,

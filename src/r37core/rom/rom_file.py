@@ -21,6 +21,7 @@ _MATRICES = {
 }
 _ARRAYS: dict[str, tuple[str | tuple[str, str], str, str]] = {
     "contact_chord": ("contact_node", "1", "chord fraction of the contact nodes"),
+    "contact_tip_lengths": ("contact_node", "m", "length of tip along the casing's meridian of each contact node"),
     "shape_products": (("shape", "column"), "kg1/2", "mass product with ideal shapes"),
     "shape_norms": ("shape", "kg1/2", "mass norm of the ideal shapes"),
     "rotation_stiffening": ("rotation_shape", "s2 rad-2", "relative stiffening of these shapes per squared speed"),

@@ -46,27 +46,34 @@ class CasingOfRun:
         """Sliding of the nodes over the casing by the rotation (m/s), positive along the tangent, shape (nodes,)."""
         return -self.tip.radius * self.grid.speed
 
-    @property
-    def bar_area(self) -> float:
-        """Area of a bar of the lining (m2), at the largest radius of the contact nodes; 0 without lining."""
-        return self.scene.lining.area(float(np.max(self.model.radius))) if self.scene.lining else 0.0
+    @cached_property
+    def pressed_areas(self) -> np.ndarray:
+        """Area (m2) of lining that each contact node presses at a time, shape (nodes,); 0 without lining."""
+        lengths, lining = self.model.tip_lengths, self.scene.lining
+        return np.zeros(len(lengths)) if lining is None else lining.pressed_areas(lengths, self._tip_radius)
 
     @property
-    def bar_stiffness(self) -> float:
-        """Stiffness of an elastic bar (N/m); 0 without lining."""
+    def lining_stiffness(self) -> np.ndarray:
+        """Elastic stiffness (N/m) of the lining under each contact node, shape (nodes,); 0 without lining."""
         lining = self.scene.lining
-        return 0.0 if lining is None else lining.elastic_modulus * self.bar_area / lining.thickness
+        return self.pressed_areas * (0.0 if lining is None else lining.elastic_modulus / lining.thickness)
+
+    @property
+    def bar_surfaces(self) -> np.ndarray:
+        """Surface (m2) of the casing under a bar of each contact node's ring, shape (nodes,); 0 without lining."""
+        lining = self.scene.lining
+        if lining is None or lining.published:
+            return self.pressed_areas
+        return self.model.tip_lengths * lining.arc(self._tip_radius)
+
+    @property
+    def _tip_radius(self) -> float:
+        return float(np.max(self.model.radius))
 
     @property
     def bars(self) -> int:
-        """Number of bars in each ring: with steps longer than a bar, one for each step of a revolution.
-
-        All bars that a step passes over are then worn as the one it ends on; a force is still that of a single bar.
-        """
-        lining = self.scene.lining
-        if lining is None:
-            return 0
-        return min(lining.bars, self.grid.steps_per_revolution) if self.grid.choice.second_order else lining.bars
+        """Number of bars in each ring; 0 without lining."""
+        return 0 if self.scene.lining is None else self.scene.lining.bars
 
     def theta(self, step: np.ndarray | int) -> np.ndarray:
         """Angle (rad) of the undeformed contact nodes at a step of a revolution; the rotor turns towards negative theta."""
@@ -80,21 +87,24 @@ class CasingOfRun:
         """
         return np.maximum(-self.clearance, 0.0)[:, None]
 
-    def gaps(self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float) -> tuple[np.ndarray, np.ndarray]:
-        """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
+    def gaps(
+        self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Distance (m) of every node from casing or lining, the angle (rad) at which it meets it, and vibration's part of it.
 
-        `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its normal, tangent and
-        meridian, shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the run; `angle` (rad): at
-        which the blade stands beyond that of its model.
+        All of shape (nodes,). `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its
+        normal, tangent and meridian, shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the
+        run; `angle` (rad): at which the blade stands beyond that of its model.
         """
         theta = self.theta(step % self.grid.steps_per_revolution) + angle
         normal, across, meridional = displacement
-        position = normal
+        position, shift = normal, np.zeros(len(normal))
         if self.scene.exact_gap:
             # the displaced node's radius is sqrt((r + u_r)^2 + u_theta^2), its angle theta + atan(u_theta/(r + u_r))
             cosine, sine = np.cos(self.cone_angle), np.sin(self.cone_angle)
             radius = self.tip.radius + cosine * normal + sine * meridional
             position = position + cosine * (np.hypot(radius, across) - radius)
-            theta = theta + np.arctan2(across, radius)
+            shift = np.arctan2(across, radius)
+            theta = theta + shift
         lobes = self.scene.casing.lobe(theta, np.array(step * self.grid.time_step), self.grid.duration)
-        return clearance - lobes - position, theta
+        return clearance - lobes - position, theta, shift

@@ -45,14 +45,13 @@ def blade_problems(
     steps = max(problem(*blade).grid.steps_per_sample for blade in blades)
 
     @cache
-    def rounded_problem(factor: float, longer: float, angle: float) -> Problem:
-        place = nearest_step_angle(angle, steps * choice.samples_per_revolution) if scene.lining else angle
-        own = problem(factor, longer, place)
+    def problem_of_steps(factor: float, longer: float, angle: float) -> Problem:
+        own = problem(factor, longer, angle)
         if own.grid.steps_per_sample == steps:
             return own
         return Problem(own.model, speed, own.scene, replace(own.choice, steps_per_sample=steps))
 
-    problems = tuple(rounded_problem(*blade) for blade in blades)
+    problems = tuple(problem_of_steps(*blade) for blade in blades)
     if scene.casing.ring:
         try:
             check_rotor_step([problem.contact for problem in problems])
@@ -66,15 +65,6 @@ def blade_problems(
 def turned(model: ContactModel, angle: float) -> ContactModel:
     """The model at an angle (rad) beyond its own."""
     return replace(model, theta=model.theta + angle) if angle else model
-
-
-def nearest_step_angle(angle: float, steps_per_revolution: int) -> float:
-    """The angle (rad) of the nearest whole step, where blades that go on together meet bars at the same places of them.
-
-    At other places the deepest of all wears a bar for all, and 36 blades wear a lining that no blade alone wears so.
-    """
-    step = 2.0 * np.pi / steps_per_revolution
-    return float(np.round(angle / step) * step)
 
 
 def mistuned(model: ContactModel, factor: float) -> ContactModel:

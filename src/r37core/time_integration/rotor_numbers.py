@@ -40,7 +40,7 @@ def rotor_numbers(
         "blade_peak": maxima[:, choice.revolutions // 2 :].max(axis=1),
         "blade_maximum": growth,
         "blade_contact": totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0),
-        "blade_worn": record.worn * simulation.problem.casing.bar_area,
+        "blade_worn": record.worn,
         "span_revolutions": np.array(span),
         "leader": np.array(rotor.numbers[int(rms.argmax()) if record.first_diverged is None else record.first_diverged]),
         **nodal_diameters(half, record.late, rotor),

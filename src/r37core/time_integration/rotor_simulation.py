@@ -21,7 +21,7 @@ from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
 from .problem import Problem
 from .reference.engine import advance_together
-from .rotor_blades import blade_problems, nearest_step_angle
+from .rotor_blades import blade_problems
 from .simulate import Simulation
 from .state import SimulationRecord, SimulationState
 
@@ -30,8 +30,8 @@ from .state import SimulationRecord, SimulationState
 class BladesRecord:
     """Records of the blades: one of each, and where the samples lie in time.
 
-    `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m), shape
-    (blades,): what each has worn off all bars together.
+    `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m3), shape
+    (blades,): what each has worn off the lining; NaN of a single blade.
     """
 
     blades: tuple[SimulationRecord, ...]
@@ -95,14 +95,13 @@ class BladesSimulation:
     def run(self, states: list[SimulationState], revolutions: int) -> BladesRecord:
         """Do so many revolutions from the start, which the `states` are at; they are changed."""
         if self.rotor is None:
-            return BladesRecord((self.blades[0].advance(states[0], revolutions),), np.zeros(1), np.array([states[0].worn]))
+            return BladesRecord((self.blades[0].advance(states[0], revolutions),), np.zeros(1), np.full(1, np.nan))
         samples = revolutions * self.problem.choice.samples_per_revolution
         outs = [simulation.room(0, samples) for simulation in self.blades]
         engines, late = [simulation.engine for simulation in self.blades], np.zeros(len(self.blades))
         if self.problem.choice.engine == "reference":
             # in an elastic casing the problems have the angles
-            steps = self.problem.grid.steps_per_revolution
-            angles = [0.0 if self.elastic else nearest_step_angle(angle, steps) for angle in self.rotor.angles]
+            angles = (0.0,) * len(self.blades) if self.elastic else self.rotor.angles
             done, worn = advance_together(engines, states, outs, angles, self.rotor.order)
         elif self.elastic:
             done, worn = advance_in_lockstep(engines, states, outs, self.rotor.order)
@@ -138,7 +137,7 @@ class BladesSimulation:
         order: Sequence[int],
         revolutions: int,
     ) -> tuple[list[int], list[float]]:
-        """Let blade after blade pass the casing in this order; returns the samples done of each, and its wear (m)."""
+        """Let blade after blade pass the casing in this order; returns the samples done of each, and its wear (m3)."""
         per_revolution = self.problem.choice.samples_per_revolution
         passages = [
             Passage(simulation.engine, state, out, start=start)

@@ -26,7 +26,9 @@ class SimulationState:
 
     `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
     `touched`, shape (nodes,): whether a node touched the casing in the last step; `contact_force` (N), shape (3, nodes): what
-    presses the nodes at t_n with exact_modal, along normal, tangent and meridian; `totals`: see TOTALS.
+    presses the nodes at t_n with exact_modal, along normal, tangent and meridian; in a lining `penetration` (m) of the nodes
+    beyond its unworn surface at t_n, negative where they are clear, and `shift` (rad), what vibration adds to their angle with
+    the exact gap, shape (nodes,); `totals`: see TOTALS.
     """
 
     displacement: np.ndarray
@@ -34,13 +36,10 @@ class SimulationState:
     wear: np.ndarray | None
     touched: np.ndarray
     contact_force: np.ndarray
+    penetration: np.ndarray
+    shift: np.ndarray
     samples: int = 0
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
-
-    @property
-    def worn(self) -> float:
-        """Sum of the wear (m) of all bars."""
-        return 0.0 if self.wear is None else float(self.wear.sum())
 
 
 class Schedule:

@@ -42,8 +42,8 @@ def _check_published_step(contact: ContactOperators, taken: str) -> None:
     if not ratio < 1.0:
         limit = contact.blade.grid.time_step / np.sqrt(ratio)
         raise UnstableStepError(
-            f"{taken} limit for this lining, about {limit:.6g} s (bars of {contact.casing.bar_stiffness:.4g} N/m); "
-            "use a smaller one, or a softer, thicker or narrower lining",
+            f"{taken} limit for this lining, about {limit:.6g} s (up to {contact.casing.lining_stiffness.max():.4g} N/m at a "
+            "contact node); use a smaller one, or a softer, thicker or narrower lining",
             limit,
         )
 
@@ -52,9 +52,11 @@ def predicted_ratio(contact: ContactOperators) -> float:
     """Ratio of the step to the limit of a lining whose force is that of the prediction; unstable from 1 on.
 
     A node pressed by x on an elastic bar follows x_{n+1} = (1 - g)(2 x_n - x_{n-1}), g = bar stiffness times c at the node;
-    both roots of the recursion lie inside the unit circle for 0 < g < 4/3.
+    both roots of the recursion lie inside the unit circle for 0 < g < 4/3. Of many nodes g are the eigenvalues of
+    S^1/2 C S^1/2, with the stiffnesses S and the coupling C.
     """
-    return contact.casing.bar_stiffness * float(np.linalg.eigvalsh(contact.coupling[0])[-1]) * 0.75
+    root = np.sqrt(contact.casing.lining_stiffness)
+    return float(np.linalg.eigvalsh(root[:, None] * contact.coupling[0] * root)[-1]) * 0.75
 
 
 def pressed_ratio(contact: ContactOperators) -> float:

@@ -19,7 +19,7 @@ import scipy.sparse as sp
 
 from r37core.exchange.refusal import ImportRefused, MeshWarning, blamed
 from r37core.fem.solver import Solve, factorise
-from r37core.rom.contact_weights import weights_along
+from r37core.rom.contact_weights import tip_lengths, weights_along
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes, multi_speed_basis
 from r37core.rom.naming import NAMED_MODES
 from r37core.rom.reduce import contact_nodes, projected
@@ -114,6 +114,7 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
         contact=choice.boundary.contact,
         contact_nodes=contact_nodes(weights, nodes, chord, line),
         contact_chord=weights @ chord,
+        contact_tip_lengths=tip_lengths(matrices.points, chord, _positions(chord, choice.boundary)),
         tip_lines={choice.boundary.tip_line: line},
         stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
         stress_elements={},
@@ -139,6 +140,11 @@ def _contact_weights(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoi
             "in boundary.csv"
         )
     return weights_along(points, chord, choice)
+
+
+def _positions(chord: np.ndarray, choice: BoundaryChoice) -> np.ndarray:
+    """Fractions of the chord at which the contact nodes' hats are 1."""
+    return chord if choice.contact == POINTS else choice.chord_positions(choice.nodes)
 
 
 def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:

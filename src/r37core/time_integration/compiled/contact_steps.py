@@ -14,7 +14,7 @@ from r37core.contact.node_sweeps import set_laws, sweep_nodes, wear_bars
 from r37core.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
 from .layout import LINED
-from .steps import bar_at, friction_response, leave_casing, node_lanes, set_friction_of_listed
+from .steps import bar_at, friction_response, leave_casing, node_lanes, set_friction_of_listed, wear_bar
 
 
 @inlined
@@ -109,9 +109,7 @@ def keep_forces(m, count):
             m.totals.casing_hits += 1.0
             onsets &= onsets - 1
     if LINED:
-        wear = numbers_at(m.call.wear)
         for j in range(count):
             k = c.listed[j]
-            m.worn += max(c.wear[k] - wear[c.bar[k]], 0.0)
-            wear[c.bar[k]] = max(wear[c.bar[k]], c.wear[k])
+            wear_bar(m, k, c.bar[k], c.wear[k])
     return any_pressed != 0

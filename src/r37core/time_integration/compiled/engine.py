@@ -249,12 +249,12 @@ class CompiledEngine:
             self.put(friction_share=np.stack([friction.coefficient * np.sign(velocity), np.zeros(self._nodes)]))
 
     def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
-        m = self.record[0]
+        m, casing = self.record[0], problem.casing
         for name in LINING.names or ():
-            value = problem.casing.bar_area if name == "area" else getattr(lining, name)
+            value = getattr(lining, name)
             m["lining"][name] = np.nan if value is None else value
-        m["lining"]["bars"] = problem.casing.bars
-        self.put(bar_position=problem.casing.tip.theta / (2.0 * np.pi) * problem.casing.bars)
+        m["contact"]["area"][: self._nodes] = casing.pressed_areas
+        self.put(bar_position=casing.tip.theta / (2.0 * np.pi) * lining.bars, bar_surface=casing.bar_surfaces)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
         self.record[0]["contact"]["relaxation"] = problem.blade.relaxation

@@ -76,8 +76,8 @@ def _fields(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
     return [(name, kind, shape) for name in names.split()]
 
 
-LINING = aligned_record(_fields(" ".join(field.name for field in fields(Lining)) + " area"))
-"""Numbers of the lining's law: every field of Lining as a number, and a bar's area (m2)."""
+LINING = aligned_record(_fields(" ".join(field.name for field in fields(Lining))))
+"""Numbers of the lining's law: every field of Lining as a number."""
 
 CASING = aligned_record(_fields("amplitude rise period width cosine sine"))
 """Amplitude (m) of the lobes; rise rate times step; angle (rad) between lobes and their relative width; cone angle."""
@@ -104,9 +104,9 @@ def contact_record(nodes: int) -> np.dtype:
         [
             # gaps (m) without forces and with those found, and these (N); what the last sweep changed (m)
             *_fields("gap opened pressure change", nodes),
-            # the laws of the listed nodes: own flexibility (m/N) and one over it; wear (m) of the bar; lines of
-            # the bar's law in series with the node
-            *_fields("own stiffness wear elastic offset plastic", nodes),
+            # the laws of the listed nodes: own flexibility (m/N) and one over it; pressed area (m2) and wear (m) of the bar;
+            # lines of the bar's law in series with the node
+            *_fields("own stiffness area wear elastic offset plastic", nodes),
             # opening of the last node's gap per force on the one before (m/N)
             *_fields("columns", nodes, nodes),
             # numbers of the listed nodes; the bar of each node
@@ -206,7 +206,9 @@ def integration_record(capacity: Capacity) -> np.dtype:
             *_fields("force_outputs", 1, modes, 3 * nodes),
             ("contact", contact_record(nodes), ()),
             *_fields("rotation", nodes),  # signed sliding in a step by the rotation (m)
-            *_fields("bar_position", nodes),  # angle at step 0, in bars
+            # angle at step 0, in bars; surface (m2) of the casing under a bar; penetration (m) at t_n, and at t_{n-1} what
+            # vibration added to the angle (rad)
+            *_fields("bar_position bar_surface penetration last_shift", nodes),
             *_fields("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", complementarity_record(nodes), ()),
             *_fields("beyond touched", groups, kind=np.int64),
@@ -219,7 +221,8 @@ def integration_record(capacity: Capacity) -> np.dtype:
             # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
             *_fields("block_work block_loss", LANES),
             *_fields("follows", kind=np.int64),
-            *_fields("worn"),  # off all bars together (m)
+            *_fields("pressing", kind=np.int64),  # whether any node is beyond the lining's unworn surface at t_n
+            *_fields("worn largest_wear"),  # off the lining by this blade (m3); of all bars (m)
             *_fields("limit friction"),
             # how much of the record is used: vectors of modes and of nodes; numbers
             *_fields("vectors", 2, kind=np.int64),

@@ -29,7 +29,7 @@ AT_ONCE = Start()
 class Passage:
     """Blocks of steps from a `state` on, as a `schedule` says, with samples and snapshots into `out`; `done`: how many.
 
-    Without a schedule it goes on in parts at the first speed, and the largest wear is not kept.
+    Without a schedule it goes on in parts at the first speed, and the largest wear is not kept: other blades wear the lining.
     """
 
     def __init__(
@@ -50,7 +50,10 @@ class Passage:
         self.done = 0
         m = engine.record[0]
         engine.put_modes(u=state.displacement, increment=state.increment)
-        engine.put(worn=0.0, touched=np.packbits(state.touched, bitorder="little"), totals=state.totals)
+        largest_wear = 0.0 if schedule is None or state.wear is None else state.wear.max()
+        engine.put(worn=0.0, largest_wear=largest_wear, touched=np.packbits(state.touched, bitorder="little"))
+        engine.put(totals=state.totals, penetration=state.penetration, last_shift=state.shift)
+        engine.put(pressing=bool((state.penetration > 0.0).any()))
         if self._grid.choice.second_order:
             engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         addresses = {
@@ -89,7 +92,7 @@ class Passage:
 
     @property
     def worn(self) -> float:
-        """Wear (m) of all bars together by this blade, up to now."""
+        """Wear (m3) of the lining by this blade, up to now."""
         return float(self._engine.record[0]["worn"])
 
     def end(self) -> None:
@@ -100,6 +103,7 @@ class Passage:
         self._schedule.ends[:] = self._ends[..., columns]
         state.touched[:] = np.unpackbits(m["touched"].astype(np.uint8), bitorder="little")[:nodes]
         state.totals[()] = m["totals"]
+        state.penetration[:], state.shift[:] = m["penetration"][:nodes], m["last_shift"][:nodes]
         if self._grid.choice.second_order:
             state.contact_force[NORMAL] = m["force"][:nodes]
             state.contact_force[TANGENTIAL:] = m["friction_force"][:, :nodes]
@@ -118,7 +122,7 @@ class Passage:
 def advance_in_lockstep(
     engines: Sequence[CompiledEngine], states: Sequence[SimulationState], outs: Sequence[SimulationRecord], order: Sequence[int]
 ) -> tuple[list[int], list[float]]:
-    """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the bars (m).
+    """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the lining (m3).
 
     `engines` of a rotor's blades, of one capacity; their forces on the casing are summed in this `order`. Each has the casing's
     modes; these are made alike to the last bit, and those of the first count for their loss.

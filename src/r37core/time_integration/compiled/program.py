@@ -18,9 +18,10 @@ from r37core.program_constants import specialised
 from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, release_contact
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead, turn_jump, turn_step
-from .layout import EXACT_GAP, MODAL_ROWS, PUBLISHED, Capacity, Kind, constants_record, integration_record
+from .layout import EXACT_GAP, LINED, MODAL_ROWS, PUBLISHED, Capacity, Kind, constants_record, integration_record
 from .segment_steps import begin_segment, end_segment
 from .steps import (
+    follow_gaps,
     leave_casing,
     list_pressed,
     measure_exact_gaps,
@@ -32,6 +33,7 @@ from .steps import (
     push_lanes,
     record,
     sum_pushes,
+    take_gaps,
 )
 
 
@@ -53,6 +55,27 @@ def _find_forces(addresses, blades):
         m.follows = int(list_pressed(m) > 0)
         any_forces |= m.follows != 0
     return any_forces
+
+
+@inlined
+def _any_pressing(addresses, blades):
+    """Whether any node is beyond the unworn lining."""
+    any_pressing = False
+    for b in range(blades):
+        any_pressing |= pointed_at(addresses[b]).pressing != 0
+    return any_pressing
+
+
+@inlined
+def _measure(addresses, blades, place, lobes):
+    """Take the gaps at t_n of blades that have no forces."""
+    for b in range(blades):
+        m = pointed_at(addresses[b])
+        if EXACT_GAP:
+            measure_exact_gaps(m, place, lobes)
+        else:
+            measure_gaps(m, place, lobes)
+        take_gaps(m, m.problem.gap)
 
 
 @inlined
@@ -150,6 +173,13 @@ def _meet(m, place, lobes):
         m.follows = 0
     else:
         leave_casing(m)
+    if LINED and PUBLISHED and not beyond:
+        follow_gaps(m, m.problem.gap, place)
+    elif LINED and not PUBLISHED:
+        if beyond:
+            follow_gaps(m, m.contact.opened, place)
+        else:
+            follow_gaps(m, m.problem.gap, place)
     return beyond
 
 
@@ -176,8 +206,8 @@ def _integrate(addresses, blades):
     coarse_per_block = (steps_per_block + COARSE - 1) // COARSE
     # any integers for numba: what it gives a plain 0 or 1 to is compiled for just that, too
     zero, shortest = int(np.int64(0)), int(np.int64(1))
-    # whether a node is beyond the lining or casing, or there are forces at t_n
-    busy, bounded, within, first_stride = False, False, True, shortest
+    # whether a node is beyond the lining or casing, or there are forces at t_n; whether the gaps at t_n are known
+    busy, bounded, within, first_stride, measured = False, False, True, shortest, False
     done = kept = segment = until = zero
     first_block = first.call.first_step // steps_per_block
     place = first.call.first_step % first.steps_per_revolution
@@ -194,6 +224,9 @@ def _integrate(addresses, blades):
             busy, bounded, first_stride = False, False, shortest
             if not PUBLISHED:
                 busy = _find_forces(addresses, blades)
+            if LINED:
+                busy |= _any_pressing(addresses, blades)
+                measured = busy
         _begin_block(addresses, blades)
         position = 0
         while position < steps_per_block:
@@ -207,9 +240,13 @@ def _integrate(addresses, blades):
                 first_stride = max(min(stride + 1, STRIDES - 1), 1)
                 if stride >= 0:
                     _jump(addresses, blades, stride)
+                    measured = False
                     remaining *= first.flight.decay[stride]
                     position += first.flight.lengths[stride]
                     continue
+            if LINED and not measured:
+                _measure(addresses, blades, place + position, first.casing.amplitude * (1.0 - remaining))
+                measured = True
             position += 1
             remaining *= decay
             here = place + position if place + position < first.steps_per_revolution else 0

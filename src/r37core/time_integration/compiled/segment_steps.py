@@ -48,11 +48,8 @@ def take_speed(m, index):
 def end_segment(m, segment):
     """Keep how the motion ends a segment and, where it is asked for, the largest wear by then."""
     put_motion(m, 2 * segment + 1)
-    if m.call.wear != 0 and m.call.worn != 0:
-        largest, wear = 0.0, numbers_at(m.call.wear)
-        for bar in range(m.nodes * int(m.lining.bars)):
-            largest = max(largest, wear[bar])
-        numbers_at(m.call.worn)[segment] = largest
+    if m.call.worn != 0:
+        numbers_at(m.call.worn)[segment] = m.largest_wear
 
 
 @inlined

@@ -13,8 +13,20 @@ import numpy as np
 
 from r37core.alignment import LANES
 from r37core.contact.complementarity import list_nodes, solve_complementarity
-from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping
-from r37core.lanes import bits_of, flag_at, inlined, lanes_of, load, numbers_at, spread, store, sum_of_lanes, sums_of_lanes
+from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping, worn
+from r37core.lanes import (
+    bits_of,
+    first_bit,
+    flag_at,
+    inlined,
+    lanes_of,
+    load,
+    numbers_at,
+    spread,
+    store,
+    sum_of_lanes,
+    sums_of_lanes,
+)
 
 from .layout import CORIOLIS, EXACT_GAP, LINED, MERIDIONAL, NORMAL, OF_MODES, OF_NODES, PUBLISHED, TANGENTIAL
 
@@ -25,6 +37,7 @@ _friction_direction = inlined(friction_direction)
 _return_mapping = inlined(return_mapping)
 _displaced_position = inlined(displaced_position)
 _lobe_shape = inlined(lobe_shape)
+_worn = inlined(worn)
 
 
 @inlined
@@ -186,19 +199,83 @@ def friction_response(m, table, k, g):
 
 
 @inlined
-def bar_at(m, k, place):
-    """The number of the bar that a node is at, counted over all rings."""
-    bars = int(m.lining.bars)
+def bar_position(m, k, place):
+    """The angle that a node is at, in bars."""
     position = m.bar_position[k] - place * m.lining.bars / m.steps_per_revolution
     if EXACT_GAP:
         position += m.shift[k] * (m.lining.bars / (2.0 * np.pi))
+    return position
+
+
+@inlined
+def bar_number(m, k, position):
+    """The number of the bar of a node's ring at an angle in bars, counted over all rings."""
+    bars = int(m.lining.bars)
     bar = int(np.floor(position))
     while bar < 0:
         bar += bars
-    if EXACT_GAP:
-        while bar >= bars:
-            bar -= bars
+    while bar >= bars:
+        bar -= bars
     return bar + k * bars
+
+
+@inlined
+def bar_at(m, k, place):
+    """The number of the bar that a node is at, counted over all rings."""
+    return bar_number(m, k, bar_position(m, k, place))
+
+
+@inlined
+def wear_bar(m, k, bar, new):
+    """Wear a bar of a node's ring to a new depth (m), if that is more than it has."""
+    wear = numbers_at(m.call.wear)
+    if new > wear[bar]:
+        m.worn += (new - wear[bar]) * m.bar_surface[k]
+        m.largest_wear = max(m.largest_wear, new)
+        wear[bar] = new
+
+
+@inlined
+def wear_passed_bars(m, k, place, penetration):
+    """Wear the bars that a node has passed between the last step's bar and this one's.
+
+    They are worn as its `penetration` (m) says, linear between that at t_n and the one given, at t_{n+1}.
+    """
+    position, bars = bar_position(m, k, place), m.lining.bars
+    moved = bars / m.steps_per_revolution
+    if EXACT_GAP:
+        moved += (m.last_shift[k] - m.shift[k]) * (bars / (2.0 * np.pi))
+    before, thickness = m.penetration[k], m.lining.thickness
+    for bar in range(int(np.floor(position)) + 1, int(np.floor(position + moved))):
+        share = (bar + 0.5 - position) / moved
+        depth = penetration + (before - penetration) * share
+        if depth > 0.0:
+            wear_bar(m, k, bar_number(m, k, bar + 0.5), _worn(min(depth, thickness), 0.0, m.lining))
+
+
+@inlined
+def follow_gaps(m, gaps, place):
+    """Take the gaps (m) to the unworn lining at a step's end, and wear the bars that nodes have passed while pressing them."""
+    for g in range(0, node_lanes(m), LANES):
+        passing = bits_of(load(gaps, g) < 0.0) | bits_of(load(m.penetration, g) > 0.0)
+        while passing:
+            k = g + first_bit(passing)
+            passing &= passing - 1
+            wear_passed_bars(m, k, place, -gaps[k])
+    take_gaps(m, gaps)
+
+
+@inlined
+def take_gaps(m, gaps):
+    """Take the gaps (m) to the unworn lining as those at t_n."""
+    pressing = 0
+    for g in range(0, node_lanes(m), LANES):
+        penetration = -load(gaps, g)
+        store(m.penetration, g, penetration)
+        pressing |= bits_of(penetration > 0.0)
+        if EXACT_GAP:
+            store(m.last_shift, g, load(m.shift, g))
+    m.pressing = int(pressing != 0)
 
 
 @inlined
@@ -215,10 +292,9 @@ def press_lining(m, place):
     for j in range(count):
         k = p.listed[j]
         bar = bar_at(m, k, place)
-        before = wear[bar]
-        stress, wear[bar] = _return_mapping(-p.gap[k], before, lining.elastic_modulus, lining)
-        m.worn += wear[bar] - before
-        m.force[k] = -stress * lining.area
+        stress, new = _return_mapping(-p.gap[k], wear[bar], lining.elastic_modulus, lining)
+        wear_bar(m, k, bar, new)
+        m.force[k] = -stress * m.contact.area[k]
     any_closed = 0
     for g in range(0, node_lanes(m), LANES):
         gap = load(p.gap, g) + lining.thickness
@@ -379,6 +455,9 @@ def kick_complex_modes(m, i, push, increment_push, work, lost):
 @inlined
 def meet(m, place, work, lost):
     """Do a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
+    if LINED:
+        # which the forces are about to open
+        follow_gaps(m, m.problem.gap, place)
     for g in range(0, node_lanes(m), LANES):
         store(m.force, g, 0.0)
     if not LINED or press_lining(m, place):

@@ -31,6 +31,8 @@ class ReferenceEngine:
     """
 
     angle = 0.0
+    worn = 0.0
+    """What the blade has worn off the lining (m3)."""
 
     def __init__(
         self, problem: Problem, segments: Segments, before: ReferenceEngine | None = None, beside: ReferenceEngine | None = None
@@ -90,7 +92,7 @@ class ReferenceEngine:
         """Go on at one speed; returns the rows done, and whether they are within the limit."""
         problem, motion, first = self.problem, self.motion.read(state), state.samples
         done, bounded = 0, True
-        self._turn(first * problem.grid.steps_per_sample)
+        self.begin(motion, first * problem.grid.steps_per_sample, state)
         while done < len(out.samples) and bounded:
             for n in range(1, problem.grid.steps_per_sample + 1):
                 motion = self.step(motion, (first + done) * problem.grid.steps_per_sample + n, state, self.force(state))
@@ -98,6 +100,13 @@ class ReferenceEngine:
             done += 1
         self.motion.write(motion, state)
         return done, bounded
+
+    def begin(self, motion: Any, n: int, state: SimulationState) -> None:
+        """Go on from a motion at t_n: where no node presses the lining, the gaps are those of this speed."""
+        self._turn(n)
+        if state.wear is not None and not (state.contact_force.any() or np.any(state.penetration > 0.0)):
+            gap, _, state.shift[:] = self.gap(self.motion.displacement(motion), n)
+            state.penetration[:] = -gap
 
     def record(self, motion: Any, first: int, done: int, state: SimulationState, out: SimulationRecord) -> bool:
         """Keep sample number `done` after the `first`, and a snapshot where one is due.
@@ -125,11 +134,12 @@ class ReferenceEngine:
         lining = self.problem.scene.lining
         self._turn(n)
         predicted = self.motion.flown(before)
-        gap, theta = self.gap(self.motion.displacement(predicted), n)
+        gap, theta, shift = self.gap(self.motion.displacement(predicted), n)
         directions = self._directions(self.motion.slid(before))
         force = np.zeros(self.rows.shape[-1])
         pressure = np.zeros(len(gap))
         if lining is not None and state.wear is not None:
+            self._follow_gaps(gap, theta, shift, state, lining)
             pressure = self._press_lining(gap, theta, lining, state.wear)
             force = self._modal(pressure * directions)
             # the casing lies behind the lining; what is left to it after the lining's forces
@@ -148,9 +158,11 @@ class ReferenceEngine:
         """Step under the modal forces at t_{n-1}; the state gets those on the nodes at t_n."""
         after, slid = self.motion.pushed(self.motion.flown(before), force), self.motion.slid(before)
         self._turn(n)
-        gap, theta = self.gap(self.motion.displacement(after), n)
+        gap, theta, shift = self.gap(self.motion.displacement(after), n)
         directions = self._directions(1.5 * self.motion.slid(after) - 0.5 * slid)
-        pressure, touching = self._press_nodes(gap, theta, directions, state.wear)
+        pressure, opened, touching = self._press_nodes(gap, theta, directions, state.wear)
+        if self.problem.scene.lining is not None:
+            self._follow_gaps(opened, theta, shift, state, self.problem.scene.lining)
         self._add_up(state, self.motion.work_and_loss(before, after, force), -state.contact_force[0], touching)
         state.contact_force[:] = pressure * directions
         return after
@@ -169,8 +181,8 @@ class ReferenceEngine:
         totals["loss"] += loss
         state.touched[:] = touched
 
-    def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
-        """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it."""
+    def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Distance (m) of every node from casing or lining, angle (rad) at which it meets it, and vibration's part of that."""
         return self.problem.casing.gaps(self.clearance, np.array([rows @ u for rows in self.rows]), n, self.angle)
 
     def _directions(self, d: np.ndarray) -> np.ndarray:
@@ -195,8 +207,10 @@ class ReferenceEngine:
 
     def _press_nodes(
         self, gap: np.ndarray, theta: np.ndarray, directions: np.ndarray, wear: np.ndarray | None
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Normal forces (N) of the contact problem at t_n and the nodes that touch the casing, shape (nodes,); wears the bars.
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Normal forces (N) of the contact problem at t_n, gaps (m) with them, and the nodes that touch the casing.
+
+        All of shape (nodes,). Wears the bars.
 
         Node by node the force that its law says while the others keep theirs, until none changes by more than round-off.
         """
@@ -213,20 +227,44 @@ class ReferenceEngine:
                     pressure[k] = max(penetration, 0.0) / own
                     touching[k] = pressure[k] > 0.0
                 else:
-                    pressure[k], worn[k], touching[k] = self._press_bar_and_casing(penetration, own, wear[bars[k]], lining)
+                    pressure[k], worn[k], touching[k] = self._press_bar_and_casing(k, penetration, own, wear[bars[k]], lining)
             if not np.any(np.abs(pressure - before) > 1e-14 * pressure.max()):
                 break
         if wear is not None:
             for bar, new in zip(bars, worn, strict=True):
-                wear[bar] = max(wear[bar], new)
-        return pressure, touching
+                self._wear(wear, bar, new)
+        return pressure, gap + opening @ pressure, touching
 
-    def _press_bar_and_casing(self, penetration: float, own: float, wear: float, lining: Lining) -> tuple[float, float, bool]:
+    def _follow_gaps(
+        self, gap: np.ndarray, theta: np.ndarray, shift: np.ndarray, state: SimulationState, lining: Lining
+    ) -> None:
+        """Wear the bars between those of the last step and of this one, as the penetration says, linear between the two."""
+        wear, before, after = state.wear, state.penetration.copy(), -gap
+        assert wear is not None
+        bars = wear.shape[1]
+        moved = (2.0 * np.pi / self.problem.grid.steps_per_revolution + state.shift - shift) / (2.0 * np.pi) * bars
+        state.penetration[:], state.shift[:] = after, shift
+        for k in map(int, np.flatnonzero((before > 0.0) | (after > 0.0))):
+            position = theta[k] / (2.0 * np.pi) * bars
+            for bar in range(int(np.floor(position)) + 1, int(np.floor(position + moved[k]))):
+                depth = float(after[k] + (before[k] - after[k]) * (bar + 0.5 - position) / moved[k])
+                _, worn = self._press_bar(k, min(depth, lining.thickness), 0.0, lining, lining.elastic_modulus)
+                self._wear(wear, (k, bar % bars), worn)
+
+    def _wear(self, wear: np.ndarray, bar: tuple[int, int], new: float) -> None:
+        """Wear a bar, by ring and number, to a new depth (m), if that is more than it has."""
+        if new > wear[bar]:
+            self.worn += float(new - wear[bar]) * self.problem.casing.bar_surfaces[bar[0]]
+            wear[bar] = new
+
+    def _press_bar_and_casing(
+        self, node: int, penetration: float, own: float, wear: float, lining: Lining
+    ) -> tuple[float, float, bool]:
         """Force (N) on a node of flexibility `own` (m/N), new wear (m), and whether it touches the casing behind the bar."""
-        stiffness = self.problem.casing.bar_stiffness
-        force, worn = self._press_bar(penetration, wear, lining, lining.elastic_modulus / (1.0 + stiffness * own))
+        stiffness = self.problem.casing.lining_stiffness[node]
+        force, worn = self._press_bar(node, penetration, wear, lining, lining.elastic_modulus / (1.0 + stiffness * own))
         if penetration - own * force > lining.thickness:
-            _, worn = self._press_bar(lining.thickness, wear, lining, lining.elastic_modulus)
+            _, worn = self._press_bar(node, lining.thickness, wear, lining, lining.elastic_modulus)
             return (penetration - lining.thickness) / own, worn, True
         return force, worn, False
 
@@ -235,8 +273,8 @@ class ReferenceEngine:
         bars = wear.shape[1]
         return node, int(np.floor(theta / (2.0 * np.pi) * bars)) % bars
 
-    def _press_bar(self, penetration: float, wear: float, lining: Lining, modulus: float) -> tuple[float, float]:
-        """Normal force (N) and new wear (m) of a bar of elastic `modulus` (Pa) that is pressed to a `penetration` (m).
+    def _press_bar(self, node: int, penetration: float, wear: float, lining: Lining, modulus: float) -> tuple[float, float]:
+        """Normal force (N) and new wear (m) of a node's bar of elastic `modulus` (Pa) that is pressed to a `penetration` (m).
 
         Return mapping with linear hardening: trial stress E (strain - plastic strain), yield stress plus K times the plastic
         strain; beyond it the plastic strain grows by the excess over E + K (Simo and Hughes, box 1.4).
@@ -248,14 +286,15 @@ class ReferenceEngine:
         if excess > 0.0:
             # a bar worn through is gone
             plastic = min(plastic + excess / (modulus + lining.plastic_modulus), 1.0)
-        return max(modulus * (strain - plastic), 0.0) * self.problem.casing.bar_area, plastic * lining.thickness
+        return max(modulus * (strain - plastic), 0.0) * self.problem.casing.pressed_areas[node], plastic * lining.thickness
 
     def _press_lining(self, gap: np.ndarray, theta: np.ndarray, lining: Lining, wear: np.ndarray) -> np.ndarray:
         """Normal forces (N) of the bars that the nodes of a prediction press, shape (nodes,); wears the bars."""
         force = np.zeros(len(gap))
         for k in map(int, np.flatnonzero(gap < 0.0)):
             bar = self._bar(theta[k], k, wear)
-            force[k], wear[bar] = self._press_bar(-gap[k], wear[bar], lining, lining.elastic_modulus)
+            force[k], worn = self._press_bar(k, -gap[k], wear[bar], lining, lining.elastic_modulus)
+            self._wear(wear, bar, worn)
         return force
 
     def _press_casing(self, gap: np.ndarray, directions: np.ndarray) -> np.ndarray:
@@ -293,15 +332,16 @@ def advance_together(
     order: Sequence[int],
 ) -> tuple[list[int], list[float]]:
     """Do the steps of every row of the samples, as each blade stands at its angle (rad); returns the rows done of each and
-    what each has worn off the bars (m).
+    what each has worn off the lining (m3).
 
     In a step the blades follow each other in `order`. All end with the sample in which one passes the limit. An elastic casing
     is one: each engine has its motion, under the forces of all blades, and the first in `order` counts its work.
     """
-    motions, worn = [], [0.0] * len(engines)
+    motions = []
     for engine, state, angle in zip(engines, states, angles, strict=True):
         engine.angle = angle
         motions.append(engine.motion.read(state))
+        engine.begin(motions[-1], 0, state)
     casings = [engine.motion for engine in engines if isinstance(engine.motion, MotionWithCasing)]
     for casing in casings:
         casing.counted = casing is engines[order[0]].motion
@@ -310,12 +350,10 @@ def advance_together(
         for n in range(1, steps + 1):
             own = [engines[place].force(states[place]) for place in order]
             for place, force in zip(order, casings[0].pressed_by_all(own) if casings else own, strict=True):
-                before = states[place].worn
                 motions[place] = engines[place].step(motions[place], done * steps + n, states[place], force)
-                worn[place] += states[place].worn - before
         for engine, motion, state, out in zip(engines, motions, states, outs, strict=True):
             bounded &= engine.record(motion, 0, done, state, out)
         done += 1
     for engine, motion, state in zip(engines, motions, states, strict=True):
         engine.motion.write(motion, state)
-    return [done] * len(engines), worn
+    return [done] * len(engines), [engine.worn for engine in engines]
