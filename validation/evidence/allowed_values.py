@@ -76,7 +76,7 @@ def _list(part: Schema) -> str:
 
 def _bounds(part: Schema) -> str:
     if {"minimum", "maximum"} <= part.keys():
-        return f"{_number(part['minimum'])} to {_number(part['maximum'])}"
+        return f"{_number(part['minimum'])}..{_number(part['maximum'])}"
     words = {"minimum": "at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
     return ", ".join(f"{word} {_number(part[bound])}" for bound, word in words.items() if bound in part)
 

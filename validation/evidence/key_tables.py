@@ -6,10 +6,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from r37core.config.speed_section import UNITS
 from r37core.io import write_text
@@ -48,7 +48,7 @@ KINDS = {
 }
 """Model of an entry -> heading of its keys, where a file has several kinds of entries."""
 
-_HEAD = "| key | default | allowed | meaning |\n|---|---|---|---|"
+_HEAD = "| key | values | meaning |\n|---|---|---|"
 
 
 def tables() -> dict[str, str]:
@@ -68,6 +68,30 @@ def _file(keys: _FileKeys) -> str:
     return "\n\n".join(keys.of_kind(resolved(kind, schema)) for kind in entry["oneOf"])
 
 
+class _Row(NamedTuple):
+    """Cells of a key's row; the values begin with the default, or with `required`."""
+
+    key: str
+    values: str
+    meaning: str
+
+
+def _line(row: _Row) -> str:
+    return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |"
+
+
+def _is_rpm_of(key: str, other: str) -> bool:
+    """Whether a key is another one's speed or rate in revolutions per minute."""
+    plain = key.replace("_rpm_s", "_rad_s2").replace("_rpm", "_rad_s")
+    return "_rpm" in key and other in (plain, key.removesuffix("_rpm"))
+
+
+def _without_rpm(keys: Iterable[str]) -> list[str]:
+    """Keys but for those that share the row of their counterpart in rad/s."""
+    names = list(keys)
+    return [key for key in names if not any(_is_rpm_of(key, other) for other in names)]
+
+
 class _FileKeys:
     """Rows of the keys of one file. Of keys that have rows already, the place of these is named. `shown`: models with rows."""
 
@@ -77,14 +101,17 @@ class _FileKeys:
         self._shown = shown
 
     def by_section(self, model: Schema) -> str:
-        """Plain keys first, then a heading for each key that holds others."""
+        """Plain keys first, then a heading for each key that holds others, with its meaning as a sentence."""
         plain, sections = [], []
-        for key, part in model["properties"].items():
-            rows = list(self._rows(key, part, model))
-            if len(rows) == 1:
-                plain += rows
+        for key in _without_rpm(model["properties"]):
+            first, *rows = self._rows(key, model["properties"][key], model)
+            if not rows:
+                plain.append(_line(first))
+            elif first.values in ("section", "required; section"):
+                lead = "Required. " if first.values.startswith("required") else ""
+                sections.append("\n".join([f"### {key}\n\n{lead}{first.meaning}.\n\n{_HEAD}", *map(_line, rows)]))
             else:
-                sections.append("\n".join([f"### {key}\n\n{_HEAD}", *rows]))
+                sections.append("\n".join([f"### {key}\n\n{_HEAD}", *map(_line, (first, *rows))]))
         return "\n\n".join([*(["\n".join([_HEAD, *plain])] if plain else []), *sections])
 
     def of_kind(self, model: Schema) -> str:
@@ -92,11 +119,11 @@ class _FileKeys:
         name = model["title"]
         again = self._shown.again(name, model, self._file, AllowedValues(self.schema))
         self._shown.add(name, Shown(self._file, f"{KINDS[name][0].lower()}{KINDS[name][1:]}", model))
-        rows = [row for key in again.own for row in self._rows(key, model["properties"][key], model)]
+        rows = [_line(row) for key in _without_rpm(again.own) for row in self._rows(key, model["properties"][key], model)]
         text = f"It has the {again.text}, and:\n\n" if again.text else ""
         return "\n".join([f"### {KINDS[name]}\n\n{text}{_HEAD}", *rows])
 
-    def _rows(self, path: str, part: Schema, parent: Schema, inherited: str = "") -> Iterator[str]:
+    def _rows(self, path: str, part: Schema, parent: Schema, inherited: str = "") -> Iterator[_Row]:
         """The row of a key, and those of the keys in it."""
         key = path.rsplit(".", 1)[-1].removesuffix("[]")
         unit = _unit(key, part) or inherited
@@ -108,11 +135,11 @@ class _FileKeys:
         meanings = "; ".join(filter(None, dict.fromkeys([_text(meaning), *places])))
         default = _default(path, part, parent, [model for _, _, model in inner])
         values = replace(values, sections={name: keys.section for name, keys in again.items()})
-        cells = [f"`{path}`", default, values.of(part), meanings]
-        yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
+        names = [f"`{path}`", *(f"`{twin}`" for twin in parent["properties"] if _is_rpm_of(twin, key))]
+        yield _Row(", ".join(names), "; ".join(filter(None, [default, values.of(part)])), meanings)
         for name, where, model in inner:
             self._shown.add(name, Shown(self._file, f"`{where.removesuffix('[]')}`", model))
-            for inside in again[name].own:
+            for inside in _without_rpm(again[name].own):
                 yield from self._rows(f"{where}.{inside}", model["properties"][inside], model, unit)
 
 
@@ -137,13 +164,13 @@ def _unit(key: str, part: Schema) -> str:
 
 
 def _default(path: str, part: Schema, parent: Schema, models: list[Schema]) -> str:
-    """Value of a key that is left out; that of a section is given with its keys, unless these have none."""
+    """Value of a key that is left out, nothing for an optional key; a section's is in its keys, unless these have none."""
     key = path.rsplit(".", 1)[-1]
     if "default" not in part:
         return "required" if key in parent.get("required", ()) else ""
     value = part["default"]
     if value is None:
-        return "optional"
+        return ""
     in_keys = isinstance(value, Mapping) and models and not any(model.get("required") for model in models)
     return "" if in_keys else f"`{_flow(value)}`"
 
