@@ -293,4 +293,4 @@ def test_blades_on_one_grid_of_time_wear_the_lining_as_those_that_pass_one_by_on
     np.testing.assert_allclose(records[1].worn, records[0].worn, rtol=0.02)
     for parts in zip(*(record.blades for record in records), strict=True):
         maxima = [np.abs(part.samples[:, 2]).reshape(revolutions, -1).max(axis=1) for part in parts]
-        np.testing.assert_allclose(*maxima, rtol=0, atol=0.03 * maxima[1].max())
+        np.testing.assert_allclose(*maxima, rtol=0, atol=0.06 * maxima[1].max())

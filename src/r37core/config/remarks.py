@@ -1,11 +1,12 @@
 """What a run of the pipeline says before it starts, and at its end."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.source import MeshSource
+from r37core.rom.reduction_choice import POINTS
 
 from .settings import Settings
 from .speed_choice import fastest_of, length_of_run, most_runs, slowest_speeds
@@ -76,7 +77,12 @@ def remarks_on_materials(settings: Settings) -> list[str]:
             if other is not None:
                 text = f"{blade.definition.file} has a material of its own ({other.wording}, in its units); it is not used"
                 blades.setdefault(f"{text}, and differs from that of blades.yaml", []).append(name)
-    return [f"{', '.join(names[:3])}{', ...' if len(names) > 3 else ''}: {text}" for text, names in blades.items()]
+    return [f"{_first_few(names)}: {text}" for text, names in blades.items()]
+
+
+def _first_few(names: Sequence[str]) -> str:
+    """The first three of some names."""
+    return f"{', '.join(names[:3])}{', ...' if len(names) > 3 else ''}"
 
 
 def remarks_on_laws(settings: Settings) -> list[str]:
@@ -95,6 +101,13 @@ def remarks_on_laws(settings: Settings) -> list[str]:
                 f"scene '{name}': lining.plastic_modulus_pa is 0: bars do not harden, and resist with no more than "
                 f"lining.yield_stress_pa, {lining.yield_stress:g} Pa, until they are worn through; where that is little, the "
                 "blade does not move, and numbers of 0 are no result"
+            )
+        patched = [blade for blade in settings.blade_names if settings.contact_of(blade) != POINTS]
+        if lining is not None and lining.published and patched:
+            lines.append(
+                f"scene '{name}': lining.bar_width_m and bar_area_m2 are the published model's: the lining of "
+                f"{_first_few(patched)} depends on structure.boundary.nodes and covers a part of the tip; left out, it covers "
+                "all of it, as in the scene material_abradable"
             )
     return lines
 

@@ -26,6 +26,17 @@ Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energ
 class LiningSection(Section):
     """The abradable lining in front of the casing."""
 
+    @model_validator(mode="after")
+    def _one_pressed_area(self) -> LiningSection:
+        published = [key for key in ("bar_width_m", "bar_area_m2") if getattr(self, key) is not None]
+        if published and "contact_length_m" in self.model_fields_set:
+            raise refused(
+                ("contact_length_m",),
+                f"contact_length_m and {published[0]}",
+                f"one of them; {published[0]} is the published model's",
+            )
+        return self
+
 
 @declared_by(Friction)
 class FrictionSection(Section):

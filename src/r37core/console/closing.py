@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.results.closing import interaction_title, remarks_on_contact
+from r37core.results.closing import interaction_title, lining_texts, remarks_on_contact
 from r37core.rounding import rounded_to
+from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
 
 
@@ -35,8 +36,8 @@ def _sweep_lines(results: Path, began: float, remarks: Iterable[str]) -> list[st
     there = (f"{results / name}{more}" for name, more in places.items() if (results / name).exists())
     where = f"look at {', '.join(there)}"
     ranked = _ranked(results / "ranking.csv")
-    diverged, untouched = _run_counts(results / "rms.nc")
-    return [_found(rows) + diverged, *untouched, *ranked, *remarks, where]
+    diverged, said = _run_counts(results / "rms.nc")
+    return [_found(rows) + diverged, *said, *ranked, *remarks, where]
 
 
 def _found(rows: list[dict[str, str]]) -> str:
@@ -109,7 +110,7 @@ def _length(row: dict[str, str]) -> str:
 
 
 def _run_counts(file: Path) -> tuple[str, list[str]]:
-    """How many runs diverged, and lines on blades and scenes that never touch; nothing where there are none."""
+    """How many runs diverged, and lines on blades and scenes that never touch, and on linings; nothing where there are none."""
     # not at every start of Snakemake
     import netCDF4
 
@@ -117,13 +118,17 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
         with netCDF4.Dataset(file) as rms:
             status, names = rms["status"][:], [rms[name][:] for name in ("blade", "scene")]
             forces = np.ma.filled(rms["largest_normal_force"][:], np.nan)
+            at_tip = {name: np.ma.filled(rms[name][:], np.nan).ravel() for name in LINING_AT_TIP if name in rms.variables}
     except OSError:
         # not there, or no dataset, which who reads it is told
         return "", []
     diverged, runs = (status == RunStatus.DIVERGED).sum(), (status != RunStatus.NOT_RUN).sum()
-    pairs = zip(product(*names), forces.reshape(-1, forces.shape[-1]), strict=True)
-    untouched = remarks_on_contact([(f"{blade} in {scene}", force) for (blade, scene), force in pairs])
-    return f"; {diverged} of {runs} runs diverged" if diverged else "", untouched
+    pairs = list(product(*names))
+    touching = zip(pairs, forces.reshape(-1, forces.shape[-1]), strict=True)
+    untouched = remarks_on_contact([(f"{blade} in {scene}", force) for (blade, scene), force in touching])
+    lined = [pair for pair, share in enumerate(at_tip.get("lined_tip_share", ())) if np.isfinite(share)]
+    linings = lining_texts({pairs[pair]: {name: values[pair] for name, values in at_tip.items()} for pair in lined})
+    return f"; {diverged} of {runs} runs diverged" if diverged else "", [*untouched, *linings]
 
 
 def _took(seconds: float) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,6 +33,29 @@ def interaction_title(mode: str, engine_order: str | int | None) -> str:
     if mode:
         return f"{mode}/{engine_order}"
     return "a peak of its own" if engine_order in (None, "") else f"engine order {engine_order}"
+
+
+def lining_texts(runs: Mapping[tuple[str, str], Mapping[str, float]]) -> list[str]:
+    """A line for each scene: what its lining resists with at the tip, and what the tips themselves do.
+
+    `runs`: blade and scene -> numbers of time_integration.lining_at_tip.
+    """
+    lines = []
+    for scene in dict.fromkeys(scene for _, scene in runs):
+        blades = [numbers for (_, of), numbers in runs.items() if of == scene]
+        spans = {name: _span([numbers[name] for numbers in blades]) for name in blades[0]}
+        lines.append(
+            f"{scene}: stiffness of the lining at the tip {spans['lining_elastic_stiffness']} N/m, "
+            f"{spans['lining_plastic_stiffness']} while it wears, on {spans['lined_tip_share']} of the tip's length; of the "
+            f"blade there {spans['tip_stiffness']} N/m"
+        )
+    return lines
+
+
+def _span(values: Sequence[float]) -> str:
+    """The smallest and the largest of some values, or the one that they are."""
+    ends = dict.fromkeys(f"{end(values):.3g}" for end in (min, max))
+    return " to ".join(ends)
 
 
 def remarks_on_contact(runs: Sequence[tuple[str, np.ndarray]]) -> list[str]:

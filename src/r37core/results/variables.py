@@ -73,6 +73,13 @@ _WAVES = {
 VARIABLES = _STATUS | _MOTION | _GIVEN_MOTION | _SPECTRUM | _STRESS | _WEAR | _WAVES
 """Variables over the speeds of a response."""
 
+OF_LINING = {
+    "lining_elastic_stiffness": Variable((), "N m-1", "stiffness of the elastic lining under the whole tip"),
+    "lining_plastic_stiffness": Variable((), "N m-1", "stiffness of the lining under the whole tip while it wears"),
+    "tip_stiffness": Variable((), "N m-1", "stiffness of the blade at rest under a normal force spread along its tip"),
+    "lined_tip_share": Variable((), "1", "width of lining over length of tip, both along the casing's meridian"),
+}
+
 OF_CASING = {
     "casing_nodal_diameter": Variable(("casing_mode",), "1", "nodal diameters of the casing's mode"),
     "casing_frequency": Variable(("casing_mode",), "Hz", "natural frequency of the casing's mode, which does not turn"),
@@ -87,6 +94,7 @@ OF_STRESS = {
 OF_ALL_SPEEDS = {
     "casing_cone_angle": Variable((), "rad", "half angle of the casing's cone, negative where it narrows downstream"),
     "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "f4"),
+    **OF_LINING,
     **OF_CASING,
     **OF_STRESS,
 }
@@ -116,7 +124,7 @@ AXES = {
 """Numeric axes, of which a dataset has what its responses have together."""
 
 DATASETS = {
-    "rms": ("lined", "casing_cone_angle", *_MOTION),
+    "rms": ("lined", *OF_LINING, "casing_cone_angle", *_MOTION),
     "spectrum": tuple(_SPECTRUM),
     "stress": ("lined", *_STRESS, *OF_STRESS, *HISTORIES),
     "wear": tuple(_WEAR),

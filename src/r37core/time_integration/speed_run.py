@@ -22,6 +22,7 @@ from .kept_numbers import (
     wear_numbers,
     whole,
 )
+from .lining_at_tip import lining_at_tip
 from .rotor_numbers import rotor_numbers, stress_of_blades
 from .rotor_simulation import BladesRecord, BladesSimulation
 from .simulate import DIRECTIONS, TIP_POINTS
@@ -45,8 +46,8 @@ def run_speed(
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
-    (rad), `lined`, 1 where there is a lining, `rms` and `peak` (m) over the last half, shape (2, 3): TIP_POINTS by DIRECTIONS,
-    `revolution_maxima` (m), shape (revolutions, 2, 3), and contact statistics. `clearance` (m), shape (nodes,): where it
+    (rad), `lined`, 1 where there is a lining, and what lining_at_tip says of it, `rms` and `peak` (m) over the last half, shape
+    (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), and contact statistics. `clearance` (m), shape (nodes,): where it
     changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
     `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes of
     rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the
@@ -73,6 +74,7 @@ def run_speed(
     half = [part[first * per_revolution :] for part in samples]
     maxima = [largest_of_each(choice.revolutions, part) for part in samples]
     numbers = status_numbers(simulation.problem, None if ended is None else len(record.blades[ended].samples) / per_revolution)
+    numbers |= lining_at_tip(model, scene)
     numbers |= {
         "rms": np.max([np.sqrt(np.mean(part**2, axis=0)) for part in half], axis=0),
         "peak": np.max([part[first:].max(axis=0) for part in maxima], axis=0),
