@@ -19,6 +19,7 @@ REACHES = {
     "casing.lobes": (6, "casing.lobes", 6),
     "casing.width": (0.11, "casing.width", 0.11),
     "casing.amplitude_clearances": (2.5, "casing.amplitude", 2.5),
+    "casing.amplitude_m": (5e-4, "casing.height", 5e-4),
     "casing.rise_fraction": (0.6, "casing.rise_fraction", 0.6),
     "lining.thickness_m": (7e-3, "lining.thickness", 7e-3),
     "lining.elastic_modulus_pa": (7e9, "lining.elastic_modulus", 7e9),

@@ -140,9 +140,10 @@ def above(several: Sequence[Choice]) -> Document | None:
 _PACKAGE = str(Path(__file__).parent) + os.sep
 
 
-def remarks_of(settings: Settings) -> list[str]:
-    """What a run would remark on."""
-    return [*remarks_on_input(settings), *remarks_on_points(settings)]
+def remarks_of(call: Call) -> list[str]:
+    """Remarks of a run that does what a call asks for."""
+    changed = [scene.name for scene in call.scenes if scene.changes_clearance]
+    return [*remarks_on_input(call.settings, changed), *remarks_on_points(call.settings)]
 
 
 def tell(remarks: Iterable[str]) -> None:

@@ -175,6 +175,16 @@ class SceneChoice(Choice):
             raise _unknown(self.kind, self.name, entries, self.document.name)
         return entries[self.name]
 
+    @property
+    def changes_clearance(self) -> bool:
+        """Whether the changes give the scene another clearance than its file does."""
+        if not self.changes:
+            return False
+        with contextlib.suppress(ConfigError):
+            entries = read_document(Path(self.file).parent, self.file).check(Scenes).root
+            return entries[self.base or self.name].casing.cold_clearance != self.entry.casing.cold_clearance
+        return False
+
 
 @checked_call
 def blades(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:

@@ -82,7 +82,7 @@ def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack
     """
     entry = {key: value for key, value in options.items() if key not in OneOptions.__annotations__ and value is not None}
     call = _call("r37.run_up", blade, scene, {"run_up": entry}, options)
-    tell(remarks_of(call.settings))
+    tell(remarks_of(call))
     with scratch_folder() as folder:
         calculation = Calculation(call.settings, folder, 1)
         planned, run = RunUps(calculation.sweep), Named(**vars(calculation.run), run_up="run_up")

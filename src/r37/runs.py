@@ -129,7 +129,7 @@ def run_of(
     wanted = snakemake_targets(targets)
     base = base_of(blades, options.get("config"))
     call = Call(caller, base, blades, scenes, {**keys, **level(options.get("fidelity"))}, whole)
-    tell(remarks_of(call.settings))
+    tell(remarks_of(call))
     temporary = temporary_folder() if options.get("folder") is None else None
     place = Path(temporary.name) if temporary else run_folder(options["folder"])
     write_run(call, place)

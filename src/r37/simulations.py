@@ -233,7 +233,7 @@ def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> x
 
 def _response(call: Call, cores: int, motion: InitialMotion | None = None) -> xr.Dataset:
     """The response of the call's one blade in its one scene, at the speeds of its settings, from rest or in `motion`."""
-    tell(remarks_of(call.settings))
+    tell(remarks_of(call))
     (blade,), (scene,) = call.blades, call.scenes
     with scratch_folder() as folder:
         response = read_dataset(Calculation(call.settings, folder, cores).response(motion))

@@ -51,7 +51,7 @@ class Blade:
         casing = self.scene.casing
         period = 2.0 * np.pi / casing.lobes
         from_top = np.mod(self.angle(time), period) / period - 0.5
-        lobe = casing.clearance * casing.amplitude * np.exp(-((from_top / casing.width) ** 2))
+        lobe = casing.lobe_height * np.exp(-((from_top / casing.width) ** 2))
         moving = lobe * 2.0 * from_top / casing.width**2 * self.speed / period
         risen, rising = 1.0, 0.0
         if casing.rise_fraction > 0.0:

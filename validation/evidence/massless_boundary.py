@@ -55,7 +55,7 @@ def run_nlstep(blade, kept, steps_per_sample, samples_per_revolution, samples):
         "radius": blade.radius,
         "speed": blade.speed,
         "clearance": casing.clearance,
-        "height": casing.amplitude * casing.clearance,
+        "height": casing.lobe_height,
         "width": casing.width,
         "period": 2.0 * np.pi / casing.lobes,
         "rise_rate": casing.rise_rate(blade.duration),

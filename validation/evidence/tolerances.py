@@ -131,11 +131,9 @@ def clearances(input: Any, output: Any, params: Any) -> None:
     settings, models = settings_of(Path.cwd()), Models.read(*input)
     scene, rows = settings.scenes["abradable"].scene, []
     for scale in CLEARANCES:
-        casing = replace(scene.casing, clearance=scale * scene.casing.clearance)
-        fixed = replace(casing, amplitude=scene.casing.amplitude / scale)
-        lengths = [
-            length_of_runs(settings, models, "Ref", replace(scene, casing=lobes), CLEARANCE_SPEEDS) for lobes in (casing, fixed)
-        ]
+        fixed = replace(scene.casing, clearance=scale * scene.casing.clearance)
+        casings = (replace(fixed, height=scale * scene.casing.lobe_height), replace(fixed, height=scene.casing.lobe_height))
+        lengths = [length_of_runs(settings, models, "Ref", replace(scene, casing=each), CLEARANCE_SPEEDS) for each in casings]
         rows.append([f"{scale:g}", *(f"{length:.0f}" for length in lengths)])
     write_table(
         ["clearance over the shipped one", "lobes that grow with it (rad/s)", "lobes of a fixed height"], rows, output.table

@@ -11,8 +11,9 @@ import pandas as pd
 import xarray as xr
 
 from r37core.config import Settings
+from r37core.contact.scene import Scene
 from r37core.dataset_file import read_dataset
-from r37core.results.exceedance import CERTAIN, POSSIBLE, exceedance_of
+from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, exceedance_of
 from r37core.results.measures import motion
 from r37core.results.ranking import read_ranking
 from r37core.rom.contact_model import ContactModel, read_contact_model
@@ -170,17 +171,22 @@ def bars_of_blade(input: Any, output: Any, params: Any) -> None:
     pd.DataFrame([row]).to_csv(output[0], index=False)
 
 
-def length_of_runs(settings: Settings, models: Models, blade: str, scene: Any, speeds: np.ndarray = BAR_SPEEDS) -> float:
-    """Certain length (rad/s) of a lined blade from runs of its own."""
-    limit, shares = settings.blades[blade].material.yield_stress, []
+def length_of_runs(settings: Settings, models: Models, blade: str, scene: Scene, speeds: np.ndarray = BAR_SPEEDS) -> float:
+    """Length (rad/s) above yield in most revolutions, from runs of its own."""
+    return exceedance_of_runs(settings, models, blade, scene, speeds).length(CERTAIN)
+
+
+def exceedance_of_runs(settings: Settings, models: Models, blade: str, scene: Scene, speeds: np.ndarray) -> Exceedance:
+    """Exceedance of a blade from runs of its own, in a scene like the shipped one with a lining or without."""
+    limit, shares, lined = settings.blades[blade].material.yield_stress, [], scene.lining is not None
     for speed in speeds:
-        choice = settings.integration_choice(blade, "abradable", float(speed))
+        choice = settings.integration_choice(blade, "abradable" if lined else "direct", float(speed))
         run = run_speed(models.contact, float(speed), scene, choice, ("stress",), stress=models.stress, **KEPT)
         statistic = stress_statistic(run["revolution_von_mises"], limit)
         shares.append(1.0 if run["status"] else float(statistic["share_of_revolutions_above_yield"]))
     coordinates = {"speed": np.asarray(speeds, float)}
     content = {"share_of_revolutions_above_yield": ("speed", shares), "status": ("speed", np.zeros(len(shares), int))}
-    return exceedance_of(xr.Dataset(content | {"lined": 1.0}, coordinates)).length(CERTAIN)
+    return exceedance_of(xr.Dataset(content | {"lined": float(lined)}, coordinates))
 
 
 def bars(input: Any, output: Any, params: Any) -> None:

@@ -39,3 +39,47 @@ use rule evidence as clearance_effect with:
         "logs/validation/clearance_effect.log",
     params:
         **evidence("clearance.effect"),
+
+
+# lobes of a height in mm against lobes of two clearances, on models of the main job and of that on patches
+LOBE_MODELS = {"points": "results", "patches": "results/runs/patches"}
+
+
+use rule evidence as clearance_lobes_of_blade with:
+    input:
+        unpack(
+            lambda wildcards: behind_engine(
+                **models_of(wildcards.blade, LOBE_MODELS[wildcards.contact]),
+                campbell=f"{LOBE_MODELS[wildcards.contact]}/{wildcards.blade}/campbell.nc",
+            )(wildcards)
+        ),
+    output:
+        "results/evidence/clearance_lobes_{contact}_{blade}.csv",
+    log:
+        "logs/validation/clearance_lobes_{contact}_{blade}.log",
+    wildcard_constraints:
+        contact="|".join(LOBE_MODELS),
+    params:
+        **evidence("lobes.lengths_of_blade"),
+        blade=lambda wildcards: wildcards.blade,
+        contact=lambda wildcards: wildcards.contact,
+
+
+use rule evidence as clearance_lobes with:
+    input:
+        unpack(
+            behind_engine(
+                *[
+                    f"results/evidence/clearance_lobes_{contact}_{blade}.csv"
+                    for contact in LOBE_MODELS
+                    for blade in ("Ref", "CS50", "L100")
+                ]
+            )
+        ),
+    output:
+        table=f"{TABLES}/clearance_lobes.csv",
+        picture="docs/clearance_lobes.png",
+    log:
+        "logs/validation/clearance_lobes.log",
+    params:
+        **evidence("lobes.lengths"),

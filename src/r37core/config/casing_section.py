@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from itertools import pairwise
 from typing import Annotated, Any
 
@@ -13,11 +14,14 @@ from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 
 from .declaring import DECLARED, declared_by, si_fields, si_form
-from .section import LeftOut, Section, left_out, refused
+from .section import LeftOut, Section, Without, left_out, refused
+
+_HEIGHTS = ("amplitude_clearances", "amplitude_m")
+"""Keys of the height of the lobes, of which a scene has one."""
 
 
 class GrowthSection(Section):
-    """Growth of the casing over speed, linear between the speeds."""
+    """Growth of the casing, linear between speeds."""
 
     speeds_rad_s: list[Annotated[float, Field(ge=0, le=1e6)]] | LeftOut = Field(
         default=None, min_length=2, description="Ascending speeds, from 0 to at least structure.maximum_speed_rad_s"
@@ -48,7 +52,7 @@ class ClearanceSection(Section):
     """Clearance that changes with the speed, in place of clearance_m."""
 
     cold_m: float = Field(
-        ge=1e-6, le=0.1, description="Clearance at rest, normal to the casing; lobes are given in shares of it"
+        ge=1e-6, le=0.1, description="Clearance at rest, normal to the casing; amplitude_clearances counts it"
     )
     centrifugal: bool = Field(default=True, description="Whether the centrifugal load lengthens and untwists the blade")
     casing_growth: GrowthSection | LeftOut = None
@@ -84,7 +88,7 @@ class RingModeSection(Section):
         return si_form(RingMode, self, frequency=2.0 * math.pi * self.frequency_hz, tangential=tangential)
 
 
-@declared_by(Casing)
+@declared_by(Casing, amplitude_clearances=None)
 class CasingSection(Section):
     """Shape and elasticity of the casing."""
 
@@ -94,20 +98,46 @@ class CasingSection(Section):
     lobes: Any = DECLARED
     width: Any = DECLARED
     amplitude_clearances: Any = DECLARED
+    amplitude_m: Any = DECLARED
     rise_fraction: Any = DECLARED
-    ring: RingSection | LeftOut = left_out("Elastic casing as a ring; the casing is rigid without it")
+    ring: RingSection | LeftOut = left_out("Elastic casing as a ring; rigid without it")
     ring_modes: Annotated[list[RingModeSection], Field(min_length=1, max_length=200)] | LeftOut = left_out(
-        "Elastic casing by its modes, in place of ring"
+        "Elastic casing by modes, in place of ring"
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def _with_a_height(cls, data: Any) -> Any:
+        # the default is written out, so that it may spread like a height that is given
+        if isinstance(data, Mapping) and all(data.get(key, Without.KEY) is Without.KEY for key in _HEIGHTS):
+            return {**data, _HEIGHTS[0]: Casing.amplitude}
+        return data
+
     @model_validator(mode="after")
-    def _one_clearance_and_ring(self) -> CasingSection:
+    def _one_clearance_height_and_ring(self) -> CasingSection:
         if (self.clearance_m is None) == (self.clearance is None):
             value = "neither of clearance_m and clearance" if self.clearance is None else "clearance_m and clearance"
             raise refused((), value, "one of clearance_m and clearance")
+        if self.amplitude_clearances is not None and self.amplitude_m is not None:
+            raise refused((), " and ".join(_HEIGHTS), "one of them; in Python, a key that is None is left out")
         if self.ring is not None and self.ring_modes is not None:
             raise refused((), "ring and ring_modes", "one of them")
         return self
+
+    @property
+    def clearance_key(self) -> str:
+        """Dotted key of the number that is the clearance, or the cold one."""
+        return "casing.clearance_m" if self.clearance is None else "casing.clearance.cold_m"
+
+    @property
+    def cold_clearance(self) -> float:
+        """Clearance (m) at rest, which is that of every speed where it does not depend on speed."""
+        return self.clearance_m if self.clearance is None else self.clearance.cold_m
+
+    @property
+    def lobes_scale(self) -> bool:
+        """Whether a larger clearance has higher lobes."""
+        return self.lobes > 0 and bool(self.amplitude_clearances)
 
     @property
     def elastic(self) -> bool:

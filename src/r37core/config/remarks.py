@@ -1,6 +1,6 @@
 """What a run of the pipeline says before it starts, and at its end."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibility_of, nodal_diameters_for
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
@@ -10,6 +10,7 @@ from r37core.rom.reduction_choice import POINTS
 
 from .settings import Settings
 from .speed_choice import fastest_of, length_of_run, most_runs, slowest_speeds
+from .spread import Spreads
 
 LONG_RUN = 10.0
 """CPU time (s) of one simulation from which on it is said before a run starts."""
@@ -40,9 +41,13 @@ def remarks_of_pipeline(settings: Settings) -> list[str]:
     return lines
 
 
-def remarks_on_input(settings: Settings) -> list[str]:
-    """What is to be said of speeds, materials, contact laws and casings before any run, of the workflow or of a call."""
+def remarks_on_input(settings: Settings, changed: Collection[str] = ()) -> list[str]:
+    """Remarks on speeds, materials, contact laws and casings before any run, of the workflow or of a call.
+
+    `changed`: scenes whose clearance a call has changed.
+    """
     lines = [*remarks_on_speeds(settings), *remarks_on_materials(settings), *remarks_on_laws(settings)]
+    lines += remarks_on_lobes(settings, changed)
     for scene, casing in elastic_casings(settings).items():
         lines.append(remark_on_overtaken_waves(scene, casing, fastest_of(settings, scene)))
     return [line for line in lines if line]
@@ -110,6 +115,27 @@ def remarks_on_laws(settings: Settings) -> list[str]:
                 "all of it, as in the scene material_abradable"
             )
     return lines
+
+
+def remarks_on_lobes(settings: Settings, changed: Collection[str] = ()) -> list[str]:
+    """Remark on lobes given in clearances in scenes whose clearance is spread, `changed` by a call, or differs in this run."""
+    casings = {name: settings.scene_entries[name].casing for name in settings.scene_names}
+    scaled = {name: casing for name, casing in casings.items() if casing.lobes_scale}
+    spread, differ = _spread_numbers(settings), len({casing.cold_clearance for casing in scaled.values()}) > 1
+    names = [name for name, casing in scaled.items() if differ or name in changed or casing.clearance_key in spread]
+    if not names:
+        return []
+    return [
+        f"scene {', '.join(names)}: lobes grow with the clearance, which this run changes or spreads: "
+        "casing.amplitude_clearances gives their height in clearances; casing.amplitude_m holds it (docs/clearance.md)"
+    ]
+
+
+def _spread_numbers(settings: Settings) -> set[str]:
+    """Dotted keys of scene numbers that spread: under `tolerances`, and in sections that have tolerances of their own."""
+    sections = [section for _, section in settings.config]
+    sections += [getattr(section, "tolerances", None) for section in sections]
+    return {key for section in sections if isinstance(section, Spreads) for key in section.of_scenes}
 
 
 def remarks_on_points(settings: Settings) -> list[str]:

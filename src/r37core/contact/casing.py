@@ -18,9 +18,9 @@ _ROUNDED = 1e-5
 class Casing:
     """A casing that slowly becomes lobed.
 
-    Distance = clearance - amplitude * clearance * (1 - exp(-a t)) f(theta), with
-    f = exp(-[((theta mod p)/p - 1/2)/width]^2), p = 2 pi / lobes, and a such that 99% is reached at `rise_fraction` of the
-    run. `cone_angle` None: that of the blade's tip. Source: section 5 of the benchmark.
+    Distance = clearance - lobe_height * (1 - exp(-a t)) f(theta), with f = exp(-[((theta mod p)/p - 1/2)/width]^2),
+    p = 2 pi / lobes, and a such that 99% is reached at `rise_fraction` of the run. Lobes have the `height` (m) or, where that
+    is None, `amplitude` times the clearance. `cone_angle` None: that of the blade's tip. Source: section 5 of the benchmark.
 
     The clearance is that of every speed, unless the blade or the casing grows with it. Then it is the cold one, at rest:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
@@ -34,18 +34,12 @@ class Casing:
 
     clearance: Annotated[
         float,
-        Key(
-            "Clearance at every speed, normal to the casing; or clearance, which depends on speed",
-            "_m",
-            ge=1e-6,
-            le=0.1,
-            optional=True,
-        ),
+        Key("Clearance at every speed, normal to the casing", "_m", ge=1e-6, le=0.1, optional=True),
     ]
     lobes: Annotated[int, Key("Number of lobes; 0 is a circular casing", ge=0, le=100)] = 2
     width: Annotated[float, Key("Width of a lobe in shares of its period", ge=1e-3, le=100)] = 0.15
-    amplitude: Annotated[float, Key("Height of the lobes", "_clearances", ge=0, le=1000)] = 2.0
-    rise_fraction: Annotated[float, Key("Share of the run in which the lobes grow to 99% of their height", ge=0, le=1)] = 0.2
+    amplitude: Annotated[float, Key("Height of the lobes; 2 without amplitude_m", "_clearances", ge=0, le=1000)] = 2.0
+    rise_fraction: Annotated[float, Key("Share of the run in which lobes grow to 99%", ge=0, le=1)] = 0.2
     cone_angle: Annotated[
         float | None,
         Key(
@@ -56,6 +50,7 @@ class Casing:
             none="tip",
         ),
     ] = None
+    height: Annotated[float | None, Key("The same, whatever the clearance", "_m", name="amplitude", ge=0, le=1)] = None
     centrifugal: bool = False
     longer: float = 0.0
     growth_speeds: tuple[float, ...] = ()
@@ -85,7 +80,9 @@ class Casing:
     @property
     def lobe_height(self) -> float:
         """Height (m) of a lobe; 0 without lobes."""
-        return self.amplitude * self.clearance if self.lobes else 0.0
+        if not self.lobes:
+            return 0.0
+        return self.amplitude * self.clearance if self.height is None else self.height
 
     def lobe(self, theta: np.ndarray, time: np.ndarray, duration: float) -> np.ndarray:
         """Height (m) of the lobes, inwards, at angles (rad) and times (s) of a run of `duration` (s)."""

@@ -66,6 +66,6 @@ def remarks_on_contact(runs: Sequence[tuple[str, np.ndarray]]) -> list[str]:
     apart = [run for run, force in runs if np.isfinite(force).any() and not np.any(force > 0.0)]
     remark = (
         f"{', '.join(apart)}: the tip touched nothing at any speed, so all numbers are zero; casing.clearance_m, casing.lobes "
-        "and casing.amplitude_clearances say where it can"
+        "and casing.amplitude_m or casing.amplitude_clearances say where it can"
     )
     return [remark] if apart else []

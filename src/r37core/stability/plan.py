@@ -68,14 +68,16 @@ def _model(key: str) -> Fields:
     return lambda value: {"model": {key: value}, "share_of_limit": 0.4, "integrator": CENTRAL_DIFFERENCE}
 
 
+_CLEARANCE, _LOBES = "casing.clearance_m", "casing.amplitude_clearances"
+
 EXTREMES: Mapping[str, tuple[Sequence[float], Fields]] = {
     "central_difference_step_over_limit": ((0.01, 0.1, 0.5, 0.9, 0.99, 1.0, 1.05), _step(CENTRAL_DIFFERENCE)),
     "exact_modal_step_over_limit": ((0.1, 1.0, 3.0, 10.0, 100.0), _step(EXACT_MODAL)),
     "low_speed_over_crossing": ((0.001, 0.005), lambda share: {"speed": share, "revolutions": 2}),
     "speed_over_crossing": ((0.05, 2.0, 3.0), lambda share: {"speed": share}),
-    "clearance": ((0.0, 1e-9, 1e-2), _entry("casing.clearance_m")),
+    "clearance": ((0.0, 1e-9, 1e-2), _entry(_CLEARANCE)),
     "lobes": ((1, 5, 20), _entry("casing.lobes")),
-    "ovalisation_in_clearances": ((0.0, 10.0), _entry("casing.amplitude_clearances")),
+    "ovalisation_in_clearances": ((0.0, 10.0), _entry(_LOBES)),
     "damping_ratio": ((0.0, 0.1, 0.999, 1.0), _entry("damping_ratio")),
     "friction": ((0.0, 0.5, 1.0), _entry("friction.coefficient")),
     "lining_thickness": ((1e-6, 1e-4, 5e-2), _entry("lining.thickness_m")),
@@ -159,10 +161,18 @@ def _refusal(settings: Settings, blade: str, extreme: Extreme) -> str:
 
 
 def _changed(entry: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """A copy of a scene's entry with the changes; that of the clearance is of the cold one in a scene that has one."""
-    cold = "casing.clearance.cold_m" if "clearance" in entry["casing"] else "casing.clearance_m"
+    """A copy of a scene's entry with the changes; that of the clearance is of the cold one in a scene that has one.
+
+    Lobes scale with a changed clearance: otherwise, nothing would touch at the largest.
+    """
+    casing = dict(entry["casing"])
+    cold = "casing.clearance.cold_m" if "clearance" in casing else "casing.clearance_m"
+    if "amplitude_m" in casing and {_CLEARANCE, _LOBES} & set(changes):
+        clearance = casing["clearance"]["cold_m"] if "clearance" in casing else casing["clearance_m"]
+        casing["amplitude_clearances"] = casing.pop("amplitude_m") / clearance
+        entry = {**entry, "casing": casing}
     for path, value in changes.items():
-        entry = changed_content(entry, (cold if path == "casing.clearance_m" else path).split("."), value)
+        entry = changed_content(entry, (cold if path == _CLEARANCE else path).split("."), value)
     return entry
 
 

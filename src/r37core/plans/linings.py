@@ -1,0 +1,34 @@
+"""What the linings of a run resist with at the tips, before it starts."""
+
+from pathlib import Path
+
+from r37core.config import Settings
+from r37core.results.closing import lining_texts
+from r37core.rom.contact_model import read_contact_model
+from r37core.time_integration.lining_at_tip import lining_at_tip
+
+from . import paths
+
+
+def linings_at_tip(settings: Settings) -> list[str]:
+    """Lines on the linings to run: at the tips of the blades whose models are there, else of a length of tip."""
+    lines = []
+    for scene in settings.scene_names:
+        chosen = settings.scenes[scene]
+        lining = chosen.scene.lining
+        if lining is None:
+            continue
+        pattern = paths.CONTACT_MODEL.replace("<results>", str(settings.root / settings.results))
+        files = {name: Path(paths.fill(pattern, blade=name, tip_line=chosen.tip_line)) for name in settings.blade_names}
+        there = {blade: read_contact_model(file) for blade, file in files.items() if file.exists()}
+        if there:
+            at_tips = {(blade, scene): lining_at_tip(model, chosen.scene) for blade, model in there.items()}
+            lines += lining_texts({pair: {name: float(value) for name, value in of.items()} for pair, of in at_tips.items()})
+        elif not lining.published:
+            elastic = 1e-3 * lining.contact_length * lining.elastic_modulus / lining.thickness
+            plastic = elastic * lining.plastic_modulus / (lining.elastic_modulus + lining.plastic_modulus)
+            lines.append(
+                f"{scene}: stiffness of the lining {elastic:.3g} N/m for each mm of tip, {plastic:.3g} while it wears; the "
+                "run ends with that of the whole tip, and the blade's own"
+            )
+    return lines

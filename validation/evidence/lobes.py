@@ -1,0 +1,72 @@
+"""Length above yield about 1B/4 over the clearance: lobes that keep their height against lobes that grow with the clearance."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from r37core.dataset_file import read_dataset
+from r37core.figures.style import PAGE, plt, save
+from r37core.results.exceedance import CERTAIN
+
+from .configuration import settings_of
+from .pages import write_table
+from .which_blade import SCENES, Models, exceedance_of_runs
+
+MODE, ORDER = "1B", 4
+CLEARANCES = (0.2, 0.3, 0.356, 0.4, 0.5, 0.6)
+"""(mm) The third is the benchmark's."""
+
+HELD, SCALED = "0.712 mm", "2 clearances"
+STYLES = {(HELD, "points"): "C0.-", (HELD, "patches"): "C0.--", (SCALED, "points"): "C1.-", (SCALED, "patches"): "C1.--"}
+BELOW, ABOVE, STEP = 0.04, 0.07, 4.0
+"""Speeds about the Campbell speed, as shares of it, and their step (rad/s)."""
+
+
+def lengths_of_blade(input: Any, output: Any, params: Any) -> None:
+    """Lengths of a blade on both kinds of lobes in both scenes. Input: contact, stress, campbell. Params: blade, contact."""
+    settings, models = settings_of(Path.cwd()), Models.read(input.contact, input.stress)
+    crossing = float(read_dataset(input.campbell)["crossing_speed"].sel(mode=MODE, engine_order=ORDER))
+    speeds, rows = np.arange(round((1.0 - BELOW) * crossing), (1.0 + ABOVE) * crossing, STEP), []
+    for name in SCENES:
+        scene = settings.scenes[name].scene
+        for clearance in CLEARANCES:
+            for lobes, height in {HELD: 0.712, SCALED: 2.0 * clearance}.items():
+                casing = replace(scene.casing, clearance=1e-3 * clearance, height=1e-3 * height)
+                exceedance = exceedance_of_runs(settings, models, params.blade, replace(scene, casing=casing), speeds)
+                beyond = any(part.truncated for part in exceedance.ranges(CERTAIN))
+                rows.append([params.contact, name, params.blade, lobes, clearance, exceedance.length(CERTAIN), beyond])
+    columns = ["contact", "scene", "blade", "lobes", "clearance_mm", "length_rad_s", "beyond"]
+    pd.DataFrame(rows, columns=columns).to_csv(output[0], index=False)
+
+
+def lengths(input: Any, output: Any, params: Any) -> None:
+    """Table and picture of all blades; a length that reaches beyond the speeds has a >. Input: files of lengths_of_blade."""
+    found = pd.concat([pd.read_csv(file) for file in input.files])
+    rows = []
+    for (scene, blade, contact, lobes), part in found.groupby(["scene", "blade", "contact", "lobes"], sort=False):
+        cells = [f"{'> ' * row.beyond}{row.length_rad_s:.0f}" for row in part.itertuples()]
+        rows.append([SCENES[scene], blade, contact, lobes, *cells])
+    write_table(["scene", "blade", "contact", "lobes", *(f"{clearance:g} mm" for clearance in CLEARANCES)], rows, output.table)
+    _draw(found, output.picture)
+
+
+def _draw(found: pd.DataFrame, file: str) -> None:
+    blades, curves = list(dict.fromkeys(found["blade"])), found.set_index(["scene", "blade", "contact", "lobes"]).sort_index()
+    figure, grid = plt.subplots(len(SCENES), len(blades), figsize=(PAGE, 3.6), sharex=True, sharey="row", squeeze=False)
+    for row, (scene, words) in zip(grid, SCENES.items(), strict=True):
+        row[0].set_ylabel(f"{words} (rad/s)")
+        for axes, blade in zip(row, blades, strict=True):
+            axes.set_title(blade)
+            for (lobes, contact), style in STYLES.items():
+                curve = curves.loc[scene, blade, contact, lobes]
+                axes.plot(curve["clearance_mm"], curve["length_rad_s"], style, label=f"lobes of {lobes}, {contact}")
+    for axes in grid[-1]:
+        axes.set_xlabel("clearance (mm)")
+    figure.supylabel("length of speeds above yield", fontsize=8)
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    save(figure, file)
