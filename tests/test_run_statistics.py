@@ -123,7 +123,7 @@ def test_step_limit_of_a_lining_is_four_thirds():
     model, choice = oscillator(6000.0), IntegrationChoice(1e-6, 1, 62)
     step = Problem(model, SPEED, DIRECT, choice).grid.time_step
     soft = replace(LINING, elastic_modulus=1.0)
-    stiffness_per_pascal = soft.area(float(model.radius[0])) / soft.thickness
+    stiffness_per_pascal = soft.pressed_areas(model.tip_lengths, 0.25)[0] / soft.thickness
     for share, refused in ((0.999, False), (1.001, True)):
         lining = replace(soft, elastic_modulus=share * 4.0 / 3.0 / step**2 / stiffness_per_pascal)
         with pytest.raises(UnstableStepError, match="limit for this lining") if refused else nullcontext():

@@ -26,6 +26,7 @@ REACHES = {
     "lining.plastic_modulus_pa": (7e8, "lining.plastic_modulus", 7e8),
     "lining.yield_stress_pa": (7e6, "lining.yield_stress", 7e6),
     "lining.bars": (70, "lining.bars", 70),
+    "lining.contact_length_m": (7e-4, "lining.contact_length", 7e-4),
     "lining.bar_width_m": (7e-4, "lining.bar_width", 7e-4),
     "lining.bar_area_m2": (7e-7, "lining.bar_area", 7e-7),
     "friction.form": ("constant", "friction.vector", False),
@@ -67,8 +68,8 @@ def test_every_field_has_a_key():
     assert {field for _, field, _ in REACHES.values()} | elsewhere == set(flat(checked_scene(ENTRY)))
 
 
-def test_the_tip_decides_the_cone_angle_by_default_and_bars_are_a_millimetre_wide():
+def test_by_default_the_tip_decides_the_cone_angle_and_all_of_it_has_a_lining():
     scene = checked_scene(ENTRY)
-    assert (scene.casing.cone_angle, scene.lining.bar_width) == (None, 1e-3)
+    assert (scene.casing.cone_angle, scene.lining.published) == (None, False)
     assert scene.casing.angle(-0.26) == -0.26
     assert checked_scene(with_key("casing.cone_angle_deg", 3.0)).casing.angle(-0.26) == np.radians(3.0)

@@ -87,7 +87,7 @@ def test_words_that_compute_nothing_and_what_is_refused(root, capsys):
         ("--version",): f"r37 {r37.__version__}\n",
         ("blades", "--config", config): "Ref\nL50\nL100\nS50\nS100\nCS50\nCS100\n",
         ("blades", str(root / "config/blades.yaml")): "Ref\nL50\nL100\nS50\nS100\nCS50\nCS100\n",
-        ("scenes", "--config", config): "abradable\ndirect\nphysical_abradable\n",
+        ("scenes", "--config", config): "abradable\ndirect\nmaterial_abradable\nphysical_abradable\n",
         ("--print-completion", "bash"): "# AUTOMATICALLY GENERATED",
     }.items():
         try:

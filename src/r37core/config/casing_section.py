@@ -107,7 +107,7 @@ class CasingSection(Section):
 
     @model_validator(mode="before")
     @classmethod
-    def _with_a_height(cls, data: Any) -> Any:
+    def _height_written_out(cls, data: Any) -> Any:
         # the default is written out, so that it may spread like a height that is given
         if isinstance(data, Mapping) and all(data.get(key, Without.KEY) is Without.KEY for key in _HEIGHTS):
             return {**data, _HEIGHTS[0]: Casing.amplitude}

@@ -29,7 +29,7 @@ class LiningSection(Section):
     @model_validator(mode="after")
     def _one_pressed_area(self) -> LiningSection:
         published = [key for key in ("bar_width_m", "bar_area_m2") if getattr(self, key) is not None]
-        if published and "contact_length_m" in self.model_fields_set:
+        if published and self.contact_length_m != type(self).model_fields["contact_length_m"].default:
             raise refused(
                 ("contact_length_m",),
                 f"contact_length_m and {published[0]}",

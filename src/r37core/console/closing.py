@@ -118,7 +118,7 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
         with netCDF4.Dataset(file) as rms:
             status, names = rms["status"][:], [rms[name][:] for name in ("blade", "scene")]
             forces = np.ma.filled(rms["largest_normal_force"][:], np.nan)
-            at_tip = {name: np.ma.filled(rms[name][:], np.nan).ravel() for name in LINING_AT_TIP if name in rms.variables}
+            tip_numbers = {name: np.ma.filled(rms[name][:], np.nan).ravel() for name in LINING_AT_TIP if name in rms.variables}
     except OSError:
         # not there, or no dataset, which who reads it is told
         return "", []
@@ -126,8 +126,8 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
     pairs = list(product(*names))
     touching = zip(pairs, forces.reshape(-1, forces.shape[-1]), strict=True)
     untouched = remarks_on_contact([(f"{blade} in {scene}", force) for (blade, scene), force in touching])
-    lined = [pair for pair, share in enumerate(at_tip.get("lined_tip_share", ())) if np.isfinite(share)]
-    linings = lining_texts({pairs[pair]: {name: values[pair] for name, values in at_tip.items()} for pair in lined})
+    lined = [pair for pair, share in enumerate(tip_numbers.get("lined_tip_share", ())) if np.isfinite(share)]
+    linings = lining_texts({pairs[pair]: {name: values[pair] for name, values in tip_numbers.items()} for pair in lined})
     return f"; {diverged} of {runs} runs diverged" if diverged else "", [*untouched, *linings]
 
 

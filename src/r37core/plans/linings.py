@@ -22,8 +22,7 @@ def linings_at_tip(settings: Settings) -> list[str]:
         files = {name: Path(paths.fill(pattern, blade=name, tip_line=chosen.tip_line)) for name in settings.blade_names}
         there = {blade: read_contact_model(file) for blade, file in files.items() if file.exists()}
         if there:
-            at_tips = {(blade, scene): lining_at_tip(model, chosen.scene) for blade, model in there.items()}
-            lines += lining_texts({pair: {name: float(value) for name, value in of.items()} for pair, of in at_tips.items()})
+            lines += lining_texts({(blade, scene): lining_at_tip(model, chosen.scene) for blade, model in there.items()})
         elif not lining.published:
             elastic = 1e-3 * lining.contact_length * lining.elastic_modulus / lining.thickness
             plastic = elastic * lining.plastic_modulus / (lining.elastic_modulus + lining.plastic_modulus)

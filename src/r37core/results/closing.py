@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -35,7 +35,7 @@ def interaction_title(mode: str, engine_order: str | int | None) -> str:
     return "a peak of its own" if engine_order in (None, "") else f"engine order {engine_order}"
 
 
-def lining_texts(runs: Mapping[tuple[str, str], Mapping[str, float]]) -> list[str]:
+def lining_texts(runs: Mapping[tuple[str, str], Mapping[str, Any]]) -> list[str]:
     """A line for each scene: what its lining resists with at the tip, and what the tips themselves do.
 
     `runs`: blade and scene -> numbers of time_integration.lining_at_tip.
@@ -52,7 +52,7 @@ def lining_texts(runs: Mapping[tuple[str, str], Mapping[str, float]]) -> list[st
     return lines
 
 
-def _span(values: Sequence[float]) -> str:
+def _span(values: Sequence[Any]) -> str:
     """The smallest and the largest of some values, or the one that they are."""
     ends = dict.fromkeys(f"{end(values):.3g}" for end in (min, max))
     return " to ".join(ends)

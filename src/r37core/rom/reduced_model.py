@@ -66,7 +66,8 @@ class ReducedModel:
     `tip_lines`: recovery along each tip line; `stress_submesh` with `stress_elements`, element type -> shape (elements, nodes
     of the type), indexing its nodes, and `stress_region`, what it is in words; `whole_blade` only on request.
     `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the
-    ideal bending and torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis.
+    ideal bending and torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis, one for each of
+    its columns over all speeds.
     `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation; none of a blade whose
     load is not known. `quadratic_residual`: size of the Omega^4 term of the reduced stiffness at the highest speed against
     the stiffness.
@@ -98,11 +99,6 @@ class ReducedModel:
     def size(self) -> int:
         """Number of reduced coordinates."""
         return self.mass.shape[0]
-
-    @property
-    def columns(self) -> int:
-        """Number of columns, over all speeds, that the basis is made of."""
-        return len(self.singular_values)
 
     @property
     def stiffness_per_square(self) -> np.ndarray:

@@ -53,7 +53,7 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
         dims = (f"stress_{name}", f"node_of_{name}")
         data[_ELEMENTS + name] = (dims, elements, about("1", f"submesh elements of type {name}"))
     attributes = {
-        "basis_columns": model.columns,
+        "basis_columns": len(model.singular_values),
         "basis_independent_columns": model.size,
         "basis_tolerance": model.tolerance,
         "quadratic_residual": model.quadratic_residual,

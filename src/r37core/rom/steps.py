@@ -44,7 +44,7 @@ def _reduced(mesh_file: str, params: Any) -> ReducedModel:
     JOB_LOG.debug(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
     with boundary_located(params.contact["location"]):
         model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction))
-    JOB_LOG.debug(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
+    JOB_LOG.debug(f"{len(model.singular_values)} columns, {model.size} independent at {model.tolerance:g}")
     return model
 
 

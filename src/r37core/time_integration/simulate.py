@@ -123,5 +123,5 @@ def rest_state(problem: Problem) -> SimulationState:
     wear = None if problem.scene.lining is None else np.zeros((nodes, problem.casing.bars))
     if wear is not None and problem.scene.casing.changes_with_speed:
         wear += problem.casing.initial_wear
-    motion, of_nodes = (np.zeros(modes), np.zeros(modes)), (np.zeros(nodes), np.zeros(nodes))
-    return SimulationState(*motion, wear, np.zeros(nodes, dtype=bool), np.zeros((directions, nodes)), *of_nodes)
+    motion, places = (np.zeros(modes), np.zeros(modes)), (np.zeros(nodes), np.zeros(nodes))
+    return SimulationState(*motion, wear, np.zeros(nodes, dtype=bool), np.zeros((directions, nodes)), *places)

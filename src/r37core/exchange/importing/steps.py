@@ -38,6 +38,6 @@ def imported_matrices(input: Any, output: Any, params: Any) -> str:
     choice = from_plain(ReductionChoice, params.reduction)
     with boundary_located(params.contact["location"]), located(params.locations):
         model = import_matrices(from_plain(MatricesSource, params.source), choice, params.folder["folder"])
-    JOB_LOG.debug(f"{model.columns} columns, {model.size} independent at {model.tolerance:g}")
+    JOB_LOG.debug(f"{len(model.singular_values)} columns, {model.size} independent at {model.tolerance:g}")
     write_reduced_model(model, output.rom, params.provenance)
     return f"{params.locations['matrices']}: {wording(model)}"
