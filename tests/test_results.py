@@ -169,7 +169,7 @@ def test_datasets_join_blades_and_scenes(sweep, kind):
                     part = dataset[name].sel(blade=blade, scene=scene)
                     if "speed" in part.dims:
                         part = part.sel(speed=response["speed"])
-                    np.testing.assert_array_equal(part, response[name] if name in response else np.nan)
+                    np.testing.assert_array_equal(part, response.get(name, np.nan))
         if kind != "wear":
             np.testing.assert_array_equal(dataset["status"].sel(scene="direct", blade="Ref"), [2, 0, 1])
             assert dataset["status"].attrs["flag_meanings"] == "completed diverged not_run"

@@ -59,6 +59,7 @@ def test_more_members_change_none_that_are_there_and_those_for_indices_are_made_
         (Spread("uniform", (0.5,)), (0.0, 0.25, 1.0), (1.5, 1.75, 2.5)),
         (Spread("normal", (10.0,), percent=True), (0.5, 0.975, 0.025), (2.0, 2.391992797, 1.608007203)),
         (Spread("between", (0.8, 1.25)), (0.0, 1.0), (0.8, 1.25)),
+        (Spread("log_between", (0.5, 8.0)), (0.0, 0.5), (0.5, 2.0)),
         (Spread("values", (3.0, 1.0)), (0.0, 0.49, 0.5, 1.0), (3.0, 3.0, 1.0, 1.0)),
     ],
 )

@@ -22,9 +22,9 @@ class Blade:
 
     `frequencies` (rad/s), shape (modes,); `rows`, shape (3 nodes, modes): normal, then tangential, then meridional
     displacement of the nodes; `edge`, shape (modes,): normal displacement of the tip's leading edge; `theta` (rad), `radius`
-    (m), shape (nodes,); `duration` (s): of the run of which the casing rises in a share. `flexibility` (m/N), shape (3 nodes,
-    3 nodes), and `edge_flexibility`, shape (3 nodes,): displacements by static modes per force, in the order of `rows`; None
-    without them.
+    (m) and `tip_lengths` (m), which they stand for, shape (nodes,); `duration` (s): of the run of which the casing rises in a
+    share. `flexibility` (m/N), shape (3 nodes, 3 nodes), and `edge_flexibility`, shape (3 nodes,): displacements by static
+    modes per force, in the order of `rows`; None without them.
     """
 
     frequencies: np.ndarray
@@ -32,6 +32,7 @@ class Blade:
     edge: np.ndarray
     theta: np.ndarray
     radius: np.ndarray
+    tip_lengths: np.ndarray
     speed: float
     scene: Any
     duration: float
@@ -96,7 +97,7 @@ def blade_of(model, speed, scene, duration, highest_frequency=np.inf):
     edge_radial, _, edge_axial = model.tip_displacement_operator[:, 0] @ modes
     rows = np.vstack([cosine * radial - sine * axial, tangential, sine * radial + cosine * axial])
     edge = cosine * edge_radial - sine * edge_axial
-    return Blade(np.sqrt(squares), rows, edge, model.theta, model.radius, speed, scene, duration)
+    return Blade(np.sqrt(squares), rows, edge, model.theta, model.radius, model.tip_lengths, speed, scene, duration)
 
 
 def with_static_modes(blade, first):
@@ -163,9 +164,10 @@ def against_spring(blade, times, stiffness, ratio, method="DOP853", **tolerances
 
 
 def bar_stiffness(blade):
-    """Of an elastic bar (N/m)."""
+    """Of the elastic lining under each node (N/m), shape (nodes,)."""
     lining = blade.scene.lining
-    return lining.elastic_modulus * lining.area(float(np.max(blade.radius))) / lining.thickness
+    areas = lining.pressed_areas(blade.tip_lengths, float(np.max(blade.radius)))
+    return lining.elastic_modulus * areas / lining.thickness
 
 
 def _solved(blade, rate, times, method, tolerances):

@@ -42,8 +42,8 @@ HIGHEST_FREQUENCY = 1e5
 
 EXACT = {"rtol": 1e-9, "atol": 1e-13}
 BARS = 1000
-LIGHT_RUB = 1.1
-"""Lobes of the comparisons in direct contact, in clearances: one light touch per lobe."""
+LIGHT_RUB = 1.1 * 3.56e-4
+"""Height (m) of the lobes of the comparisons in direct contact, a tenth above the clearance: one light touch per lobe."""
 
 MOVING_ABOVE = 6.4e-6
 """One over the angular frequency (s/rad) up to which modes move in comparisons with solve_ivp: as of `standard`."""
@@ -117,7 +117,7 @@ def elastic(input: Any, output: Any, params: Any) -> None:
     scene = replace(scene, lining=replace(scene.lining, yield_stress=1e30))
     steps = 6.4e-6 * 0.5 ** np.arange(7)
     ours, checked = at_t_n(model, scene, steps)
-    bare, checked_bare = at_t_n(model, scene_of("direct", amplitude=LIGHT_RUB), steps)
+    bare, checked_bare = at_t_n(model, scene_of("direct", height=LIGHT_RUB), steps)
     exact = without_yield(
         blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), sample_times(SPEED, REVOLUTIONS * SAMPLES), **EXACT
     )
@@ -132,23 +132,47 @@ def worn(input: Any, output: Any, params: Any) -> None:
     """Bars that yield, few enough for steps that are short compared with the time on a bar. Input: model. Output: table."""
     model = read_contact_model(input.model)
     scene = scene_of("abradable")
-    area = scene.lining.area(float(np.max(model.radius)))
-    few = replace(scene, lining=replace(scene.lining, bars=BARS, bar_area=area))
-    times, on_a_bar = sample_times(SPEED, SAMPLES), 2.0 * np.pi / SPEED / BARS
-    exact, wear = with_wear(blade_of(model, SPEED, few, np.inf, HIGHEST_FREQUENCY), times, **EXACT)
-    parts, choice = 2 ** np.arange(2, 6), {"integrator": CENTRAL_DIFFERENCE, "highest_frequency": HIGHEST_FREQUENCY}
-    runs = [integrated(model, few, on_a_bar / part, 1, **choice) for part in parts]
-    steps, columns = [step for _, step, _ in runs], []
-    for errors in ([error(run[0], exact) for run in runs], [error(run[2].wear, wear) for run in runs]):
-        columns.append(with_orders(steps, errors))
-    rows = [[str(part), f"{on_a_bar / part:.2e}", *chain(*cells)] for part, *cells in zip(parts, *columns, strict=True)]
+    area = float(scene.lining.pressed_areas(model.tip_lengths, float(np.max(model.radius)))[0])
+    few = replace(scene, lining=replace(scene.lining, bar_area=area))
+    parts = 2 ** np.arange(2, 6)
+    steps, motion, wear = on_yielding_bars(model, few, SPEED, parts)
+    columns = [with_orders(steps, errors) for errors in (motion, wear)]
+    rows = [[str(part), f"{step:.2e}", *chain(*cells)] for part, step, *cells in zip(parts, steps, *columns, strict=True)]
     write_table(["steps per bar", "step (s)", "motion", "order", "wear", "order"], rows, output.table)
+
+
+def on_yielding_bars(
+    model: ContactModel, scene: Scene, speed: float, parts: Sequence[int]
+) -> tuple[list[float], list[float], list[float]]:
+    """Steps (s) with so many `parts` on each of BARS bars, and errors of motion and wear of central differences there."""
+    few = replace(scene, lining=replace(scene.lining, bars=BARS))
+    times, on_a_bar = sample_times(speed, SAMPLES), 2.0 * np.pi / speed / BARS
+    exact, wear = with_wear(blade_of(model, speed, few, np.inf, HIGHEST_FREQUENCY), times, **EXACT)
+    choice = {"integrator": CENTRAL_DIFFERENCE, "highest_frequency": HIGHEST_FREQUENCY}
+    runs = [integrated(model, few, on_a_bar / part, 1, speed, **choice) for part in parts]
+    return [step for _, step, _ in runs], [error(run[0], exact) for run in runs], [error(run[2].wear, wear) for run in runs]
+
+
+def material(input: Any, output: Any, params: Any) -> None:
+    """The lining by its material on contact nodes that stand for different lengths of tip. Input: points, patches, other."""
+    scene, rows, parts = scene_of("material_abradable"), [], (8, 32)
+    for name, model, speed, length in (
+        ("Ref, points", input.points, 1600.0, 1.585e-4),
+        ("Ref, patches", input.patches, 1700.0, 5e-4),
+        ("CS50, points", input.other, 1500.0, 5e-5),
+    ):
+        lining = replace(scene.lining, contact_length=length)
+        _, motion, wear = on_yielding_bars(read_contact_model(model), replace(scene, lining=lining), speed, parts)
+        cells = [f"{share:.1e}" for pair in zip(motion, wear, strict=True) for share in pair]
+        rows.append([name, f"{speed:.0f}", f"{1e3 * length:.3g}", *cells])
+    errors = [f"{part} steps per bar: {what}" for part in parts for what in ("motion", "wear")]
+    write_table(["blade", "speed (rad/s)", "contact length (mm)", *errors], rows, output.table)
 
 
 def direct(input: Any, output: Any, params: Any) -> None:
     """Direct contact of nodes with mass, the casing replaced by springs, damped or not. Input: model. Output: table."""
     model = read_contact_model(input.model)
-    scene, half = scene_of("direct", amplitude=LIGHT_RUB), SAMPLES // 2
+    scene, half = scene_of("direct", height=LIGHT_RUB), SAMPLES // 2
     blade, times = blade_of(model, SPEED, scene, np.inf, HIGHEST_FREQUENCY), sample_times(SPEED, half)
     choice = {"highest_frequency": HIGHEST_FREQUENCY, "integrator": CENTRAL_DIFFERENCE}
     ours, coarse = (integrated(model, scene, step, 1, **choice)[0][:half] for step in (1e-7, 2e-7))
@@ -178,7 +202,7 @@ def share_at(history: np.ndarray | None, ours: np.ndarray) -> str:
 def histories(input: Any, output: Any, params: Any) -> None:
     """NLstep and the time integration on the first light touch, for several numbers of modes. Input: model. Output: table."""
     model = read_contact_model(input.model)
-    scene, half = scene_of("direct", amplitude=LIGHT_RUB), SAMPLES // 2
+    scene, half = scene_of("direct", height=LIGHT_RUB), SAMPLES // 2
     blade, rows = blade_of(model, SPEED, scene, np.inf), []
     for moving_above in (9.6e-6, 6.4e-6, 3.2e-6, 2.4e-6):
         choice = {"integrator": EXACT_MODAL, "static_above": 2e-7 / moving_above}

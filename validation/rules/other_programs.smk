@@ -26,6 +26,23 @@ use rule evidence as other_programs_worn with:
         **evidence("other_programs.worn"),
 
 
+use rule evidence as other_programs_material with:
+    input:
+        unpack(
+            behind_engine(
+                points="results/Ref/contact_pressure_edge.npz",
+                patches="results/runs/patches/Ref/contact_pressure_edge.npz",
+                other="results/CS50/contact_pressure_edge.npz",
+            )
+        ),
+    output:
+        table=f"{TABLES}/other_programs_material.csv",
+    log:
+        "logs/validation/other_programs_material.log",
+    params:
+        **evidence("other_programs.material"),
+
+
 use rule evidence as other_programs_direct with:
     input:
         unpack(behind_engine(**blade_of_other_programs)),

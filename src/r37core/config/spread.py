@@ -16,11 +16,11 @@ class Spread:
     """How a number spreads.
 
     `uniform`: one half width about the nominal value; `normal`: one standard deviation; `between`: a lower and an upper
-    bound, all between equally likely; `values`: a list, each equally likely. With `percent` the first two are in percent of
-    the nominal value.
+    bound, all between equally likely; `log_between`: the same of the logarithm; `values`: a list, each equally likely. With
+    `percent` the first two are in percent of the nominal value.
     """
 
-    kind: Literal["uniform", "normal", "between", "values"]
+    kind: Literal["uniform", "normal", "between", "log_between", "values"]
     numbers: tuple[float, ...]
     percent: bool = False
 
@@ -34,6 +34,8 @@ class Spread:
             value = nominal + float(scipy.special.ndtri(share)) * width
         elif self.kind == "between":
             value = first + share * (self.numbers[1] - first)
+        elif self.kind == "log_between":
+            value = first * (self.numbers[1] / first) ** share
         else:
             value = self.numbers[min(int(share * len(self.numbers)), len(self.numbers) - 1)]
         # with more digits, the arithmetic of two machines would differ
@@ -49,8 +51,8 @@ class Spread:
     def words(self) -> str:
         """Width of the spread as a page shows it, in the unit of the number or in percent of it."""
         unit = "%" if self.percent else ""
-        if self.kind in ("between", "values"):
-            return (" to " if self.kind == "between" else " or ").join(f"{number:g}" for number in self.numbers)
+        if self.kind in ("between", "log_between", "values"):
+            return (" or " if self.kind == "values" else " to ").join(f"{number:g}" for number in self.numbers)
         return ("± " if self.kind == "uniform" else "standard deviation ") + f"{self.numbers[0]:g}{unit}"
 
 
@@ -78,6 +80,9 @@ class SpreadEntry(Section):
     normal_percent: Percent | LeftOut = left_out("Standard deviation of a normal distribution, of the value")
     normal: Width | LeftOut = left_out("Standard deviation of a normal distribution")
     between: Annotated[list[Number], Field(min_length=2, max_length=2)] | LeftOut = left_out("Bounds of a uniform distribution")
+    log_between: Annotated[list[Width], Field(min_length=2, max_length=2)] | LeftOut = left_out(
+        "Bounds of a distribution whose logarithm is uniform"
+    )
     values: Unique[Number] | LeftOut = left_out("Equally likely values")
 
     @model_validator(mode="after")
@@ -85,8 +90,10 @@ class SpreadEntry(Section):
         kinds = list(plain(self))
         if len(kinds) != 1:
             raise refused((), " and ".join(kinds) or "nothing", f"one of {', '.join(type(self).model_fields)}")
-        if self.between is not None and not self.between[0] < self.between[1]:
-            raise refused(("between",), f"{self.between}", "a lower and a higher number")
+        for key in ("between", "log_between"):
+            bounds = getattr(self, key)
+            if bounds is not None and not bounds[0] < bounds[1]:
+                raise refused((key,), f"{bounds}", "a lower and a higher number")
         return self
 
     def spread(self) -> Spread:

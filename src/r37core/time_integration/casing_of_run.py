@@ -87,24 +87,21 @@ class CasingOfRun:
         """
         return np.maximum(-self.clearance, 0.0)[:, None]
 
-    def gaps(
-        self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Distance (m) of every node from casing or lining, the angle (rad) at which it meets it, and vibration's part of it.
+    def gaps(self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float) -> tuple[np.ndarray, np.ndarray]:
+        """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it, shape (nodes,) both.
 
-        All of shape (nodes,). `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its
-        normal, tangent and meridian, shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the
-        run; `angle` (rad): at which the blade stands beyond that of its model.
+        `clearance` (m) of the round casing, shape (nodes,); `displacement` (m) of the nodes along its normal, tangent and
+        meridian, shape (3, nodes), relative to a flexible casing; `step`: counted from the start of the run; `angle` (rad): at
+        which the blade stands beyond that of its model.
         """
         theta = self.theta(step % self.grid.steps_per_revolution) + angle
         normal, across, meridional = displacement
-        position, shift = normal, np.zeros(len(normal))
+        position = normal
         if self.scene.exact_gap:
             # the displaced node's radius is sqrt((r + u_r)^2 + u_theta^2), its angle theta + atan(u_theta/(r + u_r))
             cosine, sine = np.cos(self.cone_angle), np.sin(self.cone_angle)
             radius = self.tip.radius + cosine * normal + sine * meridional
             position = position + cosine * (np.hypot(radius, across) - radius)
-            shift = np.arctan2(across, radius)
-            theta = theta + shift
+            theta = theta + np.arctan2(across, radius)
         lobes = self.scene.casing.lobe(theta, np.array(step * self.grid.time_step), self.grid.duration)
-        return clearance - lobes - position, theta, shift
+        return clearance - lobes - position, theta

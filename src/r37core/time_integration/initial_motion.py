@@ -123,7 +123,7 @@ def _check_room(problem: Problem, displacement: np.ndarray, state: SimulationSta
     The contact forces of the first instant would be missing.
     """
     nodes = np.array([rows @ (problem.blade.modes @ displacement) for rows in problem.contact.operator_at_rest])
-    room, *_ = problem.casing.gaps(problem.casing.clearance, nodes, 0, 0.0)
+    room, _ = problem.casing.gaps(problem.casing.clearance, nodes, 0, 0.0)
     if state.wear is not None:
         room = room + state.wear[:, 0]
     node = int(room.argmin())

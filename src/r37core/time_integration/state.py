@@ -27,8 +27,8 @@ class SimulationState:
     `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
     `touched`, shape (nodes,): whether a node touched the casing in the last step; `contact_force` (N), shape (3, nodes): what
     presses the nodes at t_n with exact_modal, along normal, tangent and meridian; in a lining `penetration` (m) of the nodes
-    beyond its unworn surface at t_n, negative where they are clear, and `shift` (rad), what vibration adds to their angle with
-    the exact gap, shape (nodes,); `totals`: see TOTALS.
+    beyond its unworn surface at t_n, negative where they are clear, and `bar_position`, their angle in bars, shape (nodes,)
+    (which the compiled engine needs with the exact gap alone); `totals`: see TOTALS.
     """
 
     displacement: np.ndarray
@@ -37,7 +37,7 @@ class SimulationState:
     touched: np.ndarray
     contact_force: np.ndarray
     penetration: np.ndarray
-    shift: np.ndarray
+    bar_position: np.ndarray
     samples: int = 0
     totals: np.ndarray = field(default_factory=lambda: np.zeros((), TOTALS))
 

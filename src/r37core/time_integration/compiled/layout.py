@@ -206,9 +206,9 @@ def integration_record(capacity: Capacity) -> np.dtype:
             *_fields("force_outputs", 1, modes, 3 * nodes),
             ("contact", contact_record(nodes), ()),
             *_fields("rotation", nodes),  # signed sliding in a step by the rotation (m)
-            # angle at step 0, in bars; surface (m2) of the casing under a bar; penetration (m) at t_n, and at t_{n-1} what
-            # vibration added to the angle (rad)
-            *_fields("bar_position bar_surface penetration last_shift", nodes),
+            # angle at step 0, in bars; surface (m2) of the casing under a bar; penetration (m) and, with the
+            # exact gap, angle in bars at t_n
+            *_fields("bar_position bar_surface penetration last_position", nodes),
             *_fields("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
             ("problem", complementarity_record(nodes), ()),
             *_fields("beyond touched", groups, kind=np.int64),

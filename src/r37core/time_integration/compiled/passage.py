@@ -52,7 +52,7 @@ class Passage:
         engine.put_modes(u=state.displacement, increment=state.increment)
         largest_wear = 0.0 if schedule is None or state.wear is None else state.wear.max()
         engine.put(worn=0.0, largest_wear=largest_wear, touched=np.packbits(state.touched, bitorder="little"))
-        engine.put(totals=state.totals, penetration=state.penetration, last_shift=state.shift)
+        engine.put(totals=state.totals, penetration=state.penetration, last_position=state.bar_position)
         engine.put(pressing=bool((state.penetration > 0.0).any()))
         if self._grid.choice.second_order:
             engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
@@ -103,7 +103,7 @@ class Passage:
         self._schedule.ends[:] = self._ends[..., columns]
         state.touched[:] = np.unpackbits(m["touched"].astype(np.uint8), bitorder="little")[:nodes]
         state.totals[()] = m["totals"]
-        state.penetration[:], state.shift[:] = m["penetration"][:nodes], m["last_shift"][:nodes]
+        state.penetration[:], state.bar_position[:] = m["penetration"][:nodes], m["last_position"][:nodes]
         if self._grid.choice.second_order:
             state.contact_force[NORMAL] = m["force"][:nodes]
             state.contact_force[TANGENTIAL:] = m["friction_force"][:, :nodes]

@@ -75,7 +75,7 @@ def _measure(addresses, blades, place, lobes):
             measure_exact_gaps(m, place, lobes)
         else:
             measure_gaps(m, place, lobes)
-        take_gaps(m, m.problem.gap)
+        take_gaps(m, m.problem.gap, place)
 
 
 @inlined

@@ -241,14 +241,14 @@ def wear_passed_bars(m, k, place, penetration):
 
     They are worn as its `penetration` (m) says, linear between that at t_n and the one given, at t_{n+1}.
     """
-    position, bars = bar_position(m, k, place), m.lining.bars
-    moved = bars / m.steps_per_revolution
-    if EXACT_GAP:
-        moved += (m.last_shift[k] - m.shift[k]) * (bars / (2.0 * np.pi))
+    position, bars = bar_position(m, k, place), int(m.lining.bars)
+    # a revolution begins one round further
+    turn = bars if place == 0 else 0
+    last = m.last_position[k] if EXACT_GAP else bar_position(m, k, (place if place > 0 else m.steps_per_revolution) - 1)
+    moved = last + turn - position
     before, thickness = m.penetration[k], m.lining.thickness
-    for bar in range(int(np.floor(position)) + 1, int(np.floor(position + moved))):
-        share = (bar + 0.5 - position) / moved
-        depth = penetration + (before - penetration) * share
+    for bar in range(int(np.floor(position)) + 1, int(np.floor(last)) + turn):
+        depth = penetration + (before - penetration) * ((bar + 0.5 - position) / moved)
         if depth > 0.0:
             wear_bar(m, k, bar_number(m, k, bar + 0.5), _worn(min(depth, thickness), 0.0, m.lining))
 
@@ -262,19 +262,20 @@ def follow_gaps(m, gaps, place):
             k = g + first_bit(passing)
             passing &= passing - 1
             wear_passed_bars(m, k, place, -gaps[k])
-    take_gaps(m, gaps)
+    take_gaps(m, gaps, place)
 
 
 @inlined
-def take_gaps(m, gaps):
+def take_gaps(m, gaps, place):
     """Take the gaps (m) to the unworn lining as those at t_n."""
     pressing = 0
     for g in range(0, node_lanes(m), LANES):
         penetration = -load(gaps, g)
         store(m.penetration, g, penetration)
         pressing |= bits_of(penetration > 0.0)
-        if EXACT_GAP:
-            store(m.last_shift, g, load(m.shift, g))
+    if EXACT_GAP:
+        for k in range(m.nodes):
+            m.last_position[k] = bar_position(m, k, place)
     m.pressing = int(pressing != 0)
 
 

@@ -105,8 +105,8 @@ class ReferenceEngine:
         """Go on from a motion at t_n: where no node presses the lining, the gaps are those of this speed."""
         self._turn(n)
         if state.wear is not None and not (state.contact_force.any() or np.any(state.penetration > 0.0)):
-            gap, _, state.shift[:] = self.gap(self.motion.displacement(motion), n)
-            state.penetration[:] = -gap
+            gap, theta = self.gap(self.motion.displacement(motion), n)
+            state.penetration[:], state.bar_position[:] = -gap, theta / (2.0 * np.pi) * state.wear.shape[1]
 
     def record(self, motion: Any, first: int, done: int, state: SimulationState, out: SimulationRecord) -> bool:
         """Keep sample number `done` after the `first`, and a snapshot where one is due.
@@ -134,12 +134,12 @@ class ReferenceEngine:
         lining = self.problem.scene.lining
         self._turn(n)
         predicted = self.motion.flown(before)
-        gap, theta, shift = self.gap(self.motion.displacement(predicted), n)
+        gap, theta = self.gap(self.motion.displacement(predicted), n)
         directions = self._directions(self.motion.slid(before))
         force = np.zeros(self.rows.shape[-1])
         pressure = np.zeros(len(gap))
         if lining is not None and state.wear is not None:
-            self._follow_gaps(gap, theta, shift, state, lining)
+            self._follow_gaps(gap, theta, n, state, lining)
             pressure = self._press_lining(gap, theta, lining, state.wear)
             force = self._modal(pressure * directions)
             # the casing lies behind the lining; what is left to it after the lining's forces
@@ -158,11 +158,11 @@ class ReferenceEngine:
         """Step under the modal forces at t_{n-1}; the state gets those on the nodes at t_n."""
         after, slid = self.motion.pushed(self.motion.flown(before), force), self.motion.slid(before)
         self._turn(n)
-        gap, theta, shift = self.gap(self.motion.displacement(after), n)
+        gap, theta = self.gap(self.motion.displacement(after), n)
         directions = self._directions(1.5 * self.motion.slid(after) - 0.5 * slid)
         pressure, opened, touching = self._press_nodes(gap, theta, directions, state.wear)
         if self.problem.scene.lining is not None:
-            self._follow_gaps(opened, theta, shift, state, self.problem.scene.lining)
+            self._follow_gaps(opened, theta, n, state, self.problem.scene.lining)
         self._add_up(state, self.motion.work_and_loss(before, after, force), -state.contact_force[0], touching)
         state.contact_force[:] = pressure * directions
         return after
@@ -181,8 +181,8 @@ class ReferenceEngine:
         totals["loss"] += loss
         state.touched[:] = touched
 
-    def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Distance (m) of every node from casing or lining, angle (rad) at which it meets it, and vibration's part of that."""
+    def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
+        """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it."""
         return self.problem.casing.gaps(self.clearance, np.array([rows @ u for rows in self.rows]), n, self.angle)
 
     def _directions(self, d: np.ndarray) -> np.ndarray:
@@ -235,19 +235,18 @@ class ReferenceEngine:
                 self._wear(wear, bar, new)
         return pressure, gap + opening @ pressure, touching
 
-    def _follow_gaps(
-        self, gap: np.ndarray, theta: np.ndarray, shift: np.ndarray, state: SimulationState, lining: Lining
-    ) -> None:
+    def _follow_gaps(self, gap: np.ndarray, theta: np.ndarray, n: int, state: SimulationState, lining: Lining) -> None:
         """Wear the bars between those of the last step and of this one, as the penetration says, linear between the two."""
-        wear, before, after = state.wear, state.penetration.copy(), -gap
+        wear, before, last = state.wear, state.penetration.copy(), state.bar_position.copy()
         assert wear is not None
         bars = wear.shape[1]
-        moved = (2.0 * np.pi / self.problem.grid.steps_per_revolution + state.shift - shift) / (2.0 * np.pi) * bars
-        state.penetration[:], state.shift[:] = after, shift
-        for k in map(int, np.flatnonzero((before > 0.0) | (after > 0.0))):
-            position = theta[k] / (2.0 * np.pi) * bars
-            for bar in range(int(np.floor(position)) + 1, int(np.floor(position + moved[k]))):
-                depth = float(after[k] + (before[k] - after[k]) * (bar + 0.5 - position) / moved[k])
+        state.penetration[:], state.bar_position[:] = -gap, theta / (2.0 * np.pi) * bars
+        turn = bars if n % self.problem.grid.steps_per_revolution == 0 else 0
+        for k in map(int, np.flatnonzero((before > 0.0) | (gap < 0.0))):
+            position = state.bar_position[k]
+            for bar in range(int(np.floor(position)) + 1, int(np.floor(last[k])) + turn):
+                share = (bar + 0.5 - position) / (last[k] + turn - position)
+                depth = float((before[k] + gap[k]) * share - gap[k])
                 _, worn = self._press_bar(k, min(depth, lining.thickness), 0.0, lining, lining.elastic_modulus)
                 self._wear(wear, (k, bar % bars), worn)
 

@@ -1,0 +1,201 @@
+"""The lining by its material: its limit in bars, step, contact nodes and mesh, and what the contact length does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from published import INTERACTIONS
+
+from r37core.config import Settings
+from r37core.contact.scene import Scene
+from r37core.fem.matrices import assemble
+from r37core.figures.style import PAGE, plt, save
+from r37core.mesh.blade_mesh import BladeMesh
+from r37core.mesh.generate import generate_mesh
+from r37core.rom.reduce import reduce_blade
+from r37core.rom.reduced_model import contact_model
+from r37core.rom.reduction_choice import PATCHES, POINTS
+from r37core.stress.recovery import stress_operator
+from r37core.stress.statistic import stress_statistic
+from r37core.time_integration.speed_run import run_speed
+
+from .configuration import settings_of
+from .contact_runs import TIP_ELEMENTS
+from .pages import write_table
+from .which_blade import Models
+
+MATERIAL = "material_abradable"
+BELOW, ABOVE, STEP = 0.0, 0.15, 4.0
+"""Speeds about a blade's published peak of 1B/4, as shares of it, and their step (rad/s)."""
+
+CONTACT_LENGTHS = (0.5e-4, 1e-4, 1.585e-4, 2.5e-4, 5e-4, 1e-3)
+"""(m) From a third of the published model's to a tip's thickness."""
+
+_KEPT = {"spectrum_highest_order": 1, "wear_angles": 500}
+
+OWN_CHORD, TIP_CHORD = 0.2, 0.056
+"""Chord (m) of a blade of one's own, and of rotor 37's tip."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """What is compared of runs about an interaction: `begin` and `end` (rad/s) above yield, `rms` (m) and `wear` (m).
+
+    `rms`: mean of the leading edge's tangential rms over all speeds; `wear`: profile round the casing at the first speeds above
+    yield, shape (angles,).
+    """
+
+    begin: float
+    end: float
+    rms: float
+    wear: np.ndarray
+
+
+def peak_of(blade: str) -> float:
+    """Published peak (rad/s) of 1B/4."""
+    return next(row.peak for row in INTERACTIONS if row.blade == blade and row.engine_order == 4)
+
+
+def interaction_range(settings: Settings, models: Models, scene: Scene, speeds: np.ndarray, step: float | None = None) -> Range:
+    """Range of a scene over the `speeds` (rad/s); `step` (s) in place of the level's."""
+    above, rms, wear = [], [], []
+    for speed in map(float, speeds):
+        choice = settings.integration_choice("Ref", MATERIAL, speed)
+        choice = choice if step is None else replace(choice, time_step=step)
+        run = run_speed(models.contact, speed, scene, choice, ("stress", "wear"), stress=models.stress, **_KEPT)
+        limit = settings.blades["Ref"].material.yield_stress
+        share = stress_statistic(run["revolution_von_mises"], limit)["share_of_revolutions_above_yield"]
+        above.append(float(share) > 0.5)
+        rms.append(float(run["rms"][0, 2]))
+        wear.append(run["wear"])
+    first, last = (int(np.flatnonzero(above)[end]) for end in (0, -1)) if any(above) else (0, 0)
+    return Range(float(speeds[first]), float(speeds[last]), float(np.mean(rms)), wear[first])
+
+
+def models_on(mesh: BladeMesh, settings: Settings, blade: str, contact: str, count: int) -> Models:
+    """Models of a mesh with a number of contact nodes."""
+    material, base = settings.blades[blade].material, settings.reduction_choice(blade)
+    choice = replace(base, boundary=replace(base.boundary, contact=contact, nodes=count))
+    reduced = reduce_blade(mesh, assemble(mesh, material), choice)
+    return Models(contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, material))
+
+
+def mesh_of(settings: Settings, blade: str, nodes: int) -> BladeMesh:
+    """Mesh of a blade."""
+    return generate_mesh(settings.blades[blade].definition.build(round_edges=True), nodes, 1, TIP_ELEMENTS[nodes])
+
+
+def limits_of_blade(input: Any, output: Any, params: Any) -> None:
+    """Ranges of a blade with other bars, steps and contact nodes. Params: blade."""
+    settings = settings_of(Path.cwd(), scenes=[MATERIAL])
+    mesh, scene, peak = mesh_of(settings, params.blade, 20000), settings.scenes[MATERIAL].scene, peak_of(params.blade)
+    speeds = np.arange(round((1.0 - BELOW) * peak), (1.0 + ABOVE) * peak, STEP)
+    models = {count: models_on(mesh, settings, params.blade, PATCHES, count) for count in (4, 8, 15, 29)}
+
+    def bars(number: int) -> Scene:
+        assert scene.lining is not None
+        return replace(scene, lining=replace(scene.lining, bars=number))
+
+    finest = interaction_range(settings, models[15], bars(40_000), speeds, 8e-7)
+    cases: dict[str, tuple[Models, Scene, float | None]] = {
+        **{f"{number:,} bars": (models[8], bars(number), None) for number in (2500, 10_000, 40_000)},
+        **{f"step {step:.1e} s": (models[8], scene, step) for step in (3.2e-6, 1.6e-6, 8e-7)},
+        **{f"{count} patches": (models[count], scene, None) for count in (4, 15, 29)},
+    }
+    rows = [
+        _row(params.blade, name, interaction_range(settings, model, lined, speeds, step), finest)
+        for name, (model, lined, step) in cases.items()
+    ]
+    rows.append(_row(params.blade, "15 patches, 40,000 bars, 8.0e-07 s", finest, finest))
+    pd.DataFrame(rows).to_csv(output[0], index=False)
+
+
+def _row(blade: str, case: str, found: Range, finest: Range) -> dict[str, Any]:
+    return {
+        "blade": blade,
+        "case": case,
+        "begin": found.begin,
+        "end": found.end,
+        "rms": 100.0 * (found.rms / finest.rms - 1.0),
+        "wear": 100.0 * np.abs(found.wear - finest.wear).mean() / finest.wear.max(),
+    }
+
+
+def own_blade(input: Any, output: Any, params: Any) -> None:
+    """The same of a blade with a chord of 200 mm, on points and patches of its own meshes. Output: table."""
+    settings, scale = settings_of(Path.cwd(), scenes=[MATERIAL]), OWN_CHORD / TIP_CHORD
+    shipped = settings.scenes[MATERIAL].scene
+    casing = replace(shipped.casing, clearance=1e-3, height=2e-3)
+    scene, peak = replace(shipped, casing=casing), peak_of("Ref") / scale
+    submesh = settings.reduction_choice("Ref").stress_submesh
+    bounds = {name: scale * getattr(submesh, name) for name in ("maximum_x", "minimum_z", "maximum_z")}
+    speeds, ranges = np.arange((1.0 - BELOW) * peak, (1.0 + ABOVE) * peak, STEP / scale), {}
+    for nodes in (10_000, 20_000, 40_000):
+        mesh = mesh_of(settings, "Ref", nodes)
+        mesh = replace(mesh, points=scale * mesh.points)
+        for contact, count in ((POINTS, 8), (PATCHES, 8), (PATCHES, 15)):
+            models = models_scaled(mesh, settings, contact, count, bounds)
+            ranges[f"{count} {contact}", nodes] = interaction_range(settings, models, scene, speeds, scale * 6.4e-6)
+    finest = ranges["15 patches", 40_000]
+    rows = [
+        [name, f"{nodes:,}", f"{found.begin:.1f} to {found.end:.1f}", f"{100.0 * (found.rms / finest.rms - 1.0):.1f}%"]
+        for (name, nodes), found in ranges.items()
+    ]
+    write_table(["contact", "nodes of the mesh", "above yield (rad/s)", "mean rms against the last"], rows, output.table)
+
+
+def models_scaled(mesh: BladeMesh, settings: Settings, contact: str, count: int, bounds: dict[str, float]) -> Models:
+    """Models of a mesh with another region of the stress."""
+    material, base = settings.blades["Ref"].material, settings.reduction_choice("Ref")
+    boundary, submesh = replace(base.boundary, contact=contact, nodes=count), replace(base.stress_submesh, **bounds)
+    reduced = reduce_blade(mesh, assemble(mesh, material), replace(base, boundary=boundary, stress_submesh=submesh))
+    return Models(contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, material))
+
+
+def limits(input: Any, output: Any, params: Any) -> None:
+    """Table of all blades. Input: files of limits_of_blade."""
+    found = pd.concat([pd.read_csv(file) for file in input.files])
+    rows = [
+        [row.blade, row.case, f"{row.begin:.0f} to {row.end:.0f}", f"{row.rms:.1f}%", f"{row.wear:.1f}%"]
+        for row in found.itertuples()
+    ]
+    write_table(["blade", "case", "above yield (rad/s)", "mean rms: error", "wear profile: error"], rows, output.table)
+
+
+def contact_lengths_of_blade(input: Any, output: Any, params: Any) -> None:
+    """Range of a blade at each of CONTACT_LENGTHS. Input: contact, stress. Params: blade."""
+    settings, models, peak = (
+        settings_of(Path.cwd(), scenes=[MATERIAL]),
+        Models.read(input.contact, input.stress),
+        peak_of(params.blade),
+    )
+    scene, rows = settings.scenes[MATERIAL].scene, []
+    assert scene.lining is not None
+    speeds = np.arange(round(0.98 * peak), (1.0 + ABOVE) * peak, STEP)
+    for length in CONTACT_LENGTHS:
+        other = replace(scene, lining=replace(scene.lining, contact_length=length))
+        found = interaction_range(settings, models, other, speeds)
+        rows.append([params.blade, length, found.begin, found.end, bool(found.end >= speeds[-1])])
+    pd.DataFrame(rows, columns=["blade", "contact_length_m", "begin", "end", "beyond"]).to_csv(output[0], index=False)
+
+
+def contact_lengths(input: Any, output: Any, params: Any) -> None:
+    """Table and picture of all blades. Input: files of contact_lengths_of_blade."""
+    found = pd.concat([pd.read_csv(file) for file in input.files])
+    found["length"] = found["end"] - found["begin"]
+    rows = [
+        [blade, *(f"{'> ' * row.beyond}{row.length:.0f}" for row in part.itertuples())]
+        for blade, part in found.groupby("blade", sort=False)
+    ]
+    write_table(["blade", *(f"{1e3 * length:.3g} mm" for length in CONTACT_LENGTHS)], rows, output.table)
+    figure, axes = plt.subplots(figsize=(PAGE, 2.8))
+    for blade, part in found.groupby("blade", sort=False):
+        axes.semilogx(1e3 * part["contact_length_m"], part["length"], "o-", label=blade)
+    axes.set_xlabel("contact length (mm)")
+    axes.set_ylabel("width above yield about 1B/4 (rad/s)")
+    axes.legend(ncols=4)
+    save(figure, output.picture)
