@@ -45,14 +45,16 @@ OWN_CHORD, TIP_CHORD = 0.2, 0.056
 class Range:
     """What is compared of runs about an interaction: `begin` and `end` (rad/s) above yield, `rms` (m) and `wear` (m).
 
-    `rms`: mean of the leading edge's tangential rms over all speeds; `wear`: profile round the casing at the first speeds above
-    yield, shape (angles,).
+    `rms`: mean of the leading edge's tangential rms over all speeds; `wear`: profile round the casing, shape (speeds, angles);
+    `first`, `last`: places of the range among the speeds.
     """
 
     begin: float
     end: float
     rms: float
     wear: np.ndarray
+    first: int
+    last: int
 
 
 def peak_of(blade: str) -> float:
@@ -73,7 +75,7 @@ def interaction_range(settings: Settings, models: Models, scene: Scene, speeds: 
         rms.append(float(run["rms"][0, 2]))
         wear.append(run["wear"])
     first, last = (int(np.flatnonzero(above)[end]) for end in (0, -1)) if any(above) else (0, 0)
-    return Range(float(speeds[first]), float(speeds[last]), float(np.mean(rms)), wear[first])
+    return Range(float(speeds[first]), float(speeds[last]), float(np.mean(rms)), np.array(wear), first, last)
 
 
 def models_on(mesh: BladeMesh, settings: Settings, blade: str, contact: str, count: int) -> Models:
@@ -115,13 +117,15 @@ def limits_of_blade(input: Any, output: Any, params: Any) -> None:
 
 
 def _row(blade: str, case: str, found: Range, finest: Range) -> dict[str, Any]:
+    # in the middle of the range
+    worn, expected = (part.wear[(finest.first + finest.last) // 2] for part in (found, finest))
     return {
         "blade": blade,
         "case": case,
         "begin": found.begin,
         "end": found.end,
         "rms": 100.0 * (found.rms / finest.rms - 1.0),
-        "wear": 100.0 * np.abs(found.wear - finest.wear).mean() / finest.wear.max(),
+        "wear": 100.0 * np.abs(worn - expected).mean() / expected.max(),
     }
 
 
