@@ -49,7 +49,7 @@ def rotor_of(blades, angles=None, factors=None, longer=None, shared=True):
 def run(rotor, scene=STEEP, choice=CHOICE):
     simulation = BladesSimulation(a_blade(), SPEED, replace(scene, rotor=rotor), choice)
     states = simulation.start()
-    return simulation, states, simulation.run(states, choice.revolutions)
+    return simulation, states, simulation.run(states)
 
 
 def samples(record):

@@ -14,6 +14,7 @@ from .kept_numbers import (
     KEPT,
     casing_numbers,
     energy_balance,
+    extended,
     largest_of_each,
     snapshot_numbers,
     spectrum,
@@ -24,7 +25,9 @@ from .kept_numbers import (
 )
 from .rotor_numbers import rotor_numbers, stress_of_blades
 from .rotor_simulation import BladesRecord, BladesSimulation
-from .simulate import DIRECTIONS, TIP_POINTS
+from .settling import motion_at_end, revolution_rms, wear_of
+from .simulate import DIRECTIONS, LEADING_EDGE, TIP_POINTS
+from .state import SimulationState
 
 OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy", "casing")
 """Results of a scene that its simulations give; others are made of them later."""
@@ -45,8 +48,9 @@ def run_speed(
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
-    (rad), `lined`, 1 where there is a lining, `rms` and `peak` (m) over the last half, shape (2, 3): TIP_POINTS by DIRECTIONS,
-    `revolution_maxima` (m), shape (revolutions, 2, 3), and contact statistics. `clearance` (m), shape (nodes,): where it
+    (rad), `lined`, 1 where there is a lining, `rms` and `peak` (m) over the revolutions in the statistic, shape (2, 3):
+    TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end of a run that settled,
+    `motion_at_end`, `settled_revolution`, `wear_growth` and `statistic_end` (ending_numbers), and contact statistics. `clearance` (m), shape (nodes,): where it
     changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
     `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes of
     rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the
@@ -63,25 +67,27 @@ def run_speed(
     left_out = None if motion is None else motion.left_out(simulation.problem)
     states = simulation.start(motion)
     begun = simulation.energy(states)
-    record = simulation.run(states, choice.revolutions)
+    record = simulation.run(states)
     totals = np.array([state.totals for state in states])
-    per_revolution, first, ended = choice.samples_per_revolution, choice.revolutions // 2, record.first_diverged
+    per_revolution, revolutions, ended = choice.samples_per_revolution, record.ending.revolutions, record.first_diverged
+    first = max(revolutions - choice.revolutions_in_statistic, 0)
     samples = [
-        whole(part.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), choice.revolutions * per_revolution, part.diverged)
+        whole(part.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), revolutions * per_revolution, part.diverged)
         for part in record.blades
     ]
     half = [part[first * per_revolution :] for part in samples]
-    maxima = [largest_of_each(choice.revolutions, part) for part in samples]
+    maxima = [extended(largest_of_each(revolutions, part), choice.revolutions) for part in samples]
     numbers = status_numbers(simulation.problem, None if ended is None else len(record.blades[ended].samples) / per_revolution)
     numbers |= {
         "rms": np.max([np.sqrt(np.mean(part**2, axis=0)) for part in half], axis=0),
-        "peak": np.max([part[first:].max(axis=0) for part in maxima], axis=0),
+        "peak": np.max([part[first:revolutions].max(axis=0) for part in maxima], axis=0),
         "revolution_maxima": np.max(maxima, axis=0),
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
         "casing_hits": np.array(totals["casing_hits"].sum()),
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
     }
+    numbers |= ending_numbers(simulation, record, samples, states)
     leader = 0
     if simulation.rotor is not None:
         numbers |= rotor_numbers(simulation, record, samples, totals)
@@ -105,8 +111,28 @@ def run_speed(
             numbers["initial_energy"] = np.array(begun)
     if "casing" in results:
         # the record of any blade has it
-        numbers |= casing_numbers(simulation.problem, record.blades[0], spectrum_highest_order)
+        numbers |= casing_numbers(simulation.problem, record.blades[0], revolutions, spectrum_highest_order)
     return numbers
+
+
+def ending_numbers(
+    simulation: BladesSimulation, record: BladesRecord, samples: Sequence[np.ndarray], states: Sequence[SimulationState]
+) -> dict[str, np.ndarray]:
+    """How a run ended, from the displacement `samples` (m) of each blade, shape (samples, 2, 3).
+
+    `motion_at_end`: the worst MotionAtEnd of all blades; `settled_revolution`: after which a run ended as it had settled, else
+    NaN; `wear_growth` (m): see Ending; `statistic_end`: last revolution of the statistic.
+    """
+    ending, per_revolution = record.ending, simulation.problem.choice.samples_per_revolution
+    clearance, wear = float(np.min(simulation.problem.casing.clearance)), max(float(wear_of(state).max()) for state in states)
+    rms = [revolution_rms(part[:, 0, LEADING_EDGE], per_revolution) for part in samples]
+    motions = [motion_at_end(part, clearance, wear, ending.wear_growth, ending.contact_steps) for part in rms]
+    return {
+        "motion_at_end": np.array(int(max(motions))),
+        "settled_revolution": np.array(float(ending.revolutions) if ending.settled else np.nan),
+        "wear_growth": np.array(ending.wear_growth),
+        "statistic_end": np.array(ending.revolutions),
+    }
 
 
 def _stress(
