@@ -20,7 +20,8 @@ class Casing:
 
     Distance = clearance - amplitude * clearance * (1 - exp(-a t)) f(theta), with
     f = exp(-[((theta mod p)/p - 1/2)/width]^2), p = 2 pi / lobes, and a such that 99% is reached at `rise_fraction` of the
-    run or, where they are given, after `rise_revolutions`. `cone_angle` None: that of the blade's tip. Source: section 5 of the benchmark.
+    run or, where they are given, after `rise_revolutions`. `cone_angle` None: that of the blade's tip. Source: section 5 of the
+    benchmark.
 
     The clearance is that of every speed, unless the blade or the casing grows with it. Then it is the cold one, at rest:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at

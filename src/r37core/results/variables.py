@@ -17,6 +17,8 @@ _MOTION = {
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
         for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
     },
+    "motion_at_end": Variable((), "1", "state of the motion at the end of the run", "i1"),
+    "settled_revolution": Variable((), "1", "revolution after which the run ended as it had settled, NaN where it did not"),
     "time_step": Variable((), "s", "step of the time integration that was taken"),
     "clearance": Variable(("contact_node",), "m", "clearance of the round casing at the contact nodes, leading edge first"),
     "share_of_time_in_contact": Variable((), "1", "share of the steps with a contact force"),
@@ -53,6 +55,10 @@ _STRESS = {
 _WEAR = {
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
+    "wear_growth": Variable((), "m", "largest growth of a bar's wear in the last 50 revolutions, or quarter of the run"),
+    "used_thickness": Variable(
+        (), "m", "lining thickness used: deepest penetration that left wear; all of it where the lining is worn through"
+    ),
     "worn_through_share": Variable((), "1", "share of the circumference at which the lining is worn through, at the end"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
 }

@@ -74,7 +74,7 @@ class IntegrationChoice:
 
     @property
     def length_of_rise_fraction(self) -> int:
-        """Revolutions of which a casing's `rise_fraction` is a share: the run's, unless the run shall decide how many it has."""
+        """Revolutions of which a casing's `rise_fraction` is a share: the run's, or the published ones until it settles."""
         return PUBLISHED_REVOLUTIONS if self.until_settled else self.revolutions
 
     @property

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.fft import rfft  # NumPy imports it when it is used, which would be in each of a server's jobs
 
-from r37core.contact.laws import wear_at_the_casing
+from r37core.contact.laws import used_thickness, wear_at_the_casing
 from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Lining
 from r37core.rom.contact_model import ContactModel
@@ -153,7 +153,8 @@ def amplitudes(values: np.ndarray) -> np.ndarray:
 def wear_numbers(wear: np.ndarray, angles: int, lining: Lining) -> dict[str, np.ndarray]:
     """Largest `wear` (m), shape (rings, bars), over the rings: in each of `angles` sectors, and its lobes.
 
-    And the share of the bars that are worn through to the casing behind the `lining`, in any ring.
+    And the thickness of the `lining` that is used, and the share of the bars that are worn through to the casing behind it, in
+    any ring.
     """
     profile = wear.max(axis=0)
     sectors = np.linspace(0, len(profile), angles, endpoint=False).astype(int)
@@ -161,6 +162,7 @@ def wear_numbers(wear: np.ndarray, angles: int, lining: Lining) -> dict[str, np.
     return {
         "wear": depths.astype(np.float32),
         "max_wear": np.array(profile.max()),
+        "used_thickness": np.array(used_thickness(float(profile.max()), lining)),
         "worn_through_share": np.array(np.mean(profile >= (1.0 - _ROUND_OFF) * wear_at_the_casing(lining))),
         "wear_harmonic": amplitudes(profile)[: _WEAR_LOBES + 1],
     }

@@ -21,13 +21,10 @@ from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
 from .problem import Problem
 from .reference.engine import advance_together
-from .rotor_blades import blade_problems, nearest_step_angle
+from .rotor_blades import NO_ROTOR, blade_problems, nearest_step_angle
 from .settling import Ending, has_settled, parts_of_run, revolution_rms, wear_of
 from .simulate import LEADING_EDGE, Simulation
 from .state import SimulationRecord, SimulationState
-
-NO_ROTOR = "until: revolutions; the blades of a rotor pass the casing one after another, and end together"
-"""Requirement of a scene with a rotor."""
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,7 @@ class Simulation:
         return self.recorded(first, out, self.fill(state, out, first, samples))
 
     def fill(self, state: SimulationState, out: SimulationRecord, first: int, samples: int) -> int:
-        """Go on by a number of samples from `state`, which is changed, in the room `out` for those after the `first` of the run.
+        """Go on by a number of samples from `state`, which is changed, in the room `out` for those after the run's `first`.
 
         Returns the samples done: fewer when an output passes the limit or is NaN.
         """

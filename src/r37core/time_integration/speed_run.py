@@ -50,14 +50,14 @@ def run_speed(
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
     (rad), `lined`, 1 where there is a lining, `rms` and `peak` (m) over the revolutions in the statistic, shape (2, 3):
     TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end of a run that settled,
-    `motion_at_end`, `settled_revolution`, `wear_growth` and `statistic_end` (ending_numbers), and contact statistics. `clearance` (m), shape (nodes,): where it
-    changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
-    `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes of
-    rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the
-    largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
-    them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run.
-    With a rotor: the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and energies; the spectrum
-    of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade, see rotor_numbers and
+    `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics. `clearance` (m), shape (nodes,):
+    where it changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential
+    motion. `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
+    of rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa),
+    the largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
+    them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run. With a rotor:
+    the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and energies; the spectrum of the
+    leading blade, the snapshots of the one with the largest stress; and numbers of each blade, see rotor_numbers and
     stress_of_blades. `status` is that of the rotor: all blades end when one diverges, whose snapshots are kept then. With
     `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the energies
     `initial_energy` (J).
@@ -104,6 +104,7 @@ def run_speed(
         assert scene.lining is not None
         wear = np.max([state.wear for state in states if state.wear is not None], axis=0)
         numbers |= wear_numbers(wear, min(wear_angles, scene.lining.bars), scene.lining)
+        numbers["wear_growth"] = np.array(record.ending.wear_growth)
     if "energy" in results:
         work = sum(blade.work(state) for blade, state in zip(simulation.blades, states, strict=True))
         numbers |= energy_balance(work, float(totals["loss"].sum()), simulation.energy(states) - begun)
@@ -121,7 +122,7 @@ def ending_numbers(
     """How a run ended, from the displacement `samples` (m) of each blade, shape (samples, 2, 3).
 
     `motion_at_end`: the worst MotionAtEnd of all blades; `settled_revolution`: after which a run ended as it had settled, else
-    NaN; `wear_growth` (m): see Ending; `statistic_end`: last revolution of the statistic.
+    NaN; `statistic_end`, `statistic_revolutions`: last revolution of the statistic, and how many it has.
     """
     ending, per_revolution = record.ending, simulation.problem.choice.samples_per_revolution
     clearance, wear = float(np.min(simulation.problem.casing.clearance)), max(float(wear_of(state).max()) for state in states)
@@ -130,8 +131,8 @@ def ending_numbers(
     return {
         "motion_at_end": np.array(int(max(motions))),
         "settled_revolution": np.array(float(ending.revolutions) if ending.settled else np.nan),
-        "wear_growth": np.array(ending.wear_growth),
         "statistic_end": np.array(ending.revolutions),
+        "statistic_revolutions": np.array(simulation.problem.choice.revolutions_in_statistic),
     }
 
 
