@@ -20,6 +20,7 @@ REACHES = {
     "casing.width": (0.11, "casing.width", 0.11),
     "casing.amplitude_clearances": (2.5, "casing.amplitude", 2.5),
     "casing.rise_fraction": (0.6, "casing.rise_fraction", 0.6),
+    "casing.rise_revolutions": (30, "casing.rise_revolutions", 30),
     "lining.thickness_m": (7e-3, "lining.thickness", 7e-3),
     "lining.elastic_modulus_pa": (7e9, "lining.elastic_modulus", 7e9),
     "lining.plastic_modulus_pa": (7e8, "lining.plastic_modulus", 7e8),

@@ -95,6 +95,7 @@ class CasingSection(Section):
     width: Any = DECLARED
     amplitude_clearances: Any = DECLARED
     rise_fraction: Any = DECLARED
+    rise_revolutions: Any = DECLARED
     ring: RingSection | LeftOut = left_out("Elastic casing as a ring; the casing is rigid without it")
     ring_modes: Annotated[list[RingModeSection], Field(min_length=1, max_length=200)] | LeftOut = left_out(
         "Elastic casing by its modes, in place of ring"

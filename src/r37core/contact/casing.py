@@ -49,7 +49,7 @@ class Casing:
     rise_fraction: Annotated[float, Key("Share of the run in which the lobes grow to 99% of their height", ge=0, le=1)] = 0.2
     rise_revolutions: Annotated[
         float | None,
-        Key("Revolutions in which they do, whatever the run's length; in place of rise_fraction", ge=0, le=20000),
+        Key("Revolutions in which the lobes grow, whatever the run's length; in place of rise_fraction", ge=0, le=20000),
     ] = None
     cone_angle: Annotated[
         float | None,
