@@ -8,6 +8,7 @@ import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import LINING, oscillator
 
+from r37core.contact.laws import used_thickness, wear_at_the_casing, worn
 from r37core.contact.scene import Friction, Rotor
 from r37core.dataset_file import read_dataset
 from r37core.results.datasets import write_sweep_dataset
@@ -97,7 +98,7 @@ def test_a_settled_run_is_the_begin_of_a_longer_one(settled):
     np.testing.assert_array_equal(maxima[:end], fixed["revolution_maxima"][:end])
     np.testing.assert_allclose(settled["rms"], fixed["rms"], rtol=0.02)
     np.testing.assert_allclose(settled["max_wear"], fixed["max_wear"], rtol=0.0, atol=1e-7)
-    assert 0.0 < settled["max_wear"] and settled["wear_growth"] <= NO_WEAR
+    assert settled["max_wear"] > 0.0 and settled["wear_growth"] <= NO_WEAR
 
 
 def test_numbers_do_not_depend_on_the_longest_run(settled):
@@ -139,6 +140,33 @@ def test_what_does_not_settle_goes_on_to_the_last_revolution():
     assert np.isfinite(kept["revolution_maxima"]).all()
 
 
+def test_one_run_in_a_thick_lining_has_the_thickness_that_suffices():
+    """Bars alike per metre of depth: until one is worn through the thickness changes nothing, a hundredth less is too thin."""
+
+    def of(thickness):
+        share = thickness / LINING.thickness
+        moduli = {name: share * getattr(LINING, name) for name in ("elastic_modulus", "plastic_modulus")}
+        lining = replace(LINING, thickness=thickness, **moduli)
+        return run(replace(LINED, lining=lining), CHOICE, ("wear",))
+
+    thick = of(0.05)
+    used = float(thick["used_thickness"])
+    assert used == pytest.approx(1.25 * float(thick["max_wear"]), rel=1e-3)
+    suffices, too_thin = of(1.01 * used), of(0.99 * used)
+    assert suffices["worn_through_share"] == 0.0 < too_thin["worn_through_share"]
+    for name in ("max_wear", "used_thickness", "rms"):
+        np.testing.assert_allclose(suffices[name], thick[name], rtol=1e-9)
+    assert too_thin["used_thickness"] == pytest.approx(0.99 * used)
+
+
+@pytest.mark.parametrize("wear", [0.0, 1e-6, 2e-3])
+def test_used_thickness_is_the_depth_that_wears_so_much(wear):
+    lining = replace(LINING, yield_stress=1e5)
+    depth = used_thickness(wear, lining)
+    assert (depth == 0.0) if wear == 0.0 else worn(depth, 0.0, lining) == pytest.approx(wear, rel=1e-12)
+    assert used_thickness(wear_at_the_casing(lining), lining) == pytest.approx(lining.thickness)
+
+
 def test_a_run_that_diverges_has_not_settled():
     kept = run(replace(LINED, divergence_limit=1e-6), CHOICE, ("wear",))
     assert (kept["status"], kept["motion_at_end"]) == (1, MotionAtEnd.UNKNOWN)
@@ -169,7 +197,9 @@ def test_stress_of_a_settled_run_is_that_of_its_last_revolutions(tmp_path):
     end = int(kept["statistic_end"])
     history = long["max_von_mises_history"].values[0]
     assert np.isnan(history[end:]).all() and history[end - 100 : end].max() == pytest.approx(long["max_von_mises_ever"].item())
-    assert long["settled_revolution"] == end and long["used_thickness"] == pytest.approx(1.25 * long["max_wear"].item(), rel=1e-3)
+    assert long["settled_revolution"] == end and long["used_thickness"] == pytest.approx(
+        1.25 * long["max_wear"].item(), rel=1e-3
+    )
     assert long["motion_at_end"].attrs["flag_meanings"] == "quiet cut_free lasting growing unknown"
     write_speed(run(LINED, replace(CHOICE, revolutions=2), ()), tmp_path / "run.npz", {})
     responses["blade", "other"] = tmp_path / "other.nc"
