@@ -1,10 +1,13 @@
-"""What the sweep's datasets hold: name, dimensions beyond blade, scene and speed, units, meaning."""
+"""What the sweep's datasets hold: name, dimensions beyond blade, scene and speed, units, meaning.
+
+Later revolutions are those of the last half of a run, or the last 100 of one that goes on until it settles.
+"""
 
 from r37core.dataset_file import SPEED, Variable
 from r37core.stress.statistic import HIGH
 
 _TIP = ("tip_point",)
-_OF_REVOLUTIONS = "largest von Mises stress of each revolution of the last half of the run"
+_OF_REVOLUTIONS = "largest von Mises stress of each revolution of the later revolutions"
 
 _STATUS = {
     "status": Variable((), "1", "how the run ended", "i1"),
@@ -13,7 +16,7 @@ _STATUS = {
 
 _MOTION = {
     **{
-        f"{kind}_{direction}": Variable(_TIP, "m", f"{measure} {direction} displacement over the last half of the run{note}")
+        f"{kind}_{direction}": Variable(_TIP, "m", f"{measure} {direction} displacement over the later revolutions{note}")
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
         for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
     },
@@ -48,7 +51,7 @@ _STRESS = {
     "max_von_mises_median": Variable((), "Pa", f"{_OF_REVOLUTIONS}: median"),
     "max_von_mises_high": Variable((), "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),
     "share_of_revolutions_above_yield": Variable(
-        (), "1", "share of the revolutions of the last half of the run whose largest stress exceeds yield"
+        (), "1", "share of the revolutions of the later revolutions whose largest stress exceeds yield"
     ),
 }
 
@@ -73,7 +76,7 @@ _WAVES = {
         )
         for wave, sense in (("forward", "with the rotor, or nowhere"), ("backward", "against the rotor"))
     },
-    "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the last half of the run", "f4"),
+    "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the later revolutions", "f4"),
 }
 
 VARIABLES = _STATUS | _MOTION | _GIVEN_MOTION | _SPECTRUM | _STRESS | _WEAR | _WAVES
