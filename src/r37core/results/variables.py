@@ -7,7 +7,7 @@ from r37core.dataset_file import SPEED, Variable
 from r37core.stress.statistic import HIGH
 
 _TIP = ("tip_point",)
-_OF_REVOLUTIONS = "largest von Mises stress of each revolution of the later revolutions"
+_OF_REVOLUTIONS = "largest von Mises stress of each of the later revolutions"
 
 _STATUS = {
     "status": Variable((), "1", "how the run ended", "i1"),
@@ -51,7 +51,7 @@ _STRESS = {
     "max_von_mises_median": Variable((), "Pa", f"{_OF_REVOLUTIONS}: median"),
     "max_von_mises_high": Variable((), "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),
     "share_of_revolutions_above_yield": Variable(
-        (), "1", "share of the revolutions of the later revolutions whose largest stress exceeds yield"
+        (), "1", "share of the later revolutions whose largest stress exceeds yield"
     ),
 }
 
