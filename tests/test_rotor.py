@@ -83,8 +83,10 @@ def test_its_file_is_that_of_the_blade(name, result):
     alone = run_speed(a_blade(), SPEED, scene, CHOICE, results, **KEPT)
     rotor = run_speed(a_blade(), SPEED, replace(scene, rotor=rotor_of(1)), CHOICE, results, **KEPT)
     assert set(alone) <= set(rotor)
-    for kept, value in alone.items():
-        np.testing.assert_array_equal(rotor[kept], value, err_msg=kept)
+    # of a rotor it is not known how much the lining wears at the end
+    assert np.isnan(rotor["wear_growth"])
+    for kept in alone.keys() - {"wear_growth", "motion_at_end"}:
+        np.testing.assert_array_equal(rotor[kept], alone[kept], err_msg=kept)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import LINING, oscillator
 
+import r37
 from r37core.contact.laws import used_thickness, wear_at_the_casing, worn
 from r37core.contact.scene import Friction, Rotor
 from r37core.dataset_file import read_dataset
@@ -209,3 +210,21 @@ def test_stress_of_a_settled_run_is_that_of_its_last_revolutions(tmp_path):
     assert joined.sel(blade="blade", scene="100").values.tolist() == [kept["motion_at_end"], MotionAtEnd.UNKNOWN]
     assert joined.sel(blade="second", scene="100").values.tolist() == [MotionAtEnd.UNKNOWN] * 2
     assert joined.dtype == "i1" and joined.attrs["flag_values"].tolist() == list(MotionAtEnd)
+
+
+@pytest.mark.slow
+def test_the_reference_blade_cuts_itself_free():
+    """Interaction 1B/4 on points: at 200 revolutions 1725 and 1729 rad/s move more than 1700, at 1,000 that alone is left."""
+    blade = r37.blade("Ref", name="Points", contact="points")
+    speeds, results = [1700.0, 1725.0, 1729.0], ["wear"]
+    long = r37.scene("abradable", name="long", revolutions=1000, **{"casing.rise_revolutions": 40})
+    early, late = (r37.sweep(blade, scene, speeds, fidelity="standard", results=results) for scene in ("abradable", long))
+    tip = {"tip_point": "leading_edge"}
+    np.testing.assert_allclose(1e3 * early["rms_normal"].sel(tip), [0.584, 2.506, 3.716], atol=0.01)
+    assert early["motion_at_end"].values.tolist() == [MotionAtEnd.LASTING, MotionAtEnd.GROWING, MotionAtEnd.GROWING]
+    assert late["motion_at_end"].values.tolist() == [MotionAtEnd.LASTING, MotionAtEnd.CUT_FREE, MotionAtEnd.CUT_FREE]
+    np.testing.assert_allclose(late["rms_normal"].sel(tip)[0], early["rms_normal"].sel(tip)[0], rtol=1e-3)
+    assert (late["revolution_maximum"].sel(tip)[1:, -1] < 1e-6).all()
+    # the lobes have grown alike, and the lining is used up where the blade has cut itself free
+    np.testing.assert_allclose(late["revolution_maximum"][:, :200], early["revolution_maximum"], rtol=1e-3)
+    np.testing.assert_allclose(late["used_thickness"], [0.723e-3, 5e-3, 5e-3], rtol=1e-2)

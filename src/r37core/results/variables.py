@@ -50,9 +50,7 @@ _STRESS = {
     "max_von_mises_ever": Variable((), "Pa", f"{_OF_REVOLUTIONS}: largest"),
     "max_von_mises_median": Variable((), "Pa", f"{_OF_REVOLUTIONS}: median"),
     "max_von_mises_high": Variable((), "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),
-    "share_of_revolutions_above_yield": Variable(
-        (), "1", "share of the later revolutions whose largest stress exceeds yield"
-    ),
+    "share_of_revolutions_above_yield": Variable((), "1", "share of the later revolutions whose largest stress exceeds yield"),
 }
 
 _WEAR = {
