@@ -142,7 +142,7 @@ def bits_of_programs():
     blades = Rotor((1, 2), (0.0, np.pi), (1.0, 1.0), (0.0, 0.0), True)
     rotor = BladesSimulation(blade, 12_000.0, Scene(ring, LINING, Friction(0.15), rotor=blades), choice)
     states = rotor.start()
-    return bits | {"rotor in an elastic casing": _hash_of(rotor.run(states, choice.revolutions).blades, states)}
+    return bits | {"rotor in an elastic casing": _hash_of(rotor.run(states).blades, states)}
 
 
 def _hash_of(records, states):

@@ -22,9 +22,17 @@ def test_casing_of_the_benchmark():
     casing = Casing(0.356e-3)
     assert casing.shape(np.array([np.pi / 2, 3 * np.pi / 2])) == pytest.approx([1.0, 1.0])
     assert casing.shape(np.array([0.0])) == pytest.approx(np.exp(-((0.5 / 0.15) ** 2)))
-    assert casing.lobe(np.array([1.0]), 0.0, 1.0) == 0.0
-    late = casing.lobe(np.array([np.pi / 2]), 0.2, 1.0)
+    assert casing.lobe(np.array([1.0]), 0.0, casing.rise_time(1.0, 200)) == 0.0
+    late = casing.lobe(np.array([np.pi / 2]), 0.2, casing.rise_time(1.0, 200))
     assert late == pytest.approx(0.356e-3 * 2.0 * 0.99)
+
+
+def test_lobes_grow_in_a_share_of_the_run_or_in_revolutions():
+    """A fifth of 200 revolutions is 40, which a run of 1,000 needs to be told."""
+    second_per_revolution = 4e-3
+    for revolutions, casing in ((200, Casing(1e-3)), (1000, Casing(1e-3, rise_revolutions=40.0))):
+        assert casing.rise_time(revolutions * second_per_revolution, revolutions) == pytest.approx(40 * second_per_revolution)
+    assert Casing(1e-3).rise_time(4.0, 1000) == pytest.approx(0.8)
 
 
 @pytest.mark.parametrize("lobes", [1, 2, 5])
@@ -38,7 +46,7 @@ def test_circular_casing_and_casing_deformed_from_the_start():
     theta = np.linspace(0.0, 6.0, 50)
     np.testing.assert_array_equal(Casing(1e-3, lobes=0).lobe(theta, 5.0, 10.0), 0.0)
     at_once = Casing(1e-3, rise_fraction=0.0)
-    np.testing.assert_allclose(at_once.lobe(theta, 0.0, 10.0), 2e-3 * at_once.shape(theta))
+    np.testing.assert_allclose(at_once.lobe(theta, 0.0, at_once.rise_time(10.0, 200)), 2e-3 * at_once.shape(theta))
 
 
 def test_pressed_areas_are_of_the_tip_or_as_published_of_a_bar():

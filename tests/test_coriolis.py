@@ -204,7 +204,7 @@ def test_error_on_an_elastic_bar_falls_with_the_square_of_the_step(radius):
         simulation = Simulation(with_static_modes(model, flexibility), speed, PRESSED, choice)
         problem, state = simulation.problem, simulation.start()
         # the lining's force at the start, against the rotation, of whose kick only the second half comes after it
-        force = stiffness * (casing.clearance - casing.lobe(model.theta, np.zeros(1), 1.0)[0]) * np.array([1.0, -0.4, 0.0])
+        force = stiffness * (casing.clearance - casing.lobe(model.theta, np.zeros(1), 0.0)[0]) * np.array([1.0, -0.4, 0.0])
         state.contact_force[:, 0] = force
         by_u, by_d = on_modes(problem.contact, force)
         state.displacement[:], state.increment[:] = 0.5 * problem.contact.recursion.inverse * np.array([by_d, -by_u])

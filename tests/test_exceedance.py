@@ -11,6 +11,7 @@ from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from r37core.results.interactions import find_interactions
 from r37core.results.ranking import ROBUSTNESS, as_scatter_bears, chance_to_be_better, ranking_table, robustness
+from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 
@@ -311,3 +312,22 @@ def test_the_ranking_is_drawn_in_the_order_of_the_first_scene():
     assert [axes.get_title() for axes in figure.axes] == ["x", "y"]
     assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == ["B", "A"]
     assert sorted(bar.get_width() for bar in figure.axes[0].patches) == [1.0, 5.0, 7.0, 9.0]
+
+
+def test_lengths_ever_and_lasting():
+    """Above yield from 940 to 980 rad/s, at 970 and 980 without lasting; in some revolution at one speed more on both sides."""
+    speeds = np.arange(900.0, 1001.0, 10.0)
+    above = (speeds >= 940.0) & (speeds <= 980.0)
+    lined = response(speeds, above.astype(float), np.ones(len(speeds)), lined=1)
+    lined["max_von_mises_ever"][:] = np.where((speeds >= 930.0) & (speeds <= 990.0), 2.0, 0.0) * float(lined["yield_stress"])
+    lengths = robustness(lined)
+    assert (lengths["length_certain_rad_s"], lengths["length_ever_rad_s"]) == (50.0, 70.0)
+    assert np.isnan(lengths["length_lasting_rad_s"])
+    states = np.where(above, MotionAtEnd.LASTING, MotionAtEnd.QUIET)
+    assert robustness(lined.assign(motion_at_end=("speed", states)))["length_lasting_rad_s"] == 50.0
+    states[speeds == 940.0] = MotionAtEnd.GROWING
+    states[speeds >= 970.0] = MotionAtEnd.CUT_FREE
+    assert robustness(lined.assign(motion_at_end=("speed", states)))["length_lasting_rad_s"] == 30.0
+    # a run that diverged is worse than one that lasts
+    states[speeds >= 970.0] = MotionAtEnd.UNKNOWN
+    assert robustness(lined.assign(motion_at_end=("speed", states)))["length_lasting_rad_s"] == 50.0

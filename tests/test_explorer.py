@@ -472,15 +472,17 @@ def test_a_diverged_run_is_marked(page, datasets, interactions, tmp_path):
 @pytest.mark.slow
 def test_a_lining_that_is_worn_through_is_marked(page, datasets, interactions, tmp_path):
     """In the map, in the table, and as a quantity of its own."""
-    rows = interactions.assign(max_wear_m=[4e-3, np.nan], worn_through_share=[0.125, np.nan])
+    depths = {"max_wear_m": [4e-3, np.nan], "sufficient_thickness_m": [5e-3, np.nan]}
+    rows = interactions.assign(worn_through_share=[0.125, np.nan], **depths)
     place = "#scene=abradable&quantity=worn_through_share"
     with beside(page, explorer_contents(datasets, rows), tmp_path / "explorer.html", place=place) as other:
         _, triangles = traces(other, "wear")
         assert (triangles["name"], triangles["x"]) == ("worn through", [1200])
         assert triangles["text"][0].endswith("worn through to the casing on 12.5% of the circumference")
         cells = other.locator("#interactions tbody tr td").all_text_contents()
-        assert "4 \u2020" in cells and "12.5" in cells
-        assert other.text_content("#note") == "\u2020 worn through: the tip has reached the casing behind the lining"
+        assert "4 \u2020" in cells and "5 \u2020" in cells and "12.5" in cells
+        note = "\u2020 worn through: the tip has reached the casing behind the lining, and more thickness may be needed"
+        assert other.text_content("#note") == note
         assert "0.125" in other.evaluate("document.getElementById('response').data[0].text[3]")
         other.select_option("#scene", "direct")
         assert other.text_content("#note") == ""

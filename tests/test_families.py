@@ -176,6 +176,7 @@ def compared():
         {
             "max_von_mises": (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
             "max_von_mises_median": (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
+            "max_von_mises_ever": (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
             "share_of_revolutions_above_yield": (over, [[[0.0, 1.0, np.nan]], [[0.0, 0.0, 0.0]]]),
             "yield_stress": (("blade", "scene"), [[2e9], [2e9]]),
             "status": (("blade", "scene", "speed"), [[[0, 0, RunStatus.NOT_RUN]], [[0, 0, 0]]]),

@@ -10,6 +10,7 @@ from matplotlib.colors import to_hex
 from matplotlib.text import Text
 
 from r37core.figures import campbell_diagram, comparison, maps, response_curves, style, waterfall
+from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 BLADES, SCENES = ["Ref", "L50", "S100"], ["abradable", "direct"]
@@ -112,6 +113,23 @@ def test_a_map_of_wear_marks_speeds_at_which_the_lining_is_worn_through(datasets
     worn_through = wear["speed"].values[wear["worn_through_share"].values > 0.0]
     assert 0 < len(worn_through) < wear.sizes["speed"]
     np.testing.assert_array_equal(triangles.get_xdata(), worn_through)
+
+
+def test_speeds_that_are_cut_free_or_growing_have_open_markers(datasets):
+    """In the colour of their curve, at their speeds; no others have one."""
+    rms = datasets["rms"].sel(blade="Ref")
+    states = xr.full_like(rms["status"], MotionAtEnd.LASTING)
+    states.loc["abradable", 1725.0:1775.0] = MotionAtEnd.CUT_FREE
+    states.loc["abradable", 1700.0] = MotionAtEnd.GROWING
+    figure = response_curves.draw_response("Ref", None, rms.assign(motion_at_end=states))
+    for axes in figure.axes[:2]:
+        curve = next(line for line in axes.lines if line.get_label() == "abradable")
+        for marker, label, speeds in (("o", "cut free at the end", [1725, 1750, 1775]), ("^", "growing at the end", [1700])):
+            (marks,) = (line for line in axes.lines if line.get_label() == label)
+            assert (marks.get_marker(), marks.get_fillstyle(), marks.get_color()) == (marker, "none", curve.get_color())
+            np.testing.assert_array_equal(marks.get_xdata(), speeds)
+            np.testing.assert_array_equal(marks.get_ydata(), curve.get_ydata()[np.isin(curve.get_xdata(), speeds)])
+    assert {"cut free at the end", "growing at the end"} <= {text.get_text() for text in figure.legends[0].get_texts()}
 
 
 def test_runs_that_diverged_are_marked_at_the_upper_edge(datasets):

@@ -10,6 +10,7 @@ from defaults import InteractionChoice
 
 from r37core.results import interactions
 from r37core.results.interactions import COLUMNS, find_interactions, summarise, titles
+from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 from r37core.units import RAD_S
 
@@ -230,3 +231,22 @@ def test_the_reach_of_a_peak_may_begin_and_end_with_the_speeds():
     assert interactions._loud(1000.0 * np.arange(5), level, 0) == (0, 1)
     assert interactions._loud(np.arange(5.0), level, 0) == (0, 2)
     assert interactions._loud(np.arange(5.0), level[::-1], 4) == (2, 4)
+
+
+def test_a_row_says_whether_it_lasts_and_which_thickness_suffices():
+    """Of two peaks the first has cut itself free at its two highest speeds, and its lining is worn through."""
+    data = response(tangential=[(1000.0, 2e-3, 6.0), (1715.0, 3e-3, 4.0)])
+    speed = data["speed"].values
+    states = np.where(speed > 1300.0, MotionAtEnd.LASTING, MotionAtEnd.QUIET)
+    states[(speed > 980.0) & (speed <= 1000.0)] = MotionAtEnd.GROWING
+    states[speed == 1000.0] = MotionAtEnd.CUT_FREE
+    used = np.where(speed == 1000.0, 5e-3, np.where(speed > 1300.0, 1e-3, 0.0))
+    runs = {"motion_at_end": states, "used_thickness": used, "worn_through_share": np.where(used == 5e-3, 0.2, 0.0)}
+    first, second = found(data.assign({name: ("speed", values) for name, values in runs.items()}))
+    assert (first.motion_at_end, first.sufficient_thickness_m) == ("cut_free", 5e-3)
+    assert first.note == "worn through: the sufficient thickness is a lower bound" and not second.note
+    assert 0.0 < first.lasting_share < 0.5
+    assert (second.motion_at_end, second.sufficient_thickness_m, second.lasting_share) == ("lasting", 1e-3, 1.0)
+    # of a response without them
+    (row, _) = found(data)
+    assert row.motion_at_end == "" and np.isnan([row.lasting_share, row.sufficient_thickness_m]).all()

@@ -411,7 +411,7 @@ def test_python_of_the_pages_runs(root, finished, monkeypatch):
     (finished / "blades.yaml").write_text((finished / "config/blades.yaml").read_text())
     blocks = [
         block
-        for page in ("README.md", "docs/python.md")
+        for page in ("README.md", "docs/python.md", "docs/results.md")
         for block in re.findall(r"```python\n(.*?)```", (root / page).read_text(), re.DOTALL)
         if "r37." in block
     ]

@@ -262,6 +262,27 @@ def test_an_elastic_casing_under_a_rotor_is_not_for_central_differences(config_c
         read_settings(config_copy, command_line_document(changes | {"fidelity": "paper"}))
 
 
+def test_runs_that_settle_are_of_single_blades_without_signals(config_copy):
+    """A scene's until is that of its level unless it has one; a rotor, and signals, need runs of one length."""
+    edit(config_copy / "config/fidelity.yaml", "revolutions: 100,", "revolutions: 100, until: settled,")
+    draft = {"fidelity": "draft", "scenes": ["abradable", "direct"]}
+    edit(config_copy / "config/scenes.yaml", "\ndirect:\n", "\ndirect:\n  until: revolutions\n  revolutions: 300\n")
+    settings = read_settings(config_copy, command_line_document(draft))
+    choices = {scene: settings.integration_choice("Ref", scene, 900.0) for scene in draft["scenes"]}
+    assert {scene: (choice.until_settled, choice.revolutions) for scene, choice in choices.items()} == {
+        "abradable": (True, 100),
+        "direct": (False, 300),
+    }
+    message = r"draft\.time_integration\.until: found settled with the rotor of 'rotor_abradable'; allowed: until: revolutions"
+    with pytest.raises(ConfigError, match=message):
+        read_settings(config_copy, command_line_document(draft | {"scenes": ["rotor_abradable"]}))
+    with pytest.raises(ConfigError, match=r"signals\.speeds_rad_s: found speeds, with runs of 'abradable' that end as"):
+        read_settings(config_copy, command_line_document(draft | {"signals": {"speeds_rad_s": [900]}}))
+    edit(config_copy / "config/scenes.yaml", "rotor_abradable:\n", "rotor_abradable:\n  until: settled\n")
+    with pytest.raises(ConfigError, match=r"scenes\.yaml:\d+: rotor_abradable\.until: found settled with a rotor; allowed: un"):
+        read_settings(config_copy)
+
+
 def test_a_run_of_too_many_steps_is_refused_and_a_long_one_says_so(config_copy):
     edit(config_copy / "config/fidelity.yaml", "revolutions: 100,", "revolutions: 5000,")
     message = (

@@ -49,7 +49,7 @@ def rotor_of(blades, angles=None, factors=None, longer=None, shared=True):
 def run(rotor, scene=STEEP, choice=CHOICE):
     simulation = BladesSimulation(a_blade(), SPEED, replace(scene, rotor=rotor), choice)
     states = simulation.start()
-    return simulation, states, simulation.run(states, choice.revolutions)
+    return simulation, states, simulation.run(states)
 
 
 def samples(record):
@@ -83,8 +83,10 @@ def test_its_file_is_that_of_the_blade(name, result):
     alone = run_speed(a_blade(), SPEED, scene, CHOICE, results, **KEPT)
     rotor = run_speed(a_blade(), SPEED, replace(scene, rotor=rotor_of(1)), CHOICE, results, **KEPT)
     assert set(alone) <= set(rotor)
-    for kept, value in alone.items():
-        np.testing.assert_array_equal(rotor[kept], value, err_msg=kept)
+    # of a rotor it is not known how much the lining wears at the end
+    assert np.isnan(rotor["wear_growth"])
+    for kept in alone.keys() - {"wear_growth", "motion_at_end"}:
+        np.testing.assert_array_equal(rotor[kept], alone[kept], err_msg=kept)
 
 
 @pytest.mark.parametrize(
@@ -289,7 +291,7 @@ def test_blades_on_one_grid_of_time_wear_the_lining_as_those_that_pass_one_by_on
     records = []
     for one, other in ((RISING, choice), (scene, replace(choice, engine=engine))):
         simulation = BladesSimulation(contact, 1700.0, replace(one, rotor=rotor_of(7)), other)
-        records.append(simulation.run(simulation.start(), revolutions))
+        records.append(simulation.run(simulation.start()))
     np.testing.assert_allclose(records[1].worn, records[0].worn, rtol=0.02)
     for parts in zip(*(record.blades for record in records), strict=True):
         maxima = [np.abs(part.samples[:, 2]).reshape(revolutions, -1).max(axis=1) for part in parts]

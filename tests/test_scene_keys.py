@@ -21,6 +21,7 @@ REACHES = {
     "casing.amplitude_clearances": (2.5, "casing.amplitude", 2.5),
     "casing.amplitude_m": (5e-4, "casing.height", 5e-4),
     "casing.rise_fraction": (0.6, "casing.rise_fraction", 0.6),
+    "casing.rise_revolutions": (30, "casing.rise_revolutions", 30),
     "lining.thickness_m": (7e-3, "lining.thickness", 7e-3),
     "lining.elastic_modulus_pa": (7e9, "lining.elastic_modulus", 7e9),
     "lining.plastic_modulus_pa": (7e8, "lining.plastic_modulus", 7e8),

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.contact.casing import approach
+from r37core.contact.casing import approach, rise_rate
 from r37core.contact.scene import Scene
 from r37core.dataset_file import read_dataset
 from r37core.fem.abaqus_deck import write_abaqus
@@ -124,4 +124,4 @@ def _in_calculix(mesh: str, material: Material, speed: float) -> np.ndarray:
 def _first_touch(scene: Scene, revolutions: int, clearance: float) -> float:
     """Revolution in which the growing lobes reach the blade at rest; NaN where they do not."""
     share = clearance / scene.casing.lobe_height
-    return -np.log(1.0 - share) / scene.casing.rise_rate(revolutions) if share < 1.0 else np.nan
+    return -np.log(1.0 - share) / rise_rate(scene.casing.rise_time(revolutions, revolutions)) if share < 1.0 else np.nan

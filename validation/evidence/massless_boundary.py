@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 from scipy.io import loadmat, savemat
 
+from r37core.contact.casing import rise_rate
+
 HERE = Path(__file__).resolve().parent
 
 
@@ -58,7 +60,7 @@ def run_nlstep(blade, kept, steps_per_sample, samples_per_revolution, samples):
         "height": casing.lobe_height,
         "width": casing.width,
         "period": 2.0 * np.pi / casing.lobes,
-        "rise_rate": casing.rise_rate(blade.duration),
+        "rise_rate": rise_rate(casing.rise_fraction * blade.duration),
         "friction": blade.scene.friction.coefficient,
         "step": step,
         "steps": float(steps_per_sample * samples),

@@ -100,6 +100,7 @@ class CasingSection(Section):
     amplitude_clearances: Any = DECLARED
     amplitude_m: Any = DECLARED
     rise_fraction: Any = DECLARED
+    rise_revolutions: Any = DECLARED
     ring: RingSection | LeftOut = left_out("Elastic casing as a ring; rigid without it")
     ring_modes: Annotated[list[RingModeSection], Field(min_length=1, max_length=200)] | LeftOut = left_out(
         "Elastic casing by modes, in place of ring"

@@ -14,6 +14,7 @@ from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, Boundary
 from r37core.rounding import rounded_up
 from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
 from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.rotor_blades import NO_ROTOR
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
@@ -173,6 +174,14 @@ def rotors_press_a_casing_that_is_carried(settings: Settings) -> None:
             raise settings.documents.scenes.refusal((name, "rotor"), value, _exact_level(settings))
 
 
+def rotors_end_together(settings: Settings) -> None:
+    """No level lets the runs of a rotor end as they have settled."""
+    for name, chosen in settings.scenes.items():
+        if chosen.scene.rotor is not None and chosen.until_settled:
+            path = (settings.fidelity_name, "time_integration", "until")
+            raise settings.documents.levels.refusal(path, f"settled with the rotor of '{name}'", NO_ROTOR)
+
+
 def clearances_reach_all_speeds(settings: Settings) -> None:
     """The growth of a casing is given up to the highest speed; the blades' own follows from their mesh."""
     document = settings.documents.scenes
@@ -201,6 +210,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     tips_have_room_for_patches,
     coriolis_can_be_carried,
     rotors_press_a_casing_that_is_carried,
+    rotors_end_together,
     clearances_reach_all_speeds,
 )
 """Checks in the order in which their refusals are reported."""

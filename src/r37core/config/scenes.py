@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, RootModel, model_validator
 
 from r37core.contact.scene import Friction, Lining, Scene
-from r37core.time_integration.rotor_blades import refusal_of
+from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
 from .casing_section import CasingSection
 from .declaring import DECLARED, declared_by, si_fields, si_form
@@ -60,6 +60,7 @@ class SceneEntry(Section):
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = left_out(
         "Revolutions of a run, in place of the fidelity level's"
     )
+    until: Literal["revolutions", "settled"] | LeftOut = left_out("End of a run, in place of the fidelity level's")
     results: list[Result] = Field(
         default=["spectrum", "stress"],
         json_schema_extra={"uniqueItems": True},
@@ -107,6 +108,8 @@ class SceneEntry(Section):
         refusal = refusal_of(self.scene())
         if refusal:
             raise refused(("rotor",), "a rotor in this scene", refusal)
+        if self.until == "settled":
+            raise refused(("until",), "settled with a rotor", NO_ROTOR)
         for result in OF_ONE_BLADE:
             if result in self.results:
                 raise refused(

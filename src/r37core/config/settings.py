@@ -40,6 +40,7 @@ class SceneSettings:
     scene: Scene
     tip_line: str
     revolutions: int
+    until_settled: bool
     results: tuple[str, ...]
     stress_history_speeds: tuple[float, ...]
 
@@ -110,6 +111,7 @@ class Settings:
                 scene=entry.scene(),
                 tip_line=entry.tip_line or self.structure.boundary.tip_line,
                 revolutions=entry.revolutions or self.fidelity.time_integration.revolutions,
+                until_settled=(entry.until or self.fidelity.time_integration.until) == "settled",
                 results=tuple(entry.results),
                 stress_history_speeds=entry.stress_history_speeds(),
             )
@@ -211,7 +213,7 @@ class Settings:
         everything = self.fidelity.time_integration.choice(chosen.scene.lining is not None)
         stress = "stress" in self.results_of(blade, scene)
         history = speed in (chosen.stress_history_speeds if history_speeds is None else history_speeds)
-        choice = replace(everything, revolutions=chosen.revolutions)
+        choice = replace(everything, revolutions=chosen.revolutions, until_settled=chosen.until_settled)
         return replace(
             choice,
             snapshots_per_revolution=choice.snapshots_per_revolution if stress else 0,

@@ -19,8 +19,9 @@ class Casing:
     """A casing that slowly becomes lobed.
 
     Distance = clearance - lobe_height * (1 - exp(-a t)) f(theta), with f = exp(-[((theta mod p)/p - 1/2)/width]^2),
-    p = 2 pi / lobes, and a such that 99% is reached at `rise_fraction` of the run. Lobes have the `height` (m) or, where that
-    is None, `amplitude` times the clearance. `cone_angle` None: that of the blade's tip. Source: section 5 of the benchmark.
+    p = 2 pi / lobes, and a such that 99% is reached at `rise_fraction` of the run or, where they are given, after
+    `rise_revolutions`. Lobes have the `height` (m) or, where that is None, `amplitude` times the clearance. `cone_angle` None:
+    that of the blade's tip. Source: section 5 of the benchmark.
 
     The clearance is that of every speed, unless the blade or the casing grows with it. Then it is the cold one, at rest:
     `centrifugal`, the blade's static displacement is taken off; `growth` (m) of the casing is added, given at
@@ -40,6 +41,9 @@ class Casing:
     width: Annotated[float, Key("Width of a lobe in shares of its period", ge=1e-3, le=100)] = 0.15
     amplitude: Annotated[float, Key("Height of the lobes; 2 without amplitude_m", "_clearances", ge=0, le=1000)] = 2.0
     rise_fraction: Annotated[float, Key("Share of the run in which lobes grow to 99%", ge=0, le=1)] = 0.2
+    rise_revolutions: Annotated[
+        float | None, Key("Revolutions in which lobes grow to 99%, in place of rise_fraction", ge=0, le=20000)
+    ] = None
     cone_angle: Annotated[
         float | None,
         Key(
@@ -68,9 +72,10 @@ class Casing:
         """Half angle (rad) of the casing's cone round a blade whose tip has `tip_cone_angle` (rad)."""
         return tip_cone_angle if self.cone_angle is None else self.cone_angle
 
-    def rise_rate(self, duration: float) -> float:
-        """The rate a (1/s) for a run of `duration` (s); infinite when the casing is deformed from the start."""
-        return -np.log(0.01) / (self.rise_fraction * duration) if self.rise_fraction > 0.0 else np.inf
+    def rise_time(self, duration: float, revolutions: float) -> float:
+        """Time (s) in which the lobes grow to 99% in a run of `duration` (s) and so many `revolutions`."""
+        share = self.rise_fraction if self.rise_revolutions is None else self.rise_revolutions / revolutions
+        return share * duration
 
     @property
     def changes_with_speed(self) -> bool:
@@ -84,9 +89,9 @@ class Casing:
             return 0.0
         return self.amplitude * self.clearance if self.height is None else self.height
 
-    def lobe(self, theta: np.ndarray, time: np.ndarray, duration: float) -> np.ndarray:
-        """Height (m) of the lobes, inwards, at angles (rad) and times (s) of a run of `duration` (s)."""
-        grown = 1.0 - np.exp(-self.rise_rate(duration) * np.asarray(time)) if self.rise_fraction > 0.0 else 1.0
+    def lobe(self, theta: np.ndarray, time: np.ndarray, rise_time: float) -> np.ndarray:
+        """Height (m) of the lobes, inwards, at angles (rad) and times (s); they grow to 99% in `rise_time` (s)."""
+        grown = 1.0 - np.exp(-rise_rate(rise_time) * np.asarray(time)) if rise_time > 0.0 else 1.0
         return self.lobe_height * grown * self.shape(theta)
 
     def knows(self, speed: float) -> bool:
@@ -105,6 +110,11 @@ class Casing:
                 f"casing.clearance.casing_growth: given up to {self.growth_speeds[-1]:g} rad/s; needed up to {highest:g} rad/s"
             )
         return np.interp(speeds, self.growth_speeds, self.growth)
+
+
+def rise_rate(rise_time: float) -> float:
+    """Rate a (1/s) at which lobes grow to 99% in `rise_time` (s); infinite when the casing is deformed from the start."""
+    return -np.log(0.01) / rise_time if rise_time > 0.0 else np.inf
 
 
 def approach(radius: np.ndarray, displacement: np.ndarray, cone_angle: float) -> np.ndarray:

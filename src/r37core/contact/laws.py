@@ -86,6 +86,18 @@ def wear_at_the_casing(lining: Any) -> float:
     return float(worn(lining.thickness, 0.0, lining))
 
 
+def used_thickness(wear: float, lining: Any) -> float:
+    """Thickness (m) of a lining that a bar worn by `wear` (m) has used: how deep it was pressed, 0 for no wear.
+
+    The inverse of worn: x = (wear (E + plastic modulus) + e yield stress)/E. At the casing it is the thickness e itself, and a
+    thicker lining might have been used deeper.
+    """
+    if not wear > 0.0:
+        return 0.0
+    pressed = wear * (lining.elastic_modulus + lining.plastic_modulus) + lining.thickness * lining.yield_stress
+    return float(min(pressed / lining.elastic_modulus, lining.thickness))
+
+
 def friction_direction(tangential: Any, meridional: Any, length: Any = 1.0) -> tuple[Any, Any]:
     """Vectors of a `length`, opposite to the sliding of nodes over the casing, as friction is; zero where nothing slides.
 

@@ -236,6 +236,9 @@ COLUMNS = (
     "max_von_mises_speed_rad_s",
     "max_wear_m",
     "worn_through_share",
+    "sufficient_thickness_m",
+    "motion_at_end",
+    "lasting_share",
     "status",
 )
 """Columns of the table of interactions, in this order; those that summary.csv does not have are left out."""

@@ -467,7 +467,7 @@
   }
   const page = {
     state, set, valueText,
-    mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : "") + (name === "max_wear_m" && row.worn_through_share > 0 ? " \u2020" : ""),
+    mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : "") + (["max_wear_m", "sufficient_thickness_m"].includes(name) && row.worn_through_share > 0 ? " \u2020" : ""),
     link: data.shapes.length ? shapeLink : null,
   };
 
@@ -475,7 +475,7 @@
     const rows = drawInteractions(data, page);
     const notes = [
       rows.some((row) => STRESSES.some((name) => outside(row, name))) && `* ${OUTSIDE}, a flag and no prediction`,
-      rows.some((row) => row.worn_through_share > 0) && "\u2020 worn through: the tip has reached the casing behind the lining",
+      rows.some((row) => row.worn_through_share > 0) && "\u2020 worn through: the tip has reached the casing behind the lining, and more thickness may be needed",
     ];
     document.getElementById("note").textContent = notes.filter(Boolean).join("; ");
   }

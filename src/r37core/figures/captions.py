@@ -19,12 +19,13 @@ CAPTIONS = {
         "Response of blade {blade} over speed in every scene. Above: root mean square of the leading edge's displacement "
         "over the last half of the run, normal to the casing and tangential. Below: largest von Mises stress of the last "
         "revolution; where it is above yield (tinted) it is outside the linear model. Dotted: crossings of 1B with engine "
-        "orders; red crosses: runs that diverged."
+        "orders; red crosses: runs that diverged. Open circles: the blade has cut itself free by the end of the run; open "
+        "triangles: its motion or the wear still grows there."
     ),
     "response_overview": (
         "Response of all blades over speed in every scene: root mean square of the leading edge's displacement over the "
         "last half of the run. Left: normal to the casing; right: tangential, each column on one scale. Red crosses: runs "
-        "that diverged."
+        "that diverged; open circles: cut free, and open triangles: growing at the end of the run."
     ),
     "spectrum": (
         "Spectral map of blade {blade} in scene {scene}: amplitude of the leading edge's motion, normal to the casing "

@@ -1,13 +1,19 @@
 """Response over speed: rms of the leading edge, largest stress against yield; clearance where it changes with the speed."""
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from . import style
+
+_MOTION_MARKERS = {MotionAtEnd.CUT_FREE: ("o", "cut free at the end"), MotionAtEnd.GROWING: ("^", "growing at the end")}
+"""State of the motion at the end of a run -> its open marker, and what it is called."""
 
 
 def draw_response(title: str, campbell: xr.Dataset | None, rms: xr.Dataset, stress: xr.Dataset | None = None) -> Figure:
@@ -59,8 +65,18 @@ def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
     for scene in rms["scene"].values:
         runs = rms.sel(scene=scene)
         response = runs[f"rms_{direction}"].sel(tip_point="leading_edge").dropna("speed")
-        axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
+        (line,) = axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=str(scene))
+        if "motion_at_end" in runs:
+            _mark_motion(axes, 1e3 * response, runs["motion_at_end"].sel(speed=response["speed"]), line.get_color())
         style.mark_diverged(axes, runs["speed"].values[runs["status"].values == RunStatus.DIVERGED])
+
+
+def _mark_motion(axes: Axes, curve: xr.DataArray, states: xr.DataArray, colour: Any) -> None:
+    """Open markers on a curve over speed where a run's motion has cut itself free, or still grows, by `states`."""
+    for state, (marker, label) in _MOTION_MARKERS.items():
+        there = curve[states.values == state]
+        if there.size:
+            axes.plot(there["speed"], there, marker, color=colour, fillstyle="none", markersize=4, label=label)
 
 
 def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:

@@ -69,6 +69,7 @@ class Provenance:
             scene=scene,
             scene_parameters=json.dumps(to_plain(run_member.scene)),
             revolutions=chosen.revolutions,
+            **({"until": "settled"} if chosen.until_settled else {}),
             largest_time_step=step,
             # steps of all kinds of scenes, because datasets of one level may be joined
             numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.wording}",

@@ -9,11 +9,15 @@ from netCDF4 import Dataset
 
 from r37core.dataset_file import Variable, new_netcdf, open_netcdf
 from r37core.io import InputFileError
+from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.status import RunStatus
 
 from .netcdf import create_axis, create_labels, create_variable
 from .variables import AXES, DATASETS, FLAGS
+
+_NOT_RUN: dict[str, int] = {"status": RunStatus.NOT_RUN, "motion_at_end": MotionAtEnd.UNKNOWN}
+"""Whole numbers of a speed that was not run."""
 
 
 def write_sweep_dataset(
@@ -84,8 +88,8 @@ def _copy(response: Dataset, target: Dataset, kind: str, pair: tuple[int, int], 
             dtype = "str" if source.dtype is str else source.dtype.str
             variable = Variable(source.dimensions, attributes.pop("units"), attributes.pop("long_name"), dtype)
             created = create_variable(target, name, variable, ("blade", "scene"), **attributes)
-            if name == "status":
-                created[:] = RunStatus.NOT_RUN
+            if name in _NOT_RUN:
+                created[:] = _NOT_RUN[name]
         if source.dtype is str:
             target[name][pair] = source[...]
             continue
@@ -93,6 +97,6 @@ def _copy(response: Dataset, target: Dataset, kind: str, pair: tuple[int, int], 
             np.searchsorted(axes[dim], response[dim][:]) if dim in axes else np.arange(len(target.dimensions[dim]))
             for dim in source.dimensions
         ]
-        slab = np.full(target[name].shape[2:], RunStatus.NOT_RUN if name == "status" else np.nan, dtype=source.dtype)
+        slab = np.full(target[name].shape[2:], _NOT_RUN.get(name, np.nan), dtype=source.dtype)
         slab[np.ix_(*rows)] = np.ma.filled(source[:], np.nan) if source.dtype.kind == "f" else source[:]
         target[name][pair] = slab

@@ -20,7 +20,7 @@ class Word:
 _SPEED = "rad/s"
 _MM, _MPA, _PERCENT = ("mm", 1e3), ("MPa", 1e-6), ("%", 100.0)
 _REVOLUTIONS = "later revolutions"
-"""Revolutions in the second half of a run."""
+"""Revolutions in the second half of a run; the last hundred of one that goes on until it settles."""
 
 _POSSIBLE = f"more than {POSSIBLE:.0%} of the {_REVOLUTIONS} exceed yield"
 _CERTAIN = f"more than {CERTAIN:.0%} of the {_REVOLUTIONS} exceed yield"
@@ -58,6 +58,16 @@ INTERACTIONS = {
         "wear is less than the thickness there, because the lining springs back",
         *_PERCENT,
     ),
+    "sufficient_thickness_m": Word(
+        "sufficient thickness",
+        "lining thickness that the interaction uses, elastic part included; a lower bound where the lining is worn through",
+        *_MM,
+    ),
+    "motion_at_end": Word(
+        "motion at the end",
+        "at the peak speed: `growing`, `lasting`, `cut_free` (has decayed or lost contact) or `quiet` (within the clearance)",
+    ),
+    "lasting_share": Word("lasting", "share of the interaction's speeds whose motion lasts or grows at the end", *_PERCENT),
     "status": Word("status", "`completed`, or `diverged` if any run of the interaction did"),
     "width_ever_above_yield_rad_s": Word(
         "width ever above yield", f"width above yield if any of the {_REVOLUTIONS} counts", _SPEED
@@ -71,7 +81,7 @@ INTERACTIONS = {
     "high_von_mises_pa": Word("high stress", f"largest 90% quantile of the von Mises stress over the {_REVOLUTIONS}", *_MPA),
     "peak_motion_m": Word("rms, both directions", "normal and tangential rms together, at the peak speed", *_MM),
     "fall_speed_rad_s": Word("falls at", "speed above the peak at which the motion falls below half of it", _SPEED),
-    "note": Word("note", "reason for empty columns"),
+    "note": Word("note", "reason for empty columns, and where the lining is worn through"),
     "share_of_members": Word("members", "share of the members that show the interaction", *_PERCENT),
     "robust": Word("robust", "whether at least half of the members show it"),
 }
@@ -81,6 +91,12 @@ RANKING = {
     "rank": Word("rank", "place in the scene: by length above yield in most, then in some revolutions, diverged runs, stress"),
     "length_certain_rad_s": Word(_MOST, f"length of all speeds at which {_CERTAIN}", _SPEED),
     "length_possible_rad_s": Word(_SOME, f"length of all speeds at which {_POSSIBLE}", _SPEED),
+    "length_ever_rad_s": Word(
+        "ever above yield", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", _SPEED
+    ),
+    "length_lasting_rad_s": Word(
+        f"{_MOST}, lasting", f"length of all speeds at which {_CERTAIN} and the motion lasts or grows at the end", _SPEED
+    ),
     "largest_median_stress_pa": Word("largest median stress", f"largest {_MEDIAN}", *_MPA),
     "first_certain_rad_s": Word(f"first speed {_MOST}", f"lowest speed at which {_CERTAIN}", _SPEED),
     "first_possible_rad_s": Word(f"first speed {_SOME}", f"lowest speed at which {_POSSIBLE}", _SPEED),

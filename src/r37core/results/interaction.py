@@ -7,11 +7,14 @@ from typing import Any, TypeVar, get_type_hints
 import numpy as np
 import xarray as xr
 
+from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .closing import interaction_title
 from .exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange
-from .measures import drop_after
+from .measures import drop_after, lasts
+
+WORN_THROUGH = "worn through: the sufficient thickness is a lower bound"
 
 
 @dataclass(frozen=True)
@@ -86,7 +89,7 @@ class Interaction:
 
     Of a lined scene it is a peak of the motion; of direct contact a range of speeds that may be above yield (results.
     contact_ranges), for a peak's crossing and one revolution's stress are chance there, and their columns are empty. `note`
-    says why columns are.
+    says why columns are, and where the lining is worn through.
 
     glossary.INTERACTIONS says what each column is. What is named peak is at the peak speed, what is named max the largest
     within the interaction. An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to
@@ -100,7 +103,10 @@ class Interaction:
     last_revolution: LastRevolution
     max_wear_m: float
     worn_through_share: float
+    sufficient_thickness_m: float
     status: str
+    motion_at_end: str
+    lasting_share: float
     all_revolutions: AllRevolutions
     peak_motion: PeakMotion
     note: str = ""
@@ -158,6 +164,8 @@ def interaction_row(
         **more,
     }
 
+    worn_through = _largest(reach, "worn_through_share")
+
     def part(kind: type[_Part]) -> _Part:
         return kind(**{field.name: columns[field.name] for field in fields(kind) if field.name in columns})
 
@@ -166,11 +174,14 @@ def interaction_row(
         Peak(speed, speed - crossing.campbell_speed_rad_s, normal, tangential, drop_after(response, index)),
         part(LastRevolution),
         _largest(reach, "max_wear"),
-        _largest(reach, "worn_through_share"),
+        worn_through,
+        _largest(reach, "used_thickness"),
         RunStatus(int(reach["status"].max())).text,
+        MotionAtEnd(int(response["motion_at_end"][index])).text if "motion_at_end" in response else "",
+        float(lasts(reach).mean()) if "motion_at_end" in reach else np.nan,
         part(AllRevolutions),
         part(PeakMotion),
-        note,
+        "; ".join(filter(None, (note, WORN_THROUGH if worn_through > 0.0 else ""))),
     )
 
 

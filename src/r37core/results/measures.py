@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .exceedance import ranges_above
@@ -119,6 +120,11 @@ def largest_stress(response: xr.Dataset) -> tuple[float, float]:
         return np.nan, np.nan
     index = int(np.argmax(series.values))
     return float(series[index]), float(series["speed"][index])
+
+
+def lasts(response: xr.Dataset) -> xr.DataArray:
+    """Whether the motion lasts or grows at the end of each run, or the run diverged, over the speeds."""
+    return ~response["motion_at_end"].isin([MotionAtEnd.QUIET, MotionAtEnd.CUT_FREE])
 
 
 def first_yield(history: np.ndarray, yield_stress: float) -> float:

@@ -7,6 +7,7 @@ import netCDF4
 import numpy as np
 
 from r37core.dataset_file import SPEED_RPM, Variable
+from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 from r37core.units import RPM
 
@@ -14,6 +15,12 @@ from r37core.units import RPM
 def status_flags() -> dict[str, Any]:
     """Attributes of a variable that holds a RunStatus, after the CF conventions."""
     return {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(how.text for how in RunStatus)}
+
+
+def motion_flags() -> dict[str, Any]:
+    """Attributes of a variable that holds a MotionAtEnd, after the CF conventions."""
+    states = list(MotionAtEnd)
+    return {"flag_values": np.array(states, dtype="i1"), "flag_meanings": " ".join(state.text for state in states)}
 
 
 def create_labels(dataset: netCDF4.Dataset, name: str, labels: Sequence[str]) -> None:

@@ -12,7 +12,7 @@ from r37core.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of
-from .measures import drop_after, motion, peak_of
+from .measures import drop_after, lasts, motion, peak_of, speeds_above_yield
 from .ranges import ENDS
 from .table_file import read_table
 
@@ -24,6 +24,8 @@ ROBUSTNESS = (
     "length_certain_scatter_rad_s",
     "length_possible_rad_s",
     "length_possible_scatter_rad_s",
+    "length_ever_rad_s",
+    "length_lasting_rad_s",
     "largest_median_stress_pa",
     "first_certain_rad_s",
     "first_possible_rad_s",
@@ -74,9 +76,18 @@ def robustness(response: xr.Dataset, *, chance_scatter: bool = True) -> dict[str
             if chance_scatter:
                 measures[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
             measures[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
+        measures["length_ever_rad_s"] = speeds_above_yield(response, "max_von_mises_ever").length
+        if "motion_at_end" in response:
+            measures["length_lasting_rad_s"] = _length_lasting(response)
         measures["widest_range_rad_s"] = max((above.length for above in exceedance.ranges(CERTAIN)), default=0.0)
         measures["largest_median_stress_pa"] = float(response["max_von_mises_median"].max())
     return measures
+
+
+def _length_lasting(response: xr.Dataset) -> float:
+    """Length (rad/s) of the speeds above yield in most revolutions of the statistic whose motion lasts or grows."""
+    share = response["share_of_revolutions_above_yield"].where(lasts(response), 0.0)
+    return exceedance_of(response.assign(share_of_revolutions_above_yield=share)).length(CERTAIN)
 
 
 def measures_of_members(members: xr.Dataset) -> MeasuresOfMembers:

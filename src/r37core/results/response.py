@@ -12,7 +12,7 @@ from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
 from .measures import first_yield
-from .netcdf import create_axis, create_labels, create_variable, status_flags
+from .netcdf import create_axis, create_labels, create_variable, motion_flags, status_flags
 from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, VARIABLES
 
 _BLOCK = 32
@@ -71,11 +71,18 @@ def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.nda
     if "max_von_mises" in run:
         values["yield_stress"] = np.array(yield_stress)
     if "revolution_von_mises" in run:
-        revolutions = len(values["revolution_maximum"])
-        values |= stress_statistic(run["revolution_von_mises"][revolutions // 2 - revolutions :], yield_stress)
+        values |= stress_statistic(_in_statistic(run), yield_stress)
         # histories of all revolutions are in single precision
         values["max_von_mises_ever"] = np.maximum(values["max_von_mises_ever"], run["max_von_mises"])
     return values
+
+
+def _in_statistic(run: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Largest stress (Pa) of each revolution in the statistic, shape (revolutions,)."""
+    history, revolutions, end = run["revolution_von_mises"], len(run["revolution_maxima"]), int(run["statistic_end"])
+    # a history of all revolutions has them in place, a shorter one is that of the last
+    last = history[:end] if len(history) == revolutions else history
+    return last[-int(run["statistic_revolutions"]) :]
 
 
 def _create(
@@ -91,6 +98,7 @@ def _create(
         if name in values:
             create_variable(dataset, name, variable, ("speed",))
     dataset["status"].setncatts(status_flags())
+    dataset["motion_at_end"].setncatts(motion_flags())
     for name, variable in HISTORIES.items() if history_speeds else ():
         create_variable(dataset, name, variable)
     for name, variable in OF_ALL_SPEEDS.items():

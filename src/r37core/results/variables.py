@@ -1,10 +1,13 @@
-"""What the sweep's datasets hold: name, dimensions beyond blade, scene and speed, units, meaning."""
+"""What the sweep's datasets hold: name, dimensions beyond blade, scene and speed, units, meaning.
+
+Later revolutions are those of the last half of a run, or the last 100 of one that goes on until it settles.
+"""
 
 from r37core.dataset_file import SPEED, Variable
 from r37core.stress.statistic import HIGH
 
 _TIP = ("tip_point",)
-_OF_REVOLUTIONS = "largest von Mises stress of each revolution of the last half of the run"
+_OF_REVOLUTIONS = "largest von Mises stress of each of the later revolutions"
 
 _STATUS = {
     "status": Variable((), "1", "how the run ended", "i1"),
@@ -13,10 +16,12 @@ _STATUS = {
 
 _MOTION = {
     **{
-        f"{kind}_{direction}": Variable(_TIP, "m", f"{measure} {direction} displacement over the last half of the run{note}")
+        f"{kind}_{direction}": Variable(_TIP, "m", f"{measure} {direction} displacement over the later revolutions{note}")
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
         for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
     },
+    "motion_at_end": Variable((), "1", "state of the motion at the end of the run", "i1"),
+    "settled_revolution": Variable((), "1", "revolution after which the run ended as it had settled, NaN where it did not"),
     "time_step": Variable((), "s", "step of the time integration that was taken"),
     "clearance": Variable(("contact_node",), "m", "clearance of the round casing at the contact nodes, leading edge first"),
     "share_of_time_in_contact": Variable((), "1", "share of the steps with a contact force"),
@@ -45,14 +50,16 @@ _STRESS = {
     "max_von_mises_ever": Variable((), "Pa", f"{_OF_REVOLUTIONS}: largest"),
     "max_von_mises_median": Variable((), "Pa", f"{_OF_REVOLUTIONS}: median"),
     "max_von_mises_high": Variable((), "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),
-    "share_of_revolutions_above_yield": Variable(
-        (), "1", "share of the revolutions of the last half of the run whose largest stress exceeds yield"
-    ),
+    "share_of_revolutions_above_yield": Variable((), "1", "share of the later revolutions whose largest stress exceeds yield"),
 }
 
 _WEAR = {
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
+    "wear_growth": Variable((), "m", "largest growth of a bar's wear in the last 50 revolutions, or quarter of the run"),
+    "used_thickness": Variable(
+        (), "m", "lining thickness used: deepest penetration that left wear; all of it where the lining is worn through"
+    ),
     "worn_through_share": Variable((), "1", "share of the circumference at which the lining is worn through, at the end"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
 }
@@ -67,7 +74,7 @@ _WAVES = {
         )
         for wave, sense in (("forward", "with the rotor, or nowhere"), ("backward", "against the rotor"))
     },
-    "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the last half of the run", "f4"),
+    "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the later revolutions", "f4"),
 }
 
 VARIABLES = _STATUS | _MOTION | _GIVEN_MOTION | _SPECTRUM | _STRESS | _WEAR | _WAVES

@@ -99,7 +99,8 @@ class RunUps:
         """Numbers of the time integration of a run-up: those of the sweep, with stress in every revolution."""
         choice = self.sweep.settings.integration_choice(blade, scene, 0.0)
         before = self.choices[blade, scene][name].before
-        return replace(choice, revolutions=before, snapshot_revolutions=before if choice.snapshots_per_revolution else 0)
+        snapshot_revolutions = before if choice.snapshots_per_revolution else 0
+        return replace(choice, revolutions=before, until_settled=False, snapshot_revolutions=snapshot_revolutions)
 
 
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:

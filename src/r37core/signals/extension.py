@@ -175,6 +175,9 @@ def signals_have_runs(settings: Settings) -> None:
             f"such a scene ({', '.join(settings.scenes)} of {documents.scenes.name} are run), or no speeds",
         )
     for name, scene in signal_runs.items():
+        if scene.until_settled:
+            value = f"speeds, with runs of '{name}' that end as they have settled, each in another revolution"
+            raise documents.config.refusal(key, value, "until: revolutions in that scene, or no speeds")
         if wanted.revolutions is not None and wanted.revolutions > scene.revolutions:
             allowed = f"at most those of a run, {scene.revolutions} in '{name}'"
             raise documents.config.refusal(("signals", "revolutions"), f"{wanted.revolutions}", allowed)

@@ -42,6 +42,11 @@ class CasingOfRun:
         return clearances(self.model, self.scene, np.array([self.grid.speed]))[0]
 
     @property
+    def rise_time(self) -> float:
+        """Time (s) in which the lobes grow to 99% of their height."""
+        return self.scene.casing.rise_time(self.grid.duration, self.grid.choice.length_of_rise_fraction)
+
+    @property
     def rotation_velocity(self) -> np.ndarray:
         """Sliding of the nodes over the casing by the rotation (m/s), positive along the tangent, shape (nodes,)."""
         return -self.tip.radius * self.grid.speed
@@ -103,5 +108,5 @@ class CasingOfRun:
             radius = self.tip.radius + cosine * normal + sine * meridional
             position = position + cosine * (np.hypot(radius, across) - radius)
             theta = theta + np.arctan2(across, radius)
-        lobes = self.scene.casing.lobe(theta, np.array(step * self.grid.time_step), self.grid.duration)
+        lobes = self.scene.casing.lobe(theta, np.array(step * self.grid.time_step), self.rise_time)
         return clearance - lobes - position, theta

@@ -7,6 +7,9 @@ from r37core.declared import Key
 
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, INTEGRATORS
 
+PUBLISHED_REVOLUTIONS = 200
+"""Length of the benchmark's runs. Those that go on until they settle have their lobes, and their statistic, from it."""
+
 MOST_STEPS = 10**9
 """Largest number of steps of a run, all blades together; more are refused, as the compiled engine takes minutes for them."""
 
@@ -33,11 +36,12 @@ class IntegrationChoice:
     `snapshots_per_revolution` states are recorded in each of the last `snapshot_revolutions`; `jumps`: whether free flight is
     jumped over or stepped through; `static_above`: with exact_modal, modes with a larger product of angular frequency and step
     are not stepped either, and all that are not stepped follow the contact forces statically; `shorten`: whether an unstable
-    step is shortened, or refused; `steps_per_sample`: given where a run keeps them over many speeds.
+    step is shortened, or refused; `steps_per_sample`: given where a run keeps them over many speeds. `until_settled`:
+    whether a run ends as soon as it has settled (time_integration.settling).
     """
 
     time_step: float
-    revolutions: Annotated[int, Key("Length of a run", ge=2, le=20000)]
+    revolutions: Annotated[int, Key("Length of a run, at most where it ends as it has settled", ge=2, le=20000)]
     samples_per_revolution: int
     integrator: Annotated[
         str, Key("Scheme; exact_modal is exact between contacts, with fast modes static and forces at t_n", one_of=INTEGRATORS)
@@ -54,6 +58,14 @@ class IntegrationChoice:
     static_above: float = 1.0
     shorten: bool = False
     steps_per_sample: int | None = None
+    until_settled: Annotated[
+        bool,
+        Key(
+            "End of a run: after its revolutions, or as soon as 50 of them bring no wear and no change of the motion",
+            name="until",
+            words={"revolutions": False, "settled": True},
+        ),
+    ] = False
 
     @property
     def second_order(self) -> bool:
@@ -61,6 +73,15 @@ class IntegrationChoice:
         return self.integrator == EXACT_MODAL
 
     @property
+    def length_of_rise_fraction(self) -> int:
+        """Revolutions of which a casing's `rise_fraction` is a share: the run's, or the published ones until it settles."""
+        return PUBLISHED_REVOLUTIONS if self.until_settled else self.revolutions
+
+    @property
     def revolutions_in_statistic(self) -> int:
-        """Revolutions of the last half of the run, which rms and the statistic of the stress are taken over."""
-        return self.revolutions - self.revolutions // 2
+        """Revolutions at the end of a run which rms and the statistic of the stress are taken over.
+
+        The last half of the run; of one that goes on until it settles as many as of the published run, if it has twice these.
+        """
+        length = min(self.revolutions, PUBLISHED_REVOLUTIONS) if self.until_settled else self.revolutions
+        return length - length // 2

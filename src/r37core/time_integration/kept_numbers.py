@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.fft import rfft  # NumPy imports it when it is used, which would be in each of a server's jobs
 
-from r37core.contact.laws import wear_at_the_casing
+from r37core.contact.laws import used_thickness, wear_at_the_casing
 from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Lining
 from r37core.rom.contact_model import ContactModel
@@ -14,14 +14,14 @@ from r37core.stress.operator import StressOperator
 from r37core.stress.revolutions import largest_of_revolutions
 
 from .problem import Problem
-from .simulate import DIRECTIONS
+from .simulate import LEADING_EDGE
 from .state import SimulationRecord
 from .status import RunStatus
 
 _WEAR_LOBES = 20
 _ROUND_OFF = 1e-9
 """Relative margin of a bar's penetration at the casing; the compiled code has the same."""
-KEPT = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
+KEPT = LEADING_EDGE
 """Directions of the spectrum."""
 
 
@@ -31,7 +31,7 @@ def whole(samples: np.ndarray, count: int, diverged: bool) -> np.ndarray:
     reached = len(samples) - diverged
     if reached == count:
         return samples
-    return np.concatenate([samples[:reached], np.full((count - reached, *samples.shape[1:]), np.nan)])
+    return extended(samples[:reached], count)
 
 
 def largest_of_each(revolutions: int, samples: np.ndarray) -> np.ndarray:
@@ -39,6 +39,13 @@ def largest_of_each(revolutions: int, samples: np.ndarray) -> np.ndarray:
     # as `max` along an axis of its own, which takes seven times as long
     firsts = np.arange(revolutions) * (len(samples) // revolutions)
     return np.maximum(*(np.abs(ends.reduceat(samples, firsts)) for ends in (np.maximum, np.minimum)))
+
+
+def extended(values: np.ndarray, count: int) -> np.ndarray:
+    """Values along the first axis and NaN after them, up to a `count` of rows."""
+    if len(values) == count:
+        return values
+    return np.concatenate([values, np.full((count - len(values), *values.shape[1:]), np.nan)])
 
 
 def status_numbers(problem: Problem, reached: float | None) -> dict[str, np.ndarray]:
@@ -110,12 +117,12 @@ def stress_histories(
     return history
 
 
-def casing_numbers(problem: Problem, record: SimulationRecord, highest_order: int) -> dict[str, np.ndarray]:
-    """Waves of the elastic casing over the last half of a run: see casing_waves."""
+def casing_numbers(problem: Problem, record: SimulationRecord, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
+    """Waves of the elastic casing in the statistic of a run of so many revolutions: see casing_waves."""
     ring, choice = problem.casing.ring, problem.choice
     assert ring is not None and record.casing is not None
     per_revolution = choice.samples_per_revolution
-    count, first = choice.revolutions * per_revolution, choice.revolutions // 2 * per_revolution
+    count, first = revolutions * per_revolution, (revolutions - choice.revolutions_in_statistic) * per_revolution
     half = whole(record.casing, count, len(record.casing) < count or record.diverged)[first:]
     return casing_waves(half, ring, problem.speed, choice.revolutions_in_statistic, highest_order)
 
@@ -146,7 +153,8 @@ def amplitudes(values: np.ndarray) -> np.ndarray:
 def wear_numbers(wear: np.ndarray, angles: int, lining: Lining) -> dict[str, np.ndarray]:
     """Largest `wear` (m), shape (rings, bars), over the rings: in each of `angles` sectors, and its lobes.
 
-    And the share of the bars that are worn through to the casing behind the `lining`, in any ring.
+    And the thickness of the `lining` that is used, and the share of the bars that are worn through to the casing behind it, in
+    any ring.
     """
     profile = wear.max(axis=0)
     sectors = np.linspace(0, len(profile), angles, endpoint=False).astype(int)
@@ -154,6 +162,7 @@ def wear_numbers(wear: np.ndarray, angles: int, lining: Lining) -> dict[str, np.
     return {
         "wear": depths.astype(np.float32),
         "max_wear": np.array(profile.max()),
+        "used_thickness": np.array(used_thickness(float(profile.max()), lining)),
         "worn_through_share": np.array(np.mean(profile >= (1.0 - _ROUND_OFF) * wear_at_the_casing(lining))),
         "wear_harmonic": amplitudes(profile)[: _WEAR_LOBES + 1],
     }

@@ -13,6 +13,9 @@ from .problem import Problem, stable_problem
 from .step_checks import check_rotor_step
 from .step_limit import UnstableStepError
 
+NO_ROTOR = "until: revolutions; the blades of a rotor pass the casing one after another, and end together"
+"""End of a run that a scene with a rotor can have."""
+
 
 def refusal_of(scene: Scene) -> str | None:
     """Requirement of the blades of a scene's rotor that it does not meet, None where they can be run."""

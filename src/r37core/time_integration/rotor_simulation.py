@@ -21,8 +21,9 @@ from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
 from .problem import Problem
 from .reference.engine import advance_together
-from .rotor_blades import blade_problems
-from .simulate import Simulation
+from .rotor_blades import NO_ROTOR, blade_problems
+from .settling import Ending, has_settled, parts_of_run, revolution_rms, wear_of
+from .simulate import LEADING_EDGE, Simulation
 from .state import SimulationRecord, SimulationState
 
 
@@ -31,12 +32,14 @@ class BladesRecord:
     """Records of the blades: one of each, and where the samples lie in time.
 
     `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m3), shape
-    (blades,): what each has worn off the lining; NaN of a single blade.
+    (blades,): what each has worn off the lining; NaN of a single blade; `ending`: how the
+    run of one blade ended.
     """
 
     blades: tuple[SimulationRecord, ...]
     late: np.ndarray
     worn: np.ndarray
+    ending: Ending
 
     @property
     def first_diverged(self) -> int | None:
@@ -53,6 +56,8 @@ class BladesSimulation:
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         self.rotor = scene.rotor
+        if self.rotor is not None and choice.until_settled:
+            raise ValueError(f"until: settled in a scene with a rotor; allowed: {NO_ROTOR}")
         if self.rotor is None:
             self.blades = [Simulation(model, speed, scene, choice)]
         else:
@@ -92,10 +97,12 @@ class BladesSimulation:
             state.wear = shared if self.rotor.shared_lining else unworn + own
         return states
 
-    def run(self, states: list[SimulationState], revolutions: int) -> BladesRecord:
-        """Do so many revolutions from the start, which the `states` are at; they are changed."""
+    def run(self, states: list[SimulationState]) -> BladesRecord:
+        """Do the revolutions of the choice from the start, which the `states` are at; they are changed."""
+        revolutions = self.problem.choice.revolutions
         if self.rotor is None:
-            return BladesRecord((self.blades[0].advance(states[0], revolutions),), np.zeros(1), np.full(1, np.nan))
+            record, ending = run_of_blade(self.blades[0], states[0])
+            return BladesRecord((record,), np.zeros(1), np.full(1, np.nan), ending)
         samples = revolutions * self.problem.choice.samples_per_revolution
         outs = [simulation.room(0, samples) for simulation in self.blades]
         engines, late = [simulation.engine for simulation in self.blades], np.zeros(len(self.blades))
@@ -110,7 +117,7 @@ class BladesSimulation:
             done, worn = self._pass_by_pass(states, outs, starts, self.rotor.order, revolutions)
             late = np.array([start.late for start in starts])
         records = (blade.recorded(0, out, reached) for blade, out, reached in zip(self.blades, outs, done, strict=True))
-        return BladesRecord(tuple(records), late, np.array(worn))
+        return BladesRecord(tuple(records), late, np.array(worn), Ending(revolutions))
 
     def energy(self, states: list[SimulationState]) -> float:
         """Energy (J) of the vibration of all blades, and of their elastic casing, which each state has."""
@@ -157,6 +164,35 @@ class BladesSimulation:
         for passage in passages:
             passage.end()
         return [passage.done for passage in passages], [passage.worn for passage in passages]
+
+
+def run_of_blade(simulation: Simulation, state: SimulationState) -> tuple[SimulationRecord, Ending]:
+    """The run of a single blade from its start, at which `state` is, and how it ended; see has_settled.
+
+    Snapshots are those of the last `snapshot_revolutions`.
+    """
+    problem, choice = simulation.problem, simulation.problem.choice
+    per_revolution, instants = choice.samples_per_revolution, choice.snapshots_per_revolution * choice.snapshot_revolutions
+    out = simulation.room(0, choice.revolutions * per_revolution)
+    risen = problem.casing.rise_time / (problem.grid.steps_per_revolution * problem.grid.time_step)
+    done, revolutions, settled, growth, steps, rms = 0, 0, False, 0.0, 0.0, np.empty(0)
+    for part in parts_of_run(choice):
+        wear, contact = wear_of(state), float(state.totals["steps_in_contact"])
+        advanced = simulation.fill(state, out, 0, part * per_revolution)
+        motion = out.samples[done : done + advanced, LEADING_EDGE]
+        done, revolutions = done + advanced, revolutions + part
+        growth, steps = float(np.max(wear_of(state) - wear)), float(state.totals["steps_in_contact"]) - contact
+        if advanced < part * per_revolution:
+            break
+        if choice.until_settled:
+            rms = np.concatenate([rms, revolution_rms(motion, per_revolution)])
+            settled = has_settled(rms, parts_of_run(choice)[-1], growth, risen)
+        if settled:
+            break
+    record = simulation.recorded(0, out, done)
+    if choice.until_settled:
+        record = replace(record, snapshots=record.snapshots[max(len(record.snapshots) - instants, 0) :])
+    return record, Ending(revolutions, settled, growth, steps)
 
 
 def _beside_each_other(problems: Sequence[Problem]) -> list[Simulation]:

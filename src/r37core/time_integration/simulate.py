@@ -20,6 +20,9 @@ from .state import Schedule, SimulationRecord, SimulationState
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
 """Content of the samples: every direction at the first tip point, then at the second."""
 
+LEADING_EDGE = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
+"""Samples of the leading edge's motion, normal and tangential."""
+
 _ENGINES: dict[str, type[CompiledEngine] | type[ReferenceEngine]] = {"compiled": CompiledEngine, "reference": ReferenceEngine}
 
 
@@ -65,18 +68,26 @@ class Simulation:
 
     def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
         """Go on by a number of samples from `state`, which is changed."""
-        first, done, reached, per_revolution = state.samples, 0, True, self.problem.choice.samples_per_revolution
+        first = state.samples
         out = self.room(first, samples)
+        return self.recorded(first, out, self.fill(state, out, first, samples))
+
+    def fill(self, state: SimulationState, out: SimulationRecord, first: int, samples: int) -> int:
+        """Go on by a number of samples from `state`, which is changed, in the room `out` for those after the run's `first`.
+
+        Returns the samples done: fewer when an output passes the limit or is NaN.
+        """
+        begun, done, reached, per_revolution = state.samples, 0, True, self.problem.choice.samples_per_revolution
         samples_at_once = revolutions_at_once(self.problem.grid.steps_per_revolution) * per_revolution
         while done < samples and reached:
-            part = min(samples - done, samples_at_once - (first + done) % per_revolution)
-            kept = self._snapshots(first, done)
-            rows = SimulationRecord(out.samples[done : done + part], out.snapshots[kept : self._snapshots(first, done + part)])
-            state.samples = first + done
+            part, at = min(samples - done, samples_at_once - (begun + done) % per_revolution), begun + done - first
+            snapshots = slice(self._snapshots(first, at), self._snapshots(first, at + part))
+            rows = SimulationRecord(out.samples[at : at + part], out.snapshots[snapshots])
+            state.samples = begun + done
             advanced = self.engine.advance(state, rows, Schedule([0], [part], len(state.displacement)))
             done, reached = done + advanced, advanced == part
-        state.samples = first + samples
-        return self.recorded(first, out, done)
+        state.samples = begun + samples
+        return done
 
     def follow(self, state: SimulationState, schedule: Schedule) -> SimulationRecord:
         """Go on in the constant-speed segments of a schedule from `state`, which is changed."""

@@ -14,6 +14,7 @@ from .kept_numbers import (
     KEPT,
     casing_numbers,
     energy_balance,
+    extended,
     largest_of_each,
     snapshot_numbers,
     spectrum,
@@ -25,7 +26,9 @@ from .kept_numbers import (
 from .lining_at_tip import lining_at_tip
 from .rotor_numbers import rotor_numbers, stress_of_blades
 from .rotor_simulation import BladesRecord, BladesSimulation
-from .simulate import DIRECTIONS, TIP_POINTS
+from .settling import motion_at_end, revolution_rms, wear_of
+from .simulate import DIRECTIONS, LEADING_EDGE, TIP_POINTS
+from .state import SimulationState
 
 OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy", "casing")
 """Results of a scene that its simulations give; others are made of them later."""
@@ -46,16 +49,17 @@ def run_speed(
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
 
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
-    (rad), `lined`, 1 where there is a lining, and what lining_at_tip says of it, `rms` and `peak` (m) over the last half, shape
-    (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), and contact statistics. `clearance`
-    (m), shape (nodes,): where it changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal
-    and tangential motion.
-    `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes of
-    rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the
-    largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
-    them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run.
-    With a rotor: the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and energies; the spectrum
-    of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade, see rotor_numbers and
+    (rad), `lined`, 1 where there is a lining, and what lining_at_tip says of it, `rms` and `peak` (m) over the revolutions in
+    the statistic, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end
+    of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics.
+    `clearance` (m), shape (nodes,):
+    where it changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential
+    motion. `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
+    of rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa),
+    the largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
+    them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run. With a rotor:
+    the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and energies; the spectrum of the
+    leading blade, the snapshots of the one with the largest stress; and numbers of each blade, see rotor_numbers and
     stress_of_blades. `status` is that of the rotor: all blades end when one diverges, whose snapshots are kept then. With
     `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the energies
     `initial_energy` (J).
@@ -65,26 +69,28 @@ def run_speed(
     left_out = None if motion is None else motion.left_out(simulation.problem)
     states = simulation.start(motion)
     begun = simulation.energy(states)
-    record = simulation.run(states, choice.revolutions)
+    record = simulation.run(states)
     totals = np.array([state.totals for state in states])
-    per_revolution, first, ended = choice.samples_per_revolution, choice.revolutions // 2, record.first_diverged
+    per_revolution, revolutions, ended = choice.samples_per_revolution, record.ending.revolutions, record.first_diverged
+    first = max(revolutions - choice.revolutions_in_statistic, 0)
     samples = [
-        whole(part.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), choice.revolutions * per_revolution, part.diverged)
+        whole(part.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), revolutions * per_revolution, part.diverged)
         for part in record.blades
     ]
     half = [part[first * per_revolution :] for part in samples]
-    maxima = [largest_of_each(choice.revolutions, part) for part in samples]
+    maxima = [extended(largest_of_each(revolutions, part), choice.revolutions) for part in samples]
     numbers = status_numbers(simulation.problem, None if ended is None else len(record.blades[ended].samples) / per_revolution)
     numbers |= lining_at_tip(model, scene)
     numbers |= {
         "rms": np.max([np.sqrt(np.mean(part**2, axis=0)) for part in half], axis=0),
-        "peak": np.max([part[first:].max(axis=0) for part in maxima], axis=0),
+        "peak": np.max([part[first:revolutions].max(axis=0) for part in maxima], axis=0),
         "revolution_maxima": np.max(maxima, axis=0),
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
         "casing_hits": np.array(totals["casing_hits"].sum()),
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
     }
+    numbers |= ending_numbers(simulation, record, samples, states)
     leader = 0
     if simulation.rotor is not None:
         numbers |= rotor_numbers(simulation, record, samples, totals)
@@ -101,6 +107,7 @@ def run_speed(
         assert scene.lining is not None
         wear = np.max([state.wear for state in states if state.wear is not None], axis=0)
         numbers |= wear_numbers(wear, min(wear_angles, scene.lining.bars), scene.lining)
+        numbers["wear_growth"] = np.array(record.ending.wear_growth)
     if "energy" in results:
         work = sum(blade.work(state) for blade, state in zip(simulation.blades, states, strict=True))
         numbers |= energy_balance(work, float(totals["loss"].sum()), simulation.energy(states) - begun)
@@ -108,8 +115,28 @@ def run_speed(
             numbers["initial_energy"] = np.array(begun)
     if "casing" in results:
         # the record of any blade has it
-        numbers |= casing_numbers(simulation.problem, record.blades[0], spectrum_highest_order)
+        numbers |= casing_numbers(simulation.problem, record.blades[0], revolutions, spectrum_highest_order)
     return numbers
+
+
+def ending_numbers(
+    simulation: BladesSimulation, record: BladesRecord, samples: Sequence[np.ndarray], states: Sequence[SimulationState]
+) -> dict[str, np.ndarray]:
+    """How a run ended, from the displacement `samples` (m) of each blade, shape (samples, 2, 3).
+
+    `motion_at_end`: the worst MotionAtEnd of all blades; `settled_revolution`: after which a run ended as it had settled, else
+    NaN; `statistic_end`, `statistic_revolutions`: last revolution of the statistic, and how many it has.
+    """
+    ending, per_revolution = record.ending, simulation.problem.choice.samples_per_revolution
+    clearance, wear = float(np.min(simulation.problem.casing.clearance)), max(float(wear_of(state).max()) for state in states)
+    rms = [revolution_rms(part[:, 0, LEADING_EDGE], per_revolution) for part in samples]
+    motions = [motion_at_end(part, clearance, wear, ending.wear_growth, ending.contact_steps) for part in rms]
+    return {
+        "motion_at_end": np.array(int(max(motions))),
+        "settled_revolution": np.array(float(ending.revolutions) if ending.settled else np.nan),
+        "statistic_end": np.array(ending.revolutions),
+        "statistic_revolutions": np.array(simulation.problem.choice.revolutions_in_statistic),
+    }
 
 
 def _stress(

@@ -39,12 +39,14 @@ class TimeGrid:
 
     @property
     def duration(self) -> float:
-        """Length of the whole run (s)."""
-        return self.choice.revolutions * self.steps_per_revolution * self.time_step
+        """Length (s) of the whole run, or of the published one where a run goes on until it settles."""
+        return self.choice.length_of_rise_fraction * self.steps_per_revolution * self.time_step
 
     @property
     def samples_before_snapshots(self) -> int:
-        """Samples up to the revolutions of which snapshots are kept."""
+        """Samples up to the revolutions of which snapshots are kept: none where it is not known when a run settles."""
+        if self.choice.until_settled:
+            return 0
         return (self.choice.revolutions - self.choice.snapshot_revolutions) * self.choice.samples_per_revolution
 
     @property

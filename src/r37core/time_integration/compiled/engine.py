@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from r37core.alignment import LANES, aligned_copy, aligned_zeros, padded
+from r37core.contact.casing import rise_rate
 from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Friction, Lining
 from r37core.native import Sources, cached_object, load_function
@@ -220,7 +221,7 @@ class CompiledEngine:
 
     def _lay_out_casing(self, problem: Problem, before: CompiledEngine | None) -> None:
         m, casing = self.record[0], problem.scene.casing
-        rise = casing.rise_rate(problem.grid.duration) * problem.grid.time_step
+        rise = rise_rate(problem.casing.rise_time) * problem.grid.time_step
         numbers = {
             "amplitude": casing.lobe_height,
             "rise": rise,

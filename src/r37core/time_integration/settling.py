@@ -1,0 +1,130 @@
+"""End of a run: whether it has settled, and whether its motion grows, lasts or has cut itself free there.
+
+Both are read off windows of revolutions: a run's last one, and the one before it.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+
+from .integration_choice import IntegrationChoice
+
+WINDOW = 50
+"""Revolutions of a window, fewer in runs that have less than four of them."""
+
+NO_WEAR = 1e-8
+"""Growth of a bar's wear (m) in a window that counts as none: a hundred thousandth of what an interaction wears."""
+
+SAME, SAME_OF_LARGEST = 0.01, 0.001
+"""Difference of the rms of two windows that counts as none: a share of the larger one, or of the largest of the run."""
+
+STILL_WEARING = 0.01
+"""Growth of a bar's wear in the last window, as a share of the largest wear, above which a run still changes."""
+
+SCATTERS = 2.0
+"""Standard deviations of the revolutions of a window by which the next one has to be larger to count as growing."""
+
+DECAYED = 0.1
+"""Share of the largest rms of a revolution below which the motion at the end is over."""
+
+
+class MotionAtEnd(IntEnum):
+    """State of the motion at the end of a run, the worst last; see motion_at_end.
+
+    `UNKNOWN`: of a run that diverged, and of a speed that was not run.
+    """
+
+    QUIET = 0
+    CUT_FREE = 1
+    LASTING = 2
+    GROWING = 3
+    UNKNOWN = 4
+
+    @property
+    def text(self) -> str:
+        """State as the datasets and tables have it."""
+        return self.name.lower()
+
+
+@dataclass(frozen=True)
+class Ending:
+    """End of a run: `revolutions` done, and whether it had `settled` then.
+
+    `wear_growth` (m): largest growth of a bar's wear in the last window; `contact_steps`: steps with a contact force in it.
+    NaN where they are not known, as of a rotor.
+    """
+
+    revolutions: int
+    settled: bool = False
+    wear_growth: float = np.nan
+    contact_steps: float = np.nan
+
+
+def window_of(revolutions: int) -> int:
+    """Revolutions of a window of a run."""
+    return min(WINDOW, max(revolutions // 4, 1))
+
+
+def revolution_rms(motion: np.ndarray, per_revolution: int) -> np.ndarray:
+    """Rms of a motion in several directions together in each revolution, shape (revolutions,).
+
+    `motion`, shape (samples, directions), with `per_revolution` samples in a revolution; NaN stays.
+    """
+    return np.sqrt(np.einsum("ij,ij->i", motion, motion).reshape(-1, per_revolution).mean(axis=1))
+
+
+def has_settled(rms: np.ndarray, window: int, wear_growth: float, risen: float) -> bool:
+    """Whether the last window of a run brought no wear and no change of the motion.
+
+    That is: no bar wore by more than NO_WEAR, and the rms of the last window differs from that of the window before by less
+    than SAME of the larger one, or than SAME_OF_LARGEST of the largest of all windows. `rms` (m) of each revolution, shape
+    (revolutions,); `wear_growth` (m), see Ending; `risen`: revolutions after which the lobes have grown, before which nothing
+    has settled.
+    """
+    if len(rms) < 2 * window or len(rms) - 2 * window < risen or not wear_growth <= NO_WEAR:
+        return False
+    windows = np.sqrt(np.mean(np.reshape(rms[len(rms) % window :] ** 2, (-1, window)), axis=1))
+    before, last = windows[-2:]
+    return bool(abs(last - before) <= max(SAME * max(before, last), SAME_OF_LARGEST * windows.max()))
+
+
+def motion_at_end(
+    rms: np.ndarray, clearance: float, max_wear: float = 0.0, wear_growth: float = np.nan, contact_steps: float = np.nan
+) -> MotionAtEnd:
+    """State of the motion at the end of a run, by the `rms` (m) of each of its revolutions, shape (revolutions,).
+
+    Growing: the mean rms of the last window is above that of the window before by more than SCATTERS standard deviations of
+    the revolutions about these means and by more than SAME; or a bar wears by more than NO_WEAR and STILL_WEARING of the
+    largest wear in it. Quiet: no revolution's rms is above the `clearance` (m). Cut free: it was, but the last revolution's is
+    below DECAYED of the largest, or nothing was in contact in the last window. Lasting: all else. `max_wear` (m): the largest;
+    `wear_growth`, `contact_steps`: see Ending, NaN where they are not known.
+    """
+    if not np.isfinite(rms).all():
+        return MotionAtEnd.UNKNOWN
+    window, largest = window_of(len(rms)), rms.max()
+    last = rms[-window:]
+    before = rms[-2 * window : -window] if len(rms) >= 2 * window else rms[:1]
+    scatter = float(np.sqrt(0.5 * (last.var() + before.var())))
+    growth = last.mean() - before.mean()
+    if growth > max(SCATTERS * scatter, SAME * last.mean()) and largest > clearance:
+        return MotionAtEnd.GROWING
+    if wear_growth > max(NO_WEAR, STILL_WEARING * max_wear):
+        return MotionAtEnd.GROWING
+    if not largest > clearance:
+        return MotionAtEnd.QUIET
+    return MotionAtEnd.CUT_FREE if rms[-1] < DECAYED * largest or contact_steps == 0.0 else MotionAtEnd.LASTING
+
+
+def parts_of_run(choice: IntegrationChoice) -> list[int]:
+    """Revolutions of the parts of a run of which the last is a window, and all but the first where it may end after any."""
+    window = window_of(choice.revolutions)
+    if not choice.until_settled:
+        return [choice.revolutions - window, window]
+    return [choice.revolutions % window + window, *[window] * (choice.revolutions // window - 1)]
+
+
+def wear_of(state: Any) -> np.ndarray:
+    """Copy of the wear (m) of all bars of a SimulationState; one of 0 without a lining."""
+    return np.zeros(1) if state.wear is None else state.wear.copy()
