@@ -57,7 +57,7 @@ def test_every_bar_that_is_passed_is_worn_to_where_the_tip_was(engine, integrato
     choice = IntegrationChoice(step, 2, 20, integrator=integrator, engine=engine)
     _, state, _ = whole_run(model, 1000.0, scene, choice)
     angles = (np.arange(20_000) + 0.5) * 2.0 * np.pi / 20_000
-    depth = np.maximum(casing.lobe(angles, 1.0, 1.0) - casing.clearance, 0.0)
+    depth = np.maximum(casing.lobe(angles, 1.0, 0.0) - casing.clearance, 0.0)
     assert np.count_nonzero(depth) > 4000
     # chords in place of arcs between two steps
     np.testing.assert_allclose(state.wear[0], depth / 1.25, rtol=0, atol=2e-3 * depth.max())
