@@ -52,7 +52,7 @@ MOVING_ABOVE = 6.4e-6
 @cache
 def shipped() -> Settings:
     """The shipped configuration."""
-    return settings_of(Path.cwd())
+    return settings_of(Path.cwd(), scenes="all")
 
 
 def scene_of(name: str, **casing: float) -> Scene:
