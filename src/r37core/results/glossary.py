@@ -58,6 +58,11 @@ INTERACTIONS = {
         "wear is less than the thickness there, because the lining springs back",
         *_PERCENT,
     ),
+    "largest_penetration_m": Word(
+        "largest penetration",
+        "largest penetration of the tip's edge, between contact nodes, too, into the casing (behind a lining)",
+        *_MM,
+    ),
     "status": Word("status", "`completed`, or `diverged` if any run of the interaction did"),
     "width_ever_above_yield_rad_s": Word(
         "width ever above yield", f"width above yield if any of the {_REVOLUTIONS} counts", _SPEED

@@ -100,6 +100,7 @@ class Interaction:
     last_revolution: LastRevolution
     max_wear_m: float
     worn_through_share: float
+    largest_penetration_m: float
     status: str
     all_revolutions: AllRevolutions
     peak_motion: PeakMotion
@@ -167,6 +168,7 @@ def interaction_row(
         part(LastRevolution),
         _largest(reach, "max_wear"),
         _largest(reach, "worn_through_share"),
+        _largest(reach, "largest_penetration"),
         RunStatus(int(reach["status"].max())).text,
         part(AllRevolutions),
         part(PeakMotion),

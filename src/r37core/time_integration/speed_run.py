@@ -46,7 +46,8 @@ def run_speed(
 
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
     (rad), `lined`, 1 where there is a lining, `rms` and `peak` (m) over the last half, shape (2, 3): TIP_POINTS by DIRECTIONS,
-    `revolution_maxima` (m), shape (revolutions, 2, 3), and contact statistics. `clearance` (m), shape (nodes,): where it
+    `revolution_maxima` (m), shape (revolutions, 2, 3), and contact statistics, `largest_penetration` (m) of the tip's edge into
+    the casing among them. `clearance` (m), shape (nodes,): where it
     changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
     `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes of
     rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the
@@ -79,6 +80,7 @@ def run_speed(
         "revolution_maxima": np.max(maxima, axis=0),
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
+        "largest_penetration": np.array(totals["largest_penetration"].max()),
         "casing_hits": np.array(totals["casing_hits"].sum()),
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
     }

@@ -160,6 +160,19 @@ def _flight_record(modes: int, nodes: int) -> np.dtype:
     )
 
 
+EDGE = aligned_record(
+    [
+        *_fields("position shape meridional", LANES),  # of eight nodes
+        # groups of eight nodes: the few, and these with all of them; columns of a row of a group
+        *_fields("few groups width", kind=np.int64),
+        # addresses: displacement per mode, shape (directions, groups, width, 8), and per force, (groups, 3 contact nodes, 8);
+        # clearance, radius and angle of the nodes; the casing's shape at two turns of steps, the step of each node's angle, and
+        # the shares of the four values round it
+        *_fields("rows flexibility clearance radius theta table steps shares", kind=np.int64),
+    ]
+)
+"""The tip's edge: see edge_steps. Without groups it is not looked at."""
+
 CALL = aligned_record(
     [
         # where it begins, how many blocks of steps it asks for, and the speed it is at
@@ -215,6 +228,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
             ("flight", _flight_record(modes, nodes), ()),
             ("lining", LINING, ()),
             ("casing", CASING, ()),
+            ("edge", EDGE, ()),
             ("totals", TOTALS, ()),
             # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
             *_fields("block_work block_loss", LANES),
