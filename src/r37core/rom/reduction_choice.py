@@ -19,24 +19,42 @@ POINTS, PATCHES, AREA_PATCHES = "points", "patches", "area_patches"
 """Kinds of contact nodes: nodes of the mesh, patches of the tip line, or patches of the tip's whole face."""
 
 
+EVEN, COSINE = "even", "cosine"
+"""Spacings of the contact nodes along the chord: equal distances, or smaller ones towards the leading and trailing edge."""
+
+
+def usual_spacing(contact: str) -> str:
+    """The spacing of contact nodes of a kind where none is chosen.
+
+    Between the middle of an end patch and the blade's corner nothing holds the edge, so end patches are short.
+    """
+    return EVEN if contact == POINTS else COSINE
+
+
 @dataclass(frozen=True)
 class BoundaryChoice:
     """Positions of the contact nodes.
 
-    With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n. `contact`: POINTS, PATCHES or
-    AREA_PATCHES; see r37core.rom.contact_weights.
+    With corners, node i of n lies at s = i/(n-1) of the chord; without, at s = (i + 1/2)/n. With a cosine `spacing` that is at
+    (1 - cos(pi s))/2. `contact`: POINTS, PATCHES or AREA_PATCHES; see r37core.rom.contact_weights. A spacing of None is
+    usual_spacing.
     """
 
     tip_line: Annotated[str, Key("Tip line of the contact nodes", one_of=TIP_LINES)] = "pressure_edge"
     nodes: Annotated[int, Key("Number of nodes, evenly spaced", ge=1, le=200)] = 8
     corners: Annotated[bool, Key("Whether the leading and trailing corners are among them")] = True
+    spacing: Annotated[
+        str | None, Key("Spacing along the chord; by default cosine on patches, even on points", one_of=(EVEN, COSINE))
+    ] = None
     contact: str = field(kw_only=True)
 
     def chord_positions(self, count: int) -> np.ndarray:
         """Wanted fractions of the chord of so many contact nodes, from the leading to the trailing edge."""
-        if self.corners and count > 1:
-            return np.linspace(0.0, 1.0, count)
-        return (np.arange(count) + 0.5) / count
+        even = np.linspace(0.0, 1.0, count) if self.corners and count > 1 else (np.arange(count) + 0.5) / count
+        if (self.spacing or usual_spacing(self.contact)) == EVEN:
+            return even
+        # the ends and the middle are exact
+        return np.where(even == 0.5, 0.5, 0.5 - 0.5 * np.cos(np.pi * even))
 
 
 def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:

@@ -193,6 +193,8 @@ class CompiledEngine:
         # a node that only pads the vector must neither sit on the axis nor cancel a pivot
         m["radius"] = m["flight"]["towards"] = m["problem"]["diagonal"] = 1.0
         m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
+        # every node may touch
+        m["problem"]["among"] = -1
         self.put_modes(
             displacement_operator=problem.contact.displacement_operator,
             size_operator=problem.contact.size_operator,

@@ -68,7 +68,7 @@ def capacity_of(modes: int, nodes: int) -> Capacity:
     while most_modes < modes:
         most_modes *= 2
     while most_nodes < nodes:
-        most_nodes *= 4
+        most_nodes *= 2
     return Capacity(most_modes, most_nodes)
 
 
@@ -92,7 +92,7 @@ def complementarity_record(nodes: int) -> np.dtype:
             *_fields("left", nodes + 1, nodes),
             *_fields("matrix", nodes, nodes + 1),
             *_fields("listed", nodes, kind=np.int64),
-            *_fields("touching wrong", groups, kind=np.int64),
+            *_fields("touching wrong among", groups, kind=np.int64),
             *_fields("lanes", kind=np.int64),  # that the nodes fill
         ]
     )
