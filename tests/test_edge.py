@@ -4,13 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from defaults import Casing, IntegrationChoice, Scene
-from integration_cases import AT_ONCE, DIRECT, RING, SCENES, oscillator, random_model, with_static_modes
+from defaults import Casing, Friction, IntegrationChoice, Scene
+from integration_cases import AT_ONCE, DIRECT, RING, SCENES, oscillator, random_model, with_modes, with_static_modes
 from integration_runs import both_engines, whole_run
 
+import r37
 from r37core.contact.scene import Rotor
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.reference.engine import complementary
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 
 
@@ -93,6 +96,49 @@ def test_both_engines_find_the_same_penetration(scene, integrator):
     (_, ours, _), (_, theirs, _) = both_engines(with_edge(model, 50), 12_000.0, surroundings[scene], choice)
     assert theirs.totals["largest_penetration"] > 1e-6
     assert ours.totals["largest_penetration"] == pytest.approx(theirs.totals["largest_penetration"], rel=1e-6)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.15])
+def test_forces_of_twelve_patches_are_those_of_the_complementarity_problem(friction):
+    """Static modes move neighbours together: after each sample the forces are those of Murty's rule on the gaps there."""
+    nodes, scene = 12, replace(DIRECT, friction=Friction(friction) if friction else None)
+    place, chosen = np.linspace(0.0, 1.0, nodes), IntegrationChoice(4e-7, 1, 62, integrator=EXACT_MODAL)
+    near = np.zeros((3, nodes, nodes))
+    near[0] = 1.2e-5 * np.exp(-20.0 * (place[:, None] - place) ** 2)
+    model = with_modes(with_static_modes(random_model(nodes), 1e-9), 1e8, near)
+    simulation = Simulation(model, 12_000.0, scene, chosen)
+    state, engine, found = simulation.start(), simulation.engine, 0
+    assert simulation.problem.blade.relaxation < 1.0
+    for _ in range(62):
+        simulation.advance_samples(state, 1)
+        pressure = -state.contact_force[0]
+        if not np.any(pressure > 0.0):
+            continue
+        share = np.divide(state.contact_force[1:], pressure, out=np.zeros((2, nodes)), where=pressure > 0.0)
+        directions = np.stack([-np.ones(nodes), *share])
+        listed = pressure > 0.0
+        matrix = -np.einsum("dk,dkg->gk", directions, simulation.problem.contact.contact_flexibility)
+        gap = engine.record[0]["problem"]["gap"][:nodes].copy()
+        # of the nodes that touch the direction of friction is known
+        expected = complementary(matrix[np.ix_(listed, listed)], gap[listed])
+        np.testing.assert_allclose(pressure[listed], expected, rtol=1e-6, atol=1e-9 * expected.max())
+        assert np.all((gap + matrix @ pressure)[~listed] > -1e-11)
+        found += listed.sum() > 2
+    assert found > 3 and state.totals["worst_complementarity"] == 0.0
+
+
+def test_a_run_has_it_from_model_to_dataset():
+    """The benchmark's blade on patches and points, in the lining and in bare casing: only there its edge passes the casing."""
+    found = {
+        (scene, contact): float(
+            r37.simulate(r37.blade("Ref", contact=contact), scene, 1330.0, fidelity="draft", results=[]).largest_penetration
+        )
+        for scene in ("direct", "abradable")
+        for contact in ("points", "patches")
+    }
+    assert found["abradable", "points"] == found["abradable", "patches"] == 0.0
+    # a tenth of the clearance to all of it, and fewer on short end patches
+    assert 3e-5 < found["direct", "patches"] < 0.5 * found["direct", "points"] < 5e-4
 
 
 def test_a_rotor_has_the_largest_of_its_blades():

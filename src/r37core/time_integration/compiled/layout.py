@@ -53,9 +53,8 @@ class Capacity(NamedTuple):
     """Room for modes and nodes, in whole vectors: a program is compiled for it and for its kind.
 
     Most blades step 32 or 40 modes, with central differences up to 93. A vector of nodes is handled without loops, so more
-    nodes are another capacity: four times as many each, so that contact patches of 15 and 29 nodes share one. Modes are
-    doubled. The modes of an elastic casing count, by pairs: the first of each pair come after the blade's modes, then the
-    second, each whole vectors. Outputs are never more than modes.
+    nodes are another capacity. Both are doubled. The modes of an elastic casing count, by pairs: the first of each pair come
+    after the blade's modes, then the second, each whole vectors. Outputs are never more than modes.
     """
 
     modes: int
