@@ -60,7 +60,7 @@ INTERACTIONS = {
     ),
     "largest_penetration_m": Word(
         "largest penetration",
-        "largest penetration of the tip's edge, between contact nodes, too, into the casing (behind a lining)",
+        "largest penetration of the tip's edge into the casing (behind a lining)",
         *_MM,
     ),
     "status": Word("status", "`completed`, or `diverged` if any run of the interaction did"),
