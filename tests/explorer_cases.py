@@ -30,7 +30,7 @@ def sweep():
     tip = {"tip_point": ["leading_edge", "trailing_edge"]}
     names = ("rms_normal", "rms_tangential", "peak_normal")
     rms = {name: ((*dims, "tip_point"), over(2)) for name in names}
-    rms |= {"status": (dims, status), "share_of_time_in_contact": (dims, over())}
+    rms |= {"status": (dims, status), "share_of_time_in_contact": (dims, over()), "largest_penetration": (dims, over())}
     history = np.full((2, 2, 1, 4), np.nan)
     history[0, 0, 0] = 1e8 * np.arange(1, 5)
     stress = {

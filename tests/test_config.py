@@ -39,7 +39,7 @@ def test_three_ways_to_give_a_shape(with_blades):
 
 def test_defaults_are_filled_in(config_copy):
     settings = load_settings({"blades": ["Ref"], "scenes": ["direct"], "fidelity": "draft"}, config_copy)
-    assert plain(settings.structure.boundary) == {"tip_line": "pressure_edge", "nodes": 8, "corners": True}
+    assert plain(settings.structure.boundary) == {"tip_line": "pressure_edge", "corners": True}
     assert settings.config.campbell.highest_engine_order == 20
     assert list(settings.scenes) == ["direct"] and list(settings.speed_plans) == [("Ref", "direct")]
     assert settings.speed_plans["Ref", "direct"].certain[:2] == (750.0, 770.0)

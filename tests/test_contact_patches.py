@@ -28,7 +28,8 @@ from r37core.rom.reduction_choice import BoundaryError, boundary_located
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.simulate import Simulation
 
-PATCHES = BoundaryChoice("pressure_edge", 4, True, "patches")
+EVEN = {"spacing": "even"}
+PATCHES = BoundaryChoice("pressure_edge", 4, True, "patches", "even")
 KINDS = ("patches", "area_patches")
 STEEL = Material(2.1e11, 7800.0, 0.3, 1e9)
 BEAM = Material(2.1e11, 7800.0, 0.0, 1e9)
@@ -57,7 +58,7 @@ def every(mesh, matrices, choice):
 @pytest.mark.parametrize("tip_line", ["pressure_edge", "camber", "suction_edge"])
 @pytest.mark.parametrize(("count", "corners"), [(1, True), (2, True), (5, True), (5, False)])
 def test_weights_are_means(mesh, contact, tip_line, count, corners):
-    weights = contact_weights(mesh, BoundaryChoice(tip_line, count, corners, contact))
+    weights = contact_weights(mesh, BoundaryChoice(tip_line, count, corners, contact, "even"))
     assert weights.shape == (count, len(mesh.points))
     np.testing.assert_allclose(weights.sum(axis=1), 1.0, atol=1e-14)
     chord, span, thickness = (weights @ mesh.parameters).T
@@ -239,6 +240,25 @@ def test_patches_of_reduced_matrices_keep_every_motion(every, choice, tmp_path):
     np.testing.assert_allclose(la.inv(again.stiffness)[:12, :12], flexibility, atol=2e-3 * np.abs(flexibility).max())
 
 
+def test_patches_are_shorter_towards_the_edges():
+    """Unless chosen otherwise; points stay evenly spaced."""
+    patches, points = BoundaryChoice(contact="patches"), BoundaryChoice(contact="points")
+    np.testing.assert_allclose(patches.chord_positions(5), [0.0, 0.5 - np.sqrt(0.125), 0.5, 0.5 + np.sqrt(0.125), 1.0])
+    np.testing.assert_allclose(replace(patches, corners=False).chord_positions(2), 0.5 - np.sqrt(0.125) * np.array([1, -1]))
+    for even in (points, replace(patches, spacing="even")):
+        np.testing.assert_array_equal(even.chord_positions(5), np.linspace(0.0, 1.0, 5))
+    np.testing.assert_array_equal(replace(points, spacing="cosine").chord_positions(7), patches.chord_positions(7))
+
+
+def test_the_usual_number_of_patches_is_what_the_tip_has_room_for():
+    """Twelve, or fewer on a coarse tip; eight points anywhere; what is chosen counts."""
+    patches = BoundaryChoice(contact="patches")
+    counts = [patches.on(np.linspace(0.0, 1.0, 2 * elements + 1)).nodes for elements in (56, 42, 21, 14, 4, 1)]
+    assert counts == [12, 12, 11, 9, 5, 2]
+    assert BoundaryChoice(contact="points").on(np.linspace(0.0, 1.0, 3)).nodes == 8
+    assert replace(patches, nodes=20).on(np.linspace(0.0, 1.0, 3)).nodes == 20
+
+
 @pytest.mark.parametrize("count", [16, 200])
 def test_more_patches_than_the_edge_has_nodes_for(mesh, count):
     found = rf"found {count} contact patches on the 29 mesh nodes of the tip line 'pressure_edge'; allowed: at most 15 "
@@ -326,9 +346,14 @@ def test_the_place_that_chose_is_blamed(settings_with):
 @pytest.mark.parametrize(
     ("blade", "boundary", "message"),
     [
-        ("Mine", {"nodes": 60}, r"nodes: blade 'Mine': found 60 .* at most 43 \("),
-        ("Ref", {"nodes": 44, "contact": "patches"}, "blade 'Ref': found 44 contact patches on the 85 mesh"),
-        ("Ref", {"nodes": 23, "contact": "patches", "tip_line": "camber"}, "found 23 .* the tip line 'camber'; .* at most 22"),
+        ("Mine", EVEN | {"nodes": 60}, r"nodes: blade 'Mine': found 60 .* at most 43 \("),
+        ("Mine", {"nodes": 60}, r"nodes: blade 'Mine': found 60 .* at most 15 \(.*; or contact: points, spacing: even, or a"),
+        ("Ref", EVEN | {"nodes": 44, "contact": "patches"}, "blade 'Ref': found 44 contact patches on the 85 mesh"),
+        (
+            "Ref",
+            EVEN | {"nodes": 23, "contact": "patches", "tip_line": "camber"},
+            "found 23 .* the tip line 'camber'; .* at most 22",
+        ),
         ("Ref", {"contact": "mortar"}, "contact: found 'mortar'; allowed: one of points, patches, area_p"),
     ],
 )
@@ -337,4 +362,4 @@ def test_what_is_refused_before_anything_is_made(settings_with, blade, boundary,
         settings_with(boundary, blades=[blade])
     assert "\n" not in str(refusal.value)
     # as many as there is room for
-    settings_with({"nodes": 43, "contact": "patches"})
+    settings_with(EVEN | {"nodes": 43, "contact": "patches"})

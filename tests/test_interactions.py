@@ -112,13 +112,15 @@ def test_a_row_has_the_worst_within_its_interaction():
     for name in ("max_von_mises", "rms_tangential", "rms_normal"):
         data[name].loc[{"speed": 1720.0}] = np.nan
     share = np.where(data["speed"] > 1690.0, 0.2, 0.0) * (data["speed"] < 1710.0)
-    rows = found(data.assign(worn_through_share=share))
+    rows = found(data.assign(worn_through_share=share, largest_penetration=1e-3 * share))
     assert [row.status for row in rows] == ["completed", "diverged"]
     stress = rows[-1].last_revolution
     assert (stress.max_von_mises_pa, stress.max_von_mises_speed_rad_s) == (5e9, 1705.0)
     assert stress.width_above_yield_rad_s == pytest.approx(1720.0 - 1690.0, rel=1e-3)
     assert (rows[-1].peak.peak_speed_rad_s, [row.worn_through_share for row in rows]) == (1715.0, [0.0, 0.2])
     assert np.isnan(found(data)[0].worn_through_share)
+    assert [row.columns["largest_penetration_m"] for row in rows] == [0.0, 2e-4]
+    assert np.isnan(found(data)[0].largest_penetration_m)
 
 
 def test_a_drop_need_not_follow_at_once_and_is_that_of_the_row_s_own_peak():

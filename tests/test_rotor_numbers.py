@@ -210,7 +210,8 @@ def test_the_leader_moves_most_in_both_directions_together():
     of_leader = amplitudes(half[1].T)[:, : len(numbers["engine_order"])]
     np.testing.assert_allclose(numbers["amplitude"], of_leader, rtol=1e-5)
     found = nodal_diameters(half, run(rotor)[2].late, rotor)
-    np.testing.assert_array_equal(numbers["nodal_diameter_share"], found["nodal_diameter_share"])
+    # the last bit of a matrix product depends on where its arrays lie in memory
+    np.testing.assert_allclose(numbers["nodal_diameter_share"], found["nodal_diameter_share"], rtol=1e-12)
 
 
 def a_rotor(rms, stress=None, status=None, leader=None):

@@ -158,12 +158,12 @@ def test_strong_friction_in_both_engines(contact, exact_gap):
     assert_same_state(ours, theirs)
 
 
-@pytest.mark.parametrize("shared", [0.05, 0.2, 1.0])
-def test_forces_settle_where_static_modes_move_all_nodes_together(shared):
+@pytest.mark.parametrize(("nodes", "shared"), [(8, 0.05), (8, 0.2), (8, 1.0), (12, 1.0)])
+def test_forces_settle_where_static_modes_move_all_nodes_together(nodes, shared):
     """A static mode beside those of each node alone, with `shared` of their flexibility, pressed all round by a casing."""
-    together = np.zeros((3, 8, 1))
+    together = np.zeros((3, nodes, 1))
     together[0] = np.sqrt(shared * 1e-9)
-    model = with_modes(with_static_modes(random_model(8), 1e-9), 1e8, together)
+    model = with_modes(with_static_modes(random_model(nodes), 1e-9), 1e8, together)
     scene = Scene(Casing(1e-4, lobes=1, amplitude=1.5, width=1e6, rise_fraction=0.0, cone_angle=0.0))
     runs = both_engines(model, 6000.0, scene, replace(CHOICE, time_step=6e-7))
     for simulation, state, _ in runs:

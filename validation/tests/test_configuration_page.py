@@ -42,7 +42,7 @@ def test_every_key_says_what_it_is(rows):
 @pytest.mark.parametrize(
     ("file", "key", "values"),
     [
-        ("config", "structure.boundary.nodes", "`8`; integer 1..200"),
+        ("config", "structure.boundary.nodes", "integer 1..200"),
         ("config", "speeds[].start", "required; 0.001..1e+06 rad/s"),
         ("config", "speeds_for[].speeds", "list: 0.001..1e+06 rad/s; or section"),
         ("config", "structure.coriolis", "`false`; true, false"),

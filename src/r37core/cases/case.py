@@ -15,6 +15,8 @@ OWN_MESH = 0
 class ModelChoice:
     """A model of a blade made for some cases: nodes of the mesh (or OWN_MESH) and of the tip line, fixed-interface modes.
 
+    `boundary_nodes`: number of contact nodes, 0 for as many as the mesh has room for by default.
+
     `whole_blade_stress`: stress is recovered on the whole blade, else on the submesh of this run.
     """
 

@@ -107,7 +107,7 @@ def model_of_level(settings: Settings, blade: str, level: str) -> ModelChoice | 
         return boundary.tip_line
     return ModelChoice(
         nodes=entry.mesh.nodes if settings.blades[blade].has_profiles else OWN_MESH,
-        boundary_nodes=boundary.nodes,
+        boundary_nodes=settings.contact_nodes(blade, entry.mesh.tip_elements),
         fixed_interface_modes=entry.reduction.fixed_interface_modes,
         whole_blade_stress=False,
         tip_line=boundary.tip_line,

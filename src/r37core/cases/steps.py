@@ -16,7 +16,7 @@ from r37core.plain import from_plain
 from r37core.rom.contact_model import write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
-from r37core.rom.reduction_choice import EVERYWHERE, BoundaryChoice, BoundaryError, ReductionChoice
+from r37core.rom.reduction_choice import EVERYWHERE, BoundaryError, ReductionChoice
 from r37core.rom.rom_file import write_reduced_model
 
 from .case import OWN_MESH, Case, ModelChoice
@@ -33,7 +33,7 @@ def model(input: Any, output: Any, params: Any) -> None:
     base, material = from_plain(ReductionChoice, params.reduction), from_plain(Material, params.material)
     reduction = replace(
         base,
-        boundary=BoundaryChoice(choice.tip_line, choice.boundary_nodes, choice.corners, contact=base.boundary.contact),
+        boundary=replace(base.boundary, tip_line=choice.tip_line, nodes=choice.boundary_nodes or None, corners=choice.corners),
         fixed_interface_modes=choice.fixed_interface_modes,
         stress_submesh=EVERYWHERE if choice.whole_blade_stress else base.stress_submesh,
     )

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from r37core.alignment import padded
-from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, check_patches
+from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, patches_on
 from r37core.rounding import rounded_up
 from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
 from r37core.time_integration.integrators import EXACT_MODAL
@@ -98,7 +98,8 @@ def slowest_speeds_can_be_run(settings: Settings) -> None:
 
 def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> None:
     """ConfigError for a run, whose speed stands at `path` of config.yaml, that has too many steps, or its revolution."""
-    size = 8 * padded(settings.structure.boundary.nodes) * run.steps_per_revolution
+    nodes = max(settings.reduction_choice(name).boundary.most_nodes for name in settings.blades)
+    size = 8 * padded(nodes) * run.steps_per_revolution
     excess = max(size / LARGEST_TABLE, run.steps / MOST_STEPS)
     if excess > 1.0:
         lowest = run.speed * excess
@@ -141,7 +142,7 @@ def tips_have_room_for_patches(settings: Settings) -> None:
             inside = tip_line == "camber" and mesh.layers % 2 and boundary.contact == PATCHES
             nodes = mesh.tip_elements + 1 if inside else 2 * mesh.tip_elements + 1
             try:
-                check_patches(boundary, np.linspace(0.0, 1.0, nodes), f"mesh nodes of the tip line '{tip_line}'")
+                patches_on(boundary, np.linspace(0.0, 1.0, nodes), f"mesh nodes of the tip line '{tip_line}'")
             except BoundaryError as error:
                 raise document.error(("structure", "boundary", "nodes"), f"blade '{name}': {error} (tip_elements)") from None
 

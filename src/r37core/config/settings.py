@@ -8,6 +8,8 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
+import numpy as np
+
 from r37core.contact.scene import Scene
 from r37core.plain import to_plain
 from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice, StressSubmesh
@@ -191,6 +193,13 @@ class Settings:
         submesh = self.blades[blade].stress_submesh or si_form(StressSubmesh, structure.stress_submesh)
         size = dict(self.fidelity.reduction)
         return si_form(ReductionChoice, structure, boundary=boundary, speeds=speeds, stress_submesh=submesh, **size)
+
+    def contact_nodes(self, blade: str, tip_elements: int) -> int:
+        """Number of a blade's contact nodes on a tip of so many elements; 0 where the mesh of another program decides it."""
+        boundary = self.reduction_choice(blade).boundary
+        if not self.blades[blade].has_profiles:
+            return boundary.nodes or 0
+        return boundary.on(np.linspace(0.0, 1.0, 2 * tip_elements + 1)).most_nodes
 
     def contact_of(self, blade: str) -> str:
         """What a blade's contact acts on: as config.yaml says for all of them, else as its own entry does."""

@@ -11,7 +11,7 @@ nearly diagonal in the shipped scenes, so that a sweep leaves about a tenth of t
 import numpy as np
 
 from r37core.alignment import LANES
-from r37core.lanes import bits_of, flag_at, flags_of, inlined, lanes_used, load, spread, store
+from r37core.lanes import bits_of, flag_at, flags_of, inlined, lanes_used, largest_of_lanes, load, spread, store
 
 from .laws import lines_of_bar, series_modulus, worn
 
@@ -71,14 +71,14 @@ def sweep_nodes(c, count, largest_gap, thickness, lined):
 
     It is relative to `largest_gap` (m). `thickness` (m): of the lining.
     """
-    allowed, relaxed = TOLERANCE * largest_gap, c.relaxation < 1.0
+    allowed = TOLERANCE * largest_gap
+    if c.relaxation < 1.0:
+        return sweep_in_order(c, count, largest_gap, thickness, lined)
     for _ in range(SWEEPS):
         changed = 0
         for g in range(0, lanes_used(c.gap, c.lanes), LANES):
             opened, before, own = open_gaps(c, g, count), load(c.pressure, g), load(c.own, g)
             after = forces_of_laws(c, g, own * before - opened, thickness, lined)
-            if relaxed:
-                after = before + c.relaxation * (after - before)
             # written so that NaN stays
             after = np.where(flags_of(c.found[g // LANES]), np.where(after < 0.0, 0.0, after), 0.0)
             change = np.abs(after - before) * own
@@ -91,6 +91,32 @@ def sweep_nodes(c, count, largest_gap, thickness, lined):
     largest = 0.0
     for j in range(count):
         largest = max(largest, c.change[c.listed[j]])
+    return largest / largest_gap
+
+
+@inlined
+def sweep_in_order(c, count, largest_gap, thickness, lined):
+    """Do what sweep_nodes does, node by node, each with the forces that those before it have got."""
+    allowed, lanes = TOLERANCE * largest_gap, lanes_used(c.gap, c.lanes)
+    for g in range(0, lanes, LANES):
+        store(c.opened, g, open_gaps(c, g, count))
+    largest = 0.0
+    for _ in range(SWEEPS):
+        largest = 0.0
+        for j in range(count):
+            k = c.listed[j]
+            g = k // LANES * LANES
+            before, own = c.pressure[k], c.own[k]
+            # of the eight nodes that it is one of
+            wanted = forces_of_laws(c, g, load(c.own, g) * before - load(c.opened, g), thickness, lined)
+            after = largest_of_lanes(np.where(flag_at(k - g), wanted, 0.0))
+            step = after - before
+            c.pressure[k] = after
+            largest = max(largest, abs(step) * own)
+            for g in range(0, lanes, LANES):
+                store(c.opened, g, load(c.opened, g) + load(c.columns, (k, g)) * step)
+        if largest <= allowed:
+            return 0.0
     return largest / largest_gap
 
 

@@ -25,6 +25,7 @@ CURVES = (
     ("stress", "max_von_mises"),
     ("wear", "max_wear"),
     ("wear", "worn_through_share"),
+    ("rms", "largest_penetration"),
     ("rms", "share_of_time_in_contact"),
 )
 """Dataset and variable; of the leading edge where a variable has tip points."""
@@ -239,6 +240,7 @@ COLUMNS = (
     "sufficient_thickness_m",
     "motion_at_end",
     "lasting_share",
+    "largest_penetration_m",
     "status",
 )
 """Columns of the table of interactions, in this order; those that summary.csv does not have are left out."""

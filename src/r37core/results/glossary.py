@@ -68,6 +68,11 @@ INTERACTIONS = {
         "at the peak speed: `growing`, `lasting`, `cut_free` (has decayed or lost contact) or `quiet` (within the clearance)",
     ),
     "lasting_share": Word("lasting", "share of the interaction's speeds whose motion lasts or grows at the end", *_PERCENT),
+    "largest_penetration_m": Word(
+        "largest penetration",
+        "largest penetration of the tip's edge into the casing (behind a lining)",
+        *_MM,
+    ),
     "status": Word("status", "`completed`, or `diverged` if any run of the interaction did"),
     "width_ever_above_yield_rad_s": Word(
         "width ever above yield", f"width above yield if any of the {_REVOLUTIONS} counts", _SPEED

@@ -104,6 +104,7 @@ class Interaction:
     max_wear_m: float
     worn_through_share: float
     sufficient_thickness_m: float
+    largest_penetration_m: float
     status: str
     motion_at_end: str
     lasting_share: float
@@ -176,6 +177,7 @@ def interaction_row(
         _largest(reach, "max_wear"),
         worn_through,
         _largest(reach, "used_thickness"),
+        _largest(reach, "largest_penetration"),
         RunStatus(int(reach["status"].max())).text,
         MotionAtEnd(int(response["motion_at_end"][index])).text if "motion_at_end" in response else "",
         float(lasts(reach).mean()) if "motion_at_end" in reach else np.nan,

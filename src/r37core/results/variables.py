@@ -26,6 +26,7 @@ _MOTION = {
     "clearance": Variable(("contact_node",), "m", "clearance of the round casing at the contact nodes, leading edge first"),
     "share_of_time_in_contact": Variable((), "1", "share of the steps with a contact force"),
     "largest_normal_force": Variable((), "N", "largest normal force on a tip node"),
+    "largest_penetration": Variable((), "m", "largest penetration of the tip's edge into the casing"),
     "casing_hits": Variable((), "1", "how often a tip node came upon the casing"),
     "worst_complementarity": Variable((), "1", "largest relative violation of the contact conditions"),
     "contact_work": Variable((), "J", "work of the contact forces on the blade"),

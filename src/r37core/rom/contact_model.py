@@ -11,12 +11,16 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from r37core.io import atomic_write, readable
 
 from .rotation import BucklingError, rotation_amplitudes
+
+_NODE_FIELDS = ("displacement_operator", "radius", "theta", "rotation_shapes")
+"""Fields that a contact node has, and a node of the edge, too."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,8 @@ class ContactModel:
     shape (3, nodes, shapes), and `rotation_stiffening` (s2/rad2), shape (shapes,): what rotation does to the contact nodes, in
     the same directions; see r37core.rom.rotation.
     `coriolis` (rad^-1), shape (modes, modes): skew-symmetric, force per velocity and Omega, or None to leave it out.
+    `edge_displacement_operator`, `edge_radius`, `edge_theta`, `edge_rotation_shapes`: the same of all known nodes of the tip
+    line, between the contact nodes, too; None where the contact nodes are all that is known of it.
     """
 
     squared_frequencies: np.ndarray
@@ -47,6 +53,19 @@ class ContactModel:
     rotation_shapes: np.ndarray
     rotation_stiffening: np.ndarray
     coriolis: np.ndarray | None = None
+    edge_displacement_operator: np.ndarray | None = None
+    edge_radius: np.ndarray | None = None
+    edge_theta: np.ndarray | None = None
+    edge_rotation_shapes: np.ndarray | None = None
+
+    @property
+    def edge(self) -> ContactModel:
+        """The model with the nodes of the tip's edge in place of the contact nodes."""
+        if self.edge_displacement_operator is None:
+            return self
+        edge: dict[str, Any] = {name: getattr(self, f"edge_{name}") for name in _NODE_FIELDS}
+        edge |= dict.fromkeys((f"edge_{name}" for name in _NODE_FIELDS), None)
+        return replace(self, **edge)
 
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
         """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed`; see BucklingError."""

@@ -16,7 +16,7 @@ import scipy.sparse as sp
 from r37core.fem.traces import Trace, chain_trace, edge_traces, face_traces
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
-from .reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, boundary_nodes, check_patches
+from .reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, boundary_nodes, patches_on
 
 
 def contact_weights(mesh: BladeMesh, choice: BoundaryChoice) -> sp.csr_array:
@@ -29,10 +29,10 @@ def contact_weights(mesh: BladeMesh, choice: BoundaryChoice) -> sp.csr_array:
         return sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(mesh.points)))
     line, tip, chord = mesh.node_set(TIP_LINES[choice.tip_line]), mesh.node_set("tip"), mesh.parameters[:, 0]
     if choice.contact == AREA_PATCHES and len(line):
-        check_patches(choice, np.unique(np.round(chord[tip], 6)), "mesh nodes, one behind the other, of the tip")
+        choice = patches_on(choice, np.unique(np.round(chord[tip], 6)), "mesh nodes, one behind the other, of the tip")
         members = np.isin(np.arange(len(mesh.points)), tip)
         return _means(choice, chord, face_traces(mesh.points, mesh.blocks, members))
-    check_patches(choice, chord[line], f"mesh nodes of the tip line '{choice.tip_line}'")
+    choice = patches_on(choice, chord[line], f"mesh nodes of the tip line '{choice.tip_line}'")
     return _means(choice, chord, _line_traces(mesh, line))
 
 
@@ -41,7 +41,7 @@ def weights_along(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice)
 
     `points` (m), shape (nodes, 3), and fractions `chord` of the line's length. Raises BoundaryError for too few nodes.
     """
-    check_patches(choice, chord, "nodes of boundary.csv")
+    choice = patches_on(choice, chord, "nodes of boundary.csv")
     numbers = np.arange(len(points))
     return _means(choice, chord, [chain_trace(points, np.stack([numbers[:-1], numbers[1:]], axis=1))])
 
@@ -78,11 +78,11 @@ def _line_traces(mesh: BladeMesh, line: np.ndarray) -> list[Trace]:
 
 def _means(choice: BoundaryChoice, chord: np.ndarray, traces: list[Trace]) -> sp.csr_array:
     """Weights of hats along the chord, from integrals over edges or faces; `chord`: of every node."""
-    positions = choice.chord_positions(choice.nodes)
-    total = np.zeros((choice.nodes, len(chord)))
+    count = choice.most_nodes
+    positions, total = choice.chord_positions(count), np.zeros((count, len(chord)))
     for trace in traces:
         node_chord = chord[trace.nodes] @ trace.values.T
-        for row, unit in zip(total, np.eye(choice.nodes), strict=True):
+        for row, unit in zip(total, np.eye(count), strict=True):
             shares = (np.interp(node_chord, positions, unit) * trace.measures) @ trace.values
             np.add.at(row, trace.nodes, shares)
     return sp.csr_array(total / total.sum(axis=1, keepdims=True))

@@ -53,7 +53,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         contact=choice.boundary.contact,
         contact_nodes=contact_nodes(weights, line, chord, RecoveryNodes(np.arange(len(chord)), mesh.points, whole, rotated)),
         contact_chord=weights @ chord,
-        contact_tip_lengths=tip_lengths(mesh.points[line], chord[line], choice.boundary.chord_positions(choice.boundary.nodes)),
+        contact_tip_lengths=tip_lengths(mesh.points[line], chord[line], choice.boundary.chord_positions(weights.shape[0])),
         tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
         stress_submesh=recovery(stress_nodes),
         stress_elements={name: np.searchsorted(stress_nodes, nodes) for name, nodes in stress_blocks.items()},

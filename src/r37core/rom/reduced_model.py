@@ -155,17 +155,25 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
     return ContactModel(
         squared_frequencies=frequencies**2,
         stiffness_per_square=0.5 * (per_square + per_square.T),
-        displacement_operator=_cylindrical_parts(nodes, nodes.basis @ modes),
-        radius=np.hypot(nodes.points[:, 0], nodes.points[:, 1]),
-        theta=np.arctan2(nodes.points[:, 1], nodes.points[:, 0]),
+        **_node_fields(nodes, modes),
         tip_lengths=model.contact_tip_lengths,
         tip_cone_angle=line.cone_angle,
         tip_displacement_operator=_cylindrical_parts(ends, ends.basis @ modes),
         to_reduced=modes,
-        rotation_shapes=_cylindrical_parts(nodes, nodes.rotation_shapes),
         rotation_stiffening=model.rotation_stiffening,
         coriolis=None if coriolis is None else 0.5 * (coriolis - coriolis.T),
+        **{f"edge_{name}": field for name, field in _node_fields(line, modes).items()},
     )
+
+
+def _node_fields(nodes: RecoveryNodes, modes: np.ndarray) -> dict[str, np.ndarray]:
+    """Fields of a contact model for nodes that are moved by `modes`, shape (coordinates, modes)."""
+    return {
+        "displacement_operator": _cylindrical_parts(nodes, nodes.basis @ modes),
+        "radius": np.hypot(nodes.points[:, 0], nodes.points[:, 1]),
+        "theta": np.arctan2(nodes.points[:, 1], nodes.points[:, 0]),
+        "rotation_shapes": _cylindrical_parts(nodes, nodes.rotation_shapes),
+    }
 
 
 def _cylindrical_parts(nodes: RecoveryNodes, fields: np.ndarray) -> np.ndarray:

@@ -1,8 +1,10 @@
 """Choices of a reduced model: its boundary nodes, basis and nodes of stress. Light: the configuration imports it."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated
 
 import numpy as np
@@ -19,50 +21,93 @@ POINTS, PATCHES, AREA_PATCHES = "points", "patches", "area_patches"
 """Kinds of contact nodes: nodes of the mesh, patches of the tip line, or patches of the tip's whole face."""
 
 
+EVEN, COSINE = "even", "cosine"
+"""Spacings of the contact nodes along the chord: equal distances, or smaller ones towards the leading and trailing edge."""
+
+
+USUAL_POINTS, MOST_USUAL_PATCHES = 8, 12
+"""Numbers of contact nodes where none is chosen: of points, and of patches the most, as a coarse tip has room for fewer."""
+
+
+def usual_spacing(contact: str) -> str:
+    """The spacing of contact nodes of a kind where none is chosen.
+
+    Between the middle of an end patch and the blade's corner nothing holds the edge, so end patches are short.
+    """
+    return EVEN if contact == POINTS else COSINE
+
+
 @dataclass(frozen=True)
 class BoundaryChoice:
     """Positions of the contact nodes.
 
-    With corners, node i of n lies at i/(n-1) of the chord; without, at (i + 1/2)/n. `contact`: POINTS, PATCHES or
-    AREA_PATCHES; see r37core.rom.contact_weights.
+    With corners, node i of n lies at s = i/(n-1) of the chord; without, at s = (i + 1/2)/n. With a cosine `spacing` that is at
+    (1 - cos(pi s))/2. `contact`: POINTS, PATCHES or AREA_PATCHES; see r37core.rom.contact_weights. A spacing of None is
+    usual_spacing; None `nodes` are as many as usual, of patches as many as a tip has room for: see `on`.
     """
 
     tip_line: Annotated[str, Key("Tip line of the contact nodes", one_of=TIP_LINES)] = "pressure_edge"
-    nodes: Annotated[int, Key("Number of nodes, evenly spaced", ge=1, le=200)] = 8
+    nodes: Annotated[
+        int | None,
+        Key("Number of contact nodes; by default 8 points, or 12 patches, fewer on a coarse mesh", ge=1, le=200),
+    ] = None
     corners: Annotated[bool, Key("Whether the leading and trailing corners are among them")] = True
     contact: str = field(kw_only=True)
+    spacing: Annotated[
+        str | None, Key("Spacing along the chord; by default cosine on patches, even on points", one_of=(EVEN, COSINE))
+    ] = None
+
+    @property
+    def most_nodes(self) -> int:
+        """Number of contact nodes; where none is chosen that of a fine mesh."""
+        return self.nodes or (USUAL_POINTS if self.contact == POINTS else MOST_USUAL_PATCHES)
+
+    def on(self, chord: np.ndarray) -> BoundaryChoice:
+        """The choice with a number of contact nodes, on a tip with nodes at fractions `chord` of its line."""
+        if self.nodes is not None or self.contact == POINTS:
+            return replace(self, nodes=self.most_nodes)
+        counts = range(self.most_nodes, 0, -1)
+        return replace(self, nodes=next((count for count in counts if _resolves(self, count, chord)), self.most_nodes))
 
     def chord_positions(self, count: int) -> np.ndarray:
         """Wanted fractions of the chord of so many contact nodes, from the leading to the trailing edge."""
-        if self.corners and count > 1:
-            return np.linspace(0.0, 1.0, count)
-        return (np.arange(count) + 0.5) / count
+        even = np.linspace(0.0, 1.0, count) if self.corners and count > 1 else (np.arange(count) + 0.5) / count
+        if (self.spacing or usual_spacing(self.contact)) == EVEN:
+            return even
+        # the ends and the middle are exact
+        return np.where(even == 0.5, 0.5, 0.5 - 0.5 * np.cos(np.pi * even))
 
 
 def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
     """Mesh nodes nearest to the wanted positions, from leading to trailing edge; BoundaryError where two are the same."""
     line = mesh.node_set(TIP_LINES[choice.tip_line])
-    chord = mesh.parameters[line, 0]
-    distance = np.abs(chord - choice.chord_positions(choice.nodes)[:, None])
+    chord, count = mesh.parameters[line, 0], choice.most_nodes
+    distance = np.abs(chord - choice.chord_positions(count)[:, None])
     nearest = distance.argmin(axis=1) if len(line) else np.empty(0, dtype=int)
-    if len(np.unique(nearest)) < choice.nodes:
+    if len(np.unique(nearest)) < count:
         raise BoundaryError(
-            f"{choice.nodes} boundary nodes do not fit on the {len(line)} mesh nodes of the tip line "
+            f"{count} boundary nodes do not fit on the {len(line)} mesh nodes of the tip line "
             f"'{choice.tip_line}'; ask for fewer, or raise tip_elements (for the camber line also: an odd number of "
             "layers, or an even one with nodes at mid-thickness) in the fidelity level; of an imported mesh, refine the tip"
         )
     return line[nearest]
 
 
-def check_patches(choice: BoundaryChoice, chord: np.ndarray, place: str) -> None:
-    """BoundaryError unless a node lies between any two patches; `chord`: fractions of the nodes that they are made `of`."""
-    if _resolves(choice, choice.nodes, chord):
-        return
-    most = max((count for count in range(1, choice.nodes) if _resolves(choice, count, chord)), default=0)
+def patches_on(choice: BoundaryChoice, chord: np.ndarray, place: str) -> BoundaryChoice:
+    """The choice with a number of patches, made of nodes at fractions `chord` of the line.
+
+    Raises BoundaryError unless one of the nodes lies between any two patches; `place`: what they are nodes of.
+    """
+    chosen = choice.on(chord)
+    wanted = chosen.most_nodes
+    if _resolves(choice, wanted, chord):
+        return chosen
+    most = max((count for count in range(1, wanted) if _resolves(choice, count, chord)), default=0)
+    even = "" if (choice.spacing or usual_spacing(choice.contact)) == EVEN else f"spacing: {EVEN}, "
     reason = "because between two patches there must be a node" if most else "because a patch is made of two or more"
     raise BoundaryError(
-        f"found {choice.nodes} contact patches on the {len(chord)} {place}; allowed: {f'at most {most}' if most else 'none'} "
-        f"(structure.boundary.nodes), {reason}; or contact: points, or a finer tip"
+        f"found {wanted} contact patches on the {len(chord)} {place}; allowed: {f'at most {most}' if most else 'none'} "
+        f"(structure.boundary.nodes), {reason}; or contact: points, {even}or a finer tip"
     )
 
 

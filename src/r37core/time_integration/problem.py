@@ -12,6 +12,7 @@ from r37core.rom.contact_model import ContactModel
 from .casing_of_run import CasingOfRun
 from .clearance import check_ring, check_room
 from .contact_operators import ContactOperators
+from .edge_operators import EdgeOperators
 from .integration_choice import IntegrationChoice
 from .integrators import CENTRAL_DIFFERENCE
 from .step_checks import check_step
@@ -66,6 +67,11 @@ class Problem:
     def contact(self) -> ContactOperators:
         """Operators from the motion of all modes to the contact nodes and back."""
         return ContactOperators(self.blade, self.casing)
+
+    @cached_property
+    def edge(self) -> EdgeOperators:
+        """Operators from the motion and the contact forces to the nodes of the tip's edge."""
+        return EdgeOperators(self.blade, CasingOfRun(self.model.edge, self.scene, self.grid), self.contact)
 
 
 def stable_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:

@@ -67,7 +67,10 @@ def blade_problems(
 
 def turned(model: ContactModel, angle: float) -> ContactModel:
     """The model at an angle (rad) beyond its own."""
-    return replace(model, theta=model.theta + angle) if angle else model
+    if not angle:
+        return model
+    edge_theta = None if model.edge_theta is None else model.edge_theta + angle
+    return replace(model, theta=model.theta + angle, edge_theta=edge_theta)
 
 
 def mistuned(model: ContactModel, factor: float) -> ContactModel:

@@ -51,9 +51,8 @@ def run_speed(
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
     (rad), `lined`, 1 where there is a lining, and what lining_at_tip says of it, `rms` and `peak` (m) over the revolutions in
     the statistic, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end
-    of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics.
-    `clearance` (m), shape (nodes,):
-    where it changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential
+    of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics, `largest_penetration`
+    (m) of the tip's edge into the casing among them. `clearance` (m), shape (nodes,): where it changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential
     motion. `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
     of rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa),
     the largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
@@ -87,6 +86,7 @@ def run_speed(
         "revolution_maxima": np.max(maxima, axis=0),
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
+        "largest_penetration": np.array(totals["largest_penetration"].max()),
         "casing_hits": np.array(totals["casing_hits"].sum()),
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
     }

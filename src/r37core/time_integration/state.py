@@ -15,6 +15,7 @@ TOTALS = np.dtype(
         ("loss", np.float64),  # of energy to damping (J)
         ("steps", np.float64),
         ("steps_jumped", np.float64),  # of them, part of a jump over free flight
+        ("largest_penetration", np.float64),  # of the tip's edge into the casing (m), in steps with a contact force
     ]
 )
 """Totals that are added up over a run."""

@@ -114,7 +114,7 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
         contact=choice.boundary.contact,
         contact_nodes=contact_nodes(weights, nodes, chord, line),
         contact_chord=weights @ chord,
-        contact_tip_lengths=tip_lengths(matrices.points, chord, _positions(chord, choice.boundary)),
+        contact_tip_lengths=tip_lengths(matrices.points, chord, _positions(chord, choice.boundary, weights.shape[0])),
         tip_lines={choice.boundary.tip_line: line},
         stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
         stress_elements={},
@@ -142,9 +142,9 @@ def _contact_weights(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoi
     return weights_along(points, chord, choice)
 
 
-def _positions(chord: np.ndarray, choice: BoundaryChoice) -> np.ndarray:
-    """Fractions of the chord at which the contact nodes' hats are 1."""
-    return chord if choice.contact == POINTS else choice.chord_positions(choice.nodes)
+def _positions(chord: np.ndarray, choice: BoundaryChoice, count: int) -> np.ndarray:
+    """Fractions of the chord at which the hats of so many contact nodes are 1."""
+    return chord if choice.contact == POINTS else choice.chord_positions(count)
 
 
 def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:

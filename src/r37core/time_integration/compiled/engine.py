@@ -21,10 +21,11 @@ from ..jump_plan import jump_lengths, nearest_casing
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
+from .edge_tables import EdgeTables
 from .layout import LINING, NORMAL, Capacity, Kind, capacity_of, constants_record, integration_record
 from .passage import Passage
 
-_COMPILED = ("contact_steps", "jump_steps", "layout", "segment_steps", "program", "steps")
+_COMPILED = ("contact_steps", "edge_steps", "jump_steps", "layout", "segment_steps", "program", "steps")
 SOURCES = Sources(
     *(f"{name}.py" for name in ("alignment", "kept", "lanes", "native", "program_constants", "declared", "units")),
     *(f"contact/{name}.py" for name in ("casing", "complementarity", "laws", "node_sweeps", "ring", "scene")),
@@ -88,6 +89,9 @@ class CompiledEngine:
             self._lay_out_lining(problem, scene.lining)
         if not kind.published:
             self._lay_out_static_modes(problem)
+        if segments.increments is None:
+            self._edge = EdgeTables(problem, self)
+            self._edge.put_into(self.record[0]["edge"])
         self.put(jumping=segments.jumps is not None, follows_sliding=follows_sliding)
         self.constants = self._table_of(segments)
         self.take(0)
@@ -153,6 +157,7 @@ class CompiledEngine:
         self.put(**{name: self._spread(value) for name, value in values.items()})
 
     def _spread(self, values: np.ndarray) -> np.ndarray:
+        """Arrays whose last axis is that of the modes, with these in their lanes; as they are if all lie together."""
         if not self._pairs:
             return values
         lanes = np.zeros((*values.shape[:-1], self.mode_lanes))
@@ -189,6 +194,8 @@ class CompiledEngine:
         # a node that only pads the vector must neither sit on the axis nor cancel a pivot
         m["radius"] = m["flight"]["towards"] = m["problem"]["diagonal"] = 1.0
         m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
+        # every node may touch
+        m["problem"]["among"] = -1
         self.put_modes(
             displacement_operator=problem.contact.displacement_operator,
             size_operator=problem.contact.size_operator,

@@ -53,9 +53,8 @@ class Capacity(NamedTuple):
     """Room for modes and nodes, in whole vectors: a program is compiled for it and for its kind.
 
     Most blades step 32 or 40 modes, with central differences up to 93. A vector of nodes is handled without loops, so more
-    nodes are another capacity: four times as many each, so that contact patches of 15 and 29 nodes share one. Modes are
-    doubled. The modes of an elastic casing count, by pairs: the first of each pair come after the blade's modes, then the
-    second, each whole vectors. Outputs are never more than modes.
+    nodes are another capacity. Both are doubled. The modes of an elastic casing count, by pairs: the first of each pair come
+    after the blade's modes, then the second, each whole vectors. Outputs are never more than modes.
     """
 
     modes: int
@@ -68,7 +67,7 @@ def capacity_of(modes: int, nodes: int) -> Capacity:
     while most_modes < modes:
         most_modes *= 2
     while most_nodes < nodes:
-        most_nodes *= 4
+        most_nodes *= 2
     return Capacity(most_modes, most_nodes)
 
 
@@ -92,7 +91,7 @@ def complementarity_record(nodes: int) -> np.dtype:
             *_fields("left", nodes + 1, nodes),
             *_fields("matrix", nodes, nodes + 1),
             *_fields("listed", nodes, kind=np.int64),
-            *_fields("touching wrong", groups, kind=np.int64),
+            *_fields("touching wrong among", groups, kind=np.int64),
             *_fields("lanes", kind=np.int64),  # that the nodes fill
         ]
     )
@@ -160,6 +159,19 @@ def _flight_record(modes: int, nodes: int) -> np.dtype:
     )
 
 
+EDGE = aligned_record(
+    [
+        *_fields("position shape meridional", LANES),  # of eight nodes
+        # groups of eight nodes: the few, and these with all of them; columns of a row of a group
+        *_fields("few groups width", kind=np.int64),
+        # addresses: displacement per mode, shape (directions, groups, width, 8), and per force, (groups, 3 contact nodes, 8);
+        # clearance, radius and angle of the nodes; the casing's shape at two turns of steps, the step of each node's angle, and
+        # the shares of the four values round it
+        *_fields("rows flexibility clearance radius theta table steps shares", kind=np.int64),
+    ]
+)
+"""The tip's edge: see edge_steps. Without groups it is not looked at."""
+
 CALL = aligned_record(
     [
         # where it begins, how many blocks of steps it asks for, and the speed it is at
@@ -217,6 +229,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
             ("flight", _flight_record(modes, nodes), ()),
             ("lining", LINING, ()),
             ("casing", CASING, ()),
+            ("edge", EDGE, ()),
             ("totals", TOTALS, ()),
             # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
             *_fields("block_work block_loss", LANES),

@@ -17,6 +17,7 @@ from r37core.program_constants import specialised
 
 from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, release_contact
+from .edge_steps import measure_edge
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead, turn_jump, turn_step
 from .layout import EXACT_GAP, LINED, MODAL_ROWS, PUBLISHED, Capacity, Kind, constants_record, integration_record
 from .segment_steps import begin_segment, end_segment
@@ -166,8 +167,11 @@ def _meet(m, place, lobes):
         work, lost = meet(m, place, load(m.block_work, 0), load(m.block_loss, 0))
         store(m.block_work, 0, work)
         store(m.block_loss, 0, lost)
+        measure_edge(m, place, lobes)
     elif beyond:
         m.follows = int(press_contact(m, place))
+        if m.follows != 0:
+            measure_edge(m, place, lobes)
     elif not PUBLISHED and m.follows != 0:
         release_contact(m)
         m.follows = 0

@@ -16,6 +16,7 @@ import numpy as np
 from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Lining
 
+from ..casing_of_run import CasingOfRun
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
@@ -39,6 +40,7 @@ class ReferenceEngine:
     ):
         self.problem, self._segments = problem, segments
         self._blade_rows = problem.contact.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
+        self._edge_rows = problem.edge.motion.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
         self._turn(0)
         self.flexibility = problem.contact.contact_flexibility
         self.take(0)
@@ -56,11 +58,16 @@ class ReferenceEngine:
 
     def _turn(self, n: int) -> None:
         """Take the rows of the nodes where they are at t_n: of the blade's modes at rest, and of an elastic casing's."""
-        problem, self.rows = self.problem, self._blade_rows
-        if problem.casing.ring is not None:
-            casing_rows = -casing_axes(problem.casing.ring.displacement(problem.casing.theta(n)), problem.casing.cone_angle)
-            self.rows = np.concatenate([self._blade_rows, casing_rows], axis=-1)
+        problem = self.problem
+        self.rows = self._rows_at(n, self._blade_rows, problem.casing)
         self.normal, self.tangential, self.meridional = self.rows
+
+    def _rows_at(self, n: int, blade_rows: np.ndarray, casing: CasingOfRun) -> np.ndarray:
+        """Rows of nodes with `blade_rows` at t_n, those of an elastic casing's modes behind them."""
+        if casing.ring is None:
+            return blade_rows
+        casing_rows = -casing_axes(casing.ring.displacement(casing.theta(n)), casing.cone_angle)
+        return np.concatenate([blade_rows, casing_rows], axis=-1)
 
     def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
@@ -148,6 +155,8 @@ class ReferenceEngine:
         force = force + self._modal(multipliers * directions)
         after = self.motion.pushed(predicted, force)
         self._add_up(state, self.motion.work_and_loss(before, after, force), pressure + multipliers, multipliers > 0.0)
+        if np.any(pressure + multipliers > 0.0):
+            self._measure_edge(state, after, n)
         return after
 
     def force(self, state: SimulationState) -> np.ndarray:
@@ -165,7 +174,20 @@ class ReferenceEngine:
             self._follow_gaps(opened, theta, n, state, self.problem.scene.lining)
         self._add_up(state, self.motion.work_and_loss(before, after, force), -state.contact_force[0], touching)
         state.contact_force[:] = pressure * directions
+        if np.any(pressure > 0.0):
+            self._measure_edge(state, after, n)
         return after
+
+    def _measure_edge(self, state: SimulationState, motion: Any, n: int) -> None:
+        """Keep the largest penetration of the tip's edge into the casing, if it is at t_n."""
+        edge, u = self.problem.edge, self.motion.displacement(motion)
+        if self._segments.increments is not None:
+            return
+        displacement = self._rows_at(n, self._edge_rows, edge.casing) @ u
+        gap, _ = edge.casing.gaps(edge.casing.clearance + edge.depth, displacement, n, self.angle)
+        if self.problem.choice.second_order:
+            gap = gap - edge.flexibility @ state.contact_force.ravel()
+        state.totals["largest_penetration"] = max(state.totals["largest_penetration"], -gap.min())
 
     def _add_up(
         self, state: SimulationState, work_and_loss: tuple[float, float], normal_force: np.ndarray, touched: np.ndarray
