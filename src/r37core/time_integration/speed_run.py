@@ -51,9 +51,10 @@ def run_speed(
     Always: `status`, `diverged_revolution` and `diverged_time` (NaN unless diverged), `time_step`, the casing's `cone_angle`
     (rad), `lined`, 1 where there is a lining, and what lining_at_tip says of it, `rms` and `peak` (m) over the revolutions in
     the statistic, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end
-    of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics, `largest_penetration`
-    (m) of the tip's edge into the casing among them. `clearance` (m), shape (nodes,): where it changes with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential
-    motion. `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
+    of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics,
+    `largest_penetration` (m) of the tip's edge into the casing among them. `clearance` (m), shape (nodes,): where it changes
+    with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
+    `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
     of rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa),
     the largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
     them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run. With a rotor:
