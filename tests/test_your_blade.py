@@ -88,7 +88,7 @@ def test_the_example_runs_to_its_interactions(root, drawn, tmp_path, monkeypatch
         assert dataset["smallest_mac"].min() > 0.99
     with xr.open_dataset("results/stress.nc") as dataset:
         assert (dataset["max_von_mises"] > 0.0).all()
-    for name in ("campbell_Fan", "response_Fan", "blades", "wear_Fan__abradable"):
+    for name in ("campbell_Fan", "response_Fan", "blades", "wear_Fan__material_abradable"):
         assert (project / f"results/figures/{name}.png").exists()
 
 

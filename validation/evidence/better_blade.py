@@ -16,7 +16,7 @@ from .pages import write_table
 from .which_blade import length_text
 
 BEST = 4
-OBJECTIVES = {"lined": ("abradable", "lining"), "direct": ("direct", "bare casing")}
+OBJECTIVES = {"lined": ("material_abradable", "lining"), "direct": ("direct", "bare casing")}
 
 
 def designs(input: Any, output: Any, params: Any) -> None:

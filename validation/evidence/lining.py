@@ -26,7 +26,7 @@ from r37core.time_integration.speed_run import run_speed
 from .configuration import settings_of
 from .contact_runs import TIP_ELEMENTS
 from .pages import write_table
-from .which_blade import Models
+from .which_blade import Models, length_of_runs
 
 MATERIAL = "material_abradable"
 BELOW, ABOVE, STEP = 0.0, 0.15, 4.0
@@ -34,6 +34,9 @@ BELOW, ABOVE, STEP = 0.0, 0.15, 4.0
 
 CONTACT_LENGTHS = (0.5e-4, 1e-4, 1.585e-4, 2.5e-4, 5e-4, 1e-3)
 """(m) From a third of the published model's to a tip's thickness."""
+
+SPEEDS = np.arange(750.0, 2001.0, 10.0)
+"""(rad/s) Of the length above yield at a contact length."""
 
 _KEPT = {"spectrum_highest_order": 1, "wear_angles": 500}
 
@@ -171,35 +174,27 @@ def limits(input: Any, output: Any, params: Any) -> None:
 
 
 def contact_lengths_of_blade(input: Any, output: Any, params: Any) -> None:
-    """Range of a blade at each of CONTACT_LENGTHS. Input: contact, stress. Params: blade."""
-    settings, models, peak = (
-        settings_of(Path.cwd(), scenes=[MATERIAL]),
-        Models.read(input.contact, input.stress),
-        peak_of(params.blade),
-    )
-    scene, rows = settings.scenes[MATERIAL].scene, []
+    """Length above yield of a blade at each of CONTACT_LENGTHS. Input: contact, stress. Params: blade."""
+    settings, models = settings_of(Path.cwd(), scenes=[MATERIAL]), Models.read(input.contact, input.stress)
+    scene = settings.scenes[MATERIAL].scene
     assert scene.lining is not None
-    speeds = np.arange(round(0.98 * peak), (1.0 + ABOVE) * peak, STEP)
+    row: dict[str, float | str] = {"blade": params.blade}
     for length in CONTACT_LENGTHS:
         other = replace(scene, lining=replace(scene.lining, contact_length=length))
-        found = interaction_range(settings, models, other, speeds)
-        rows.append([params.blade, length, found.begin, found.end, bool(found.end >= speeds[-1])])
-    pd.DataFrame(rows, columns=["blade", "contact_length_m", "begin", "end", "beyond"]).to_csv(output[0], index=False)
+        row[f"{1e3 * length:.3g}"] = length_of_runs(settings, models, params.blade, other, SPEEDS)
+    pd.DataFrame([row]).to_csv(output[0], index=False)
 
 
 def contact_lengths(input: Any, output: Any, params: Any) -> None:
-    """Table and picture of all blades. Input: files of contact_lengths_of_blade."""
-    found = pd.concat([pd.read_csv(file) for file in input.files])
-    found["length"] = found["end"] - found["begin"]
-    rows = [
-        [blade, *(f"{'> ' * row.beyond}{row.length:.0f}" for row in part.itertuples())]
-        for blade, part in found.groupby("blade", sort=False)
-    ]
-    write_table(["blade", *(f"{1e3 * length:.3g} mm" for length in CONTACT_LENGTHS)], rows, output.table)
+    """Lengths and places of all blades at each contact length, and their picture. Input: files of contact_lengths_of_blade."""
+    table = pd.concat([pd.read_csv(file) for file in input.files]).set_index("blade")
+    ranks = table.rank(method="min").astype(int)
+    rows = [[blade, *(f"{table.loc[blade, name]:.0f} ({ranks.loc[blade, name]})" for name in table)] for blade in table.index]
+    write_table(["blade", *(f"{name} mm" for name in table)], rows, output.table)
     figure, axes = plt.subplots(figsize=(PAGE, 2.8))
-    for blade, part in found.groupby("blade", sort=False):
-        axes.semilogx(1e3 * part["contact_length_m"], part["length"], "o-", label=blade)
+    for blade in table.index:
+        axes.semilogx(table.columns.astype(float), table.loc[blade], "o-", label=blade)
     axes.set_xlabel("contact length (mm)")
-    axes.set_ylabel("width above yield about 1B/4 (rad/s)")
+    axes.set_ylabel("length above yield (rad/s)")
     axes.legend(ncols=4)
     save(figure, output.picture)

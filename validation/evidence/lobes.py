@@ -15,21 +15,24 @@ from r37core.results.exceedance import CERTAIN
 
 from .configuration import settings_of
 from .pages import write_table
-from .which_blade import SCENES, Models, exceedance_of_runs
+from .which_blade import Models, exceedance_of_runs
 
 MODE, ORDER = "1B", 4
+SCENES = {"material_abradable": "lining", "direct": "bare casing"}
+"""Scenes, and what they are in words."""
+
 CLEARANCES = (0.2, 0.3, 0.356, 0.4, 0.5, 0.6)
 """(mm) The third is the benchmark's."""
 
 HELD, SCALED = "0.712 mm", "2 clearances"
 STYLES = {(HELD, "points"): "C0.-", (HELD, "patches"): "C0.--", (SCALED, "points"): "C1.-", (SCALED, "patches"): "C1.--"}
-BELOW, ABOVE, STEP = 0.04, 0.07, 4.0
+BELOW, ABOVE, STEP = 0.04, 0.15, 8.0
 """Speeds about the Campbell speed, as shares of it, and their step (rad/s)."""
 
 
 def lengths_of_blade(input: Any, output: Any, params: Any) -> None:
     """Lengths of a blade on both kinds of lobes in both scenes. Input: contact, stress, campbell. Params: blade, contact."""
-    settings, models = settings_of(Path.cwd()), Models.read(input.contact, input.stress)
+    settings, models = settings_of(Path.cwd(), scenes=list(SCENES)), Models.read(input.contact, input.stress)
     crossing = float(read_dataset(input.campbell)["crossing_speed"].sel(mode=MODE, engine_order=ORDER))
     speeds, rows = np.arange(round((1.0 - BELOW) * crossing), (1.0 + ABOVE) * crossing, STEP), []
     for name in SCENES:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,9 +15,7 @@ from r37core.rounding import rounded_to
 from r37core.tolerances.dataset import INDEXED, QUANTILES
 from r37core.tolerances.number_ranks import Ranking, ranking
 
-from .configuration import settings_of
 from .pages import write_table
-from .which_blade import Models, length_of_runs
 
 MODE, ORDER = "1B", 4
 COLUMNS = {
@@ -28,8 +25,6 @@ COLUMNS = {
 }
 COUNTS = (8, 16, 32, 64, 128)
 UNKNOWN = "-"
-CLEARANCES = (0.8, 1.0, 1.25, 2.0)
-CLEARANCE_SPEEDS = np.arange(1680.0, 1801.0, 4.0)
 
 
 def ranges(input: Any, output: Any, params: Any) -> None:
@@ -124,17 +119,3 @@ def range_error(parts: list[Sample], whole: Sample) -> float:
     known = np.quantile(whole.measure, QUANTILES, method="inverted_cdf")
     errors = np.sqrt(np.mean((found - known[:, None]) ** 2, axis=1))
     return float(max(errors[0], errors[-1]) / (known[-1] - known[0]))
-
-
-def clearances(input: Any, output: Any, params: Any) -> None:
-    """Length above yield of Ref at 1B/4 at several clearances, with both kinds of lobes. Input: contact, stress."""
-    settings, models = settings_of(Path.cwd()), Models.read(*input)
-    scene, rows = settings.scenes["abradable"].scene, []
-    for scale in CLEARANCES:
-        fixed = replace(scene.casing, clearance=scale * scene.casing.clearance)
-        casings = (replace(fixed, height=scale * scene.casing.lobe_height), replace(fixed, height=scene.casing.lobe_height))
-        lengths = [length_of_runs(settings, models, "Ref", replace(scene, casing=each), CLEARANCE_SPEEDS) for each in casings]
-        rows.append([f"{scale:g}", *(f"{length:.0f}" for length in lengths)])
-    write_table(
-        ["clearance over the shipped one", "lobes that grow with it (rad/s)", "lobes of a fixed height"], rows, output.table
-    )

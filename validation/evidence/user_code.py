@@ -43,6 +43,6 @@ def worked_example(input: Any, output: Any, params: Any) -> None:
         with contextlib.chdir(folder):
             runpy.run_path("draw.py")
         blade = r37.blade("Fan", file=folder / "blades.yaml")
-        r37.run(blade, "abradable", cores=2, folder=folder / "run", targets="all_blades")
+        r37.run(blade, "material_abradable", cores=2, folder=folder / "run", targets="all_blades")
         for figure in ("campbell", "response"):
             shutil.copy(folder / f"run/results/figures/{figure}_Fan.png", output[figure])

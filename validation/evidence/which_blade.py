@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -27,11 +27,14 @@ from .configuration import settings_of
 from .pages import write_table
 
 SCENES = {"abradable": "lining", "direct": "bare casing"}
+"""Scenes of the benchmark, and what they are in words."""
+
+ON_PATCHES = {"abradable": "material_abradable", "direct": "direct"}
+"""Scenes on patches, which the published lining is not made for."""
 KEPT = {"spectrum_highest_order": 1, "wear_angles": 1}
-BAR_WIDTHS = (8e-4, 1e-3, 1.25e-3)
 """(m) The ends of what config/tolerances.yaml varies, and the shipped one."""
 
-BAR_SPEEDS = np.arange(750.0, 2001.0, 5.0)
+LENGTH_SPEEDS = np.arange(750.0, 2001.0, 5.0)
 _DIFFERS = 1e-5
 _OVER_THE_RANGE = np.linspace(760.0, 1990.0, 6).round().tolist()
 _RANGES = 3
@@ -68,11 +71,11 @@ def rankings(input: Any, output: Any, params: Any) -> None:
     rows = []
     for blade in dict.fromkeys(tables["patches"].index.get_level_values("blade")):
         cells = [blade]
-        for scene in SCENES:
-            row = tables["patches"].loc[scene, blade]
-            cells += [f"{row['rank']:g}"] + [_lengths_of_row(table.loc[scene, blade]) for table in tables.values()]
+        for scene, on_patches in ON_PATCHES.items():
+            found = {"patches": tables["patches"].loc[on_patches, blade], "points": tables["points"].loc[scene, blade]}
+            cells += [f"{found['patches']['rank']:g}", *map(_lengths_of_row, found.values())]
         rows.append(cells)
-    kinds = ("place", *tables)
+    kinds = ("place", "patches", "points")
     write_table(["blade", *(f"{words}: {kind}" for words in SCENES.values() for kind in kinds)], rows, output.table)
 
 
@@ -160,18 +163,7 @@ def steep_speeds(response: xr.Dataset) -> list[float]:
     return [*_OVER_THE_RANGE, *(min(top + more, 2000.0) for top in tops for more in (0.0, 2.0))]
 
 
-def bars_of_blade(input: Any, output: Any, params: Any) -> None:
-    """Lengths above yield (rad/s) of a blade on bars of BAR_WIDTHS. Input: contact, stress. Params: blade."""
-    settings, models = settings_of(Path.cwd(), structure={"boundary": {"contact": "patches"}}), Models.read(*input)
-    scene = settings.scenes["abradable"].scene
-    row: dict[str, float | str] = {"blade": params.blade}
-    for width in BAR_WIDTHS:
-        bars = replace(scene, lining=replace(scene.lining, bar_width=width))
-        row[f"{1e3 * width:g} mm"] = length_of_runs(settings, models, params.blade, bars)
-    pd.DataFrame([row]).to_csv(output[0], index=False)
-
-
-def length_of_runs(settings: Settings, models: Models, blade: str, scene: Scene, speeds: np.ndarray = BAR_SPEEDS) -> float:
+def length_of_runs(settings: Settings, models: Models, blade: str, scene: Scene, speeds: np.ndarray = LENGTH_SPEEDS) -> float:
     """Length (rad/s) above yield in most revolutions, from runs of its own."""
     return exceedance_of_runs(settings, models, blade, scene, speeds).length(CERTAIN)
 
@@ -187,16 +179,6 @@ def exceedance_of_runs(settings: Settings, models: Models, blade: str, scene: Sc
     coordinates = {"speed": np.asarray(speeds, float)}
     content = {"share_of_revolutions_above_yield": ("speed", shares), "status": ("speed", np.zeros(len(shares), int))}
     return exceedance_of(xr.Dataset(content | {"lined": float(lined)}, coordinates))
-
-
-def bars(input: Any, output: Any, params: Any) -> None:
-    """Lengths and places of all blades on bars of each width. Input: tables of the blades."""
-    table = pd.concat([pd.read_csv(file) for file in input]).set_index("blade")
-    ranks = table.rank(method="min").astype(int)
-    rows = [
-        [blade, *(f"{table.loc[blade, width]:.0f} ({ranks.loc[blade, width]})" for width in table)] for blade in table.index
-    ]
-    write_table(["blade", *(f"bars of {width}" for width in table)], rows, output.table)
 
 
 def chances(input: Any, output: Any, params: Any) -> None:

@@ -3,7 +3,13 @@ module families:
     snakefile:
         "../../Snakefile"
     config:
-        run("families", blades_file="validation/families.yaml", blades=["Sweep", "Lean"], fidelity="draft")
+        run(
+            "families",
+            blades_file="validation/families.yaml",
+            blades=["Sweep", "Lean"],
+            scenes=["material_abradable", "direct"],
+            fidelity="draft",
+        )
 
 
 use rule * from families as families_*

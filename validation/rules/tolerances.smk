@@ -20,7 +20,7 @@ module members:
             "tolerances",
             blades=["Ref"],
             fidelity="draft",
-            speeds=[{"start": 1690, "stop": 1766, "step": 4}],
+            speeds=[{"start": 1650, "stop": 1898, "step": 8}],
             speeds_for=[],
             tolerances={"members": 128},
         )
@@ -60,14 +60,3 @@ use rule evidence as tolerance_members with:
         "logs/validation/tolerance_members.log",
     params:
         **evidence("tolerances.members"),
-
-
-use rule evidence as tolerance_clearances with:
-    input:
-        unpack(behind_engine(**models_of("Ref"))),
-    output:
-        table=f"{TABLES}/tolerance_clearances.csv",
-    log:
-        "logs/validation/tolerance_clearances.log",
-    params:
-        **evidence("tolerances.clearances"),

@@ -87,29 +87,6 @@ use rule evidence as which_blade_missed with:
         **evidence("which_blade.missed"),
 
 
-use rule evidence as which_blade_bars_of_blade with:
-    input:
-        unpack(lambda wildcards: behind_engine(**models_of(wildcards.blade, "results/runs/patches"))(wildcards)),
-    output:
-        "results/evidence/which_blade_bars_{blade}.csv",
-    log:
-        "logs/validation/which_blade_bars_{blade}.log",
-    params:
-        **evidence("which_blade.bars_of_blade"),
-        blade=lambda wildcards: wildcards.blade,
-
-
-use rule evidence as which_blade_bars with:
-    input:
-        unpack(behind_engine(*[f"results/evidence/which_blade_bars_{blade}.csv" for blade in BLADES])),
-    output:
-        table=f"{TABLES}/which_blade_bars.csv",
-    log:
-        "logs/validation/which_blade_bars.log",
-    params:
-        **evidence("which_blade.bars"),
-
-
 use rule evidence as which_blade_chances with:
     input:
         unpack(behind_engine(ranking="results/runs/ranking/ranking.csv")),

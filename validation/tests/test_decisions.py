@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from evidence import better_blade, designs, rotor, tolerances, which_blade
+from evidence import better_blade, designs, lining, rotor, tolerances, which_blade
 from evidence.pages import read_table
 
 RANDOM = np.random.default_rng(0)
@@ -42,13 +42,17 @@ def test_adaptive_speeds_stand_next_to_all(tmp_path):
     assert row[:3] == ["Ref", "11 (12)", "0 (0)"]
 
 
-def test_bars_are_ranked_by_width(tmp_path):
+def test_blades_are_ranked_by_contact_length(tmp_path):
     files = []
     for blade, lengths in {"Ref": (30.0, 5.0), "S100": (10.0, 20.0)}.items():
         files.append(tmp_path / f"{blade}.csv")
-        pd.DataFrame([{"blade": blade, "0.8 mm": lengths[0], "1 mm": lengths[1]}]).to_csv(files[-1], index=False)
-    which_blade.bars(files, SimpleNamespace(table=tmp_path / "table.csv"), None)
-    assert read_table(tmp_path / "table.csv")[1:] == [["Ref", "30 (2)", "5 (1)"], ["S100", "10 (1)", "20 (2)"]]
+        pd.DataFrame([{"blade": blade, "0.05": lengths[0], "1": lengths[1]}]).to_csv(files[-1], index=False)
+    output = SimpleNamespace(table=tmp_path / "table.csv", picture=tmp_path / "picture.png")
+    lining.contact_lengths(SimpleNamespace(files=files), output, None)
+    head, *rows = read_table(output.table)
+    assert head == ["blade", "0.05 mm", "1 mm"]
+    assert rows == [["Ref", "30 (2)", "5 (1)"], ["S100", "10 (1)", "20 (2)"]]
+    assert output.picture.stat().st_size > 10_000
 
 
 def sample(members=64):
