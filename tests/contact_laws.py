@@ -75,7 +75,7 @@ def solve_complementarity(matrix, gap, guess=None):
     )
     p = room[0]["problem"]
     room[0]["columns"][:count, :count] = np.transpose(matrix)
-    p["diagonal"], p["lanes"] = 1.0, nodes
+    p["diagonal"], p["lanes"], p["among"] = 1.0, nodes, -1
     p["diagonal"][:count], p["gap"][:count] = np.diag(matrix), gap
     if guess is None or not np.any(guess):
         guess = np.asarray(gap) < 0.0

@@ -96,7 +96,7 @@ def test_correlation_over_designs(tmp_path):
     rows = [
         {"blade": f"Sweep_{n}", "scene": scene, **dict.fromkeys(designs.LEFT, n), "length_certain_rad_s": sign * n}
         for n in range(4)
-        for scene, sign in (("abradable", 1), ("direct", -1))
+        for scene, sign in (("material_abradable", 1), ("direct", -1))
     ]
     pd.DataFrame(rows).to_csv(tmp_path / "designs.csv", index=False)
     files = SimpleNamespace(designs=tmp_path / "designs.csv"), SimpleNamespace(table=tmp_path / "table.csv")

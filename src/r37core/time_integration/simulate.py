@@ -80,9 +80,9 @@ class Simulation:
         begun, done, reached, per_revolution = state.samples, 0, True, self.problem.choice.samples_per_revolution
         samples_at_once = revolutions_at_once(self.problem.grid.steps_per_revolution) * per_revolution
         while done < samples and reached:
-            part, at = min(samples - done, samples_at_once - (begun + done) % per_revolution), begun + done - first
-            snapshots = slice(self._snapshots(first, at), self._snapshots(first, at + part))
-            rows = SimulationRecord(out.samples[at : at + part], out.snapshots[snapshots])
+            part, row = min(samples - done, samples_at_once - (begun + done) % per_revolution), begun + done - first
+            snapshots = slice(self._snapshots(first, row), self._snapshots(first, row + part))
+            rows = SimulationRecord(out.samples[row : row + part], out.snapshots[snapshots])
             state.samples = begun + done
             advanced = self.engine.advance(state, rows, Schedule([0], [part], len(state.displacement)))
             done, reached = done + advanced, advanced == part

@@ -43,12 +43,12 @@ class FileMaterial:
 def ignored_material(name: str, root: Path, material: Material) -> FileMaterial | None:
     """The first material of the mesh file `name` in the folder `root` that is not the blade's; None without one."""
     files = mesh_files(name, root)
-    kind, readers = kind_of(files[0]), {DECK: _of_deck, ".bdf": _of_bulk_data, ".nas": _of_bulk_data}
+    kind, readers = kind_of(files[0]), {DECK: _deck_material, ".bdf": _bulk_material, ".nas": _bulk_material}
     materials = [each for file in files for each in readers[kind](file)] if kind in readers else []
     return next((each for each in materials if not each.agrees(material)), None)
 
 
-def _of_deck(file: Path) -> Iterator[FileMaterial]:
+def _deck_material(file: Path) -> Iterator[FileMaterial]:
     """Materials of Abaqus and CalculiX: the first row of *ELASTIC and of *DENSITY after each *MATERIAL."""
     materials: list[dict[str, list[float]]] = [{}]
     keyword = ""
@@ -63,7 +63,7 @@ def _of_deck(file: Path) -> Iterator[FileMaterial]:
         yield FileMaterial(modulus, ratio, [*known.get("DENSITY", []), np.nan][0])
 
 
-def _of_bulk_data(file: Path) -> Iterator[FileMaterial]:
+def _bulk_material(file: Path) -> Iterator[FileMaterial]:
     """Cards MAT1 of Nastran (MID, E, G, NU, RHO), with commas, in fields of 8 or, MAT1*, of 16 characters."""
     lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
     for line, following in zip(lines, [*lines[1:], ""], strict=True):

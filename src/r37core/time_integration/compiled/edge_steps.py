@@ -72,10 +72,10 @@ def _displaced(m, group, direction):
     """Displacement of eight nodes in a direction, by all modes."""
     e, modes = m.edge, mode_lanes(m)
     rows = numbers_at(e.rows)
-    at = (direction * e.groups + group) * e.width * LANES
-    total = _along(rows, at, m.u, modes)
+    first_row = (direction * e.groups + group) * e.width * LANES
+    total = _along(rows, first_row, m.u, modes)
     if CORIOLIS:
-        total += _along(rows, at + modes * LANES, m.increment, modes)
+        total += _along(rows, first_row + modes * LANES, m.increment, modes)
     return total
 
 
@@ -111,9 +111,9 @@ def _take_shape(m, group, place):
     table, steps, shares = numbers_at(e.table), integers_at(e.steps), numbers_at(e.shares)
     for lane in range(LANES):
         node = group * LANES + lane
-        at = place + steps[node]
-        shape = shares[4 * node] * table[at] + shares[4 * node + 1] * table[at + 1]
-        e.shape[lane] = shape + shares[4 * node + 2] * table[at + 2] + shares[4 * node + 3] * table[at + 3]
+        step = place + steps[node]
+        shape = shares[4 * node] * table[step] + shares[4 * node + 1] * table[step + 1]
+        e.shape[lane] = shape + shares[4 * node + 2] * table[step + 2] + shares[4 * node + 3] * table[step + 3]
 
 
 @inlined

@@ -238,7 +238,7 @@ class ReferenceEngine:
         """
         lining, nodes = self.problem.scene.lining, range(len(gap))
         opening = -np.einsum("dk,dkg->gk", directions, self.flexibility)
-        bars = [] if wear is None else [self._bar(theta[k], k, wear) for k in nodes]
+        bars = [] if wear is None else [bar_of(theta[k], k, wear) for k in nodes]
         worn = [] if wear is None else [wear[bar] for bar in bars]
         pressure, touching = np.zeros(len(gap)), np.zeros(len(gap), dtype=bool)
         for _ in range(_MOST_SWEEPS):
@@ -289,11 +289,6 @@ class ReferenceEngine:
             return (penetration - lining.thickness) / own, worn, True
         return force, worn, False
 
-    def _bar(self, theta: float, node: int, wear: np.ndarray) -> tuple[int, int]:
-        """Ring and number of the bar that a node at an angle (rad) meets."""
-        bars = wear.shape[1]
-        return node, int(np.floor(theta / (2.0 * np.pi) * bars)) % bars
-
     def _press_bar(self, node: int, penetration: float, wear: float, lining: Lining, modulus: float) -> tuple[float, float]:
         """Normal force (N) and new wear (m) of a node's bar of elastic `modulus` (Pa) that is pressed to a `penetration` (m).
 
@@ -313,7 +308,7 @@ class ReferenceEngine:
         """Normal forces (N) of the bars that the nodes of a prediction press, shape (nodes,); wears the bars."""
         force = np.zeros(len(gap))
         for k in map(int, np.flatnonzero(gap < 0.0)):
-            bar = self._bar(theta[k], k, wear)
+            bar = bar_of(theta[k], k, wear)
             force[k], worn = self._press_bar(k, -gap[k], wear[bar], lining, lining.elastic_modulus)
             self._wear(wear, bar, worn)
         return force
@@ -325,6 +320,12 @@ class ReferenceEngine:
         # of each node's unit multiplier, along the last axis
         forces = directions[:, :, None] * np.eye(len(gap))
         return complementary(-self.normal @ self.motion.response @ self._modal(forces).T, gap)
+
+
+def bar_of(theta: float, node: int, wear: np.ndarray) -> tuple[int, int]:
+    """Ring and number of the bar that a node at an angle (rad) meets; `wear`, shape (rings, bars)."""
+    bars = wear.shape[1]
+    return node, int(np.floor(theta / (2.0 * np.pi) * bars)) % bars
 
 
 def complementary(matrix: np.ndarray, gap: np.ndarray) -> np.ndarray:
