@@ -3,11 +3,10 @@ module ranking:
     snakefile:
         "../../Snakefile"
     config:
-        # of the overlay: fewer members, the bare casing alone, and speeds that its smoothing bears
+        # of the overlay: fewer members, and speeds that the smoothing of the bare casing bears
         run(
             "ranking",
             "ranking",
-            scenes=["direct"],
             speeds=[{"start": 750, "stop": 2000, "step": 25}],
             tolerances={"members": 4},
         )
