@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.console.closing import closing_lines
-from r37core.results.closing import counted, interaction_title
+from r37core.results.closing import counted, interaction_title, lining_texts
 
 HEAD = "blade,scene,mode,engine_order,max_von_mises_speed_rad_s,width_above_yield_rad_s,max_von_mises_pa"
 ROWS = ("Ref,abradable,1B,7,838,13.5,8.56e+09", "S50,abradable,,4,1686,2,9.5e+09")
@@ -95,6 +95,17 @@ def test_scenes_that_touch_nothing_are_named(tmp_path):
     _runs([0, 0, 2], forces, ["far", "near", "none"]).to_netcdf(tmp_path / "rms.nc")
     said = closing_lines(written(tmp_path), 0.0, 1.0)
     assert len(said) == 4 and said[1].startswith("Ref in far: the tip touched nothing at any speed, ")
+
+
+def test_linings_are_compared_with_the_tips_of_the_blades():
+    names = ("lining_elastic_stiffness", "lining_plastic_stiffness", "tip_stiffness", "lined_tip_share")
+    numbers = {"Ref": (5.07e6, 1.014e6, 7.48e6, 0.289), "S100": (5.07e6, 1.014e6, 6.2e6, 0.3)}
+    runs = {(blade, "abradable"): dict(zip(names, values, strict=True)) for blade, values in numbers.items()}
+    assert lining_texts(runs) == [
+        "abradable: stiffness of the lining at the tip 5.07e+06 N/m, 1.01e+06 while it wears, on 0.289 to 0.3 of the tip's "
+        "length; of the blade there 6.2e+06 to 7.48e+06 N/m"
+    ]
+    assert lining_texts({}) == []
 
 
 def test_counts_and_interactions_in_words():

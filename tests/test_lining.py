@@ -7,7 +7,13 @@ import pytest
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import NARROW, oscillator, random_model, with_static_modes
 from integration_runs import ENGINES, whole_run
+from overlays import overlay
 
+from r37core.config import ConfigError
+from r37core.config.remarks import remarks_on_laws
+from r37core.plans.linings import linings_at_tip
+from r37core.product.reading import read_settings
+from r37core.rom.contact_model import write_contact_model
 from r37core.rom.contact_weights import tip_lengths
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.lining_at_tip import lining_at_tip
@@ -89,3 +95,40 @@ def test_a_stopped_run_wears_the_same_bars(contact):
     for _ in range(3 * 62):
         again.advance_samples(state, 1)
     np.testing.assert_allclose(state.wear, whole.wear, rtol=1e-9, atol=1e-15)
+
+
+def test_a_published_lining_on_patches_is_remarked_on(config_copy):
+    """It belongs to the benchmark's eight points: elsewhere it depends on the number of contact nodes."""
+    overlay(config_copy, "config.yaml", "scenes: [abradable, material_abradable]")
+    assert remarks_on_laws(read_settings(config_copy)) == []
+    overlay(config_copy, "config.yaml", "structure: { boundary: { contact: patches } }")
+    (remark,) = remarks_on_laws(read_settings(config_copy))
+    assert remark.startswith("scene 'abradable': lining.bar_width_m and bar_area_m2 are the published model's")
+    assert "the lining of Ref, L50, L100, ... depends on structure.boundary.nodes" in remark
+
+
+def test_a_contact_length_and_the_area_of_a_bar_are_one_too_many(config_copy):
+    overlay(config_copy, "scenes.yaml", "material_abradable: { lining: { bar_width_m: 0.002, contact_length_m: 2.0e-4 } }")
+    overlay(config_copy, "config.yaml", "scenes: [material_abradable]")
+    found = r"lining.contact_length_m: found contact_length_m and bar_width_m; allowed: one of them"
+    with pytest.raises(ConfigError, match=found):
+        read_settings(config_copy)
+
+
+def test_linings_of_a_run_are_compared_with_the_tips_before_it_starts(config_copy, contact):
+    """With the models of the blades where they are there, else for a length of tip; a bare casing has none."""
+    overlay(config_copy, "config.yaml", "{ blades: [Ref], scenes: [material_abradable, abradable, direct] }")
+    settings = read_settings(config_copy)
+    (line,) = linings_at_tip(settings)
+    assert line.startswith(
+        "material_abradable: stiffness of the lining 6.34e+05 N/m for each mm of tip, 1.27e+05 while it wears"
+    )
+    (config_copy / "results/Ref").mkdir(parents=True)
+    write_contact_model(contact, config_copy / "results/Ref/contact_pressure_edge.npz")
+    by_material, published = linings_at_tip(settings)
+    assert by_material.startswith(
+        "material_abradable: stiffness of the lining at the tip 1.76e+07 N/m, 3.51e+06 while it wears"
+    )
+    assert published.startswith(
+        "abradable: stiffness of the lining at the tip 5.07e+06 N/m, 1.01e+06 while it wears, on 0.289 of"
+    )

@@ -1,0 +1,21 @@
+"""Table of the limit of the lining by its material, from made-up runs."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+from evidence import lining
+from evidence.pages import read_table
+
+
+def test_a_case_is_compared_with_the_finest_in_the_middle_of_its_range(tmp_path):
+    wear = np.zeros((5, 10))
+    wear[2] = 1e-3
+    finest = lining.Range(1700.0, 1720.0, 2e-3, wear, 1, 3)
+    found = lining.Range(1700.0, 1724.0, 2.1e-3, 1.1 * wear, 1, 4)
+    row = lining._row("Ref", "4 patches", found, finest)
+    assert (round(row["rms"], 9), round(row["wear"], 9)) == (5.0, 10.0)
+    pd.DataFrame([row]).to_csv(tmp_path / "Ref.csv", index=False)
+    table = tmp_path / "table.csv"
+    lining.limits(SimpleNamespace(files=[tmp_path / "Ref.csv"]), SimpleNamespace(table=table), None)
+    assert read_table(table)[1] == ["Ref", "4 patches", "1700 to 1724", "5.0%", "10.0%"]
