@@ -171,8 +171,9 @@ def length_of_runs(settings: Settings, models: Models, blade: str, scene: Scene,
 def exceedance_of_runs(settings: Settings, models: Models, blade: str, scene: Scene, speeds: np.ndarray) -> Exceedance:
     """Exceedance of a blade from runs of its own, in a scene like the shipped one with a lining or without."""
     limit, shares, lined = settings.blades[blade].material.yield_stress, [], scene.lining is not None
+    name = next(name for name, chosen in settings.scenes.items() if (chosen.scene.lining is not None) == lined)
     for speed in speeds:
-        choice = settings.integration_choice(blade, "abradable" if lined else "direct", float(speed))
+        choice = settings.integration_choice(blade, name, float(speed))
         run = run_speed(models.contact, float(speed), scene, choice, ("stress",), stress=models.stress, **KEPT)
         statistic = stress_statistic(run["revolution_von_mises"], limit)
         shares.append(1.0 if run["status"] else float(statistic["share_of_revolutions_above_yield"]))
