@@ -70,6 +70,8 @@ def test_the_page_shows_the_refusal_as_it_is(root, drawn):
 def test_the_example_runs_to_its_interactions(root, drawn, tmp_path, monkeypatch, capsys):
     project = with_example(root, drawn, tmp_path, copy_project)
     overlay(project, "fidelity.yaml", "tiny: { time_integration: { revolutions: 60 } }")
+    scenes = yaml.safe_load((root / "config/scenes.yaml").read_text())
+    overlay(project, "scenes.yaml", yaml.safe_dump({"material_abradable": scenes["material_abradable"]}))
     command = re.search(r"^snakemake (.*)$", blocks(root, "sh")[0], re.MULTILINE)[1]
     said = snakemake(project, *shlex.split(command))
     assert re.search(
