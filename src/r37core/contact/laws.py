@@ -78,6 +78,12 @@ def worn(penetration: Any, wear: Any, lining: Any) -> Any:
     return np.maximum(wear, yielding * (1.0 / (lining.elastic_modulus + lining.plastic_modulus)))
 
 
+def line_of_wear(lining: Any) -> tuple[float, float]:
+    """The wear of `worn` over the penetration as a line: its slope, and its offset (m)."""
+    share = 1.0 / (lining.elastic_modulus + lining.plastic_modulus)
+    return lining.elastic_modulus * share, -lining.thickness * lining.yield_stress * share
+
+
 def wear_at_the_casing(lining: Any) -> float:
     """Wear (m) of a bar that is pressed to the casing behind the lining, by all of its thickness: the largest there is.
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from r37core.alignment import LANES
 from r37core.contact.complementarity import list_nodes, solve_complementarity
-from r37core.contact.laws import displaced_position, friction_direction, lobe_shape, return_mapping, worn
+from r37core.contact.laws import displaced_position, friction_direction, line_of_wear, lobe_shape, return_mapping
 from r37core.lanes import (
     bits_of,
     first_bit,
@@ -37,7 +37,7 @@ _friction_direction = inlined(friction_direction)
 _return_mapping = inlined(return_mapping)
 _displaced_position = inlined(displaced_position)
 _lobe_shape = inlined(lobe_shape)
-_worn = inlined(worn)
+_line_of_wear = inlined(line_of_wear)
 
 
 @inlined
@@ -245,12 +245,26 @@ def wear_passed_bars(m, k, place, penetration):
     # a revolution begins one round further
     turn = bars if place == 0 else 0
     last = m.last_position[k] if EXACT_GAP else bar_position(m, k, (place if place > 0 else m.steps_per_revolution) - 1)
-    moved = last + turn - position
-    before, thickness = m.penetration[k], m.lining.thickness
-    for bar in range(int(np.floor(position)) + 1, int(np.floor(last)) + turn):
-        depth = penetration + (before - penetration) * ((bar + 0.5 - position) / moved)
-        if depth > 0.0:
-            wear_bar(m, k, bar_number(m, k, bar + 0.5), _worn(min(depth, thickness), 0.0, m.lining))
+    first, end = int(np.floor(position)) + 1, int(np.floor(last)) + turn
+    if first >= end:
+        return
+    per_bar = (m.penetration[k] - penetration) / (last + turn - position)
+    # loaded once: a store may change them, for all that the compiler knows
+    thickness, wear, largest, worn_off = m.lining.thickness, numbers_at(m.call.wear), m.largest_wear, 0.0
+    slope, offset = _line_of_wear(m.lining)
+    bar = bar_number(m, k, first + 0.5)
+    for number in range(first, end):
+        depth = penetration + per_bar * (number + 0.5 - position)
+        new, before = slope * min(depth, thickness) + offset, wear[bar]
+        if new > before:
+            worn_off += new - before
+            largest = max(largest, new)
+            wear[bar] = new
+        bar += 1
+        if bar == (k + 1) * bars:
+            bar -= bars
+    m.worn += worn_off * m.bar_surface[k]
+    m.largest_wear = largest
 
 
 @inlined
