@@ -38,7 +38,7 @@ STATISTIC = 100
 """Last revolutions whose stress counts, whatever the length of a run."""
 
 STEP, FACTOR, BESIDE = 4.0, 20.0, 0.01
-"""Step of the speeds about a peak (rad/s); thickness that no run wears through, over the shipped one; share beside a found one."""
+"""Step of speeds about a peak (rad/s); thickness that no run wears through, over the shipped one; share beside a found one."""
 
 
 @dataclass(frozen=True)
@@ -159,9 +159,9 @@ def thickness_runs(input: Any, output: Any, params: Any) -> None:
 def sufficient_thickness(input: Any, output: Any, params: Any) -> None:
     """Thickness that suffices at all speeds about each interaction. Input: the file of thickness_runs. Output: table."""
     table = []
-    for order, of_order in pd.read_csv(input.runs).groupby("order", sort=False):
-        cells, speeds = [], of_order["speed"]
-        for _, part in of_order.groupby("length", sort=False):
+    for order, interaction in pd.read_csv(input.runs).groupby("order", sort=False):
+        cells, speeds = [], interaction["speed"]
+        for _, part in interaction.groupby("length", sort=False):
             kinds = {kind: rows.set_index("speed") for kind, rows in part.groupby("kind")}
             used, shipped = kinds["thick"]["used"], kinds["shipped"]["through"]
             # with a hundredth less it is worn through, with a hundredth more it is not

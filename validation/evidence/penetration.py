@@ -90,9 +90,9 @@ def penetration(input: Any, output: Any, params: Any) -> None:
 def _draw(rows: pd.DataFrame, clearance: float, file: str) -> None:
     figure, panels = plt.subplots(1, len(DRAWN), figsize=(PAGE, 2.8), sharey=True)
     for axes, blade in zip(panels, DRAWN, strict=True):
-        of_blade = rows[rows["blade"] == blade]
+        runs = rows[rows["blade"] == blade]
         for kind in KINDS:
-            curve = of_blade[of_blade["kind"] == kind]
+            curve = runs[runs["kind"] == kind]
             axes.semilogy(curve["speed"], 1e6 * curve["penetration"], label=kind + " patches" * (kind != "8 points"))
         axes.axhline(1e6 * AIM * clearance, color="k", linestyle=":", label="a tenth of the clearance")
         axes.set_title(blade)
@@ -124,13 +124,13 @@ def mesh_limit(input: Any, output: Any, params: Any) -> None:
     rows = read_runs(input.files)
     table = []
     for (blade, kind), part in rows.groupby(["blade", "kind"], sort=False):
-        runs = {key: of.set_index("speed")[["normal", "tangential"]] for key, of in part.groupby(["nodes", "what"])}
+        runs = {key: run.set_index("speed")[["normal", "tangential"]] for key, run in part.groupby(["nodes", "what"])}
         base = {nodes: runs[nodes, AS_SHIPPED] for nodes in (STANDARD, FINE)}
         changes = [abs(runs[nodes, what] / base[nodes] - 1.0) for nodes in base for what in PERTURBED]
         settled = np.all([(change < SETTLED).all(axis=1) for change in changes], axis=0)
         error = 100.0 * abs(base[STANDARD] / base[FINE] - 1.0)
-        of = error[settled] if settled.any() else error
-        cells = [f"{of[name].median():.1f}%; {of[name].max():.1f}%" for name in ("normal", "tangential")]
+        chosen = error[settled] if settled.any() else error
+        cells = [f"{chosen[name].median():.1f}%; {chosen[name].max():.1f}%" for name in ("normal", "tangential")]
         every = [f"{error[name].median():.1f}%" for name in ("normal", "tangential")]
         table.append([blade, kind, f"{settled.sum()} of {len(settled)}", *cells, ", ".join(every)])
     head = ["blade", "patches", "settled speeds", "normal rms: median; largest", "tangential rms: median; largest"]
