@@ -2,6 +2,7 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pandas as pd
 import pytest
 from conftest import CHECKOUT
@@ -54,3 +55,45 @@ def test_a_thicker_lining_has_bars_of_the_same_stiffness():
     thick = lasting.thicker(scene, 20.0 * scene.lining.thickness)
     assert thick.lining.elastic_modulus / thick.lining.thickness == pytest.approx(4e12)
     assert thick.lining.plastic_modulus / thick.lining.thickness == pytest.approx(1e12)
+
+
+def made_up_run(settings, contact, scene, speed, length, stress=None):
+    """A run that wears 6 mm, and is above yield below 1700 rad/s unless it ends as it has settled."""
+    above = 9e9 if speed < 1700.0 and not length.until_settled else 0.0
+    used = min(6e-3, scene.lining.thickness)
+    return {
+        "revolution_von_mises": np.full(length.revolutions, above),
+        "statistic_end": length.revolutions,
+        "motion_at_end": 2,
+        "rms": np.array([[3e-3, 0.0, 4e-3]]),
+        "used_thickness": used,
+        "worn_through_share": float(used == scene.lining.thickness),
+    }
+
+
+@pytest.fixture
+def made_up_runs(monkeypatch):
+    monkeypatch.chdir(CHECKOUT)
+    monkeypatch.setattr(lasting, "_run", made_up_run)
+    monkeypatch.setattr(lasting.Models, "read", lambda *files: SimpleNamespace(contact=None, stress=None))
+    monkeypatch.setattr(lasting, "read_contact_model", lambda file: None)
+    return SimpleNamespace(contact=None, stress=None)
+
+
+def test_runs_of_every_length(tmp_path, made_up_runs):
+    lasting.runs(made_up_runs, [tmp_path / "runs.csv"], None)
+    rows = pd.read_csv(tmp_path / "runs.csv")
+    assert len(rows) == len(lasting.SPEEDS) * len(lasting.RUNS) and set(rows["motion_at_end"]) == {"lasting"}
+    np.testing.assert_allclose(rows["rms"], 5e-3)
+    assert rows[rows["above"]].groupby("length")["speed"].agg(["min", "max"]).values.tolist() == [[1660.0, 1698.0]] * 3
+    assert rows["worn_through"].all()
+
+
+def test_runs_of_three_thicknesses(tmp_path, made_up_runs):
+    lasting.thickness_runs(made_up_runs, [tmp_path / "runs.csv"], None)
+    rows = pd.read_csv(tmp_path / "runs.csv")
+    assert sorted(set(rows["order"])) == [4, 5, 6, 7]
+    through = rows.groupby("kind")["through"].agg(["min", "max"]).astype(int).to_dict("index")
+    assert through["shipped"] == through["less"] == {"min": 1, "max": 1}
+    assert through["thick"] == through["more"] == {"min": 0, "max": 0}
+    np.testing.assert_allclose(rows[rows["kind"] == "less"]["thickness"], 0.99 * 6e-3)

@@ -65,7 +65,9 @@ def test_limit_in_the_mesh_is_of_settled_speeds(tmp_path):
     assert ["S50", "8 even", "0 of 3", "2.0%; 9.0%", "0.0%; 0.0%", "2.0%, 0.0%"] in rows
 
 
-def test_cost_is_the_least_of_the_turns(tmp_path, monkeypatch):
+@pytest.fixture
+def made_up_runs(monkeypatch):
+    """Runs without a mesh, each a millisecond faster than the one before."""
     times = iter(np.arange(1000.0, 0.0, -1.0))
 
     class MadeUp(BladeRuns):
@@ -76,10 +78,27 @@ def test_cost_is_the_least_of_the_turns(tmp_path, monkeypatch):
             return None, None
 
         def run(self, model, contact, scene, speeds, what, stress=None, change=None):
-            self.rows.append(self._row(model, scene=scene, what=what, cpu_s=1e-3 * next(times)))
+            for speed in speeds:
+                self.rows.append(self._row(model, scene=scene, what=what, speed=speed, cpu_s=1e-3 * next(times)))
 
     monkeypatch.chdir(CHECKOUT)
     monkeypatch.setattr(penetration, "BladeRuns", MadeUp)
+
+
+def test_every_kind_runs_at_every_speed(tmp_path, made_up_runs):
+    penetration.runs_of_blade(None, [tmp_path / "runs.csv"], SimpleNamespace(blade="Ref"))
+    rows = penetration.read_runs([tmp_path / "runs.csv"])
+    assert dict(rows["kind"].value_counts()) == dict.fromkeys(penetration.KINDS, len(penetration.SPEEDS))
+
+
+def test_two_meshes_have_the_same_runs(tmp_path, made_up_runs):
+    penetration.mesh_runs_of_blade(None, [tmp_path / "runs.csv"], SimpleNamespace(blade="S50"))
+    rows = penetration.read_runs([tmp_path / "runs.csv"])
+    assert set(rows.groupby(["nodes", "kind", "what"]).size()) == {len(penetration.MESH_SPEEDS)}
+    assert len(rows) == 2 * 2 * 3 * len(penetration.MESH_SPEEDS)
+
+
+def test_cost_is_the_least_of_the_turns(tmp_path, made_up_runs):
     output = SimpleNamespace(table=tmp_path / "table.csv")
     penetration.cost(None, output, None)
     head, first, _ = read_table(output.table)
