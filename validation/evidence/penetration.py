@@ -131,10 +131,11 @@ def mesh_limit(input: Any, output: Any, params: Any) -> None:
         error = 100.0 * abs(base[STANDARD] / base[FINE] - 1.0)
         chosen = error[settled] if settled.any() else error
         cells = [f"{chosen[name].median():.1f}%; {chosen[name].max():.1f}%" for name in ("normal", "tangential")]
-        every = [f"{error[name].median():.1f}%" for name in ("normal", "tangential")]
-        table.append([blade, kind, f"{settled.sum()} of {len(settled)}", *cells, ", ".join(every)])
+        friction = 100.0 * abs(runs[STANDARD, PERTURBED[0]] / base[STANDARD] - 1.0)
+        cells += [", ".join(f"{change[name].median():.1f}%" for name in change) for change in (error, friction)]
+        table.append([blade, kind, f"{settled.sum()} of {len(settled)}", *cells])
     head = ["blade", "patches", "settled speeds", "normal rms: median; largest", "tangential rms: median; largest"]
-    write_table([*head, "all speeds: medians"], table, output.table)
+    write_table([*head, "all speeds: medians", f"{PERTURBED[0]}: medians"], table, output.table)
 
 
 def cost(input: Any, output: Any, params: Any) -> None:
