@@ -25,7 +25,7 @@ from r37core.mesh.generate import generate_mesh
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
-from r37core.rom.reduction_choice import PATCHES, POINTS
+from r37core.rom.reduction_choice import EVEN, PATCHES, POINTS
 from r37core.stress.operator import StressOperator
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -78,12 +78,12 @@ FRICTION_BLADES = ("Ref", "CS50")
 
 @dataclass(frozen=True)
 class Model:
-    """What contact acts on: kind, number along the tip, fixed-interface modes, and spacing, None as usual."""
+    """What contact acts on: kind, number along the tip, fixed-interface modes of the reduced model, and spacing."""
 
     contact: str
     count: int = 8
     modes: int = 10
-    spacing: str | None = None
+    spacing: str = EVEN
 
 
 @dataclass(frozen=True)
@@ -176,7 +176,7 @@ class BladeRuns:
         return contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, self._material)
 
     def _row(self, model: Model, **numbers: Any) -> dict[str, Any]:
-        words = {"contact": model.contact, "count": model.count, "modes": model.modes, "spacing": model.spacing or ""}
+        words = {"contact": model.contact, "count": model.count, "modes": model.modes, "spacing": model.spacing}
         return {"blade": self._blade, "nodes": self._nodes, **words, **numbers}
 
     def run(

@@ -107,7 +107,7 @@ def lasting(input: Any, output: Any, params: Any) -> None:
 
 
 def _range(speeds: pd.Series) -> str:
-    return "none" if speeds.empty else f"{speeds.min():.0f} to {speeds.max():.0f} ({len(speeds)} speeds)"
+    return "none" if speeds.empty else f"{speeds.min():.0f} to {speeds.max():.0f}"
 
 
 def _draw(rows: pd.DataFrame, file: str) -> None:
@@ -160,17 +160,16 @@ def sufficient_thickness(input: Any, output: Any, params: Any) -> None:
     """Thickness that suffices at all speeds about each interaction. Input: the file of thickness_runs. Output: table."""
     table = []
     for order, interaction in pd.read_csv(input.runs).groupby("order", sort=False):
-        cells, speeds = [], interaction["speed"]
+        cells = []
         for _, part in interaction.groupby("length", sort=False):
             kinds = {kind: rows.set_index("speed") for kind, rows in part.groupby("kind")}
             used, shipped = kinds["thick"]["used"], kinds["shipped"]["through"]
             # with a hundredth less it is worn through, with a hundredth more it is not
             holds = bool(kinds["less"]["through"].iloc[0]) and not bool(kinds["more"]["through"].iloc[0])
-            found = f"{1e3 * used.max():.1f} at {used.idxmax():.0f}" + ("" if holds else " (not confirmed)")
-            cells += [f"{shipped.sum()} of {len(shipped)}", found]
-        table.append([f"1B/{order}", f"{speeds.min():.0f} to {speeds.max():.0f}", *cells])
-    head = ["interaction", "speeds (rad/s)"]
+            found = f"{1e3 * used.max():.1f} ({used.idxmax():.0f})" + ("" if holds else ", not confirmed")
+            cells += [f"{shipped.sum()}/{len(shipped)}", found]
+        table.append([f"1B/{order}", *cells])
+    head = ["interaction"]
     for length in THICKNESS_RUNS:
-        words = length.name if length.until_settled else f"{length.name} revolutions"
-        head += [f"{words}: worn through with 5 mm", f"{words}: suffices (mm, at rad/s)"]
+        head += [f"{length.name}: worn through", f"{length.name}: mm (rad/s)"]
     write_table(head, table, output.table)
