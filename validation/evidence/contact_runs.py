@@ -1,6 +1,7 @@
 """Runs of the seven blades from which the tables of accuracy are made: on several meshes, with one thing changed at a time.
 
-A file has one row for each run: what was run, rms of the leading edge's whole motion (m), largest stress (Pa), CPU time (s).
+A file has one row for each run: what was run, rms of the leading edge's whole motion (m), largest stress (Pa), CPU time (s),
+largest penetration of the tip's edge (m).
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from r37core.mesh.generate import generate_mesh
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
-from r37core.rom.reduction_choice import PATCHES, POINTS
+from r37core.rom.reduction_choice import EVEN, PATCHES, POINTS
 from r37core.stress.operator import StressOperator
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -77,11 +78,12 @@ FRICTION_BLADES = ("Ref", "CS50")
 
 @dataclass(frozen=True)
 class Model:
-    """What contact acts on: kind, number along the tip, and the fixed-interface modes of the reduced model."""
+    """What contact acts on: kind, number along the tip, fixed-interface modes of the reduced model, and spacing."""
 
     contact: str
     count: int = 8
     modes: int = 10
+    spacing: str = EVEN
 
 
 @dataclass(frozen=True)
@@ -164,7 +166,7 @@ class BladeRuns:
         base = self._settings.reduction_choice(self._blade)
         choice = replace(
             base,
-            boundary=replace(base.boundary, contact=model.contact, nodes=model.count),
+            boundary=replace(base.boundary, contact=model.contact, nodes=model.count, spacing=model.spacing),
             fixed_interface_modes=model.modes,
         )
         begun = time.process_time()
@@ -174,7 +176,7 @@ class BladeRuns:
         return contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, self._material)
 
     def _row(self, model: Model, **numbers: Any) -> dict[str, Any]:
-        words = {"contact": model.contact, "count": model.count, "modes": model.modes}
+        words = {"contact": model.contact, "count": model.count, "modes": model.modes, "spacing": model.spacing}
         return {"blade": self._blade, "nodes": self._nodes, **words, **numbers}
 
     def run(
@@ -213,9 +215,13 @@ def _numbers(contact: ContactModel, speed: float, run: Run, stress: StressOperat
     spent = time.process_time() - begun
     rms = np.hypot(*numbers["rms"][0, [0, 2]]) if numbers["status"] == 0 else np.nan
     largest = np.nan if stress is None else np.median(numbers["revolution_von_mises"])
-    normal = numbers["rms"][0, 0]
-    shared = {"step_s": float(numbers["time_step"]), "in_contact": float(numbers["share_of_time_in_contact"])}
-    return {"rms": rms, "normal": normal, "stress": largest, "cpu_s": spent, **shared}
+    shared = {
+        "step_s": float(numbers["time_step"]),
+        "in_contact": float(numbers["share_of_time_in_contact"]),
+        "penetration": float(numbers["largest_penetration"]),
+    }
+    normal, tangential = numbers["rms"][0, [0, 2]]
+    return {"rms": rms, "normal": normal, "tangential": tangential, "stress": largest, "cpu_s": spent, **shared}
 
 
 def _with_snapshots(choice: IntegrationChoice) -> IntegrationChoice:

@@ -97,6 +97,68 @@ use rule evidence as accuracy_picture with:
         **evidence("accuracy.draw"),
 
 
+# penetration of the edge between contact nodes, and the limit in the mesh of the patches that are closer towards the edges
+use rule evidence as penetration_of_blade with:
+    input:
+        unpack(behind_engine()),
+    output:
+        "results/evidence/penetration_{blade}.csv",
+    log:
+        "logs/validation/penetration_{blade}.log",
+    wildcard_constraints:
+        blade="|".join(BLADES),
+    params:
+        **evidence("penetration.runs_of_blade"),
+        blade=lambda wildcards: wildcards.blade,
+
+
+use rule evidence as penetration with:
+    input:
+        unpack(behind_engine(*[f"results/evidence/penetration_{blade}.csv" for blade in BLADES])),
+    output:
+        table=f"{TABLES}/penetration.csv",
+        rms=f"{TABLES}/penetration_rms.csv",
+        picture="docs/penetration.png",
+    log:
+        "logs/validation/penetration.log",
+    params:
+        **evidence("penetration.penetration"),
+
+
+use rule evidence as penetration_mesh_of_blade with:
+    input:
+        unpack(behind_engine()),
+    output:
+        "results/evidence/penetration_mesh_{blade}.csv",
+    log:
+        "logs/validation/penetration_mesh_{blade}.log",
+    params:
+        **evidence("penetration.mesh_runs_of_blade"),
+        blade=lambda wildcards: wildcards.blade,
+
+
+use rule evidence as penetration_mesh with:
+    input:
+        unpack(behind_engine(*[f"results/evidence/penetration_mesh_{blade}.csv" for blade in ("S100", "S50", "CS50")])),
+    output:
+        table=f"{TABLES}/penetration_mesh.csv",
+    log:
+        "logs/validation/penetration_mesh.log",
+    params:
+        **evidence("penetration.mesh_limit"),
+
+
+use rule evidence as penetration_cost with:
+    input:
+        unpack(behind_engine()),
+    output:
+        table=f"{TABLES}/penetration_cost.csv",
+    log:
+        "logs/validation/penetration_cost.log",
+    params:
+        **evidence("penetration.cost"),
+
+
 # what adaptive speeds find, replayed in the runs of every speed
 use rule evidence as adaptive_speeds with:
     input:

@@ -77,3 +77,14 @@ use rule evidence as rotor_kinds with:
     params:
         **evidence("rotor.kinds"),
         windows=ROTOR_WINDOWS,
+
+
+use rule evidence as rotor_grid with:
+    input:
+        unpack(behind_engine(contact="results/Ref/contact_pressure_edge.npz")),
+    output:
+        table=f"{TABLES}/rotor_grid.csv",
+    log:
+        "logs/validation/rotor_grid.log",
+    params:
+        **evidence("rotor_grid.grid"),
