@@ -199,9 +199,15 @@ def friction_response(m, table, k, g):
 
 
 @inlined
-def bar_position(m, k, place):
-    """The angle that a node is at, in bars."""
-    position = m.bar_position[k] - place * m.lining.bars / m.steps_per_revolution
+def turned_bars(m, place):
+    """Bars by which the rotor has turned at a step of a revolution."""
+    return place * m.lining.bars / m.steps_per_revolution
+
+
+@inlined
+def bar_position(m, k, turned):
+    """The angle that a node is at, in bars, when the rotor has turned by so many."""
+    position = m.bar_position[k] - turned
     if EXACT_GAP:
         position += m.shift[k] * (m.lining.bars / (2.0 * np.pi))
     return position
@@ -222,7 +228,7 @@ def bar_number(m, k, position):
 @inlined
 def bar_at(m, k, place):
     """The number of the bar that a node is at, counted over all rings."""
-    return bar_number(m, k, bar_position(m, k, place))
+    return bar_number(m, k, bar_position(m, k, turned_bars(m, place)))
 
 
 @inlined
@@ -236,33 +242,46 @@ def wear_bar(m, k, bar, new):
 
 
 @inlined
-def wear_passed_bars(m, k, place, penetration):
+def wear_passed_bars(m, k, penetration, turned, turned_before, line):
     """Wear the bars that a node has passed between the last step's bar and this one's.
 
-    They are worn as its `penetration` (m) says, linear between that at t_n and the one given, at t_{n+1}.
+    They are worn as its `penetration` (m) says, linear between that at t_n and the one given, at t_{n+1}. `turned`,
+    `turned_before`: bars by which the rotor has turned then, less where it begins a revolution; `line`: of the wear.
     """
-    position, bars = bar_position(m, k, place), int(m.lining.bars)
-    # a revolution begins one round further
-    turn = bars if place == 0 else 0
-    last = m.last_position[k] if EXACT_GAP else bar_position(m, k, (place if place > 0 else m.steps_per_revolution) - 1)
+    position, bars = bar_position(m, k, turned), int(m.lining.bars)
+    # the begin of a revolution is one round further
+    turn = bars if turned < turned_before else 0
+    last = m.last_position[k] if EXACT_GAP else bar_position(m, k, turned_before)
     first, end = int(np.floor(position)) + 1, int(np.floor(last)) + turn
     if first >= end:
         return
     per_bar = (m.penetration[k] - penetration) / (last + turn - position)
+    depth, bar = penetration + per_bar * (first + 0.5 - position), bar_number(m, k, first + 0.5)
+    # up to the end of the ring, and from its begin on
+    before_end = min(end - first, (k + 1) * bars - bar)
+    wear_along(m, k, bar, before_end, depth, per_bar, line)
+    wear_along(m, k, k * bars, end - first - before_end, depth + per_bar * before_end, per_bar, line)
+
+
+@inlined
+def wear_along(m, k, bar, count, depth, per_bar, line):
+    """Wear so many bars of a node's ring as they are pressed to a depth (m) that changes from bar to bar."""
     # loaded once: a store may change them, for all that the compiler knows
-    thickness, wear, largest, worn_off = m.lining.thickness, numbers_at(m.call.wear), m.largest_wear, 0.0
-    slope, offset = _line_of_wear(m.lining)
-    bar = bar_number(m, k, first + 0.5)
-    for number in range(first, end):
-        depth = penetration + per_bar * (number + 0.5 - position)
-        new, before = slope * min(depth, thickness) + offset, wear[bar]
+    thickness, wear = m.lining.thickness, numbers_at(m.call.wear)
+    slope, offset = line
+    grows = 0
+    # most passes wear nothing, and finding that takes little
+    for i in range(count):
+        grows |= int(slope * min(depth + per_bar * i, thickness) + offset > wear[bar + i])
+    if grows == 0:
+        return
+    largest, worn_off = m.largest_wear, 0.0
+    for i in range(count):
+        new, before = slope * min(depth + per_bar * i, thickness) + offset, wear[bar + i]
         if new > before:
             worn_off += new - before
             largest = max(largest, new)
-            wear[bar] = new
-        bar += 1
-        if bar == (k + 1) * bars:
-            bar -= bars
+            wear[bar + i] = new
     m.worn += worn_off * m.bar_surface[k]
     m.largest_wear = largest
 
@@ -270,12 +289,15 @@ def wear_passed_bars(m, k, place, penetration):
 @inlined
 def follow_gaps(m, gaps, place):
     """Take the gaps (m) to the unworn lining at a step's end, and wear the bars that nodes have passed while pressing them."""
+    turned = turned_bars(m, place)
+    turned_before = turned_bars(m, (place if place > 0 else m.steps_per_revolution) - 1)
+    line = _line_of_wear(m.lining)
     for g in range(0, node_lanes(m), LANES):
         passing = bits_of(load(gaps, g) < 0.0) | bits_of(load(m.penetration, g) > 0.0)
         while passing:
             k = g + first_bit(passing)
             passing &= passing - 1
-            wear_passed_bars(m, k, place, -gaps[k])
+            wear_passed_bars(m, k, -gaps[k], turned, turned_before, line)
     take_gaps(m, gaps, place)
 
 
@@ -289,7 +311,7 @@ def take_gaps(m, gaps, place):
         pressing |= bits_of(penetration > 0.0)
     if EXACT_GAP:
         for k in range(m.nodes):
-            m.last_position[k] = bar_position(m, k, place)
+            m.last_position[k] = bar_position(m, k, turned_bars(m, place))
     m.pressing = int(pressing != 0)
 
 
