@@ -11,8 +11,10 @@ from evidence.pages import read_table
 def test_a_case_is_compared_with_the_finest_in_the_middle_of_its_range(tmp_path):
     wear = np.zeros((5, 10))
     wear[2] = 1e-3
-    finest = lining.Range(1700.0, 1720.0, 2e-3, wear, 1, 3)
-    found = lining.Range(1700.0, 1724.0, 2.1e-3, 1.1 * wear, 1, 4)
+    # the last speed of the range does not count
+    rms = np.array([9e-3, 2e-3, 2e-3, 1e-3, 9e-3])
+    finest = lining.Range(1700.0, 1720.0, rms, wear, 1, 3)
+    found = lining.Range(1700.0, 1724.0, rms * [2.0, 1.05, 1.05, 3.0, 2.0], 1.1 * wear, 1, 4)
     row = lining._row("Ref", "4 patches", found, finest)
     assert (round(row["rms"], 9), round(row["wear"], 9)) == (5.0, 10.0)
     pd.DataFrame([row]).to_csv(tmp_path / "Ref.csv", index=False)
