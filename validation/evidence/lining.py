@@ -51,8 +51,8 @@ OWN_CHORD, TIP_CHORD = 0.2, 0.056
 class Range:
     """What is compared of runs about an interaction: `begin` and `end` (rad/s) above yield, `rms` (m) and `wear` (m).
 
-    `rms`: of the leading edge's tangential motion at each speed, shape (speeds,); `wear`: profile round the casing, shape (speeds, angles);
-    `first`, `last`: places of the range among the speeds.
+    `rms`: of the leading edge's tangential motion at each speed, shape (speeds,); `wear`: profile round the casing, shape
+    (speeds, angles); `first`, `last`: places of the range among the speeds.
     """
 
     begin: float
