@@ -239,7 +239,8 @@ def test_a_blade_spreads_in_material_thickness_and_place(root):
 def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
     page = (root / "docs/tolerances.md").read_text()
     asked = yaml.safe_load(re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1])
-    assert len(members_of(settings_of(root, asked["tolerances"], scenes=asked["scenes"])).all["S100", "material_abradable"]) == 32
+    settings = settings_of(root, asked["tolerances"], scenes=asked["scenes"])
+    assert len(members_of(settings).all["S100", "material_abradable"]) == 32
     with open(root / "config/tolerances.yaml") as stream:
         assert len(members_of(settings_of(root, {}, **yaml.safe_load(stream))).all["Ref", "material_abradable"]) == 32
 
