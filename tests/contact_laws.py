@@ -9,7 +9,7 @@ from r37core.alignment import LANES, aligned_record, aligned_zeros, padded
 from r37core.contact import complementarity, laws, node_sweeps
 from r37core.lanes import OPTIONS, inlined, load, store
 from r37core.time_integration.compiled.layout import LINING, complementarity_record, contact_record
-from r37core.time_integration.static_modes import relaxation
+from r37core.time_integration.static_modes import settles_at_once
 
 _return_mapping, _friction_direction = inlined(laws.return_mapping), inlined(laws.friction_direction)
 
@@ -96,7 +96,7 @@ def press_nodes(matrix, gap, bar=None, area=0.0, wear=0.0, start=0.0):
     c["gap"][:count], c["opened"][:count], c["pressure"][:count], c["wear"][:count] = gap, gap, start, wear
     c["columns"][:count, :count] = np.transpose(matrix)
     c["listed"][:count], c["lanes"] = np.arange(count), nodes
-    c["relaxation"] = relaxation(np.stack([np.transpose(matrix), np.zeros_like(matrix), np.zeros_like(matrix)]), 0.0)
+    c["settles_at_once"] = settles_at_once(np.stack([np.transpose(matrix), np.zeros_like(matrix), np.zeros_like(matrix)]), 0.0)
     listed = np.arange(nodes) < count
     c["found"] = np.packbits(listed, bitorder="little")
     if bar is not None:

@@ -2,10 +2,11 @@
 
 A problem `c` is a contact_record of time_integration.compiled.layout; nodes are lanes, and a set of nodes is a bit for each,
 eight to an integer. Forces p open the gaps g to g + G p, G being what the static modes do. A node at the bare casing keeps
-g + G p >= 0, p >= 0 and one of them zero; one on a lining has the force of its bar, with the casing behind it. In a sweep eight
-nodes at once get the forces that their laws say while the others keep theirs: the projected Jacobi method (Cottle, Pang and
-Stone, The Linear Complementarity Problem, section 5.2), relaxed where G is far from diagonal (static_modes.relaxation). It is
-nearly diagonal in the shipped scenes, so that a sweep leaves about a tenth of the error.
+g + G p >= 0, p >= 0 and one of them zero; one on a lining has the force of its bar, with the casing behind it. In a sweep all
+nodes at once get the forces that their laws say: the projected Jacobi method (Cottle, Pang and Stone, The Linear
+Complementarity Problem, section 5.2). Where G is nearly diagonal, as with few contact nodes, a sweep leaves about a tenth of
+the error. Where static modes move many nodes together (static_modes.settles_at_once), they get them one after the other, by
+the projected Gauss-Seidel method.
 """
 
 import numpy as np
@@ -72,7 +73,7 @@ def sweep_nodes(c, count, largest_gap, thickness, lined):
     It is relative to `largest_gap` (m). `thickness` (m): of the lining.
     """
     allowed = TOLERANCE * largest_gap
-    if c.relaxation < 1.0:
+    if c.settles_at_once == 0:
         return sweep_in_order(c, count, largest_gap, thickness, lined)
     for _ in range(SWEEPS):
         changed = 0

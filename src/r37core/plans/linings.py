@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from r37core.config import Settings
+from r37core.contact.laws import lines_of_bar
 from r37core.results.closing import lining_texts
 from r37core.rom.contact_model import read_contact_model
 from r37core.time_integration.lining_at_tip import lining_at_tip
@@ -24,8 +25,7 @@ def linings_at_tip(settings: Settings) -> list[str]:
         if there:
             lines += lining_texts({(blade, scene): lining_at_tip(model, chosen.scene) for blade, model in there.items()})
         elif not lining.published:
-            elastic = 1e-3 * lining.contact_length * lining.elastic_modulus / lining.thickness
-            plastic = elastic * lining.plastic_modulus / (lining.elastic_modulus + lining.plastic_modulus)
+            elastic, _, plastic = lines_of_bar(lining.elastic_modulus, 1e-3 * lining.contact_length, lining)
             lines.append(
                 f"{scene}: stiffness of the lining {elastic:.3g} N/m for each mm of tip, {plastic:.3g} while it wears; the "
                 "run ends with that of the whole tip, and the blade's own"

@@ -59,6 +59,11 @@ class ContactModel:
     edge_rotation_shapes: np.ndarray | None = None
 
     @property
+    def tip_radius(self) -> float:
+        """Largest radius (m) of the contact nodes."""
+        return float(np.max(self.radius))
+
+    @property
     def edge(self) -> ContactModel:
         """The model with the nodes of the tip's edge in place of the contact nodes."""
         if self.edge_displacement_operator is None:

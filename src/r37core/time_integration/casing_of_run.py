@@ -55,7 +55,7 @@ class CasingOfRun:
     def pressed_areas(self) -> np.ndarray:
         """Area (m2) of lining that each contact node presses at a time, shape (nodes,); 0 without lining."""
         lengths, lining = self.model.tip_lengths, self.scene.lining
-        return np.zeros(len(lengths)) if lining is None else lining.pressed_areas(lengths, self._tip_radius)
+        return np.zeros(len(lengths)) if lining is None else lining.pressed_areas(lengths, self.model.tip_radius)
 
     @property
     def lining_stiffness(self) -> np.ndarray:
@@ -69,11 +69,7 @@ class CasingOfRun:
         lining = self.scene.lining
         if lining is None or lining.published:
             return self.pressed_areas
-        return self.model.tip_lengths * lining.arc(self._tip_radius)
-
-    @property
-    def _tip_radius(self) -> float:
-        return float(np.max(self.model.radius))
+        return self.model.tip_lengths * lining.arc(self.model.tip_radius)
 
     @property
     def bars(self) -> int:

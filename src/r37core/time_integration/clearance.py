@@ -53,7 +53,7 @@ def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:
 
 def check_ring(model: ContactModel, scene: Scene) -> None:
     """NoRoomError for an elastic casing whose radius is not about that of the tip: most likely another unit, or a diameter."""
-    ring, tip = scene.casing.ring_radius, float(model.radius.max())
+    ring, tip = scene.casing.ring_radius, model.tip_radius
     if ring is None or tip <= ring <= LARGEST_RING * tip:
         return
     raise NoRoomError(

@@ -21,11 +21,10 @@ def lining_at_tip(model: ContactModel, scene: Scene) -> dict[str, np.ndarray]:
     lining, lengths = scene.lining, model.tip_lengths
     if lining is None:
         return {}
-    radius = float(np.max(model.radius))
-    areas = lining.pressed_areas(lengths, radius)
+    areas = lining.pressed_areas(lengths, model.tip_radius)
     elastic, _, plastic = lines_of_bar(lining.elastic_modulus, areas.sum(), lining)
     normal = casing_axes(model.displacement_operator, scene.casing.angle(model.tip_cone_angle))[0]
     mean_rows = lengths / lengths.sum() @ normal
-    width = areas.sum() / (lining.arc(radius) if lining.published else lining.contact_length)
+    width = areas.sum() / (lining.arc(model.tip_radius) if lining.published else lining.contact_length)
     values = (elastic, plastic, 1.0 / np.sum(mean_rows**2 / model.squared_frequencies), width / lengths.sum())
     return {name: np.array(value) for name, value in zip(LINING_AT_TIP, values, strict=True)}

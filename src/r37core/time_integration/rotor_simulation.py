@@ -32,8 +32,8 @@ class BladesRecord:
     """Records of the blades: one of each, and where the samples lie in time.
 
     `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m3), shape
-    (blades,): what each has worn off the lining; NaN of a single blade; `ending`: how the
-    run of one blade ended.
+    (blades,): what each has worn off the lining, NaN of a single blade; `ending`: how the run of a single blade
+    ended.
     """
 
     blades: tuple[SimulationRecord, ...]
@@ -177,7 +177,7 @@ def run_of_blade(simulation: Simulation, state: SimulationState) -> tuple[Simula
     risen = problem.casing.rise_time / (problem.grid.steps_per_revolution * problem.grid.time_step)
     done, revolutions, settled, growth, steps, rms = 0, 0, False, 0.0, 0.0, np.empty(0)
     for part in parts_of_run(choice):
-        wear, contact = wear_of(state), float(state.totals["steps_in_contact"])
+        wear, contact = wear_of(state).copy(), float(state.totals["steps_in_contact"])
         advanced = simulation.fill(state, out, 0, part * per_revolution)
         motion = out.samples[done : done + advanced, LEADING_EDGE]
         done, revolutions = done + advanced, revolutions + part

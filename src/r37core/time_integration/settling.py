@@ -126,5 +126,5 @@ def parts_of_run(choice: IntegrationChoice) -> list[int]:
 
 
 def wear_of(state: Any) -> np.ndarray:
-    """Copy of the wear (m) of all bars of a SimulationState; one of 0 without a lining."""
-    return np.zeros(1) if state.wear is None else state.wear.copy()
+    """Wear (m) of all bars of a SimulationState, which the time integration goes on changing; one of 0 without a lining."""
+    return np.zeros(1) if state.wear is None else state.wear

@@ -26,7 +26,7 @@ SHARE_WITH_FRICTION = 0.2
 patches, whose neighbours static modes move together: the closer they are, the less."""
 
 LARGEST_EIGENVALUE = 1.6
-"""Largest eigenvalue of D^-1 G with which nodes take the whole change in a sweep; sweeps diverge from 2 on."""
+"""Largest eigenvalue of D^-1 G with which sweeps over all nodes at once settle soon; they diverge from 2 on."""
 
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
 """Directions of friction that are tried (rad)."""
@@ -62,15 +62,15 @@ def definiteness(flexibility: np.ndarray, coefficient: float) -> float:
     return float(np.linalg.eigvalsh(0.5 * (opening + opening.swapaxes(1, 2)))[:, 0].min())
 
 
-def relaxation(flexibility: np.ndarray, coefficient: float) -> float:
-    """Share of the change to its law's force that a node takes in a sweep over all nodes at once, so that sweeps settle.
+def settles_at_once(flexibility: np.ndarray, coefficient: float) -> bool:
+    """Whether sweeps settle in which all nodes take the forces of their laws at once; see r37core.contact.node_sweeps.
 
-    A sweep multiplies errors by I - r D^-1 G, D the diagonal of G: r is 1 unless an eigenvalue of D^-1 G exceeds
-    LARGEST_EIGENVALUE, as where static modes move many nodes together. Arguments as of definiteness.
+    A sweep multiplies errors by I - D^-1 G, D the diagonal of G. An eigenvalue of D^-1 G exceeds LARGEST_EIGENVALUE where
+    static modes move many nodes together. Arguments as of definiteness.
     """
     opening = _opening(flexibility, coefficient).swapaxes(1, 2)
     scaled = opening / np.diagonal(opening, axis1=1, axis2=2)[:, :, None]
-    return float(min(1.0, LARGEST_EIGENVALUE / np.abs(np.linalg.eigvals(scaled)).max()))
+    return bool(np.abs(np.linalg.eigvals(scaled)).max() <= LARGEST_EIGENVALUE)
 
 
 def _opening(flexibility: np.ndarray, coefficient: float) -> np.ndarray:

@@ -11,7 +11,7 @@ from r37core.rom.contact_model import ContactModel
 
 from .gyroscopic import LARGEST_TURN, ComplexModes, complex_modes
 from .integrators import Recursion, recursion
-from .static_modes import relaxation, residual_flexibility, stepped_modes
+from .static_modes import residual_flexibility, settles_at_once, stepped_modes
 from .step_limit import largest_pressed_ratio, ratio_of_pressed_nodes
 from .time_grid import TimeGrid
 
@@ -81,13 +81,13 @@ class SteppedBlade:
         return stepped_modes(frequencies, rows, self.friction_coefficient, step, above, below, is_stable)
 
     @cached_property
-    def relaxation(self) -> float:
-        """Relaxation of the sweeps over the nodes, one at all speeds: see static_modes; 1 with central differences."""
+    def settles_at_once(self) -> bool:
+        """Whether the contact nodes get their forces at once, the same at all speeds; see static_modes."""
         if not self.grid.choice.second_order:
-            return 1.0
+            return True
         frequencies, rows = self._rest_modes
         flexibility = residual_flexibility(frequencies[self._stepped :], rows[..., self._stepped :])
-        return relaxation(flexibility, self.friction_coefficient)
+        return settles_at_once(flexibility, self.friction_coefficient)
 
     @property
     def _rest_modes(self) -> tuple[np.ndarray, np.ndarray]:

@@ -44,7 +44,7 @@ def press_contact(m, place):
             store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), -load(m.force, g), 0.0))
         count = joined
         set_laws(c, count, m.lining, LINED)
-        if not LINED and c.relaxation < 1.0:
+        if not LINED and c.settles_at_once == 0:
             violation = press_bare_casing(m, count)
         else:
             violation = sweep_nodes(c, count, largest_gap, thickness, LINED)

@@ -265,7 +265,7 @@ class CompiledEngine:
         self.put(bar_position=casing.tip.theta / (2.0 * np.pi) * lining.bars, bar_surface=casing.bar_surfaces)
 
     def _lay_out_static_modes(self, problem: Problem) -> None:
-        self.record[0]["contact"]["relaxation"] = problem.blade.relaxation
+        self.record[0]["contact"]["settles_at_once"] = problem.blade.settles_at_once
         force_outputs = problem.contact.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
         padded_forces = aligned_copy(force_outputs, self._node_lanes).reshape(1, len(force_outputs), -1)
         self.put(flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces)

@@ -111,7 +111,7 @@ def contact_record(nodes: int) -> np.dtype:
             # numbers of the listed nodes; the bar of each node
             *_fields("listed bar", nodes, kind=np.int64),
             *_fields("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
-            *_fields("relaxation"),
+            *_fields("settles_at_once", kind=np.int64),  # whether a sweep gives all nodes their forces at once
             *_fields("lanes", kind=np.int64),  # that the nodes fill
         ]
     )
@@ -234,7 +234,6 @@ def integration_record(capacity: Capacity) -> np.dtype:
             # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
             *_fields("block_work block_loss", LANES),
             *_fields("follows", kind=np.int64),
-            *_fields("pressing", kind=np.int64),  # whether any node is beyond the lining's unworn surface at t_n
             *_fields("worn largest_wear"),  # off the lining by this blade (m3); of all bars (m)
             *_fields("limit friction"),
             # how much of the record is used: vectors of modes and of nodes; numbers

@@ -53,7 +53,6 @@ class Passage:
         largest_wear = 0.0 if schedule is None or state.wear is None else state.wear.max()
         engine.put(worn=0.0, largest_wear=largest_wear, touched=np.packbits(state.touched, bitorder="little"))
         engine.put(totals=state.totals, penetration=state.penetration, last_position=state.bar_position)
-        engine.put(pressing=bool((state.penetration > 0.0).any()))
         if self._grid.choice.second_order:
             engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         addresses = {

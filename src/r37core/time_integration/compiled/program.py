@@ -11,7 +11,7 @@ import numpy as np
 from numba import types
 
 from r37core.alignment import LANES
-from r37core.lanes import OPTIONS, inlined, load, pointed_at, spread, store, sum_of_lanes
+from r37core.lanes import OPTIONS, bits_of, inlined, load, pointed_at, spread, store, sum_of_lanes
 from r37core.native import object_code
 from r37core.program_constants import specialised
 
@@ -60,10 +60,12 @@ def _find_forces(addresses, blades):
 
 @inlined
 def _any_pressing(addresses, blades):
-    """Whether any node is beyond the unworn lining."""
+    """Whether any node is beyond the unworn lining at t_n."""
     any_pressing = False
     for b in range(blades):
-        any_pressing |= pointed_at(addresses[b]).pressing != 0
+        m = pointed_at(addresses[b])
+        for g in range(0, node_lanes(m), LANES):
+            any_pressing |= bits_of(load(m.penetration, g) > 0.0) != 0
     return any_pressing
 
 
@@ -172,18 +174,15 @@ def _meet(m, place, lobes):
         m.follows = int(press_contact(m, place))
         if m.follows != 0:
             measure_edge(m, place, lobes)
+        if LINED:
+            follow_gaps(m, m.contact.opened, place)
     elif not PUBLISHED and m.follows != 0:
         release_contact(m)
         m.follows = 0
     else:
         leave_casing(m)
-    if LINED and PUBLISHED and not beyond:
+    if LINED and not beyond:
         follow_gaps(m, m.problem.gap, place)
-    elif LINED and not PUBLISHED:
-        if beyond:
-            follow_gaps(m, m.contact.opened, place)
-        else:
-            follow_gaps(m, m.problem.gap, place)
     return beyond
 
 

@@ -289,30 +289,33 @@ def wear_along(m, k, bar, count, depth, per_bar, line):
 @inlined
 def follow_gaps(m, gaps, place):
     """Take the gaps (m) to the unworn lining at a step's end, and wear the bars that nodes have passed while pressing them."""
+    for g in range(0, node_lanes(m), LANES):
+        passing = bits_of(load(gaps, g) < 0.0) | bits_of(load(m.penetration, g) > 0.0)
+        if passing != 0:
+            wear_passed_rings(m, g, passing, gaps, place)
+    take_gaps(m, gaps, place)
+
+
+@inlined
+def wear_passed_rings(m, g, passing, gaps, place):
+    """Wear the bars that the `passing` ones of the eight nodes from g on have passed in a step, with `gaps` (m) at its end."""
     turned = turned_bars(m, place)
     turned_before = turned_bars(m, (place if place > 0 else m.steps_per_revolution) - 1)
     line = _line_of_wear(m.lining)
-    for g in range(0, node_lanes(m), LANES):
-        passing = bits_of(load(gaps, g) < 0.0) | bits_of(load(m.penetration, g) > 0.0)
-        while passing:
-            k = g + first_bit(passing)
-            passing &= passing - 1
-            wear_passed_bars(m, k, -gaps[k], turned, turned_before, line)
-    take_gaps(m, gaps, place)
+    while passing:
+        k = g + first_bit(passing)
+        passing &= passing - 1
+        wear_passed_bars(m, k, -gaps[k], turned, turned_before, line)
 
 
 @inlined
 def take_gaps(m, gaps, place):
     """Take the gaps (m) to the unworn lining as those at t_n."""
-    pressing = 0
     for g in range(0, node_lanes(m), LANES):
-        penetration = -load(gaps, g)
-        store(m.penetration, g, penetration)
-        pressing |= bits_of(penetration > 0.0)
+        store(m.penetration, g, -load(gaps, g))
     if EXACT_GAP:
         for k in range(m.nodes):
             m.last_position[k] = bar_position(m, k, turned_bars(m, place))
-    m.pressing = int(pressing != 0)
 
 
 @inlined

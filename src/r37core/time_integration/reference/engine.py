@@ -180,10 +180,10 @@ class ReferenceEngine:
 
     def _measure_edge(self, state: SimulationState, motion: Any, n: int) -> None:
         """Keep the largest penetration of the tip's edge into the casing, if it is at t_n."""
-        edge, u = self.problem.edge, self.motion.displacement(motion)
         if self._segments.increments is not None:
             return
-        displacement = self._rows_at(n, self._edge_rows, edge.casing) @ u
+        edge = self.problem.edge
+        displacement = self._rows_at(n, self._edge_rows, edge.casing) @ self.motion.displacement(motion)
         gap, _ = edge.casing.gaps(edge.casing.clearance + edge.depth, displacement, n, self.angle)
         if self.problem.choice.second_order:
             gap = gap - edge.flexibility @ state.contact_force.ravel()
