@@ -18,7 +18,7 @@ from published import INTERACTIONS, REFERENCE
 
 from r37core.figures import style
 from r37core.io import as_list
-from r37core.rom.reduction_choice import PATCHES, POINTS
+from r37core.rom.reduction_choice import MOST_USUAL_PATCHES, PATCHES, POINTS, USUAL_POINTS
 
 from .configuration import settings_of
 from .contact_runs import (
@@ -26,8 +26,6 @@ from .contact_runs import (
     AS_SHIPPED,
     BARE,
     CENTRAL,
-    CONTACTS,
-    COUNTS,
     DRAWN,
     EVERY_SPEED,
     FINEST,
@@ -36,7 +34,9 @@ from .contact_runs import (
     FRICTION_BLADES,
     IN_PUBLISHED_RANGE,
     LINED,
+    MATERIAL,
     MODES,
+    MOST,
     PERTURBED,
     SCENES,
     SMALL,
@@ -45,7 +45,7 @@ from .contact_runs import (
     STEPS,
     STIFFER,
     TWICE_THE_BARS,
-    WIDE_BARS,
+    USUAL,
     branch_speeds,
 )
 from .pages import write_table
@@ -53,8 +53,11 @@ from .pages import write_table
 SETTLED, JUMP, BESIDE = 0.03, 0.25, 5.0
 """Largest change of rms by a perturbation; change between speeds of GRID that counts as a jump; its surroundings (rad/s)."""
 
-KINDS = [(scene, contact) for scene in SCENES for contact in CONTACTS]
-NAMES = {BARE: "bare casing", LINED: "lining"}
+KINDS = [(BARE, POINTS), (BARE, PATCHES), (LINED, POINTS), (MATERIAL, PATCHES)]
+NAMES = {BARE: "bare casing", LINED: "lining", MATERIAL: "lining"}
+AS_USUAL = {POINTS: USUAL_POINTS, PATCHES: MOST_USUAL_PATCHES}
+"""Numbers of contact nodes of the default."""
+
 HEADS = [f"{NAMES[scene]}, {contact}" for scene, contact in KINDS]
 
 
@@ -66,7 +69,7 @@ class Of:
     contact: str
     what: str = AS_SHIPPED
     nodes: int = STANDARD
-    count: int = 8
+    count: int = USUAL
     modes: int = 10
 
 
@@ -151,24 +154,25 @@ def cell(errors: pd.Series) -> str:
 
 @dataclass(frozen=True)
 class Level:
-    """A fidelity level: its mesh, and what its time integration is in CHANGES, by scene."""
+    """A fidelity level: its mesh, and what its time integration is in CHANGES, in a bare casing and with a lining."""
 
     nodes: int
-    what: dict[str, str]
+    bare: str
+    lined: str
 
     def of(self, scene: str, contact: str) -> Of:
         """Its runs."""
-        return Of(scene, contact, self.what[scene], self.nodes)
+        return Of(scene, contact, self.bare if scene == BARE else self.lined, self.nodes)
 
 
 LEVELS = {
-    "draft": Level(5000, {BARE: "step 6.4e-06 s", LINED: AS_SHIPPED}),
-    "standard": Level(STANDARD, {BARE: AS_SHIPPED, LINED: AS_SHIPPED}),
-    "paper": Level(STANDARD, {BARE: CENTRAL, LINED: CENTRAL}),
-    "fine": Level(40000, {BARE: "step 2.4e-06 s", LINED: "step 3.2e-06 s"}),
+    "draft": Level(5000, "step 6.4e-06 s", AS_SHIPPED),
+    "standard": Level(STANDARD, AS_SHIPPED, AS_SHIPPED),
+    "paper": Level(STANDARD, CENTRAL, CENTRAL),
+    "fine": Level(40000, "step 2.4e-06 s", "step 3.2e-06 s"),
 }
 MEASURED = [name for name in LEVELS if name != "paper"]
-JUDGED = {"lining": (LINED, POINTS), "bare casing, patches": (BARE, PATCHES), "bare casing, points": (BARE, POINTS)}
+JUDGED = dict(zip(HEADS, KINDS, strict=True))
 
 
 def levels(input: Any, output: Any, params: Any) -> None:
@@ -176,10 +180,14 @@ def levels(input: Any, output: Any, params: Any) -> None:
     runs = Runs(as_list(input.files))
     known, rows = settings_of(Path.cwd()).levels, []
     for name, level in LEVELS.items():
-        section, errors = known[name].time_integration, ["", "", ""]
+        section, errors = known[name].time_integration, [""] * len(JUDGED)
         if name in MEASURED:
             errors = [_percent(worst(_of_level(runs, name, *kind))[1].mean()) for kind in JUDGED.values()]
-        cost = np.mean([runs.of(level.of(scene, POINTS), "cpu_s").median() for scene in SCENES]) * section.revolutions / 200.0
+        cost = (
+            np.mean([runs.of(level.of(scene, POINTS), "cpu_s").median() for scene in SCENES[POINTS]])
+            * section.revolutions
+            / 200.0
+        )
         rows.append([f"`{name}`", f"{level.nodes:,}", _step_of(section), *errors, f"{cost:.2f}"])
     write_table(["level", "nodes", "step (us)", *JUDGED, "CPU (s)"], rows, output.levels)
     steep = [[f"`{name}`", *(_steep_cell(runs, name, *kind) for kind in JUDGED.values())] for name in MEASURED]
@@ -233,9 +241,10 @@ def convergence(input: Any, output: Any, params: Any) -> None:
         _row(runs, f"mesh of {nodes:,} nodes", f"{FINEST:,}", _changed({"nodes": nodes}, {"nodes": FINEST}))
         for nodes in (5000, SMALL, STANDARD, 40000)
     ]
-    for count in sorted({8, *COUNTS} - {29}):
-        pairs = _changed({"nodes": SMALL, "count": count}, {"nodes": SMALL, "count": 29})
-        rows.append(_row(runs, f"{count} along the tip", "29", pairs))
+    for count in (4, 8, 12, 15):
+        pairs = _changed({"nodes": SMALL, "count": count}, {"nodes": SMALL, "count": MOST})
+        pairs = [(replace(ours, count=USUAL) if count == AS_USUAL[ours.contact] else ours, theirs) for ours, theirs in pairs]
+        rows.append(_row(runs, f"{count} along the tip", f"{MOST}", pairs))
     head = ["what", "against", *HEADS]
     write_table(head, rows, output.mesh)
     write_table(head, _motion_rows(runs), output.motion)
@@ -299,34 +308,34 @@ def _friction_table(runs: Runs) -> tuple[list[str], list[list[str]]]:
 
 
 def patches(input: Any, output: Any, params: Any) -> None:
-    """Points and patches: each blade, the published direct contact, stiff linings, bars as wide. Input: files of runs."""
+    """Points and patches: each blade, the published direct contact, stiff linings, published peaks. Input: files of runs."""
     runs = Runs(as_list(input.files))
     write_table(*_blades_table(runs), output.blades)
     write_table(*_published_table(runs), output.published)
     write_table(*_stiffness_table(runs), output.stiffness)
-    write_table(*_bars_table(runs), output.bars)
+    write_table(*_peaks_table(runs), output.peaks)
 
 
 def _blades_table(runs: Runs) -> tuple[list[str], list[list[str]]]:
     rows = []
-    changes = {scene: runs.errors(Of(scene, PATCHES), Of(scene, POINTS)) for scene in SCENES}
+    change = runs.errors(Of(BARE, PATCHES), Of(BARE, POINTS))
     for blade in runs.blades:
         cells = []
-        for contact in CONTACTS:
+        for contact in SCENES:
             speeds, rms = runs.curve(Of(BARE, contact, EVERY_SPEED), blade)
             top = int(np.nanargmax(rms))
             cells += [f"{1e3 * rms[top]:.2f} at {speeds[top]:g}", f"{speeds[np.nanargmin(np.diff(rms))]:g}"]
-        rows.append([blade, *cells, *(f"{changes[scene].loc[blade].median():.1f}%" for scene in SCENES)])
-    head = [f"{contact}: {what}" for contact in CONTACTS for what in ("largest rms (mm)", "steepest jump (rad/s)")]
-    return ["blade", *head, *(f"change, {NAMES[scene]}" for scene in SCENES)], rows
+        rows.append([blade, *cells, f"{change.loc[blade].median():.1f}%"])
+    head = [f"{contact}: {what}" for contact in SCENES for what in ("largest rms (mm)", "steepest jump (rad/s)")]
+    return ["blade", *head, "change"], rows
 
 
 PUBLISHED_CASES = {
     "8 points": Of(BARE, POINTS),
     f"8 points, {FINEST:,} nodes": Of(BARE, POINTS, nodes=FINEST),
-    "8 patches": Of(BARE, PATCHES),
-    f"8 patches, {FINEST:,} nodes": Of(BARE, PATCHES, nodes=FINEST),
-    f"15 patches, {SMALL:,} nodes": Of(BARE, PATCHES, nodes=SMALL, count=15),
+    "12 patches": Of(BARE, PATCHES),
+    f"12 patches, {FINEST:,} nodes": Of(BARE, PATCHES, nodes=FINEST),
+    f"{MOST} even patches, {SMALL:,} nodes": Of(BARE, PATCHES, nodes=SMALL, count=MOST),
 }
 
 
@@ -349,11 +358,11 @@ def _stiffness_table(runs: Runs) -> tuple[list[str], list[list[str]]]:
     rows = []
     for times in (1, *STIFFER):
         what, cells = AS_SHIPPED if times == 1 else f"lining {times} times as stiff", []
-        for contact in CONTACTS:
-            error = runs.errors(Of(LINED, contact, what), Of(LINED, contact, what, FINEST))
+        for contact, (_, lined) in SCENES.items():
+            error = runs.errors(Of(lined, contact, what), Of(lined, contact, what, FINEST))
             cells += [_percent(error.median()), _percent(error.quantile(0.9))]
         rows.append([f"{times}", *cells])
-    head = [f"{contact}: {what}" for contact in CONTACTS for what in ("median error of the mesh", "90% quantile")]
+    head = [f"{contact}: {what}" for contact in SCENES for what in ("median error of the mesh", "90% quantile")]
     return ["times as stiff", *head], rows
 
 
@@ -361,17 +370,16 @@ def _percent(value: float) -> str:
     return f"{value:.1f}%" if value < 10.0 else f"{value:.0f}%"
 
 
-def _bars_table(runs: Runs) -> tuple[list[str], list[list[str]]]:
+def _peaks_table(runs: Runs) -> tuple[list[str], list[list[str]]]:
     variants = {
-        "8 points, bars of 1 mm": Of(LINED, POINTS, EVERY_SPEED),
-        "8 patches, bars of 1 mm": Of(LINED, PATCHES, EVERY_SPEED),
-        "8 patches, bars as wide": Of(LINED, PATCHES, WIDE_BARS),
+        "published, on 8 points": Of(LINED, POINTS, EVERY_SPEED),
+        "by its material, on 12 patches": Of(MATERIAL, PATCHES, EVERY_SPEED),
     }
     rows = []
     for name, of in variants.items():
         off = [100.0 * (_peak(*runs.curve(of, row.blade), row.peak) / row.peak - 1.0) for row in INTERACTIONS]
         rows.append([name, f"{np.mean(off):+.1f}%", f"{np.max(np.abs(off)):.1f}%"])
-    return ["contact", "ten published peaks, mean difference", "largest"], rows
+    return ["lining", "ten published peaks, mean difference", "largest"], rows
 
 
 def _peak(speeds: np.ndarray, rms: np.ndarray, published: float) -> float:
@@ -386,7 +394,7 @@ def draw(input: Any, output: Any, params: Any) -> None:
     runs = Runs(as_list(input.files))
     figure, panels = plt.subplots(len(DRAWN), 2, figsize=(style.PAGE, 4.2), sharex=True, sharey="row")
     for row, blade in zip(panels, DRAWN, strict=True):
-        for axes, contact in zip(row, CONTACTS, strict=True):
+        for axes, contact in zip(row, SCENES, strict=True):
             for nodes in (5000, STANDARD, FINEST):
                 speeds, rms = runs.curve(Of(BARE, contact, EVERY_SPEED, nodes), blade)
                 axes.plot(speeds, 1e3 * rms, label=f"{nodes:,} nodes")

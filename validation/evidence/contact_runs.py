@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from published import INTERACTIONS, REFERENCE
+from published import REFERENCE
 
 from r37core.config import Settings
 from r37core.contact.scene import Scene
@@ -35,16 +35,19 @@ from r37core.time_integration.speed_run import run_speed
 
 from .configuration import settings_of
 
-CONTACTS = (POINTS, PATCHES)
-LINED, BARE = "abradable", "direct"
-SCENES = (BARE, LINED)
+BARE, LINED, MATERIAL = "direct", "abradable", "material_abradable"
+SCENES = {POINTS: (BARE, LINED), PATCHES: (BARE, MATERIAL)}
+"""Scenes by what contact acts on: the published lining needs the published points."""
 
 TIP_ELEMENTS = {5000: 21, 10000: 28, 20000: 42, 40000: 56, 60000: 70}
 """Nodes of a mesh, and its elements along the tip: those of the levels, one mesh between, and a finer one."""
 
 STANDARD, SMALL, FINEST = 20000, 10000, 60000
-COUNTS, MODES = (4, 15, 29), (3, 40)
-"""Contact nodes and fixed-interface modes that are tried on the small mesh, next to the shipped 8 and 10."""
+USUAL, MOST = 0, 29
+"""Numbers of contact nodes: the default's (of a coarse mesh fewer patches), and the most that fit the small mesh."""
+
+COUNTS, MODES = {POINTS: (4, 15, MOST), PATCHES: (4, 8, MOST)}, (3, 40)
+"""Contact nodes and fixed-interface modes that are tried on the small mesh, next to the default's."""
 
 GRID = np.arange(750.0, 2000.5, 5.0)
 SPREAD = np.arange(750.0, 2000.5, 25.0)
@@ -68,7 +71,6 @@ AS_SHIPPED, EVERY_SPEED, IN_PUBLISHED_RANGE = "as shipped", "every speed", "publ
 PERTURBED = ("friction + 0.1%", "friction - 0.1%", "half the step")
 CENTRAL = "central differences, 1e-07 s"
 FINEST_STEP = "step 8e-07 s"
-WIDE_BARS = "bars as wide as patches"
 TWICE_THE_BARS = "twice as many bars"
 STEPS = (6.4e-6, 3.2e-6, 8e-7)
 STIFFER = (10, 100)
@@ -78,12 +80,15 @@ FRICTION_BLADES = ("Ref", "CS50")
 
 @dataclass(frozen=True)
 class Model:
-    """What contact acts on: kind, number along the tip, fixed-interface modes of the reduced model, and spacing."""
+    """What contact acts on: kind, number along the tip, fixed-interface modes of the reduced model, and spacing.
+
+    A spacing of None is the default's.
+    """
 
     contact: str
-    count: int = 8
+    count: int = USUAL
     modes: int = 10
-    spacing: str = EVEN
+    spacing: str | None = None
 
 
 @dataclass(frozen=True)
@@ -113,7 +118,7 @@ def _half_the_step(run: Run) -> Run:
     return replace(run, choice=replace(run.choice, time_step=0.5 * run.choice.time_step))
 
 
-def _lining(**factors: float) -> Change:
+def _lining(**factors: int) -> Change:
     def change(run: Run) -> Run:
         lining = run.scene.lining
         values = {name: factor * getattr(lining, name) for name, factor in factors.items()}
@@ -141,7 +146,7 @@ CHANGES: dict[str, Change] = {
     CENTRAL: _CENTRAL_STEP,
     "100 revolutions": _choice(revolutions=100),
     "400 revolutions": _choice(revolutions=400),
-    TWICE_THE_BARS: _lining(bar_width=0.5),
+    TWICE_THE_BARS: _lining(bars=2),
     **{f"lining {times} times as stiff": _lining(elastic_modulus=times, plastic_modulus=times) for times in STIFFER},
     **{f"friction {value:g}": _friction(1.0, value) for value in FRICTION},
     **{f"friction {value:g}, half the step": _both(_friction(1.0, value), _half_the_step) for value in FRICTION},
@@ -166,7 +171,7 @@ class BladeRuns:
         base = self._settings.reduction_choice(self._blade)
         choice = replace(
             base,
-            boundary=replace(base.boundary, contact=model.contact, nodes=model.count, spacing=model.spacing),
+            boundary=replace(base.boundary, contact=model.contact, nodes=model.count or None, spacing=model.spacing),
             fixed_interface_modes=model.modes,
         )
         begun = time.process_time()
@@ -238,16 +243,16 @@ def branch_speeds(speeds: np.ndarray, rms: np.ndarray) -> np.ndarray:
 def curve(rows: pd.DataFrame, contact: str, scene: str) -> tuple[np.ndarray, np.ndarray]:
     """Speeds (rad/s) and rms (m) of the level `standard` on GRID."""
     part = rows[(rows.contact == contact) & (rows.scene == scene) & (rows.what == EVERY_SPEED) & (rows.nodes == STANDARD)]
-    part = part[part["count"] == Model(contact).count].sort_values("speed")
+    part = part[part["count"] == USUAL].sort_values("speed")
     return part.speed.to_numpy(), part.rms.to_numpy()
 
 
 def standard(input: Any, output: Any, params: Any) -> None:
     """Runs of a blade at the level `standard`: every speed, then each change. Params: blade."""
     runs = BladeRuns(settings_of(Path.cwd()), params.blade, STANDARD)
-    for model in map(Model, CONTACTS):
+    for model in map(Model, SCENES):
         contact, stress = runs.model(model)
-        for scene in SCENES:
+        for scene in SCENES[model.contact]:
             run = partial(runs.run, model, contact, scene)
             steep = branch_speeds(GRID, run(GRID, EVERY_SPEED))
             for what in (AS_SHIPPED, *PERTURBED):
@@ -256,10 +261,9 @@ def standard(input: Any, output: Any, params: Any) -> None:
                 run(np.union1d(FEW, steep), what, stress)
             if scene == BARE or model.contact == POINTS:
                 run(np.union1d(FEW, steep[1::2]), CENTRAL, stress)
-            if scene == LINED:
+            if scene != BARE:
                 for what in (TWICE_THE_BARS, *(f"lining {times} times as stiff" for times in STIFFER)):
                     run(SPREAD[::2], what)
-                _bars_as_wide(runs, model, contact)
             elif params.blade in FRICTION_BLADES and model.contact == PATCHES:
                 for value in FRICTION:
                     for what in ("", ", half the step", f", {CENTRAL}"):
@@ -269,60 +273,44 @@ def standard(input: Any, output: Any, params: Any) -> None:
     runs.write(output[0])
 
 
-def _bars_as_wide(runs: BladeRuns, model: Model, contact: ContactModel) -> None:
-    """Peaks with bars as wide as the patches."""
-    if model.contact != PATCHES:
-        return
-    tip_length = abs(float(np.ptp(contact.radius) / np.sin(contact.tip_cone_angle))) * model.count / (model.count - 1)
-
-    def change(run: Run) -> Run:
-        assert run.scene.lining is not None
-        return replace(run, scene=replace(run.scene, lining=replace(run.scene.lining, bar_width=tip_length / model.count)))
-
-    runs.run(model, contact, LINED, about_peaks(runs.rows[0]["blade"]), WIDE_BARS, change=change)
-
-
-def about_peaks(blade: str) -> np.ndarray:
-    """Speeds of GRID (rad/s) about the published peaks of a blade."""
-    shares = [GRID / row.peak for row in INTERACTIONS if row.blade == blade]
-    return GRID[np.any([(share >= ABOUT_PEAK[0]) & (share <= ABOUT_PEAK[1]) for share in shares], axis=0)]
-
-
 def on_mesh(input: Any, output: Any, params: Any) -> None:
     """Runs of a blade on another mesh, with the steps of its level. Input: the runs of `standard`. Params: blade, nodes."""
     known = pd.read_csv(input.standard)
     runs = BladeRuns(settings_of(Path.cwd()), params.blade, params.nodes)
     for model in models_of(params.nodes):
         contact, _ = runs.model(model)
-        for scene in SCENES:
+        for scene in SCENES[model.contact]:
             steep = branch_speeds(*curve(known, model.contact, scene))
             for what in ways_of(params.nodes, scene, model):
                 # more contact nodes are expensive
-                everywhere = SPREAD if model.count == Model(model.contact).count else SPREAD[::2]
+                everywhere = SPREAD if model.count == USUAL else SPREAD[::2]
                 runs.run(model, contact, scene, np.union1d(everywhere, steep), what)
         if params.nodes == FINEST:
             for times in STIFFER:
-                runs.run(model, contact, LINED, SPREAD[::2], f"lining {times} times as stiff")
+                runs.run(model, contact, SCENES[model.contact][-1], SPREAD[::2], f"lining {times} times as stiff")
         if params.blade in DRAWN and params.nodes in (5000, FINEST):
             runs.run(model, contact, BARE, GRID, EVERY_SPEED)
-        if params.blade == REFERENCE and (params.nodes == FINEST or model.count == 15):
+        if params.blade == REFERENCE and (params.nodes == FINEST or model.count == MOST):
             runs.run(model, contact, BARE, PUBLISHED_RANGE, IN_PUBLISHED_RANGE)
     runs.write(output[0])
 
 
 def models_of(nodes: int) -> list[Model]:
     """Models of a mesh."""
-    models = [Model(contact) for contact in CONTACTS]
+    models = [Model(contact) for contact in SCENES]
     if nodes == SMALL:
-        models += [Model(contact, count) for contact in CONTACTS for count in COUNTS]
+        # as many patches by a cosine do not fit
+        models += [
+            Model(contact, count, spacing=EVEN if count == MOST else None) for contact in COUNTS for count in COUNTS[contact]
+        ]
         models += [Model(PATCHES, modes=modes) for modes in MODES]
     return models
 
 
 def ways_of(nodes: int, scene: str, model: Model) -> list[str]:
     """What is run on a mesh: the step of `standard`, and that of the level which has this mesh."""
-    if nodes == SMALL and scene == LINED and model.count != Model(model.contact).count:
+    if nodes == SMALL and scene != BARE and model.count != USUAL:
         return []
-    steps = {(5000, BARE): 6.4e-6, (40000, BARE): 2.4e-6, (40000, LINED): 3.2e-6}
-    own = steps.get((nodes, scene))
+    steps = {(5000, True): 6.4e-6, (40000, True): 2.4e-6, (40000, False): 3.2e-6}
+    own = steps.get((nodes, scene == BARE))
     return [AS_SHIPPED, *([f"step {own:g} s"] if own else [])]

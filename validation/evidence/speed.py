@@ -19,7 +19,7 @@ from r37core.time_integration.simulate import Simulation
 
 from .accuracy import Of, Runs
 from .configuration import settings_of
-from .contact_runs import BARE, CENTRAL, SCENES, SMALL, STEPS
+from .contact_runs import BARE, CENTRAL, LINED, MOST, SMALL, STEPS, USUAL
 from .pages import write_table
 
 LEVELS, SHOWN = ("standard", "paper"), ("time integration", "start-up", "workflow", "reduction")
@@ -35,7 +35,7 @@ def steps(input: Any, output: Any, params: Any) -> None:
     model, rows = read_contact_model(input.model), []
     for level in LEVELS:
         settings = settings_of(Path.cwd(), fidelity=level)
-        for name in SCENES:
+        for name in (BARE, LINED):
             times = [_times(model, settings, name, speed) for speed in SPEEDS]
             contact, jumping, stepping, modes = np.mean(times, axis=0)
             cells = [f"{modes:.0f}", f"{100.0 * contact:.0f}%", f"{stepping:.0f} ns", f"{jumping:.0f} ns"]
@@ -75,7 +75,7 @@ def growth(input: Any, output: Any, params: Any) -> None:
     files = as_list(input.files)
     runs = Runs(files)
     every = pd.concat([pd.read_csv(file) for file in files])
-    models = every[(every.what == "the model") & (every["count"] == 8) & (every.modes == 10) & (every.contact == PATCHES)]
+    models = every[(every.what == "the model") & (every["count"] == USUAL) & (every.modes == 10) & (every.contact == PATCHES)]
     of_mesh = models.groupby("nodes").cpu_s.median()
 
     def cost(**changes: Any) -> float:
@@ -83,7 +83,8 @@ def growth(input: Any, output: Any, params: Any) -> None:
 
     of_step = pd.Series({step: cost(what=f"step {step:g} s") for step in STEPS} | {1e-7: cost(what=CENTRAL)})
     of_length = pd.Series({number: cost(what=f"{number} revolutions") for number in (100, 400)})
-    of_count = pd.Series({count: cost(nodes=SMALL, count=count) for count in (4, 8, 15, 29)})
+    counts = {4: 4, 8: 8, 12: USUAL, MOST: MOST}
+    of_count = pd.Series({number: cost(nodes=SMALL, count=count) for number, count in counts.items()})
     grown = [
         ("reduced model", "nodes of the mesh", of_mesh),
         ("one run", "step (s)", of_step),

@@ -79,7 +79,7 @@ use rule evidence as accuracy_patches with:
         blades=f"{TABLES}/accuracy_patches_blades.csv",
         published=f"{TABLES}/accuracy_published_direct.csv",
         stiffness=f"{TABLES}/accuracy_stiff_linings.csv",
-        bars=f"{TABLES}/accuracy_bar_width.csv",
+        peaks=f"{TABLES}/accuracy_published_peaks.csv",
     log:
         "logs/validation/accuracy_patches.log",
     params:
