@@ -57,6 +57,11 @@ def test_pressed_areas_are_of_the_tip_or_as_published_of_a_bar():
     published = Lining(5e-3, 20e9, 5e9, 1.5, bar_width=1e-3)
     np.testing.assert_allclose(published.pressed_areas(lengths, 0.2523), 1.585e-7, rtol=1e-3)
     np.testing.assert_array_equal(replace(published, bar_area=3e-6).pressed_areas(lengths, 0.2523), 3e-6)
+    # with a published lining every node has one
+    nowhere = np.array([1e-3, 0.0])
+    assert published.pressed_areas(nowhere, 0.25).all()
+    with pytest.raises(ValueError, match="stands for no length of tip"):
+        lining.pressed_areas(nowhere, 0.25)
 
 
 def test_bar_pushed_released_and_pushed_again():

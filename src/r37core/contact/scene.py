@@ -72,9 +72,15 @@ class Lining:
         """Area (m2) of lining that each contact node presses at a time, shape (nodes,).
 
         `tip_lengths` (m), shape (nodes,): lengths of tip that the nodes stand for; `radius` (m) of the tip, of the published
-        model.
+        model. Raises ValueError for a node that stands for no length of tip, which would meet no lining.
         """
         if not self.published:
+            if not np.all(tip_lengths > 0.0):
+                raise ValueError(
+                    "lining of the scene (scenes.yaml): a contact node stands for no length of tip along the casing's "
+                    "meridian, so it would meet no lining; allowed: two or more contact nodes, one behind the other along "
+                    "the axis or the radius, or the published lining's bar_width_m or bar_area_m2"
+                )
             return tip_lengths * self.contact_length
         area = self.arc(radius) * (self.bar_width or 0.0) if self.bar_area is None else self.bar_area
         return np.full(len(tip_lengths), area)
