@@ -172,7 +172,7 @@ LEVELS = {
     "fine": Level(40000, "step 2.4e-06 s", "step 3.2e-06 s"),
 }
 MEASURED = [name for name in LEVELS if name != "paper"]
-JUDGED = dict(zip(HEADS, KINDS, strict=True))
+JUDGED = dict(zip(HEADS[::-1], KINDS[::-1], strict=True))
 
 
 def levels(input: Any, output: Any, params: Any) -> None:
