@@ -249,7 +249,7 @@ def curve(rows: pd.DataFrame, contact: str, scene: str) -> tuple[np.ndarray, np.
 
 def standard(input: Any, output: Any, params: Any) -> None:
     """Runs of a blade at the level `standard`: every speed, then each change. Params: blade."""
-    runs = BladeRuns(settings_of(Path.cwd()), params.blade, STANDARD)
+    runs = BladeRuns(settings_of(Path.cwd(), scenes="all"), params.blade, STANDARD)
     for model in map(Model, SCENES):
         contact, stress = runs.model(model)
         for scene in SCENES[model.contact]:
@@ -276,7 +276,7 @@ def standard(input: Any, output: Any, params: Any) -> None:
 def on_mesh(input: Any, output: Any, params: Any) -> None:
     """Runs of a blade on another mesh, with the steps of its level. Input: the runs of `standard`. Params: blade, nodes."""
     known = pd.read_csv(input.standard)
-    runs = BladeRuns(settings_of(Path.cwd()), params.blade, params.nodes)
+    runs = BladeRuns(settings_of(Path.cwd(), scenes="all"), params.blade, params.nodes)
     for model in models_of(params.nodes):
         contact, _ = runs.model(model)
         for scene in SCENES[model.contact]:
