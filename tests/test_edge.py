@@ -5,15 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from defaults import Casing, Friction, IntegrationChoice, Scene
-from integration_cases import AT_ONCE, DIRECT, RING, SCENES, oscillator, random_model, with_modes, with_static_modes
+from integration_cases import AT_ONCE, DIRECT, LINING, RING, SCENES, oscillator, random_model, with_modes, with_static_modes
 from integration_runs import both_engines, whole_run
 
 import r37
 from r37core.contact.scene import Rotor
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.problem import Problem
 from r37core.time_integration.reference.engine import complementary
-from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.simulate import Simulation, rest_state
 from r37core.time_integration.speed_run import run_speed
 
 
@@ -63,6 +64,43 @@ def test_an_edge_that_moves_further_than_its_contact_node(engine, integrator, no
     _, state, _ = whole_run(model, 10000.0, scene, choice, InitialMotion(np.array([-1e-3]), None))
     assert state.totals["steps_in_contact"] > 0
     assert state.totals["largest_penetration"] == pytest.approx(0.5 * stop, rel=0.01)
+
+
+@pytest.mark.parametrize("integrator", [CENTRAL_DIFFERENCE, EXACT_MODAL])
+def test_an_edge_that_passes_a_thin_lining_before_its_contact_node(integrator):
+    """The node stays in the first half of a stiff lining, and an edge that moves five times as far passes the casing."""
+    model = oscillator(5000.0) if integrator == CENTRAL_DIFFERENCE else with_static_modes(oscillator(5000.0), 1e-9)
+    factors = np.linspace(5.0, 1.0, 50)
+    model = replace(
+        model,
+        tip_lengths=np.array([0.03]),
+        edge_displacement_operator=model.displacement_operator * factors[:, None],
+        edge_radius=np.full(50, 0.25),
+        edge_theta=np.linspace(0.0, 1.0, 50),
+        edge_rotation_shapes=np.zeros((3, 50, 1)),
+    )
+    lining = replace(LINING, thickness=1e-3, elastic_modulus=20e9, contact_length=1e-4, bar_width=None)
+    scene, start = Scene(Casing(1e-4, lobes=0), lining, damping_ratio=0.0), InitialMotion(np.array([-5e-4]), None)
+    choice = IntegrationChoice(1e-7, 1, 100, integrator=integrator)
+    ours, theirs = (
+        whole_run(model, 10000.0, scene, replace(choice, engine=engine), start)[1].totals["largest_penetration"]
+        for engine in ("compiled", "reference")
+    )
+    assert theirs > 1e-4
+    assert ours == pytest.approx(theirs, rel=1e-6)
+
+
+def test_an_edge_inside_the_casing_at_rest_is_recorded():
+    """Rotation brings a blade's edge into a bare casing, and its contact nodes not: nothing touches."""
+    model = with_edge(with_static_modes(random_model(8), 1e-9), 40)
+    shapes = np.zeros((3, 40, 1))
+    shapes[0, -1] = 1.5e-9
+    nothing = {"rotation_shapes": np.zeros((3, 8, 1)), "rotation_stiffening": np.zeros(1)}
+    model = replace(model, edge_rotation_shapes=shapes, **nothing)
+    casing = replace(DIRECT.casing, lobes=0, centrifugal=True, clearance=1e-3)
+    choice = IntegrationChoice(2e-7, 1, 31, integrator=EXACT_MODAL)
+    problem = Problem(model, 1000.0, replace(DIRECT, casing=casing), choice)
+    assert rest_state(problem).totals["largest_penetration"] == pytest.approx(1.5e-3 * np.cos(0.26) - 1e-3, rel=1e-3)
 
 
 @pytest.mark.parametrize("contact", ["direct", "abradable"])

@@ -125,6 +125,8 @@ def test_reduced_matrices_come_back(model, choice, tmp_path):
     again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     np.testing.assert_allclose(again.mass, model.mass, atol=1e-12 * np.abs(model.mass).max())
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
+    # patches lie within the tip, so their places do not say it
+    np.testing.assert_allclose(again.contact_tip_lengths, model.contact_tip_lengths, rtol=1e-12)
 
 
 def gyroscopic(mass, stiffness, coriolis, count):
@@ -418,6 +420,17 @@ def test_contact_nodes_of_another_size_or_order_are_refused(model, choice, tmp_p
     with pytest.raises(ImportRefused, match=rf"^{tmp_path}: boundary\.csv: .*{message}") as refusal:
         import_matrices(MatricesSource(str(tmp_path), OURS), choice)
     assert refusal.value.key == key
+
+
+def test_lengths_of_tip_are_optional_and_above_zero(model, choice, tmp_path):
+    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
+    table, source = pd.read_csv(tmp_path / "boundary.csv"), MatricesSource(str(tmp_path), OURS)
+    table.drop(columns="tip_length").to_csv(tmp_path / "boundary.csv", index=False)
+    assert import_matrices(source, choice).contact_tip_lengths.sum() == pytest.approx(table["tip_length"].sum(), rel=0.2)
+    table.loc[2, "tip_length"] = 0.0
+    table.to_csv(tmp_path / "boundary.csv", index=False)
+    with pytest.raises(ImportRefused, match=r"boundary\.csv:4: each row must have .* tip_length, a length above 0"):
+        import_matrices(source, choice)
 
 
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e9])

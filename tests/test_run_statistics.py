@@ -113,7 +113,26 @@ def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
     for share, reached in ((1.0 / 12.0, largest), (1.0 / 12.0, largest * (1.0 - 1e-12)), (0.0, largest * (1.0 - 1e-6))):
         rings = np.zeros((2, bars))
         rings[1, : bars // 12] = reached
-        assert wear_numbers(rings, 90, lining)["worn_through_share"] == share
+        assert wear_numbers(rings, 90, lining, np.zeros((2, 1)))["worn_through_share"] == share
+
+
+def test_what_a_tip_has_cut_leaves_nothing_that_springs_back():
+    """A ring is cut by 1 mm before the run: as much is used, and it is not worn through, until the law wears more."""
+    lining, rings, cut = replace(LINING, thickness=1.2e-3), np.zeros((2, 100)), np.array([[1e-3], [0.0]])
+    at_the_casing = wear_at_the_casing(lining)
+    assert at_the_casing < 1e-3
+    rings += cut
+    numbers = wear_numbers(rings, 10, lining, cut)
+    assert (numbers["used_thickness"], numbers["worn_through_share"]) == (1e-3, 0.0)
+    rings[1, :10] = at_the_casing
+    numbers = wear_numbers(rings, 10, lining, cut)
+    assert numbers["used_thickness"] == pytest.approx(1.2e-3) and numbers["worn_through_share"] == 0.1
+
+
+def test_a_lining_that_cannot_yield_is_not_worn_through():
+    lining = replace(LINING, yield_stress=2.0 * LINING.elastic_modulus)
+    numbers = wear_numbers(np.zeros((2, 100)), 10, lining, np.zeros((2, 1)))
+    assert numbers["worn_through_share"] == 0.0
 
 
 def test_step_limit_of_a_lining_is_four_thirds():

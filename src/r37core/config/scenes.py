@@ -29,12 +29,9 @@ class LiningSection(Section):
     @model_validator(mode="after")
     def _one_pressed_area(self) -> LiningSection:
         published = [key for key in ("bar_width_m", "bar_area_m2") if getattr(self, key) is not None]
-        if published and self.contact_length_m != type(self).model_fields["contact_length_m"].default:
-            raise refused(
-                ("contact_length_m",),
-                f"contact_length_m and {published[0]}",
-                f"one of them; {published[0]} is the published model's",
-            )
+        given = [key for key in ("contact_length_m", *published) if key in self.model_fields_set]
+        if published and len(given) > 1:
+            raise refused((given[0],), " and ".join(given), f"one of them; {' and '.join(published)} of the published model")
         return self
 
 

@@ -47,7 +47,7 @@ class Lining:
     elastic_modulus: Annotated[float, Key("Elastic modulus of a bar", "_pa", ge=1e3, le=1e15)]
     plastic_modulus: Annotated[float, Key("Hardening modulus of a bar as it wears", "_pa", ge=0, le=1e15)]
     yield_stress: Annotated[float, Key("Stress at which a bar starts to wear", "_pa", ge=0, le=1e15)]
-    bars: Annotated[int, Key("Number of bars round the circumference: the resolution of wear", ge=10, le=10_000_000)] = 10000
+    bars: Annotated[int, Key("Number of bars round the circumference: the resolution of wear", ge=10, le=1_000_000)] = 10000
     contact_length: Annotated[
         float, Key("Circumferential length of lining that the tip presses at a time", "_m", ge=1e-6, le=1)
     ] = 1.585e-4

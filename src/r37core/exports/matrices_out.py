@@ -8,7 +8,7 @@ import pandas as pd
 import scipy.io
 import scipy.sparse as sp
 
-from r37core.exchange.importing.matrices_in import COLUMNS
+from r37core.exchange.importing.matrices_in import COLUMNS, TIP_LENGTH
 from r37core.fem.matrices import StructuralMatrices
 from r37core.io import atomic_write
 from r37core.rom.reduced_model import CORIOLIS_TERM, RecoveryNodes, ReducedModel
@@ -25,11 +25,12 @@ def write_reduced_matrices(model: ReducedModel, speeds: Sequence[float], folder:
     """Write the reduced M and K_<speed> at `speeds` (rad/s) with boundary.csv; contact nodes come first.
 
     A model with a Coriolis matrix also gives G: see CORIOLIS_TERM.
-    Of patches the rows of boundary.csv are mean displacements, at the patches' places.
+    Of patches the rows of boundary.csv are mean displacements, at the patches' places, and have their lengths of tip.
     """
     content = {"M": model.mass} | {f"K_{exact_text(speed)}": model.stiffness_at(speed) for speed in speeds}
     points = model.contact_nodes.points
-    _write(content, model.coriolis, points, np.arange(3 * len(points)).reshape(-1, 3), folder)
+    table = _table(points, np.arange(3 * len(points)).reshape(-1, 3)).assign(**{TIP_LENGTH: model.contact_tip_lengths})
+    _write(content, model.coriolis, table, folder)
 
 
 def table_nodes(model: ReducedModel, tip_line: str) -> RecoveryNodes:
@@ -49,16 +50,19 @@ def write_full_matrices(
     if model.spin_softening is not None:
         per_square = sp.csr_array(per_square + matrices.spin_softening())
     content = {"M": matrices.mass()} | {f"K_{exact_text(speed)}": stiffness + speed**2 * per_square for speed in speeds}
-    table = table_nodes(model, tip_line)
-    rows = 3 * np.searchsorted(matrices.free_nodes, table.nodes)[:, None] + np.arange(3)
-    _write(content, None if model.coriolis is None else matrices.coriolis(), table.points, rows, folder)
+    named = table_nodes(model, tip_line)
+    rows = 3 * np.searchsorted(matrices.free_nodes, named.nodes)[:, None] + np.arange(3)
+    _write(content, None if model.coriolis is None else matrices.coriolis(), _table(named.points, rows), folder)
+
+
+def _table(points: np.ndarray, rows: np.ndarray) -> pd.DataFrame:
+    return pd.DataFrame(np.hstack([points, rows]), columns=list(COLUMNS)).astype(dict.fromkeys(COLUMNS[3:], int))
 
 
 def _write(
     content: Mapping[str, np.ndarray | sp.csr_array],
     coriolis: np.ndarray | sp.csr_array | None,
-    points: np.ndarray,
-    rows: np.ndarray,
+    table: pd.DataFrame,
     folder: Path,
 ) -> None:
     folder.mkdir(parents=True, exist_ok=True)
@@ -69,6 +73,5 @@ def _write(
         skew = 0.5 * (coriolis - coriolis.T)
         with atomic_write(folder / f"{CORIOLIS}.mtx") as partial:
             scipy.io.mmwrite(partial, skew, comment=_ABOUT_CORIOLIS, precision=17, symmetry="skew-symmetric")
-    table = pd.DataFrame(np.hstack([points, rows]), columns=list(COLUMNS)).astype(dict.fromkeys(COLUMNS[3:], int))
     with atomic_write(folder / "boundary.csv") as partial:
         table.to_csv(partial, index=False)

@@ -60,7 +60,8 @@ INTERACTIONS = {
     ),
     "sufficient_thickness_m": Word(
         "sufficient thickness",
-        "lining thickness that the interaction uses, elastic part included; a lower bound where the lining is worn through",
+        "lining thickness that the interaction uses, elastic part included, where it wears; a lower bound where a run is worn "
+        "through or diverged",
         *_MM,
     ),
     "motion_at_end": Word(

@@ -14,7 +14,7 @@ from .closing import interaction_title
 from .exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange
 from .measures import drop_after, lasts
 
-WORN_THROUGH = "worn through: the sufficient thickness is a lower bound"
+LEAST_THICKNESS = "the sufficient thickness is a lower bound"
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,9 @@ def interaction_row(
         **more,
     }
 
-    worn_through = _largest(reach, "worn_through_share")
+    worn_through, status = _largest(reach, "worn_through_share"), RunStatus(int(reach["status"].max()))
+    lined_to_the_end = "used_thickness" not in reach or status != RunStatus.DIVERGED
+    why = "worn through" if worn_through > 0.0 else "" if lined_to_the_end else status.text
 
     def part(kind: type[_Part]) -> _Part:
         return kind(**{field.name: columns[field.name] for field in fields(kind) if field.name in columns})
@@ -178,12 +180,12 @@ def interaction_row(
         worn_through,
         _largest(reach, "used_thickness"),
         _largest(reach, "largest_penetration"),
-        RunStatus(int(reach["status"].max())).text,
+        status.text,
         MotionAtEnd(int(response["motion_at_end"][index])).text if "motion_at_end" in response else "",
         float(lasts(reach).mean()) if "motion_at_end" in reach else np.nan,
         part(AllRevolutions),
         part(PeakMotion),
-        "; ".join(filter(None, (note, WORN_THROUGH if worn_through > 0.0 else ""))),
+        "; ".join(filter(None, (note, f"{why}: {LEAST_THICKNESS}" if why else ""))),
     )
 
 

@@ -62,6 +62,11 @@ class BoundaryChoice:
         """Number of contact nodes; where none is chosen that of a fine mesh."""
         return self.nodes or (USUAL_POINTS if self.contact == POINTS else MOST_USUAL_PATCHES)
 
+    @property
+    def is_even(self) -> bool:
+        """Whether the contact nodes have equal distances."""
+        return (self.spacing or usual_spacing(self.contact)) == EVEN
+
     def on(self, chord: np.ndarray) -> BoundaryChoice:
         """The choice with a number of contact nodes, on a tip with nodes at fractions `chord` of its line."""
         if self.nodes is not None or self.contact == POINTS:
@@ -72,7 +77,7 @@ class BoundaryChoice:
     def chord_positions(self, count: int) -> np.ndarray:
         """Wanted fractions of the chord of so many contact nodes, from the leading to the trailing edge."""
         even = np.linspace(0.0, 1.0, count) if self.corners and count > 1 else (np.arange(count) + 0.5) / count
-        if (self.spacing or usual_spacing(self.contact)) == EVEN:
+        if self.is_even:
             return even
         # the ends and the middle are exact
         return np.where(even == 0.5, 0.5, 0.5 - 0.5 * np.cos(np.pi * even))
@@ -87,8 +92,9 @@ def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
     if len(np.unique(nearest)) < count:
         raise BoundaryError(
             f"{count} boundary nodes do not fit on the {len(line)} mesh nodes of the tip line "
-            f"'{choice.tip_line}'; ask for fewer, or raise tip_elements (for the camber line also: an odd number of "
-            "layers, or an even one with nodes at mid-thickness) in the fidelity level; of an imported mesh, refine the tip"
+            f"'{choice.tip_line}'; ask for fewer, {_even_instead(choice)}or raise tip_elements (for the camber line also: an "
+            "odd number of layers, or an even one with nodes at mid-thickness) in the fidelity level; of an imported mesh, "
+            "refine the tip"
         )
     return line[nearest]
 
@@ -103,11 +109,10 @@ def patches_on(choice: BoundaryChoice, chord: np.ndarray, place: str) -> Boundar
     if _resolves(choice, wanted, chord):
         return chosen
     most = max((count for count in range(1, wanted) if _resolves(choice, count, chord)), default=0)
-    even = "" if (choice.spacing or usual_spacing(choice.contact)) == EVEN else f"spacing: {EVEN}, "
     reason = "because between two patches there must be a node" if most else "because a patch is made of two or more"
     raise BoundaryError(
         f"found {wanted} contact patches on the {len(chord)} {place}; allowed: {f'at most {most}' if most else 'none'} "
-        f"(structure.boundary.nodes), {reason}; or contact: points, {even}or a finer tip"
+        f"(structure.boundary.nodes), {reason}; or contact: points, {_even_instead(choice)}or a finer tip"
     )
 
 
@@ -118,6 +123,11 @@ def boundary_located(location: str) -> Iterator[None]:
         yield
     except BoundaryError as error:
         raise BoundaryError(f"{location}: {error}") from None
+
+
+def _even_instead(choice: BoundaryChoice) -> str:
+    """A remedy where contact nodes are too close at the edges, for a message; empty where they are even."""
+    return "" if choice.is_even else f"spacing: {EVEN}, "
 
 
 def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:

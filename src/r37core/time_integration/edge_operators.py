@@ -36,3 +36,8 @@ class EdgeOperators:
         """Distance (m) from the surface that a node meets first to the casing: the lining's thickness, 0 without one."""
         lining = self.casing.scene.lining
         return lining.thickness if lining else 0.0
+
+    @property
+    def penetration_at_rest(self) -> float:
+        """Penetration (m) of the edge into the casing before anything vibrates; 0 where it is clear of it."""
+        return max(0.0, -float(self.casing.clearance.min()) - self.depth)

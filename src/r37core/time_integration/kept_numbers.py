@@ -150,20 +150,23 @@ def amplitudes(values: np.ndarray) -> np.ndarray:
     return sizes
 
 
-def wear_numbers(wear: np.ndarray, angles: int, lining: Lining) -> dict[str, np.ndarray]:
+def wear_numbers(wear: np.ndarray, angles: int, lining: Lining, cut: np.ndarray) -> dict[str, np.ndarray]:
     """Largest `wear` (m), shape (rings, bars), over the rings: in each of `angles` sectors, and its lobes.
 
     And the thickness of the `lining` that is used, and the share of the bars that are worn through to the casing behind it, in
-    any ring.
+    any ring. `cut` (m), shape (rings, 1): wear before anything vibrated, which leaves nothing that springs back.
     """
+    pressed = wear > cut
+    through = pressed & (wear >= (1.0 - _ROUND_OFF) * wear_at_the_casing(lining))
+    used = used_thickness(float(np.max(wear, where=pressed, initial=0.0)), lining)
     profile = wear.max(axis=0)
     sectors = np.linspace(0, len(profile), angles, endpoint=False).astype(int)
     depths = np.maximum.reduceat(profile, sectors) if len(profile) >= angles else profile[sectors]
     return {
         "wear": depths.astype(np.float32),
         "max_wear": np.array(profile.max()),
-        "used_thickness": np.array(used_thickness(float(profile.max()), lining)),
-        "worn_through_share": np.array(np.mean(profile >= (1.0 - _ROUND_OFF) * wear_at_the_casing(lining))),
+        "used_thickness": np.array(max(used, float(cut.max()))),
+        "worn_through_share": np.array(np.mean(through.any(axis=0))),
         "wear_harmonic": amplitudes(profile)[: _WEAR_LOBES + 1],
     }
 

@@ -135,4 +135,6 @@ def rest_state(problem: Problem) -> SimulationState:
     if wear is not None and problem.scene.casing.changes_with_speed:
         wear += problem.casing.initial_wear
     motion, places = (np.zeros(modes), np.zeros(modes)), (np.zeros(nodes), np.zeros(nodes))
-    return SimulationState(*motion, wear, np.zeros(nodes, dtype=bool), np.zeros((directions, nodes)), *places)
+    state = SimulationState(*motion, wear, np.zeros(nodes, dtype=bool), np.zeros((directions, nodes)), *places)
+    state.totals["largest_penetration"] = problem.edge.penetration_at_rest
+    return state

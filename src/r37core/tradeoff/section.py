@@ -46,7 +46,7 @@ class Parameters(Section):
     highest_frequency: Parameter[Annotated[float, Field(ge=1, le=1e12)]] | LeftOut = left_out(
         "Highest frequency that is kept (Hz)"
     )
-    bars: Parameter[Annotated[int, Field(ge=10, le=10_000_000)]] | LeftOut = left_out("Bars of the abradable lining")
+    bars: Parameter[Annotated[int, Field(ge=10, le=1_000_000)]] | LeftOut = left_out("Bars of the abradable lining")
     stress_instants: Parameter[Annotated[int, Field(ge=1, le=10000)]] | LeftOut = left_out("Stress evaluations per revolution")
     stress_region: Parameter[Literal["submesh", "whole"]] | LeftOut = left_out("Region of the recovered stress")
     friction_form: Parameter[Literal["constant", "vector"]] | LeftOut = left_out("Form of friction")

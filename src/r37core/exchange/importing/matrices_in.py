@@ -2,8 +2,9 @@
 
 `M.mtx` and `K_<speed>.mtx` at rest and at two speeds in rad/s, full or already reduced, the root clamped; Matrix Market or .npz
 (of SciPy's sparse matrices, or of one array). `boundary.csv`: the contact nodes from the leading to the trailing edge, with
-columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matrices, from 0. For contact on patches the table
-has the nodes of the tip line, from which the patches are made.
+columns x, y, z (file's unit and axes) and dof_x, dof_y, dof_z: rows of the matrices, from 0. A column tip_length (file's unit)
+may follow: the length of tip, along the casing's meridian, that a node stands for. For contact on patches the table has the
+nodes of the tip line, from which the patches are made.
 """
 
 import warnings
@@ -32,6 +33,7 @@ from .source import MatricesSource, matrix_files
 from .tip import arc_length, check_order, check_sense_of_nodes, fractions_along
 
 COLUMNS = ("x", "y", "z", "dof_x", "dof_y", "dof_z")
+TIP_LENGTH = "tip_length"  # a column that may follow
 _REDUCED_UP_TO = 500  # coordinates beside those of the contact nodes: matrices that small are taken as they are
 _FEWEST = 20  # rows: the Campbell diagram follows some more modes than it shows
 _RIGID = 1e-15
@@ -43,13 +45,17 @@ _REACH = 20.0  # how far beyond the highest speed of the files the fit may be us
 
 @dataclass(frozen=True)
 class _InputMatrices:
-    """Mass (kg), stiffness at rest (N/m) and its change per squared speed, and the nodes, in the blade's frame."""
+    """Mass (kg), stiffness at rest (N/m) and its change per squared speed, and the nodes, in the blade's frame.
+
+    `tip_lengths` (m), shape (nodes,): lengths of tip that the nodes stand for, where the table has them.
+    """
 
     mass: sp.csr_array
     stiffness: sp.csr_array
     per_square: sp.csr_array
     residual: float
     points: np.ndarray
+    tip_lengths: np.ndarray | None
 
     @cached_property
     def solve_at_rest(self) -> Solve:
@@ -114,7 +120,7 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
         contact=choice.boundary.contact,
         contact_nodes=contact_nodes(weights, nodes, chord, line),
         contact_chord=weights @ chord,
-        contact_tip_lengths=tip_lengths(matrices.points, chord, _positions(chord, choice.boundary, weights.shape[0])),
+        contact_tip_lengths=_tip_lengths(matrices, chord, choice.boundary, weights.shape[0]),
         tip_lines={choice.boundary.tip_line: line},
         stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
         stress_elements={},
@@ -142,9 +148,11 @@ def _contact_weights(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoi
     return weights_along(points, chord, choice)
 
 
-def _positions(chord: np.ndarray, choice: BoundaryChoice, count: int) -> np.ndarray:
-    """Fractions of the chord at which the hats of so many contact nodes are 1."""
-    return chord if choice.contact == POINTS else choice.chord_positions(count)
+def _tip_lengths(matrices: _InputMatrices, chord: np.ndarray, choice: BoundaryChoice, count: int) -> np.ndarray:
+    """Length (m) of tip that each of so many contact nodes stands for; without those of the table by hats along its line."""
+    if choice.contact == POINTS and matrices.tip_lengths is not None:
+        return matrices.tip_lengths
+    return tip_lengths(matrices.points, chord, chord if choice.contact == POINTS else choice.chord_positions(count))
 
 
 def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:
@@ -167,7 +175,7 @@ def _not_held(square: float) -> ImportRefused:
 def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> _InputMatrices:
     """What the files hold; `fastest`: the highest speed (rad/s) that the stiffness is needed at."""
     orientation = source.orientation
-    nodes, dofs = _boundary(files["boundary"])
+    nodes, dofs, lengths = _boundary(files["boundary"])
     with blamed("matrices", files["boundary"].name):
         points = orientation.contact_nodes_to_blade(nodes)
         check_order(points)
@@ -187,7 +195,9 @@ def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> 
     turn = _boundary_first(size, dofs, orientation.rows)
     mass, rest, per_square = (sp.csr_array(turn.T @ matrix @ turn) for matrix in (mass, rest, per_square))
     kilograms, newtons = MASS_UNITS[source.mass_unit], STIFFNESS_UNITS[source.stiffness_unit]
-    return _InputMatrices(kilograms * mass, newtons * rest, newtons * per_square, residual, points)
+    if lengths is not None:
+        lengths = orientation.metres_per_unit * lengths
+    return _InputMatrices(kilograms * mass, newtons * rest, newtons * per_square, residual, points, lengths)
 
 
 def _speed(name: str, file: Path) -> float:
@@ -216,23 +226,30 @@ def _check_speeds(speeds: list[float], fastest: float) -> None:
         )
 
 
-def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Positions of the contact nodes, shape (nodes, 3), and the rows of their displacements, shape (3 nodes,)."""
+def _boundary(file: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
+    """Positions of the contact nodes, shape (nodes, 3), the rows of their displacements, shape (3 nodes,), and tip lengths."""
     try:
         table = pd.read_csv(file, skipinitialspace=True)
     except Exception as error:
         raise ImportRefused(f"{file.name}: cannot be read as a table ({error})") from None
-    if tuple(table.columns) != COLUMNS:
-        raise ImportRefused(f"{file.name}: found columns {', '.join(map(str, table.columns))}; allowed: {', '.join(COLUMNS)}")
+    if tuple(table.columns) not in (COLUMNS, (*COLUMNS, TIP_LENGTH)):
+        raise ImportRefused(
+            f"{file.name}: found columns {', '.join(map(str, table.columns))}; allowed: {', '.join(COLUMNS)}, and {TIP_LENGTH} "
+            "or none behind them"
+        )
     if table.empty:
         raise ImportRefused(f"{file.name}: found no contact nodes; allowed: one or more rows below the names of the columns")
     numbers = table.apply(pd.to_numeric, errors="coerce").to_numpy(dtype=float)
-    wrong = ~np.isfinite(numbers).all(axis=1) | (numbers[:, 3:] % 1.0 != 0.0).any(axis=1)
+    places, rows, lengths = numbers[:, :3], numbers[:, 3:6], numbers[:, 6:].ravel()
+    wrong = ~np.isfinite(numbers).all(axis=1) | (rows % 1.0 != 0.0).any(axis=1) | (numbers[:, 6:] <= 0.0).any(axis=1)
     if wrong.any():
-        raise ImportRefused(f"{file.name}:{np.argmax(wrong) + 2}: each row must have three coordinates and three row numbers")
-    if len(np.unique(numbers[:, :3], axis=0)) < len(numbers):
+        raise ImportRefused(
+            f"{file.name}:{np.argmax(wrong) + 2}: each row must have three coordinates, three row numbers and, in a column "
+            f"{TIP_LENGTH}, a length above 0"
+        )
+    if len(np.unique(places, axis=0)) < len(places):
         raise ImportRefused(f"{file.name}: two contact nodes lie at the same place")
-    return numbers[:, :3], numbers[:, 3:].astype(np.int64).ravel()
+    return places, rows.astype(np.int64).ravel(), lengths if len(lengths) else None
 
 
 def _fitted(speeds: np.ndarray, stiffness: list[sp.csr_array]) -> tuple[sp.csr_array, sp.csr_array, float]:

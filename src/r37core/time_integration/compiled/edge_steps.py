@@ -35,15 +35,13 @@ def measure_edge(m, place, lobes):
 
 @inlined
 def _near_the_casing(m):
-    """Whether a contact node is beyond half of the lining; without one all are near."""
+    """Whether a contact node is so far into the lining that the edge may pass the casing; without a lining all are."""
     if LINED:
-        near, half = 0, 0.5 * m.lining.thickness
+        near = 0
         for g in range(0, node_lanes(m), LANES):
-            if PUBLISHED:
-                # what is left to the casing
-                near |= bits_of(load(m.problem.gap, g) - half < 0.0)
-            else:
-                near |= bits_of(load(m.contact.opened, g) + half < 0.0)
+            # what is left to the casing
+            left = load(m.problem.gap, g) if PUBLISHED else load(m.contact.opened, g) + m.lining.thickness
+            near |= bits_of(left < m.edge.near)
         return near != 0
     return True
 

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 FEW = 16
 """Nodes that every step with contact forces looks at: by a cosine along the edge, as the ends are where it goes deepest."""
 
+DEEPER = 0.1
+"""How much deeper the edge may go than every contact node, as a share of its length."""
+
 
 class EdgeTables:
     """Tables of the edge of a `problem` for the record of an `engine`: a few nodes come first, then all, in groups."""
@@ -51,6 +54,7 @@ class EdgeTables:
         self.clearance[:] = self.radius[:] = 1.0
         self.clearance[: len(order)] = edge.casing.clearance[order] + edge.depth
         self.radius[: len(order)], self.theta[: len(order)] = edge.casing.tip.radius[order], edge.casing.tip.theta[order]
+        self._near = max(0.5 * edge.depth, DEEPER * float(problem.model.tip_lengths.sum()))
         self._lay_out_casing(problem)
 
     def _lay_out_casing(self, problem: Problem) -> None:
@@ -69,7 +73,7 @@ class EdgeTables:
 
     def put_into(self, record: np.void) -> None:
         """Put sizes and addresses into the record of the edge."""
-        record["few"], record["groups"], record["width"] = self._few, self._groups, self._width
+        record["few"], record["groups"], record["width"], record["near"] = self._few, self._groups, self._width, self._near
         for name in ("rows", "flexibility", "clearance", "radius", "theta", "table", "steps", "shares"):
             record[name] = getattr(self, name).ctypes.data
 

@@ -164,6 +164,8 @@ EDGE = aligned_record(
         *_fields("position shape meridional", LANES),  # of eight nodes
         # groups of eight nodes: the few, and these with all of them; columns of a row of a group
         *_fields("few groups width", kind=np.int64),
+        # distance of a contact node to the casing behind a lining below which the edge is looked at
+        *_fields("near"),
         # addresses: displacement per mode, shape (directions, groups, width, 8), and per force, (groups, 3 contact nodes, 8);
         # clearance, radius and angle of the nodes; the casing's shape at two turns of steps, the step of each node's angle, and
         # the shares of the four values round it

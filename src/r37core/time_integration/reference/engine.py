@@ -261,9 +261,12 @@ class ReferenceEngine:
         """Wear the bars between those of the last step and of this one, as the penetration says, linear between the two."""
         wear, before, last = state.wear, state.penetration.copy(), state.bar_position.copy()
         assert wear is not None
-        bars = wear.shape[1]
+        bars, steps = wear.shape[1], self.problem.grid.steps_per_revolution
+        if not self.problem.scene.exact_gap:
+            # of these modes: those of a run-up's last interval had other angles
+            last = (self.problem.casing.theta((n - 1) % steps) + self.angle) / (2.0 * np.pi) * bars
         state.penetration[:], state.bar_position[:] = -gap, theta / (2.0 * np.pi) * bars
-        turn = bars if n % self.problem.grid.steps_per_revolution == 0 else 0
+        turn = bars if n % steps == 0 else 0
         for k in map(int, np.flatnonzero((before > 0.0) | (gap < 0.0))):
             position = state.bar_position[k]
             for bar in range(int(np.floor(position)) + 1, int(np.floor(last[k])) + turn):
