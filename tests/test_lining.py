@@ -113,10 +113,6 @@ def test_a_contact_length_and_the_area_of_a_bar_are_one_too_many(config_copy):
     found = r"lining.contact_length_m: found contact_length_m and bar_width_m; allowed: one of them"
     with pytest.raises(ConfigError, match=found):
         read_settings(config_copy)
-    # also where it is the default's
-    overlay(config_copy, "scenes.yaml", "material_abradable: { lining: { contact_length_m: 1.585e-4 } }")
-    with pytest.raises(ConfigError, match=found):
-        read_settings(config_copy)
     overlay(config_copy, "scenes.yaml", "abradable: { lining: { bar_area_m2: 1.0e-6 } }")
     overlay(config_copy, "config.yaml", "scenes: [abradable]")
     with pytest.raises(ConfigError, match="bar_width_m: found bar_width_m and bar_area_m2; allowed: one of them"):
