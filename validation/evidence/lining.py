@@ -191,17 +191,23 @@ _DIFFERENCES = ("rms: median error", "speeds on another branch")
 
 
 def _cells(of: dict[str, float]) -> list[str]:
-    return [f"{of['rms']:.1f}%", f"{of['other_branch']} of {of['speeds']}"]
+    return [f"{of['rms']:.1f}%", f"{of['other_branch']}/{of['speeds']}"]
 
 
 def limits(input: Any, output: Any, params: Any) -> None:
-    """Table of all blades. Input: files of limits_of_blade."""
+    """Table of all blades: range above yield, error of the rms, speeds on another branch, error of the wear profile.
+
+    Input: files of limits_of_blade.
+    """
     found = pd.concat([pd.read_csv(file) for file in input.files])
-    rows = [
-        [row.blade, row.case, f"{row.begin:.0f} to {row.end:.0f}", *_cells(row._asdict()), f"{row.wear:.1f}%"]
-        for row in found.itertuples()
-    ]
-    write_table(["blade", "case", "above yield (rad/s)", *_DIFFERENCES, "wear profile: median error"], rows, output.table)
+    blades, rows = list(dict.fromkeys(found.blade)), []
+    for case, of_case in found.groupby("case", sort=False):
+        cells = [
+            "; ".join([f"{row.begin:.0f} to {row.end:.0f}", *_cells(row._asdict()), f"{row.wear:.1f}%"])
+            for row in of_case.set_index("blade").loc[blades].itertuples()
+        ]
+        rows.append([case, *cells])
+    write_table(["case", *blades], rows, output.table)
 
 
 def contact_lengths_of_blade(input: Any, output: Any, params: Any) -> None:

@@ -19,4 +19,4 @@ def test_a_case_is_compared_with_the_finest_over_its_range(tmp_path):
     pd.DataFrame([row]).to_csv(tmp_path / "Ref.csv", index=False)
     table = tmp_path / "table.csv"
     lining.limits(SimpleNamespace(files=[tmp_path / "Ref.csv"]), SimpleNamespace(table=table), None)
-    assert read_table(table)[1] == ["Ref", "4 patches", "1700 to 1724", "5.0%", "1 of 3", "10.0%"]
+    assert read_table(table)[1] == ["4 patches", "1700 to 1724; 5.0%; 1/3; 10.0%"]
