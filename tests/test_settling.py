@@ -228,3 +228,12 @@ def test_the_reference_blade_cuts_itself_free():
     # the lobes have grown alike, and the lining is used up where the blade has cut itself free
     np.testing.assert_allclose(late["revolution_maximum"][:, :200], early["revolution_maximum"], rtol=1e-3)
     np.testing.assert_allclose(late["used_thickness"], [0.723e-3, 5e-3, 5e-3], rtol=1e-2)
+
+
+def test_a_tip_that_has_cut_its_way_in_and_rests_is_quiet():
+    """Rotation brings it 32 um into the lining: so much is used, nothing is worn through, and nothing moves."""
+    changes = {"casing.lobes": 0, "casing.clearance.cold_m": 3e-5, "lining.thickness_m": 1e-4}
+    scene = r37.scene("growing_abradable", name="cut", **changes)
+    run = r37.simulate("Ref", scene, 1700, fidelity="draft", results=["wear"])
+    assert run.motion_at_end == MotionAtEnd.QUIET and run.worn_through_share == 0.0
+    assert run.used_thickness == run.max_wear and 2e-5 < run.max_wear < 5e-5
