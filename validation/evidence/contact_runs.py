@@ -106,12 +106,14 @@ def _choice(**changes: Any) -> Change:
     return lambda run: replace(run, choice=replace(run.choice, **changes))
 
 
-def _friction(share: float, value: float | None = None) -> Change:
-    def change(run: Run) -> Run:
-        coefficient = run.scene.friction.coefficient if value is None else value
-        return replace(run, scene=replace(run.scene, friction=replace(run.scene.friction, coefficient=share * coefficient)))
+def with_friction(scene: Scene, share: float, value: float | None = None) -> Scene:
+    """A scene with a share of its coefficient of friction, or of another value."""
+    coefficient = scene.friction.coefficient if value is None else value
+    return replace(scene, friction=replace(scene.friction, coefficient=share * coefficient))
 
-    return change
+
+def _friction(share: float, value: float | None = None) -> Change:
+    return lambda run: replace(run, scene=with_friction(run.scene, share, value))
 
 
 def _half_the_step(run: Run) -> Run:
@@ -311,6 +313,7 @@ def ways_of(nodes: int, scene: str, model: Model) -> list[str]:
     """What is run on a mesh: the step of `standard`, and that of the level which has this mesh."""
     if nodes == SMALL and scene != BARE and model.count != USUAL:
         return []
+    # of scenes with a bare casing, and of others
     steps = {(5000, True): 6.4e-6, (40000, True): 2.4e-6, (40000, False): 3.2e-6}
     own = steps.get((nodes, scene == BARE))
     return [AS_SHIPPED, *([f"step {own:g} s"] if own else [])]

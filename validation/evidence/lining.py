@@ -24,7 +24,7 @@ from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.speed_run import run_speed
 
 from .configuration import settings_of
-from .contact_runs import TIP_ELEMENTS
+from .contact_runs import TIP_ELEMENTS, with_friction
 from .pages import write_table
 from .which_blade import Models, length_of_runs
 
@@ -38,6 +38,7 @@ CONTACT_LENGTHS = (0.5e-4, 1e-4, 1.585e-4, 2.5e-4, 5e-4, 1e-3)
 SPEEDS = np.arange(750.0, 2001.0, 10.0)
 """(rad/s) Of the length above yield at a contact length."""
 
+_DIFFERENCES = ("rms: median error", "speeds on another branch")
 _KEPT = {"spectrum_highest_order": 1, "wear_angles": 500}
 
 COUNTS, USUAL = (4, 8, 12, 15, 29), 12
@@ -113,15 +114,11 @@ def limits_of_blade(input: Any, output: Any, params: Any) -> None:
         return replace(scene, lining=replace(scene.lining, bars=number))
 
     finest = interaction_range(settings, models[15], bars(40_000), speeds, 8e-7)
-
-    def friction(share: float) -> Scene:
-        return replace(scene, friction=replace(scene.friction, coefficient=share * scene.friction.coefficient))
-
     cases: dict[str, tuple[Models, Scene, float | None]] = {
         **{f"{number:,} bars": (models[USUAL], bars(number), None) for number in (2500, 10_000, 40_000)},
         **{f"step {step:.1e} s": (models[USUAL], scene, step) for step in (3.2e-6, 1.6e-6, 8e-7)},
         **{f"{count} patches": (models[count], scene, None) for count in COUNTS if count != USUAL},
-        **{f"friction {share:+.1%}": (models[USUAL], friction(1.0 + share), None) for share in (-0.001, 0.001)},
+        **{f"friction {share:+.1%}": (models[USUAL], with_friction(scene, 1.0 + share), None) for share in (-0.001, 0.001)},
     }
     rows = [
         _row(params.blade, name, interaction_range(settings, model, lined, speeds, step), finest)
@@ -185,9 +182,6 @@ def models_scaled(mesh: BladeMesh, settings: Settings, contact: str, count: int,
     boundary, submesh = replace(base.boundary, contact=contact, nodes=count), replace(base.stress_submesh, **bounds)
     reduced = reduce_blade(mesh, assemble(mesh, material), replace(base, boundary=boundary, stress_submesh=submesh))
     return Models(contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, material))
-
-
-_DIFFERENCES = ("rms: median error", "speeds on another branch")
 
 
 def _cells(of: dict[str, float]) -> list[str]:
