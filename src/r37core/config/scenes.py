@@ -29,9 +29,9 @@ class LiningSection(Section):
     @model_validator(mode="after")
     def _one_pressed_area(self) -> LiningSection:
         published = [key for key in ("bar_width_m", "bar_area_m2") if getattr(self, key) is not None]
-        # the default's may be there without being asked for
+        # the default contact length may be there without being asked for
         asked = self.contact_length_m != type(self).model_fields["contact_length_m"].default
-        given = ["contact_length_m"] * asked + published
+        given = [*(["contact_length_m"] if asked else []), *published]
         if published and len(given) > 1:
             raise refused((given[0],), " and ".join(given), f"one of them; {' and '.join(published)} of the published model")
         return self

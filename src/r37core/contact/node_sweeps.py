@@ -5,8 +5,8 @@ eight to an integer. Forces p open the gaps g to g + G p, G being what the stati
 g + G p >= 0, p >= 0 and one of them zero; one on a lining has the force of its bar, with the casing behind it. In a sweep all
 nodes at once get the forces that their laws say: the projected Jacobi method (Cottle, Pang and Stone, The Linear
 Complementarity Problem, section 5.2). Where G is nearly diagonal, as with few contact nodes, a sweep leaves about a tenth of
-the error. Where static modes move many nodes together (static_modes.settles_at_once), they get them one after the other, by
-the projected Gauss-Seidel method.
+the error. Where static modes move many nodes together (static_modes.settles_at_once is false), nodes get them one after the
+other, by the projected Gauss-Seidel method.
 """
 
 import numpy as np

@@ -166,8 +166,11 @@ def interaction_row(
     }
 
     worn_through, status = _largest(reach, "worn_through_share"), RunStatus(int(reach["status"].max()))
-    lined_to_the_end = "used_thickness" not in reach or status != RunStatus.DIVERGED
-    why = "worn through" if worn_through > 0.0 else "" if lined_to_the_end else status.text
+    why = ""
+    if worn_through > 0.0:
+        why = "worn through"
+    elif status == RunStatus.DIVERGED and "used_thickness" in reach:
+        why = status.text
 
     def part(kind: type[_Part]) -> _Part:
         return kind(**{field.name: columns[field.name] for field in fields(kind) if field.name in columns})

@@ -38,6 +38,11 @@ class EdgeOperators:
         return lining.thickness if lining else 0.0
 
     @property
+    def room(self) -> np.ndarray:
+        """Distance (m) of each node of the edge from the round casing, behind a lining where there is one, shape (nodes,)."""
+        return self.casing.clearance + self.depth
+
+    @property
     def penetration_at_rest(self) -> float:
         """Penetration (m) of the edge into the casing before anything vibrates; 0 where it is clear of it."""
-        return max(0.0, -float(self.casing.clearance.min()) - self.depth)
+        return max(0.0, -float(self.room.min()))

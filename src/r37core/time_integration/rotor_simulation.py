@@ -74,6 +74,11 @@ class BladesSimulation:
         return self.blades[0].problem
 
     @property
+    def initial_wear(self) -> np.ndarray:
+        """Wear (m) of each ring of the lining by the blade that reaches into it most, before anything vibrates, (rings, 1)."""
+        return np.max([problem.casing.initial_wear for problem in self.problems], axis=0)
+
+    @property
     def elastic(self) -> bool:
         """True where the blades press an elastic casing, which couples them."""
         return self.problem.casing.ring is not None
@@ -90,11 +95,10 @@ class BladesSimulation:
         states = [simulation.start() for simulation in self.blades]
         if self.problem.scene.lining is None:
             return states
-        wear = [problem.casing.initial_wear for problem in self.problems]
         unworn = np.zeros((len(self.problem.casing.tip.radius), self.problem.casing.bars))
-        shared = unworn + np.max(wear, axis=0)
-        for state, own in zip(states, wear, strict=True):
-            state.wear = shared if self.rotor.shared_lining else unworn + own
+        shared = unworn + self.initial_wear
+        for state, problem in zip(states, self.problems, strict=True):
+            state.wear = shared if self.rotor.shared_lining else unworn + problem.casing.initial_wear
         return states
 
     def run(self, states: list[SimulationState]) -> BladesRecord:

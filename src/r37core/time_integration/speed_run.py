@@ -87,7 +87,7 @@ def run_speed(
         "revolution_maxima": np.max(maxima, axis=0),
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
-        # unknown where no nodes between those of contact are
+        # a tip line that is known at its contact nodes alone does not say it
         "largest_penetration": np.array(totals["largest_penetration"].max() if model.edge_is_known else np.nan),
         "casing_hits": np.array(totals["casing_hits"].sum()),
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
@@ -108,8 +108,7 @@ def run_speed(
     if "wear" in results:
         assert scene.lining is not None
         wear = np.max([state.wear for state in states if state.wear is not None], axis=0)
-        cut = np.max([problem.casing.initial_wear for problem in simulation.problems], axis=0)
-        numbers |= wear_numbers(wear, min(wear_angles, scene.lining.bars), scene.lining, cut)
+        numbers |= wear_numbers(wear, min(wear_angles, scene.lining.bars), scene.lining, simulation.initial_wear)
         numbers["wear_growth"] = np.array(record.ending.wear_growth)
     if "energy" in results:
         work = sum(blade.work(state) for blade, state in zip(simulation.blades, states, strict=True))
@@ -134,7 +133,7 @@ def ending_numbers(
     casing, wear = simulation.problem.casing, max(float(wear_of(state).max()) for state in states)
     clearance = float(np.min(casing.clearance))
     if clearance <= 0.0:
-        # the tip has cut its way in
+        # a tip that has cut its way into the lining has none
         clearance = casing.scene.casing.clearance
     rms = [revolution_rms(part[:, 0, LEADING_EDGE], per_revolution) for part in samples]
     motions = [motion_at_end(part, clearance, wear, ending.wear_growth, ending.contact_steps) for part in rms]

@@ -74,6 +74,6 @@ class TimeGrid:
             steps = f"{self.steps_per_revolution} steps of {self.time_step:.3g} s"
             raise LongRevolutionError(
                 f"speeds: at {self.speed:g} rad/s a revolution has {steps}, "
-                f"and the casing's shape at each would take {table / 2**30:.1f} GiB; use a higher speed or a longer step, "
-                "with a stiff lining that makes it so short a softer one or exact_modal"
+                f"and the casing's shape at each would take {table / 2**30:.1f} GiB; use a higher speed or a longer step; "
+                "where a stiff lining shortens it, a softer lining or the integrator exact_modal"
             )

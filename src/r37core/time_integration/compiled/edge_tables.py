@@ -17,7 +17,7 @@ FEW = 16
 """Nodes that every step with contact forces looks at: by a cosine along the edge, as the ends are where it goes deepest."""
 
 DEEPER = 0.1
-"""How much deeper the edge may go than every contact node, as a share of its length."""
+"""How much deeper the edge may go than every contact node, as a share of the tip's length."""
 
 
 class EdgeTables:
@@ -52,7 +52,7 @@ class EdgeTables:
         # a lane that only pads a vector never passes the casing
         self.clearance, self.radius, self.theta = (aligned_zeros((lanes,)) for _ in range(3))
         self.clearance[:] = self.radius[:] = 1.0
-        self.clearance[: len(order)] = edge.casing.clearance[order] + edge.depth
+        self.clearance[: len(order)] = edge.room[order]
         self.radius[: len(order)], self.theta[: len(order)] = edge.casing.tip.radius[order], edge.casing.tip.theta[order]
         self._near = max(0.5 * edge.depth, DEEPER * float(problem.model.tip_lengths.sum()))
         self._lay_out_casing(problem)

@@ -184,7 +184,7 @@ class ReferenceEngine:
             return
         edge = self.problem.edge
         displacement = self._rows_at(n, self._edge_rows, edge.casing) @ self.motion.displacement(motion)
-        gap, _ = edge.casing.gaps(edge.casing.clearance + edge.depth, displacement, n, self.angle)
+        gap, _ = edge.casing.gaps(edge.room, displacement, n, self.angle)
         if self.problem.choice.second_order:
             gap = gap - edge.flexibility @ state.contact_force.ravel()
         state.totals["largest_penetration"] = max(state.totals["largest_penetration"], -gap.min())
@@ -263,7 +263,7 @@ class ReferenceEngine:
         assert wear is not None
         bars, steps = wear.shape[1], self.problem.grid.steps_per_revolution
         if not self.problem.scene.exact_gap:
-            # of these modes: those of a run-up's last interval had other angles
+            # not as the state has it: in the last modal interval of a run-up the nodes had other angles
             last = (self.problem.casing.theta((n - 1) % steps) + self.angle) / (2.0 * np.pi) * bars
         state.penetration[:], state.bar_position[:] = -gap, theta / (2.0 * np.pi) * bars
         turn = bars if n % steps == 0 else 0
