@@ -16,10 +16,10 @@ from .section import ByName, LeftOut, Rpm, Section, Speed, left_out, refused
 from .speed_section import refuse_both_units
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
-OF_ONE_BLADE = ("signal", "shapes")
+OF_ONE_BLADE = ("signal", "shapes", "motion_kind")
 """Results that a scene with a rotor cannot have."""
 
-Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energy", "casing", "shapes"]
+Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energy", "casing", "shapes", "motion_kind"]
 
 
 @declared_by(Lining)
@@ -63,7 +63,8 @@ class SceneEntry(Section):
     results: list[Result] = Field(
         default=["spectrum", "stress"],
         json_schema_extra={"uniqueItems": True},
-        description="Kept results; static_stress adds the stress of rotation, casing keeps the waves of an elastic casing",
+        description="Kept results; static_stress adds the stress of rotation, casing keeps the waves of an elastic casing, "
+        "motion_kind says whether the motion is chaotic",
     )
     stress_history_speeds_rad_s: list[Speed] = Field(
         default=[], description="Speeds at which the largest stress of every revolution is kept"

@@ -42,6 +42,8 @@ class Extension:
     the folder of the results.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
     `targets`: what is made of them; part of all_blades unless `made_on_request`.
+    `motions`: a dataset of more motions at a speed than that from rest (results/other_motions.py), none in a run without it; it
+    stands in summary, ranking and the figures of the response.
     `remarks`: what a run should say of it before it starts.
     `captions`: kind of figure -> what is seen in it, with names (blade, scene) in braces.
     `panel`: what the explorer shows of it.
@@ -58,6 +60,7 @@ class Extension:
     later: Callable[[Settings, Path], Callable[[str], Mapping[Pair, Sample]]] | None = None
     simulated: Targets = lambda _: {}
     targets: Targets = lambda _: {}
+    motions: Targets = lambda _: {}
     remarks: Callable[[Settings], list[str]] = lambda _: []
     captions: Mapping[str, str] = field(default_factory=dict)
     panel: Panel | None = None

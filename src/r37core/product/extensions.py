@@ -12,6 +12,7 @@ _FOLDERS = (
     "shapes",
     "signals",
     "run_ups",
+    "second_motions",
     "rotors",
     "designs",
     "tolerances",

@@ -11,12 +11,16 @@ from r37core.dataset_file import Variable, new_netcdf, open_netcdf
 from r37core.io import InputFileError
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.simulate import TIP_POINTS
-from r37core.time_integration.status import RunStatus
+from r37core.time_integration.status import MotionKind, RunStatus
 
 from .netcdf import create_axis, create_labels, create_variable
 from .variables import AXES, DATASETS, FLAGS
 
-_NOT_RUN: dict[str, int] = {"status": RunStatus.NOT_RUN, "motion_at_end": MotionAtEnd.UNKNOWN}
+_NOT_RUN: dict[str, int] = {
+    "status": RunStatus.NOT_RUN,
+    "motion_at_end": MotionAtEnd.UNKNOWN,
+    "motion_kind": MotionKind.UNKNOWN,
+}
 """Whole numbers of a speed that was not run."""
 
 

@@ -8,18 +8,20 @@ import numpy as np
 
 from r37core.dataset_file import SPEED_RPM, Variable
 from r37core.time_integration.settling import MotionAtEnd
-from r37core.time_integration.status import RunStatus
+from r37core.time_integration.status import MotionKind, RunStatus
 from r37core.units import RPM
 
+FLAGGED: dict[str, type[RunStatus] | type[MotionAtEnd] | type[MotionKind]] = {
+    "status": RunStatus,
+    "motion_at_end": MotionAtEnd,
+    "motion_kind": MotionKind,
+}
+"""Variables that hold a state as a number -> what the numbers mean."""
 
-def status_flags() -> dict[str, Any]:
-    """Attributes of a variable that holds a RunStatus, after the CF conventions."""
-    return {"flag_values": np.array(list(RunStatus), dtype="i1"), "flag_meanings": " ".join(how.text for how in RunStatus)}
 
-
-def motion_flags() -> dict[str, Any]:
-    """Attributes of a variable that holds a MotionAtEnd, after the CF conventions."""
-    states = list(MotionAtEnd)
+def state_flags(name: str) -> dict[str, Any]:
+    """Attributes of a variable of FLAGGED, after the CF conventions."""
+    states: list[Any] = list(FLAGGED[name])
     return {"flag_values": np.array(states, dtype="i1"), "flag_meanings": " ".join(state.text for state in states)}
 
 

@@ -12,7 +12,7 @@ from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
 from .measures import first_yield
-from .netcdf import create_axis, create_labels, create_variable, motion_flags, status_flags
+from .netcdf import FLAGGED, create_axis, create_labels, create_variable, state_flags
 from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, VARIABLES
 
 _BLOCK = 32
@@ -97,8 +97,8 @@ def _create(
     for name, variable in VARIABLES.items():
         if name in values:
             create_variable(dataset, name, variable, ("speed",))
-    dataset["status"].setncatts(status_flags())
-    dataset["motion_at_end"].setncatts(motion_flags())
+    for name in FLAGGED.keys() & dataset.variables.keys():
+        dataset[name].setncatts(state_flags(name))
     for name, variable in HISTORIES.items() if history_speeds else ():
         create_variable(dataset, name, variable)
     for name, variable in OF_ALL_SPEEDS.items():

@@ -10,7 +10,7 @@ import xarray as xr
 from r37core.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted, largest_stress_text
 from r37core.results.measures import range_above_yield
-from r37core.results.netcdf import status_flags
+from r37core.results.netcdf import state_flags
 from r37core.results.table_file import read_table
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
@@ -71,7 +71,7 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
     still = {name: (VARIABLES[name].dims, rows[0][name], VARIABLES[name].attributes) for name in OF_ALL_SPEEDS}
     values = data | coordinates | {"speed": speeds}
     dataset = dataset_of(speed_variables, values, {"speed": SPEED, **AXES}, {}, ("speed",)).assign(still)
-    dataset["status"].attrs |= status_flags()
+    dataset["status"].attrs |= state_flags("status")
     return dataset
 
 

@@ -8,7 +8,7 @@ import xarray as xr
 
 from r37core.dataset_file import Variable, new_netcdf
 from r37core.io import readable
-from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
+from r37core.results.netcdf import create_axis, create_labels, create_variable, state_flags
 from r37core.results.variables import AXES
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
@@ -74,7 +74,7 @@ def write_run_ups(files: Mapping[tuple[str, str, str], Path | str], file: Path |
             target.createVariable(name, str, ("run",))
         for name in (variable for variable in VARIABLES if variable in names):
             create_variable(target, name, VARIABLES[name], ("run",), coordinates=" ".join(LABELS))
-        target["status"].setncatts(status_flags())
+        target["status"].setncatts(state_flags("status"))
         for row, (run, values) in enumerate(_runs(files)):
             for name, label in zip(LABELS, run, strict=True):
                 target[name][row] = label

@@ -12,14 +12,13 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
+from r37core.time_integration.carrying import resolved_problem
 from r37core.time_integration.clearance import check_room
 from r37core.time_integration.integration_choice import IntegrationChoice, revolutions_at_once
-from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.kept_numbers import energy_balance
-from r37core.time_integration.problem import Problem, stable_problem
+from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation, rest_state
 from r37core.time_integration.state import Schedule
-from r37core.time_integration.step_limit import UnstableStepError
 
 from .schedule import RunUp, schedule
 
@@ -140,26 +139,3 @@ class RunUpIntegration:
         )
         # there may be more of them or fewer, where the fastest are left out
         self.state.increment = np.zeros_like(self.state.displacement)
-
-
-_LARGEST_TURN = 3.0
-"""Largest turn of a mode in a step (rad) with which its velocity follows from two displacements."""
-
-
-def resolved_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
-    """The problem at a speed (rad/s), with steps so short that the velocity of every mode follows from two displacements.
-
-    Raises what Problem raises; UnstableStepError for an explicit step that is too long.
-    """
-    problem = stable_problem(model, speed, scene, choice)
-    fastest = problem.contact.highest_frequency
-    if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.grid.time_step < _LARGEST_TURN:
-        return problem
-    limit = _LARGEST_TURN / fastest
-    if not choice.shorten:
-        raise UnstableStepError(
-            f"time_step_s: {choice.time_step:g} s; allowed in run-ups: below {limit:.6g} s, so that the fastest mode "
-            f"({fastest / 2e3 / np.pi:.1f} kHz) turns by less than {_LARGEST_TURN:g} rad in a step",
-            limit,
-        )
-    return resolved_problem(model, speed, scene, replace(choice, time_step=0.99 * limit))

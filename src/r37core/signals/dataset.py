@@ -10,7 +10,7 @@ import xarray as xr
 
 from r37core.dataset_file import SPEED, SPEED_RPM, Variable, dataset_of, new_netcdf, open_dataset, read_dataset
 from r37core.results.closing import counted
-from r37core.results.netcdf import create_axis, create_labels, create_variable, status_flags
+from r37core.results.netcdf import create_axis, create_labels, create_variable, state_flags
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.time_integration.simulate import TIP_POINTS
 
@@ -113,7 +113,7 @@ def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str
         for name, variable in VARIABLES.items():
             if set(variable.dims) <= {"tip_point", "axis", *axes}:
                 create_variable(target, name, variable, ("run",), coordinates="blade scene speed speed_rpm interaction")
-        target["status"].setncatts(status_flags())
+        target["status"].setncatts(state_flags("status"))
         for (blade, scene), source in files.items():
             dataset = read_dataset(source)
             if dataset.sizes["speed"]:

@@ -49,6 +49,11 @@ def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
     return Segments(speeds, several, coupling, _jumps(problem, several), rooms, modal_increments)
 
 
+def own_increments(problem: Problem) -> Increments:
+    """Increments at the problem's own speed, of all modes, shape (1, modes)."""
+    return increments(problem.choice.integrator, *_motion_at(problem, np.array([problem.speed])))
+
+
 def _jumps(problem: Problem, recursion: Recursion) -> JumpPlan | None:
     if not problem.choice.jumps:
         return None

@@ -24,13 +24,14 @@ from .kept_numbers import (
     whole,
 )
 from .lining_at_tip import lining_at_tip
+from .motion_kind import kind_numbers
 from .rotor_numbers import rotor_numbers, stress_of_blades
 from .rotor_simulation import BladesRecord, BladesSimulation
 from .settling import motion_at_end, revolution_rms, wear_of
 from .simulate import DIRECTIONS, LEADING_EDGE, TIP_POINTS
 from .state import SimulationState
 
-OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy", "casing")
+OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy", "casing", "motion_kind")
 """Results of a scene that its simulations give; others are made of them later."""
 
 
@@ -69,7 +70,37 @@ def run_speed(
     left_out = None if motion is None else motion.left_out(simulation.problem)
     states = simulation.start(motion)
     begun = simulation.energy(states)
-    record = simulation.run(states)
+    numbers = numbers_of_run(
+        simulation,
+        states,
+        simulation.run(states),
+        results,
+        begun,
+        spectrum_highest_order=spectrum_highest_order,
+        wear_angles=wear_angles,
+        stress=stress,
+    )
+    if left_out is not None:
+        numbers["initial_energy_left_out"] = np.array(left_out)
+        if "energy" in results:
+            numbers["initial_energy"] = np.array(begun)
+    return numbers
+
+
+def numbers_of_run(
+    simulation: BladesSimulation,
+    states: list[SimulationState],
+    record: BladesRecord,
+    results: Sequence[str],
+    begun: float,
+    *,
+    spectrum_highest_order: int,
+    wear_angles: int,
+    stress: StressOperator | None = None,
+) -> dict[str, np.ndarray]:
+    """Numbers of a run that is done (see run_speed): `states` at its end, its `record`, and its energy `begun` (J)."""
+    problem, scene = simulation.problem, simulation.problem.scene
+    choice, model = problem.choice, problem.model
     totals = np.array([state.totals for state in states])
     per_revolution, revolutions, ended = choice.samples_per_revolution, record.ending.revolutions, record.first_diverged
     first = max(revolutions - choice.revolutions_in_statistic, 0)
@@ -79,7 +110,7 @@ def run_speed(
     ]
     half = [part[first * per_revolution :] for part in samples]
     maxima = [extended(largest_of_each(revolutions, part), choice.revolutions) for part in samples]
-    numbers = status_numbers(simulation.problem, None if ended is None else len(record.blades[ended].samples) / per_revolution)
+    numbers = status_numbers(problem, None if ended is None else len(record.blades[ended].samples) / per_revolution)
     numbers |= lining_at_tip(model, scene)
     numbers |= {
         "rms": np.max([np.sqrt(np.mean(part**2, axis=0)) for part in half], axis=0),
@@ -97,8 +128,6 @@ def run_speed(
     if simulation.rotor is not None:
         numbers |= rotor_numbers(simulation, record, samples, totals)
         leader = simulation.rotor.numbers.index(int(numbers["leader"]))
-    if left_out is not None:
-        numbers["initial_energy_left_out"] = np.array(left_out)
     if scene.casing.changes_with_speed:
         numbers["clearance"] = np.min([problem.casing.clearance for problem in simulation.problems], axis=0)
     if "spectrum" in results:
@@ -113,11 +142,11 @@ def run_speed(
     if "energy" in results:
         work = sum(blade.work(state) for blade, state in zip(simulation.blades, states, strict=True))
         numbers |= energy_balance(work, float(totals["loss"].sum()), simulation.energy(states) - begun)
-        if motion is not None:
-            numbers["initial_energy"] = np.array(begun)
     if "casing" in results:
         # the record of any blade has it
-        numbers |= casing_numbers(simulation.problem, record.blades[0], revolutions, spectrum_highest_order)
+        numbers |= casing_numbers(problem, record.blades[0], revolutions, spectrum_highest_order)
+    if "motion_kind" in results:
+        numbers |= kind_numbers(simulation.blades[0], states[0], diverged=ended is not None)
     return numbers
 
 

@@ -14,3 +14,23 @@ class RunStatus(IntEnum):
     def text(self) -> str:
         """Status as the datasets and tables have it."""
         return self.name.lower()
+
+
+class MotionKind(IntEnum):
+    """Kind of a motion.
+
+    `FREE`: without contact; `PERIODIC`: with the period of the casing; `MULTIPLE`: with several of them; `QUASI_PERIODIC`:
+    without a period, and neighbours neither part nor meet; `CHAOTIC`: neighbours part exponentially; `UNKNOWN`: diverged.
+    """
+
+    FREE = 0
+    PERIODIC = 1
+    MULTIPLE = 2
+    QUASI_PERIODIC = 3
+    CHAOTIC = 4
+    UNKNOWN = 5
+
+    @property
+    def text(self) -> str:
+        """Kind as the datasets and tables have it."""
+        return self.name.lower()

@@ -11,7 +11,7 @@ from r37core.dataset_file import SPEED_RPM, Variable, about, read_dataset
 from r37core.io import readable
 from r37core.plans.member_values import is_of_sample, number_of
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
-from r37core.results.netcdf import status_flags
+from r37core.results.netcdf import state_flags
 from r37core.results.ranges import ENDS
 from r37core.results.ranking import MEASURES_RANKED_BY, robustness
 from r37core.results.variables import VARIABLES
@@ -103,7 +103,7 @@ def _pair_dataset(
 ) -> xr.Dataset:
     """One blade in one scene."""
     sample = xr.concat(members, "member", join="exact", combine_attrs="override").drop_attrs(deep=False)
-    sample["status"].attrs.update(status_flags())
+    sample["status"].attrs.update(state_flags("status"))
     diverged = sample["status"] == RunStatus.DIVERGED
     for name in _CURVES:
         if name not in sample:

@@ -1,0 +1,234 @@
+"""Branches of periodic motions over the speed, by pseudo-arc-length, and where they turn or lose their stability.
+
+After each orbit the next is looked for at a distance along the tangent of the branch, in state and speed together (Keller 1977;
+Seydel, Practical Bifurcation and Stability Analysis, Springer 2010, section 4.5). Contact makes a branch bend sharply, so the
+distance is halved where no orbit is found.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from scipy.linalg import solve
+
+from .periodic import CLOSED, Blade, NoOrbitError, Orbit, PeriodMap
+
+SPEED_SCALE = 30.0
+"""Change of speed (rad/s) that counts in the arc length as much as a change of the state by its own size."""
+
+FIRST, LEAST, LARGEST, GROWTH = 0.02, 1e-5, 0.2, 1.4
+"""Arc length to the first orbit, the least and the largest to the next, and by how much it grows after an easy one."""
+
+MOST_UNSTABLE = 60
+"""Unstable orbits in a row after which a branch is not followed any farther."""
+
+_SPEED_DIFFERENCE = 1e-3
+_MOST_CORRECTIONS, _EASY, _HALVINGS = 12, 4, 6
+
+
+class Event(StrEnum):
+    """What happens to a branch between two of its orbits: see `events_of`."""
+
+    FOLD = "fold"
+    PERIOD_DOUBLING = "period_doubling"
+    TORUS = "torus"
+    OTHER = "other"
+
+
+@dataclass(frozen=True)
+class Bifurcation:
+    """An `event` of a branch at a `speed` (rad/s), before the orbit of this number."""
+
+    event: Event
+    speed: float
+    orbit: int
+
+
+class _Point:
+    """An orbit with the map at its speed, and the derivative of P by the speed."""
+
+    def __init__(self, blade: Blade, orbit: Orbit, at_speed: PeriodMap):
+        self.orbit, self.map = orbit, at_speed
+        self.by_speed = _by_speed(blade, orbit.speed, orbit.z, orbit.phase, orbit.samples, orbit.z)
+
+    def tangent(self, before: np.ndarray | None, direction: float) -> np.ndarray:
+        """Unit tangent of the branch, in state over its size and speed over its scale, on from the one `before`."""
+        orbit = self.orbit
+        by_speed = solve(np.eye(len(orbit.z)) - orbit.derivative, self.by_speed)
+        tangent = np.append(by_speed / np.linalg.norm(orbit.z), 1.0 / SPEED_SCALE)
+        tangent /= np.linalg.norm(tangent)
+        forward = np.sign(tangent[-1]) * direction if before is None else np.sign(tangent @ before)
+        return tangent * (forward or 1.0)
+
+
+def _by_speed(blade: Blade, speed: float, z: np.ndarray, phase: int, samples: int, mapped: np.ndarray) -> np.ndarray:
+    """Derivative of P by the speed; `mapped`: P(z) at the speed."""
+    return (blade.map_at(speed + _SPEED_DIFFERENCE)(z, phase, samples) - mapped) / _SPEED_DIFFERENCE
+
+
+def branch_through(blade: Blade, start: Orbit, first: float, last: float, most: int) -> list[Orbit]:
+    """Orbits of the branch through one, in their order along it, as far as the speeds (rad/s) `first` to `last`.
+
+    At most so many on each side of it. A branch also ends where no orbit is found in the least arc length, and after
+    MOST_UNSTABLE unstable orbits in a row: with little damping it would wind through chaotic speeds without end.
+    """
+    down, up = (list(_followed(blade, start, direction, first, last, most)) for direction in (-1.0, 1.0))
+    return [*down[::-1], start, *up]
+
+
+def _followed(blade: Blade, start: Orbit, direction: float, first: float, last: float, most: int) -> Iterator[Orbit]:
+    point, length, tangent, unstable = _Point(blade, start, blade.map_at(start.speed)), FIRST, None, 0
+    for _ in range(most):
+        tangent = point.tangent(tangent, direction)
+        found = None
+        while found is None:
+            found = _next(blade, point, tangent, length)
+            if found is None:
+                length *= 0.5
+                if length < LEAST:
+                    return
+        orbit, corrections = found
+        if not first <= orbit.speed <= last:
+            yield from _at_end(blade, point, orbit, min(max(orbit.speed, first), last))
+            return
+        if corrections <= _EASY:
+            length = min(length * GROWTH, LARGEST)
+        moved = _at_free_instant(blade, orbit)
+        if moved is None:
+            yield orbit
+            return
+        if moved is not orbit:
+            # at another instant the tangent is another one, too
+            tangent = _way(point, moved)
+        yield moved
+        unstable = 0 if moved.stable else unstable + 1
+        if unstable == MOST_UNSTABLE:
+            return
+        point = _Point(blade, moved, blade.map_at(moved.speed))
+
+
+def _way(point: _Point, orbit: Orbit) -> np.ndarray:
+    """Way from a point to the next orbit, at the instant of that, as a tangent has it."""
+    before = point.map.state(point.orbit.z, point.orbit.phase)
+    point.map.simulation.advance_samples(before, orbit.phase - point.orbit.phase)
+    change = orbit.z - point.map.coordinates(before)
+    return np.append(change / np.linalg.norm(orbit.z), (orbit.speed - point.orbit.speed) / SPEED_SCALE)
+
+
+def _at_end(blade: Blade, point: _Point, beyond: Orbit, speed: float) -> list[Orbit]:
+    """The orbit at the speed (rad/s) between a point of the branch and an orbit, if it is found."""
+    share = (speed - point.orbit.speed) / (beyond.speed - point.orbit.speed)
+    z = point.orbit.z + share * (beyond.z - point.orbit.z)
+    try:
+        return [blade.map_at(speed).orbit(z, beyond.phase, beyond.samples, beyond.derivative)]
+    except NoOrbitError:
+        return []
+
+
+def _next(blade: Blade, point: _Point, tangent: np.ndarray, length: float) -> tuple[Orbit, int] | None:
+    """The orbit at an arc length along the tangent, and the corrections that it took; None where none is found."""
+    orbit, size = point.orbit, float(np.linalg.norm(point.orbit.z))
+    along_z, along_speed = tangent[:-1] * size, tangent[-1] * SPEED_SCALE
+    z, speed = orbit.z + length * along_z, orbit.speed + length * along_speed
+    derivative, by_speed, before = orbit.derivative, point.by_speed, np.inf
+    for correction in range(_MOST_CORRECTIONS):
+        try:
+            at_speed = blade.map_at(speed)
+            distance = at_speed(z, orbit.phase, orbit.samples) - z
+            error = float(np.linalg.norm(distance)) / size
+            if error < CLOSED:
+                return at_speed.closed(z, orbit.phase, orbit.samples), correction
+            if correction and error > 5.0 * before:
+                return None
+            if error > 0.3 * before or correction == 0:
+                derivative = at_speed.derivative(z, orbit.phase, orbit.samples, distance + z)
+                by_speed = _by_speed(blade, speed, z, orbit.phase, orbit.samples, distance + z)
+        except (NoOrbitError, ValueError):
+            return None
+        before = error
+        left = length - tangent @ np.append((z - orbit.z) / size, (speed - orbit.speed) / SPEED_SCALE)
+        matrix = np.block([[np.eye(len(z)) - derivative, -by_speed[:, None]], [tangent[:-1] / size, tangent[-1] / SPEED_SCALE]])
+        change = solve(matrix, np.append(distance, left))
+        z, speed = z + change[:-1], speed + change[-1]
+    return None
+
+
+def _at_free_instant(blade: Blade, orbit: Orbit) -> Orbit | None:
+    """The orbit as it is where nothing is pressed at its instant, else at another one; None where there is none."""
+    at_speed = blade.map_at(orbit.speed)
+    state = at_speed.state(orbit.z, orbit.phase)
+    at_speed.simulation.advance_samples(state, orbit.samples)
+    if not state.contact_force.any():
+        return orbit
+    try:
+        # with its forces the state is not exactly the one without
+        return at_speed.orbit(*at_speed.free_instant(state, orbit.samples), orbit.samples)
+    except NoOrbitError:
+        return None
+
+
+def events_of(blade: Blade, orbits: list[Orbit]) -> list[Bifurcation]:
+    """Where a branch becomes stable or unstable: it turns in the speed, or a multiplier passes the unit circle.
+
+    Where a multiplier passes through -1 the period doubles, a pair makes a torus; what passes through +1 apart from a fold is
+    `other`. Speeds are found by orbits between those of the branch.
+    """
+    events = []
+    for number in range(1, len(orbits)):
+        before, after = orbits[number - 1], orbits[number]
+        if before.stable == after.stable:
+            continue
+        turn = next((at for at in (number - 1, number) if _turns(orbits, at)), None)
+        if turn is not None:
+            events.append(Bifurcation(Event.FOLD, _turn(blade, orbits[turn - 1 : turn + 2]), number))
+        else:
+            events.append(Bifurcation(*_passing(blade, before, after), number))
+    return events
+
+
+def _turns(orbits: list[Orbit], number: int) -> bool:
+    """Whether a branch turns in the speed at the orbit of this number."""
+    if not 0 < number < len(orbits) - 1:
+        return False
+    before, here, after = orbits[number - 1 : number + 2]
+    return (here.speed - before.speed) * (after.speed - here.speed) < 0.0
+
+
+def _between(blade: Blade, before: Orbit, after: Orbit, share: float) -> Orbit | None:
+    """The orbit of the branch nearest to a share of the way between two of its orbits at the same instant; None without one."""
+    if before.phase != after.phase:
+        return None
+    size = float(np.linalg.norm(before.z))
+    chord = np.append((after.z - before.z) / size, (after.speed - before.speed) / SPEED_SCALE)
+    length = float(np.linalg.norm(chord))
+    found = _next(blade, _Point(blade, before, blade.map_at(before.speed)), chord / length, share * length)
+    return found[0] if found else None
+
+
+def _turn(blade: Blade, orbits: list[Orbit]) -> float:
+    """Extreme speed (rad/s) of the branch about the second of three orbits, halving the distance to both neighbours."""
+    first, middle, last = orbits
+    sense = np.sign(middle.speed - first.speed)
+    for _ in range(_HALVINGS):
+        sides = [_between(blade, first, middle, 0.5), _between(blade, middle, last, 0.5)]
+        known = [first, sides[0], middle, sides[1], last]
+        if None in sides:
+            break
+        best = 1 + int(np.argmax([sense * orbit.speed for orbit in known[1:4] if orbit is not None]))
+        first, middle, last = (orbit for orbit in known[best - 1 : best + 2] if orbit is not None)
+    return middle.speed
+
+
+def _passing(blade: Blade, before: Orbit, after: Orbit) -> tuple[Event, float]:
+    """What passes the unit circle between a stable orbit and one that is not, and at which speed (rad/s)."""
+    inner, outer = (before, after) if before.stable else (after, before)
+    for _ in range(_HALVINGS):
+        middle = _between(blade, inner, outer, 0.5)
+        if middle is None:
+            break
+        inner, outer = (middle, outer) if middle.stable else (inner, middle)
+    value, speed = outer.multipliers[0], 0.5 * (inner.speed + outer.speed)
+    if abs(value.imag) > 1e-6 * abs(value):
+        return Event.TORUS, speed
+    return (Event.PERIOD_DOUBLING if value.real < 0.0 else Event.OTHER), speed

@@ -1,0 +1,71 @@
+"""Numbers of the sweeps, of the dwells, and of the branches of periodic motions."""
+
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from r37core.declared import Key
+from r37core.speeds import spaced
+
+MOTIONS = UP, DOWN, REST = ("up", "down", "rest")
+"""Motions at a speed: carried up from lower speeds, carried down from higher ones, and from rest as the pipeline runs it."""
+
+STEP = 5.0
+"""Step between the speeds (rad/s) unless one is given."""
+
+FEWEST_REVOLUTIONS = 10
+"""Fewest revolutions of a speed: their scatter decides whether motions differ."""
+
+
+@dataclass(frozen=True)
+class SweepChoice:
+    """Speeds (rad/s) from `first` to `last`, in steps, and what is carried from one to the next.
+
+    `worn`: whether the lining is carried on as it is worn, or new at each speed.
+    """
+
+    first: Annotated[
+        float,
+        Key("Lowest speed", "_rad_s", "from", ge=1e-3, le=1e6, optional=True),
+        Key("The same speed in revolutions per minute", "_rpm", "from", ge=0.01, le=9.5e6, optional=True),
+    ]
+    last: Annotated[
+        float,
+        Key("Highest speed, if the step reaches it", "_rad_s", "to", ge=1e-3, le=1e6, optional=True),
+        Key("The same speed in revolutions per minute", "_rpm", "to", ge=0.01, le=9.5e6, optional=True),
+    ]
+    step: Annotated[
+        float,
+        Key("Step between the speeds; by default 5 rad/s", "_rad_s", ge=1e-3, le=1e4, optional=True),
+        Key("The same step in revolutions per minute", "_rpm", ge=0.01, le=1e5, optional=True),
+    ]
+    revolutions: Annotated[
+        int, Key("Revolutions at each speed, of which the last half counts", ge=FEWEST_REVOLUTIONS, le=20000)
+    ] = 100
+    worn: Annotated[
+        bool,
+        Key("Lining at each speed: new, or worn by the speeds before", name="lining", words={"new": False, "worn": True}),
+    ] = False
+
+    @property
+    def speeds(self) -> list[float]:
+        """All speeds (rad/s), ascending."""
+        return spaced(self.first, self.last, self.step)
+
+
+@dataclass(frozen=True)
+class DwellChoice:
+    """How motions are told apart that last, that go, and between which the blade switches."""
+
+    revolutions: Annotated[int, Key("Revolutions of each dwell", ge=100, le=200_000)] = 3000
+    speeds: Annotated[int, Key("Speeds of each range of hysteresis, spread over it evenly", ge=0, le=1000)] = 3
+    starts: Annotated[int, Key("Random states outside of the casing from which more dwells start", ge=0, le=1000)] = 5
+    seed: Annotated[int, Key("Seed of the random states", ge=0, le=2**31)] = 0
+    at: tuple[float, ...] = field(default=())
+
+
+@dataclass(frozen=True)
+class BranchChoice:
+    """How many branches of periodic motions are followed over the speed, and how far."""
+
+    number: Annotated[int, Key("Most branches of periodic motions that are followed", ge=0, le=1000)] = 4
+    points: Annotated[int, Key("Most points of a branch", ge=2, le=100_000)] = 400

@@ -1,0 +1,79 @@
+"""second_motions.nc, and the dwells and orbits of all blades and scenes joined."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from r37core.dataset_file import about, read_dataset
+
+from .choice import MOTIONS
+from .motion_files import MarchedStates, levels_of
+
+KEPT = (
+    *(f"{kind}_{direction}" for kind in ("rms", "peak") for direction in ("normal", "radial", "tangential")),
+    *(f"max_von_mises_{name}" for name in ("ever", "median", "high")),
+    "share_of_revolutions_above_yield",
+    "max_wear",
+    "used_thickness",
+    "motion_kind",
+    "lyapunov_exponent",
+    "lyapunov_exponent_error",
+    "recurrence",
+    "recurrence_period",
+    "status",
+    "motion_at_end",
+)
+"""Variables of the responses that the dataset has, where they have them; it has the leading edge's motion alone."""
+
+OF_ALL = ("yield_stress", "lined")
+"""Variables that are the same at all speeds."""
+
+
+def second_motions_dataset(
+    responses: Mapping[tuple[str, str, str], Path | str], states: Mapping[tuple[str, str, str], Path | str]
+) -> xr.Dataset:
+    """All sweeps, over (blade, scene, motion, speed), by the files of each blade, scene and motion.
+
+    `motion_mean` and `motion_scatter` (m): of the rms of a revolution, normal and tangential together; `differ`, over (blade,
+    scene, speed): whether the motions do. NaN for a blade and scene that is not swept. Raises InputFileError.
+    """
+    pairs = list(dict.fromkeys((blade, scene) for blade, scene, _ in responses))
+    parts = []
+    for blade, scene in pairs:
+        motions = []
+        for motion in MOTIONS:
+            response = read_dataset(responses[blade, scene, motion], {"tip_point": "leading_edge"})
+            motions.append(response[[name for name in (*KEPT, *OF_ALL) if name in response]].reset_coords(drop=True))
+        part = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=_over_motions(motions[0]))
+        levels = levels_of({motion: MarchedStates(states[blade, scene, motion]) for motion in MOTIONS})
+        over = ("motion", "speed")
+        part["motion_mean"] = over, levels.mean, about("m", "mean rms of a revolution, normal and tangential together")
+        part["motion_scatter"] = over, levels.scatter, about("m", "standard deviation of the rms of a revolution")
+        differ = about("1", "1 where two of the motions differ by more than they scatter")
+        part["differ"] = ("speed",), levels.differ.astype(float), differ
+        parts.append(part.expand_dims({"blade": [blade], "scene": [scene]}))
+    joined = xr.combine_by_coords(parts, combine_attrs="drop_conflicts")
+    assert isinstance(joined, xr.Dataset)
+    return joined
+
+
+def _over_motions(response: xr.Dataset) -> list[str]:
+    return [str(name) for name in response.data_vars if name not in OF_ALL]
+
+
+def swept(motions: xr.Dataset) -> xr.Dataset:
+    """Motions of one blade and scene at the speeds that it is swept at."""
+    return motions.isel(speed=np.flatnonzero(motions["differ"].notnull().values))
+
+
+def join_pairs(files: Mapping[tuple[str, str], Path | str], along: str) -> xr.Dataset:
+    """Datasets of each blade and scene one after another `along` a dimension, with both as labels. Raises InputFileError."""
+    parts = []
+    for (blade, scene), file in files.items():
+        part = read_dataset(file)
+        for name, label in (("blade", blade), ("scene", scene)):
+            part[name] = along, np.full(part.sizes[along], label, dtype=object), about("1", f"name of the {name}")
+        parts.append(part)
+    return xr.concat(parts, along, combine_attrs="drop_conflicts")

@@ -1,0 +1,179 @@
+"""Dwells: how long motions last at one speed, and which of them random starts come to."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from r37core.time_integration.carrying import CarriedMotion
+from r37core.time_integration.motion_kind import KindNumbers, MotionKind, PhaseSpace, kind_of_motion
+from r37core.time_integration.problem import Problem
+from r37core.time_integration.settling import revolution_rms
+from r37core.time_integration.simulate import LEADING_EDGE, Simulation, rest_state
+from r37core.time_integration.state import SimulationState
+
+WINDOW = 20
+"""Revolutions over which the level of a motion is taken, to tell the motions apart."""
+
+SETTLING = 50
+"""Revolutions after a start that do not count."""
+
+AT_ONCE = 100
+"""Revolutions that are recorded at a time."""
+
+STARTS = HIGH, LOW, RANDOM = "high", "low", "random"
+"""Where dwells start: in the largest and in the smallest motion of the sweeps, and in random states."""
+
+_SIZES = 0.2, 2.0
+"""Sizes of random states, as a share of that of the largest motion."""
+
+
+class Lasting(StrEnum):
+    """What becomes of a motion while the blade dwells: see `judged`."""
+
+    LASTING = "lasting"
+    SWITCHING = "switching"
+    TRANSIENT = "transient"
+
+
+@dataclass(frozen=True, eq=False)
+class Dwell:
+    """A dwell: `rms` (m) of each revolution, shape (revolutions,), NaN where it diverged, and the `kind` of its last motion."""
+
+    rms: np.ndarray
+    kind: KindNumbers
+
+
+def dwell(simulation: Simulation, state: SimulationState, revolutions: int) -> Dwell:
+    """Go on by so many `revolutions` from a `state`, which is changed."""
+    per_revolution, rms = simulation.problem.choice.samples_per_revolution, np.full(revolutions, np.nan)
+    for first in range(0, revolutions, AT_ONCE):
+        count = min(AT_ONCE, revolutions - first)
+        record = simulation.advance(state, count)
+        if record.diverged:
+            return Dwell(rms, KindNumbers(MotionKind.UNKNOWN))
+        rms[first : first + count] = revolution_rms(record.samples[:, LEADING_EDGE], per_revolution)
+    return Dwell(rms, kind_of_motion(simulation, state))
+
+
+def carried_state(problem: Problem, motion: CarriedMotion) -> SimulationState:
+    """The state of a motion at a problem's speed."""
+    state = rest_state(problem)
+    motion.put(problem, state)
+    return state
+
+
+def random_states(problem: Problem, size: float, number: int, seed: int) -> list[SimulationState]:
+    """Random states outside of the casing and lining, at the sample at which the blade at rest has most room.
+
+    The energy is spread over the stepped modes alike; the states' sizes are shares of `size`, a motion's. Displacements that
+    reach into the casing are made smaller. None where the casing has no room for the blade at rest.
+    """
+    space, random = PhaseSpace(problem), np.random.default_rng(seed)
+    steps = problem.grid.steps_per_sample
+    instants = range(problem.choice.samples_per_revolution)
+    room = [_room(problem, np.zeros(len(space.frequencies)), instant * steps) for instant in instants]
+    phase = int(np.argmax(room))
+    states: list[SimulationState] = []
+    while len(states) < number and room[phase] > 0.0:
+        state = rest_state(problem)
+        direction = random.normal(size=2 * len(space.frequencies))
+        space.put(random.uniform(*_SIZES) * size / np.linalg.norm(direction) * direction, state)
+        displacement, velocity = np.split(space.coordinates(state), 2)
+        while _room(problem, displacement / space.frequencies, phase * steps) < 0.0:
+            displacement = 0.5 * displacement
+        space.put(np.concatenate([displacement, velocity]), state)
+        state.samples = phase
+        states.append(state)
+    return states
+
+
+def _room(problem: Problem, displacement: np.ndarray, step: int) -> float:
+    """Smallest distance (m) of a contact node from the casing or unworn lining, by the displacement of all stepped modes."""
+    nodes = problem.contact.displacement_operator @ displacement
+    return float(problem.casing.gaps(problem.casing.clearance, nodes, step, 0.0)[0].min())
+
+
+def to_angle_0(simulation: Simulation, state: SimulationState) -> None:
+    """Go on to the end of the revolution that a `state` is in, which is changed."""
+    per_revolution = simulation.problem.choice.samples_per_revolution
+    left = -state.samples % per_revolution
+    if left:
+        simulation.advance_samples(state, left)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What becomes of the `high` and the `low` motion, the high one's `share` of the time, and how long each is held.
+
+    `share`: of a long time, by the times for which both are held; NaN where neither is left. `high_revolutions`,
+    `low_revolutions`: mean time until it is left, infinite where it is never left, NaN where it is never there. `high_starts`:
+    share of the random starts that end in the high one.
+    """
+
+    high: Lasting
+    low: Lasting
+    share: float
+    high_revolutions: float
+    low_revolutions: float
+    high_starts: float
+
+
+def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float) -> Verdict:
+    """Verdict on motions by the `rms` (m) of each revolution of dwells that start HIGH, LOW and at RANDOM.
+
+    `high`, `low` (m): their levels. A motion that is left and come back to is switching. One that is left and never come back
+    to is a transient, one that is never left lasts.
+    """
+    held = {start: [is_high(each, high, low) for each in several] for start, several in rms.items()}
+    # a motion may be left before the first revolution that counts
+    since = [*(np.append(True, part) for part in held[HIGH]), *(np.append(False, part) for part in held[LOW]), *held[RANDOM]]
+    exits, entries = (
+        sum(int(np.count_nonzero(part[:-1] & ~part[1:])) for part in several) for several in (since, [~part for part in since])
+    )
+    counted = np.concatenate([part for several in held.values() for part in several] or [np.zeros(0, dtype=bool)])
+    above, below = int(counted.sum()), int((~counted).sum())
+    ended = [bool(part[-1]) for part in held[RANDOM] if len(part)]
+    return Verdict(
+        _lasting(left=exits, come_back=entries),
+        _lasting(left=entries, come_back=exits),
+        _share(_held(above, exits), _held(below, entries)),
+        _held(above, exits),
+        _held(below, entries),
+        float(np.mean(ended)) if ended else np.nan,
+    )
+
+
+def _lasting(*, left: int, come_back: int) -> Lasting:
+    if not left:
+        return Lasting.LASTING
+    return Lasting.SWITCHING if come_back else Lasting.TRANSIENT
+
+
+def _held(revolutions: int, left: int) -> float:
+    return revolutions / left if left else (np.inf if revolutions else np.nan)
+
+
+def _share(high: float, low: float) -> float:
+    if np.isinf(high) or np.isinf(low):
+        return np.nan if high == low else float(np.isinf(high))
+    return high / (high + low) if high + low > 0.0 else np.nan
+
+
+def is_high(rms: np.ndarray, high: float, low: float) -> np.ndarray:
+    """Whether a motion is the high one, revolution by revolution after SETTLING, of dwells by their `rms` (m).
+
+    By the rms of the last WINDOW revolutions: it becomes the high one above two thirds of the way from `low` to `high` (m), on
+    a logarithmic scale, and the low one below a third of it.
+    """
+    rms = rms[np.isfinite(rms)]
+    if len(rms) < SETTLING + WINDOW:
+        return np.zeros(0, dtype=bool)
+    level = np.sqrt(np.convolve(rms**2, np.full(WINDOW, 1.0 / WINDOW), "valid"))[SETTLING:]
+    place = np.log(np.maximum(level, np.finfo(float).tiny) / low) / np.log(high / low)
+    # between the two limits it is what it was before; at first what it is nearer to
+    decided = np.where(place > 2.0 / 3.0, 1, np.where(place < 1.0 / 3.0, 0, -1))
+    decided[0] = int(place[0] > 0.5)
+    last = np.maximum.accumulate(np.where(decided >= 0, np.arange(len(decided)), 0))
+    return decided[last] == 1

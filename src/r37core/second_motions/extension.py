@@ -1,0 +1,30 @@
+"""Second motions as an extension."""
+
+from r37core.plans.extension import Extension, Panel
+
+from .checks import can_be_swept
+from .plan import dataset, simulated, targets
+from .section import SECTION
+
+EXTENSION = Extension(
+    name="second_motions",
+    section=SECTION,
+    checks=(can_be_swept,),
+    simulated=simulated,
+    targets=targets,
+    motions=dataset,
+    captions={
+        "second_motions": (
+            "Blade {blade} in scene {scene}, carried up and down through the speeds, and from rest: rms of the leading edge's "
+            "motion, normal and tangential together, with its scatter from revolution to revolution; then the largest stress. "
+            "Shaded: the motions differ by more than they scatter. Below: share of the time that dwells spend in the larger "
+            "motion, and the Lyapunov exponent of each motion."
+        ),
+        "second_motions_of_all": (
+            "All blades in scene {scene}, carried up and down through the speeds, and from rest. Shaded: the motions differ by "
+            "more than they scatter."
+        ),
+    },
+    closing="second_motions.tables.closing",
+    panel=Panel(dataset, "second_motions.panel.contents", "second_motions/panel.js"),
+)

@@ -1,0 +1,133 @@
+"""Sweeps through the speeds with the state carried on from each to the next, and the runs from rest beside them."""
+
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+from r37core.stress.operator import StressOperator
+from r37core.time_integration.carrying import CarriedMotion, resolved_problem
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.kept_numbers import whole
+from r37core.time_integration.rotor_simulation import BladesSimulation
+from r37core.time_integration.settling import revolution_rms
+from r37core.time_integration.simulate import LEADING_EDGE
+from r37core.time_integration.speed_file import read_speed, write_speed
+from r37core.time_integration.speed_run import numbers_of_run
+
+from .choice import DOWN, REST, SweepChoice
+
+CARRIED = ("displacement", "velocity", "touched", "contact_force", "penetration", "bar_position")
+"""Parts of a CarriedMotion that are kept of every speed."""
+
+
+@dataclass(frozen=True, eq=False)
+class March:
+    """A sweep of one `motion` (MOTIONS) of a blade's `model` in a `scene`.
+
+    `choice`: the time integration of the scene's runs; `results` and `kept`: as run_speed takes them; `stress`: operator, where
+    stress is among the results.
+    """
+
+    model: ContactModel
+    scene: Scene
+    choice: IntegrationChoice
+    sweep: SweepChoice
+    motion: str
+    results: Sequence[str]
+    kept: Mapping[str, Any]
+    stress: StressOperator | None = None
+
+    @property
+    def speeds(self) -> list[float]:
+        """Speeds (rad/s) in the order of the sweep."""
+        return self.sweep.speeds[::-1] if self.motion == DOWN else self.sweep.speeds
+
+    def run(self, folder: Path) -> list[Path]:
+        """Run all speeds; returns the file of each, in the order of the speeds.
+
+        Files that are in the `folder` are of a run that was interrupted, which goes on after the last of them.
+        """
+        folder.mkdir(parents=True, exist_ok=True)
+        files = [folder / f"{place}.npz" for place in range(len(self.speeds))]
+        done = next((place for place, file in enumerate(files) if not file.exists()), len(files))
+        carried = carried_of(read_speed(files[done - 1])) if done else None
+        for speed, file in zip(self.speeds[done:], files[done:], strict=True):
+            numbers = self.run_from_rest(speed) if self.motion == REST else self.run_on(speed, carried)
+            carried = carried_of(numbers)
+            write_speed(numbers, file, {})
+        return files
+
+    def run_from_rest(self, speed: float) -> dict[str, np.ndarray]:
+        """Numbers of the run at a speed (rad/s) as the sweep of the pipeline has it: from rest, with lobes that grow."""
+        return self._numbers(BladesSimulation(self.model, speed, self.scene, self.choice), None, keep_wear=False)
+
+    def run_on(self, speed: float, carried: CarriedMotion | None) -> dict[str, np.ndarray]:
+        """Numbers of the revolutions at a speed (rad/s) from a motion on, in a casing with full-grown lobes.
+
+        Without a motion the blade starts from rest and does first the run of the pipeline.
+        """
+        if carried is None:
+            before = BladesSimulation(self.model, speed, self.scene, replace(self.carried_choice, revolutions=self.revolutions))
+            states = before.start()
+            if not before.run(states).blades[0].diverged:
+                carried = CarriedMotion.at_end(before.problem, states[0], keep_wear=self.sweep.worn)
+        simulation = BladesSimulation(self.model, speed, self.grown_scene, self.carried_choice)
+        return self._numbers(simulation, carried, keep_wear=self.sweep.worn)
+
+    @property
+    def revolutions(self) -> int:
+        """Revolutions of a run from rest."""
+        return self.choice.revolutions
+
+    @property
+    def grown_scene(self) -> Scene:
+        """The scene with lobes that are full-grown from the start."""
+        return replace(self.scene, casing=replace(self.scene.casing, rise_fraction=0.0, rise_revolutions=None))
+
+    @property
+    def carried_choice(self) -> IntegrationChoice:
+        """Time integration of a speed to which the motion is carried, with its statistic over the last half."""
+        highest = self.sweep.speeds[-1]
+        step = resolved_problem(self.model, highest, self.scene, self.choice).choice.time_step
+        choice = replace(self.choice, time_step=step, revolutions=self.sweep.revolutions, until_settled=False)
+        stress = choice.snapshots_per_revolution > 0
+        return replace(choice, snapshot_revolutions=choice.revolutions_in_statistic if stress else 0)
+
+    @property
+    def unrecorded_choice(self) -> IntegrationChoice:
+        """The same, with nothing recorded but the motion."""
+        return replace(self.carried_choice, snapshot_revolutions=0, snapshots_per_revolution=0)
+
+    def _numbers(self, simulation: BladesSimulation, start: CarriedMotion | None, *, keep_wear: bool) -> dict[str, np.ndarray]:
+        states = simulation.start()
+        if start is not None:
+            start.put(simulation.problem, states[0])
+        begun = simulation.energy(states)
+        record = simulation.run(states)
+        numbers = numbers_of_run(simulation, states, record, self.results, begun, stress=self.stress, **self.kept)
+        choice, blade = simulation.problem.choice, record.blades[0]
+        samples = whole(blade.samples, choice.revolutions * choice.samples_per_revolution, blade.diverged)
+        numbers["revolution_rms"] = revolution_rms(samples[:, LEADING_EDGE], choice.samples_per_revolution)
+        carried = CarriedMotion.at_end(simulation.problem, states[0], keep_wear=keep_wear)
+        numbers |= {name: getattr(carried, name) for name in CARRIED}
+        if carried.wear is not None:
+            numbers["end_wear"] = carried.wear
+        return numbers
+
+
+def carried_of(numbers: Mapping[str, np.ndarray]) -> CarriedMotion | None:
+    """The motion at the end of a run, by its numbers; None of one that diverged."""
+    if int(numbers["status"]) != 0:
+        return None
+    return CarriedMotion(**{name: numbers[name] for name in CARRIED}, wear=numbers.get("end_wear"))
+
+
+def discard(folder: Path) -> None:
+    """Remove the files of a run that is done."""
+    shutil.rmtree(folder, ignore_errors=True)

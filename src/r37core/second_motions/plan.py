@@ -1,0 +1,155 @@
+"""The plan of the second motions: of which blades and scenes, from what, and which files are made of them."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from r37core.config import Settings
+from r37core.plain import to_plain
+from r37core.plans import paths
+from r37core.plans.provenance import Provenance
+from r37core.plans.stages import Stage
+from r37core.plans.sweep_plan import Simulations, Sweep
+from r37core.time_integration.integration_choice import IntegrationChoice
+
+from .choice import MOTIONS
+from .section import SECTION, SecondMotionSection
+
+RESPONSE = "<results>/{blade}/{scene}/second_motions_{motion}.nc"
+STATES = "<results>/{blade}/{scene}/second_motions_{motion}.npz"
+DWELLS = "<results>/{blade}/{scene}/second_motions_dwells.nc"
+ORBITS = "<results>/{blade}/{scene}/second_motions_orbits.nc"
+DATASET = "<results>/second_motions.nc"
+
+KEPT = ("stress", "static_stress", "wear", "energy", "casing", "motion_kind")
+"""Results of a scene that its sweeps keep, too."""
+
+
+def section_of(settings: Settings) -> SecondMotionSection:
+    """The section of config.yaml."""
+    return settings.section(SECTION)
+
+
+def pairs_of(settings: Settings) -> list[tuple[str, str]]:
+    """Pairs of blade and scene that are swept; of all scenes those without a rotor."""
+    section = section_of(settings)
+    if not section.asked:
+        return []
+    blades = settings.blade_names if section.blades == "all" else settings.designs.named(section.blades)
+    single = [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is None]
+    scenes = single if section.scenes == "all" else [name for name in section.scenes if name in settings.scenes]
+    return [(blade, scene) for blade in blades if blade in settings.blade_names for scene in scenes]
+
+
+@dataclass(frozen=True)
+class SecondMotions:
+    """Plan of the second motions that a run asks for. Methods with `wildcards` are inputs and parameters of rules."""
+
+    sweep: Sweep
+
+    @cached_property
+    def pairs(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene."""
+        return pairs_of(self.sweep.settings)
+
+    @property
+    def bare(self) -> list[tuple[str, str]]:
+        """Pairs whose casing is bare and rigid: their periodic motions are followed."""
+        scenes = {name: chosen.scene for name, chosen in self.sweep.settings.scenes.items()}
+        if not section_of(self.sweep.settings).followed().number:
+            return []
+        return [pair for pair in self.pairs if scenes[pair[1]].lining is None and not scenes[pair[1]].casing.ring]
+
+    @property
+    def marches(self) -> paths.Wildcards:
+        """Wildcards of all sweeps."""
+        return [{**key, "motion": motion} for key in paths.run_keys(self.pairs) for motion in MOTIONS]
+
+    def models(self, wildcards: Any) -> dict[str, Any]:
+        """Files that a sweep starts from, with the stress operator where its stress is wanted."""
+        files = {"prepared": paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)}
+        files["model"] = self.sweep.contact_model(wildcards)
+        for file in self.sweep.stress_operator(wildcards):
+            files["stress"] = file
+        return files
+
+    def marched(self, wildcards: Any) -> dict[str, Any]:
+        """Files that dwells and branches start from."""
+        states = [paths.fill(STATES, blade=wildcards.blade, scene=wildcards.scene, motion=motion) for motion in MOTIONS]
+        return {"model": self.sweep.contact_model(wildcards), "states": states}
+
+    def march_stage(self, made: Provenance) -> Stage:
+        """Stage of a sweep."""
+        return Stage(
+            "second_motions.steps.march",
+            {
+                **self._common(made),
+                "motion": lambda wildcards: wildcards.motion,
+                "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in KEPT],
+                "kept": self._kept,
+                "yield_stress": self.sweep.yield_stress,
+            },
+        )
+
+    def dwell_stage(self, made: Provenance) -> Stage:
+        """Stage of the dwells of a blade and scene."""
+        return Stage("second_motions.steps.dwell", {**self._common(made), "dwell": to_plain(self._section.dwells())})
+
+    def branch_stage(self, made: Provenance) -> Stage:
+        """Stage of the branches of a blade and scene."""
+        return Stage("second_motions.steps.follow", {**self._common(made), "branches": to_plain(self._section.followed())})
+
+    @property
+    def _section(self) -> SecondMotionSection:
+        return section_of(self.sweep.settings)
+
+    @property
+    def _kept(self) -> dict[str, Any]:
+        integration = self.sweep.settings.fidelity.time_integration
+        return {key: getattr(integration, key) for key in ("spectrum_highest_order", "wear_angles")}
+
+    def _common(self, made: Provenance) -> dict[str, Any]:
+        return {
+            "scene": Simulations(self.sweep).plain_scene,
+            "choice": self.choice,
+            # without any speed where there are none, as the rule is there all the same
+            "sweep": to_plain(self._section.sweep()) if self._section.asked else None,
+            "provenance": made.sweep,
+        }
+
+    def choice(self, wildcards: Any) -> dict[str, Any]:
+        """Numbers of the time integration, as plain values."""
+        return to_plain(self.integration_choice(wildcards.blade, wildcards.scene))
+
+    def integration_choice(self, blade: str, scene: str) -> IntegrationChoice:
+        """Numbers of the time integration of a run from rest: those of the pipeline."""
+        return self.sweep.settings.integration_choice(blade, scene, 0.0)
+
+
+def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The sweeps, dwells and branches themselves."""
+    plan = SecondMotions(sweep)
+    marches, pairs = plan.marches, paths.run_keys(plan.pairs)
+    return {RESPONSE: marches, STATES: marches, DWELLS: pairs, ORBITS: paths.run_keys(plan.bare)}
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """Datasets, tables and figures."""
+    plan = SecondMotions(sweep)
+    once: paths.Wildcards = [{}] if plan.pairs else []
+    followed: paths.Wildcards = [{}] if plan.bare else []
+    return {
+        **dataset(sweep),
+        "<results>/second_motions.csv": once,
+        "<results>/second_motions_dwells.nc": once,
+        "<results>/second_motions_dwells.csv": once,
+        "<results>/second_motions_orbits.nc": followed,
+        "<results>/second_motions_bifurcations.csv": followed,
+        **paths.pictures("second_motions_{blade}__{scene}", paths.run_keys(plan.pairs)),
+        **paths.pictures("second_motions_{scene}", paths.of("scene", dict.fromkeys(scene for _, scene in plan.pairs))),
+    }
+
+
+def dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The dataset of all sweeps."""
+    return {DATASET: [{}] if pairs_of(sweep.settings) else []}

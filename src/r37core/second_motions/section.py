@@ -1,0 +1,73 @@
+"""second_motions of config.yaml: motions that a start from rest does not show."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from r37core.config.declaring import declared_by, si_form
+from r37core.config.section import AllOrNames, ExtensionSection, Section, Speed, refused
+
+from .choice import STEP, BranchChoice, DwellChoice, SweepChoice
+
+_ENDS = (("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm"))
+
+
+@declared_by(DwellChoice)
+class DwellSection(Section):
+    """Dwells at speeds at which motions differ."""
+
+    at_rad_s: list[Speed] = Field(default=[], description="More speeds that are dwelt on")
+
+
+@declared_by(BranchChoice)
+class BranchSection(Section):
+    """Branches of periodic motions, in bare rigid casings."""
+
+
+@declared_by(SweepChoice)
+class SecondMotionSection(Section):
+    """Sweeps up and down; none without speeds."""
+
+    blades: AllOrNames = Field(default="all", description="Blades that are swept")
+    scenes: AllOrNames = Field(default="all", description="Scenes that are swept; by default those without a rotor")
+    dwell: DwellSection = Field(default=DwellSection(), description="Dwells at speeds at which motions differ")
+    branches: BranchSection = Field(default=BranchSection(), description="Branches of periodic motions, in bare rigid casings")
+
+    @model_validator(mode="after")
+    def _complete(self) -> Self:
+        ends = [[key for key in keys if getattr(self, key) is not None] for keys in _ENDS]
+        for keys, present in zip(_ENDS, ends, strict=True):
+            if len(present) != 1 and any(ends):
+                raise refused((present[1] if present else keys[0],), " and ".join(present) or "nothing", f"{' or '.join(keys)}")
+        if self.step_rad_s is not None and self.step_rpm is not None:
+            raise refused(("step_rpm",), "step_rad_s and step_rpm", "one of them")
+        if self.asked and self.sweep().last < self.sweep().first:
+            raise refused((ends[1][0],), "a speed below the lowest one", "a higher one; both sweeps go through the same speeds")
+        return self
+
+    @property
+    def asked(self) -> bool:
+        """Whether there is something to sweep."""
+        return self.from_rad_s is not None or self.from_rpm is not None
+
+    def sweep(self) -> SweepChoice:
+        """The sweeps that are asked for."""
+        given = self.step_rad_s is not None or self.step_rpm is not None
+        return si_form(SweepChoice, self, **({} if given else {"step": STEP}))
+
+    def dwells(self) -> DwellChoice:
+        """The dwells that are asked for."""
+        return si_form(DwellChoice, self.dwell, at=tuple(self.dwell.at_rad_s))
+
+    def followed(self) -> BranchChoice:
+        """The branches that are asked for."""
+        return si_form(BranchChoice, self.branches)
+
+
+SECTION: ExtensionSection[SecondMotionSection] = ExtensionSection(
+    "second_motions",
+    SecondMotionSection,
+    Field(
+        default=SecondMotionSection(), description="Sweeps up and down the speeds, and what becomes of the motions they find"
+    ),
+)

@@ -1,0 +1,116 @@
+"""Steps of the workflow (docs/architecture.md): sweeps with the state carried on, dwells, branches, their tables."""
+
+import hashlib
+from pathlib import Path
+from typing import Any
+
+from r37core.contact.scene import Scene
+from r37core.dataset_file import read_dataset, write_dataset
+from r37core.io import as_list
+from r37core.plain import from_plain
+from r37core.results.response import write_response
+from r37core.results.table_file import write_table
+from r37core.rom.contact_model import read_contact_model
+from r37core.stress.operator import read_stress_operator
+from r37core.time_integration.integration_choice import IntegrationChoice
+
+from .choice import DOWN, MOTIONS, BranchChoice, DwellChoice, SweepChoice
+from .dataset import join_pairs, second_motions_dataset
+from .found import branches_of, dwells_of
+from .marching import March, discard
+from .motion_files import MarchedStates, dwell_dataset, orbit_dataset, write_marched
+from .tables import bifurcation_table, dwell_table, range_table
+
+
+def march(input: Any, output: Any, params: Any) -> None:
+    """Sweep through the speeds. Inputs: model, and stress if needed. Outputs: response (nc), states (npz).
+
+    Params: motion, scene, choice, sweep, results, kept, yield_stress, provenance, code. One that was interrupted goes on.
+    """
+    run = _march(input, params, params.motion)
+    made_by = [params.code, params.motion, params.scene, params.choice, params.sweep, params.results, params.kept]
+    inputs = [hashlib.sha256(Path(file).read_bytes()).hexdigest() for file in (input.model, *_stress_file(input))]
+    made_of = hashlib.sha256(repr([made_by, inputs]).encode()).hexdigest()[:16]
+    folder = Path(f"{output.states}.parts")
+    for other in folder.glob("*"):
+        if other.name != made_of:
+            discard(other)
+    files = run.run(folder / made_of)
+    ascending = files[::-1] if params.motion == DOWN else files
+    write_response(
+        ascending,
+        run.sweep.speeds,
+        output.response,
+        stress_history_speeds=(),
+        yield_stress=params.yield_stress,
+        provenance={**params.provenance, "motion": params.motion},
+    )
+    write_marched(ascending, run.sweep.speeds, run.scene.casing.clearance, output.states)
+    discard(folder)
+
+
+def dwell(input: Any, output: Any, params: Any) -> None:
+    """Dwell where motions differ. Inputs: model, states (of all motions). Output: dwells (nc).
+
+    Params: scene, choice, sweep, dwell, provenance.
+    """
+    choice = from_plain(DwellChoice, params.dwell)
+    rows = dwells_of(_march(input, params), _states(input), choice)
+    write_dataset(dwell_dataset(rows, choice.revolutions), output.dwells, params.provenance)
+
+
+def follow(input: Any, output: Any, params: Any) -> None:
+    """Follow periodic motions over the speed. Inputs: model, states (of all motions). Output: orbits (nc).
+
+    Params: scene, choice, sweep, branches, provenance.
+    """
+    run = _march(input, params)
+    branches = branches_of(run, _states(input), from_plain(BranchChoice, params.branches))
+    write_dataset(orbit_dataset(branches, run.choice.samples_per_revolution), output.orbits, params.provenance)
+
+
+def join(input: Any, output: Any, params: Any) -> None:
+    """Join the sweeps of all blades and scenes. Inputs: responses, states. Output: dataset (nc). Params: marches, fidelity."""
+    keys = [(run["blade"], run["scene"], run["motion"]) for run in params.marches]
+    responses, states = (dict(zip(keys, as_list(files), strict=True)) for files in (input.responses, input.states))
+    write_dataset(second_motions_dataset(responses, states), output.dataset, {"fidelity": params.fidelity})
+
+
+def join_parts(input: Any, output: Any, params: Any) -> None:
+    """Join dwells, or orbits, of all blades and scenes. Inputs: parts. Output: dataset (nc). Params: pairs, along, fidelity."""
+    parts = dict(zip(map(tuple, params.pairs), as_list(input.parts), strict=True))
+    write_dataset(join_pairs(parts, params.along), output.dataset, {"fidelity": params.fidelity})
+
+
+def tabulate(input: Any, output: Any, params: Any) -> None:
+    """List ranges of hysteresis and dwells. Inputs: dataset, dwells. Outputs: ranges, dwells (csv)."""
+    verdicts = dwell_table(read_dataset(input.dwells))
+    write_table(range_table(read_dataset(input.dataset), verdicts), output.ranges, digits=6)
+    write_table(verdicts, output.dwells, digits=6)
+
+
+def tabulate_branches(input: Any, output: Any, params: Any) -> None:
+    """List bifurcations. Input: orbits. Output: table (csv)."""
+    write_table(bifurcation_table(read_dataset(input.orbits)), output.table, digits=9)
+
+
+def _march(input: Any, params: Any, motion: str = MOTIONS[0]) -> March:
+    stress = _stress_file(input)
+    return March(
+        read_contact_model(input.model),
+        from_plain(Scene, params.scene),
+        from_plain(IntegrationChoice, params.choice),
+        from_plain(SweepChoice, params.sweep),
+        motion,
+        getattr(params, "results", ()),
+        getattr(params, "kept", {}),
+        read_stress_operator(stress[0]) if stress else None,
+    )
+
+
+def _stress_file(input: Any) -> list[str]:
+    return [input.stress] if hasattr(input, "stress") else []
+
+
+def _states(input: Any) -> dict[str, MarchedStates]:
+    return {motion: MarchedStates(file) for motion, file in zip(MOTIONS, as_list(input.states), strict=True)}

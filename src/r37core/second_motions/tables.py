@@ -1,0 +1,175 @@
+"""second_motions.csv, second_motions_dwells.csv and second_motions_bifurcations.csv."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.results.closing import counted
+from r37core.results.table_file import read_table
+from r37core.time_integration.status import MotionKind
+
+from .choice import MOTIONS, REST
+from .dataset import swept
+from .dwelling import HIGH, LOW, STARTS, Lasting, judged
+from .ranges import Levels
+
+RANGE_COLUMNS = (
+    "blade",
+    "scene",
+    "from_rad_s",
+    "to_rad_s",
+    "speeds",
+    "speed_rad_s",
+    "largest_motion",
+    *(f"{what}_{motion}_{unit}" for what, unit in (("rms", "m"), ("peak", "m")) for motion in MOTIONS),
+    *(f"median_von_mises_{motion}_pa" for motion in MOTIONS),
+    *(f"share_above_yield_{motion}" for motion in MOTIONS),
+    "dwell_speed_rad_s",
+    "kind",
+    "share_of_time",
+    "held_revolutions",
+)
+"""Columns of second_motions.csv; see docs/second_motions.md."""
+
+DWELL_COLUMNS = (
+    "blade",
+    "scene",
+    "speed_rad_s",
+    "level_high_m",
+    "level_low_m",
+    "high",
+    "low",
+    "share_of_time_high",
+    "high_revolutions",
+    "low_revolutions",
+    "random_starts_high",
+    *(
+        f"{what}_{of}"
+        for of in ("high", "low")
+        for what in ("motion", "motion_kind", "period_revolutions", "lyapunov_exponent")
+    ),
+)
+"""Columns of second_motions_dwells.csv."""
+
+BIFURCATION_COLUMNS = ("blade", "scene", "branch", "event", "speed_rad_s", "rms_normal_m", "period_revolutions", "becomes")
+"""Columns of second_motions_bifurcations.csv."""
+
+_STRONGEST = (Lasting.LASTING, Lasting.SWITCHING, Lasting.TRANSIENT)
+
+
+def dwell_table(dwells: xr.Dataset) -> pd.DataFrame:
+    """A row for each blade, scene and speed that was dwelt on: what becomes of both motions; see DWELL_COLUMNS."""
+    frame = dwells.drop_dims("revolution").to_dataframe()
+    rows = []
+    for (blade, scene, speed), places in frame.groupby(["blade", "scene", "speed"], sort=False).groups.items():
+        group = dwells.isel(dwell=list(places))
+        starts = group["start"].values.astype(str)
+        high, low = float(group["level_high"][0]), float(group["level_low"][0])
+        rms = group["revolution_rms"].values.astype(float)
+        row: dict[str, Any] = {"blade": blade, "scene": scene, "speed_rad_s": speed, "level_high_m": high, "level_low_m": low}
+        if high > low > 0.0:
+            verdict = judged({start: list(rms[starts == start]) for start in STARTS}, high, low)
+            row |= {
+                "high": str(verdict.high),
+                "low": str(verdict.low),
+                "share_of_time_high": verdict.share,
+                "high_revolutions": verdict.high_revolutions,
+                "low_revolutions": verdict.low_revolutions,
+                "random_starts_high": verdict.high_starts,
+            }
+        for of in (HIGH, LOW) if HIGH in starts and LOW in starts else ():
+            one = group.isel(dwell=int(np.flatnonzero(starts == of)[0]))
+            row |= {
+                f"motion_{of}": str(one["motion"].values),
+                f"motion_kind_{of}": MotionKind(int(one["motion_kind"])).text,
+                f"period_revolutions_{of}": float(one["recurrence_period"]),
+                f"lyapunov_exponent_{of}": float(one["lyapunov_exponent"]),
+            }
+        rows.append(row)
+    return pd.DataFrame(rows, columns=list(DWELL_COLUMNS))
+
+
+def range_table(motions: xr.Dataset, dwells: pd.DataFrame) -> pd.DataFrame:
+    """A row for each range of hysteresis, at the speed where the motions differ most; see RANGE_COLUMNS.
+
+    `dwells`: the table of these. `kind` is what becomes of the largest motion: the strongest at the range's speeds that were
+    dwelt on, at `dwell_speed_rad_s`.
+    """
+    rows = []
+    for blade in motions["blade"].values.tolist():
+        for scene in motions["scene"].values.tolist():
+            pair = swept(motions.sel(blade=blade, scene=scene))
+            levels = Levels.of_dataset(pair)
+            of_pair = dwells[(dwells["blade"] == blade) & (dwells["scene"] == scene)]
+            rows += [_range_row(blade, scene, pair, levels, part, of_pair) for part in levels.ranges()]
+    return pd.DataFrame(rows, columns=list(RANGE_COLUMNS))
+
+
+def _range_row(blade: str, scene: str, pair: xr.Dataset, levels: Levels, part: slice, dwells: pd.DataFrame) -> dict[str, Any]:
+    place, of_range = levels.worst(part), levels.speeds[part]
+    at = pair.isel(speed=place)
+    row: dict[str, Any] = {
+        "blade": blade,
+        "scene": scene,
+        "from_rad_s": float(of_range[0]),
+        "to_rad_s": float(of_range[-1]),
+        "speeds": len(of_range),
+        "speed_rad_s": float(levels.speeds[place]),
+        "largest_motion": MOTIONS[int(levels.high[place])],
+    }
+    names = {
+        "rms_{}_m": "rms_normal",
+        "peak_{}_m": "peak_normal",
+        "median_von_mises_{}_pa": "max_von_mises_median",
+        "share_above_yield_{}": "share_of_revolutions_above_yield",
+    }
+    for column, name in names.items():
+        if name in at:
+            row |= {column.format(motion): float(at[name].sel(motion=motion)) for motion in MOTIONS}
+    here = dwells[dwells["speed_rad_s"].between(of_range[0], of_range[-1]) & dwells["high"].notna()]
+    for kind in _STRONGEST:
+        those = here[here["high"] == str(kind)]
+        if len(those):
+            strongest = those.loc[those["share_of_time_high"].idxmax()]
+            row |= {
+                "dwell_speed_rad_s": strongest["speed_rad_s"],
+                "kind": str(kind),
+                "share_of_time": strongest["share_of_time_high"],
+                "held_revolutions": strongest["high_revolutions"],
+            }
+            break
+    return row
+
+
+def bifurcation_table(orbits: xr.Dataset) -> pd.DataFrame:
+    """A row for each speed at which a branch of periodic motions becomes stable or unstable; see BIFURCATION_COLUMNS."""
+    frame = orbits.to_dataframe()
+    size = np.hypot(frame["multiplier_real"], frame["multiplier_imaginary"])
+    table = frame.assign(
+        speed_rad_s=frame["event_speed"],
+        rms_normal_m=frame["rms_normal"],
+        period_revolutions=frame["period"],
+        becomes=np.where(size < 1.0, "stable", "unstable"),
+    )
+    return table.loc[frame["event"] != "", list(BIFURCATION_COLUMNS)]
+
+
+def closing(results: Path) -> str:
+    """How many ranges there are, in how many the largest motion lasts, and where it is most above that from rest."""
+    table = read_table(results / "second_motions.csv")
+    text = counted(len(table), "range") + " of hysteresis"
+    if not len(table):
+        return text
+    lasting = int((table["kind"] == str(Lasting.LASTING)).sum())
+    text += f", {lasting} of them with a second motion that lasts"
+    worst = table.loc[(_largest(table) / table[f"rms_{REST}_m"]).idxmax()]
+    motion, speed = worst["largest_motion"], worst["speed_rad_s"]
+    rest, largest = (1e3 * worst[f"rms_{name}_m"] for name in (REST, motion))
+    return f"{text}; {worst['blade']} in {worst['scene']} at {speed:g} rad/s: from rest {rest:.2f}, {motion} {largest:.2f} mm"
+
+
+def _largest(table: pd.DataFrame) -> pd.Series:
+    return table[[f"rms_{motion}_m" for motion in MOTIONS]].max(axis=1)

@@ -1,0 +1,83 @@
+"""Motion of a blade as a run ends, carried into another run: at another speed, or in another lining."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from r37core.contact.scene import Scene
+from r37core.rom.contact_model import ContactModel
+
+from .integration_choice import IntegrationChoice
+from .integrators import CENTRAL_DIFFERENCE
+from .problem import Problem, stable_problem
+from .segments import own_increments
+from .state import SimulationState
+from .step_limit import UnstableStepError
+
+_LARGEST_TURN = 3.0
+"""Largest turn of a mode in a step (rad) with which its velocity follows from two displacements."""
+
+
+_KEPT = ("touched", "contact_force", "penetration", "bar_position")
+"""What a motion has as a state has it."""
+
+
+@dataclass(frozen=True, eq=False)
+class CarriedMotion:
+    """Motion at the end of a run: where the next one begins.
+
+    `displacement` and `velocity`: of the blade's modes at rest, then of an elastic casing's modes, shape (modes,). The rest is
+    as in SimulationState; `wear` is None where there is no lining, and where the next run has a new one.
+    """
+
+    displacement: np.ndarray
+    velocity: np.ndarray
+    touched: np.ndarray
+    contact_force: np.ndarray
+    penetration: np.ndarray
+    bar_position: np.ndarray
+    wear: np.ndarray | None = None
+
+    @classmethod
+    def at_end(cls, problem: Problem, state: SimulationState, *, keep_wear: bool = False) -> "CarriedMotion":
+        """The motion of a `state`; `keep_wear`: whether the next run has the worn lining."""
+        factors, blade = own_increments(problem), len(problem.blade.frequencies)
+        velocity = factors.velocity(0, state.displacement, state.increment)
+        displacement, velocity = (
+            np.concatenate([problem.blade.modes @ part[:blade], part[blade:]]) for part in (state.displacement, velocity)
+        )
+        kept = {name: getattr(state, name).copy() for name in _KEPT}
+        return cls(displacement, velocity, **kept, wear=state.wear.copy() if keep_wear and state.wear is not None else None)
+
+    def put(self, problem: Problem, state: SimulationState) -> None:
+        """Put the motion into a state at rest, as far as the speed's modes are stepped."""
+        factors, at_rest = own_increments(problem), len(problem.blade.modes)
+        displacement, velocity = (
+            np.concatenate([problem.blade.modes.T @ part[:at_rest], part[at_rest:]])
+            for part in (self.displacement, self.velocity)
+        )
+        state.displacement, state.increment = displacement, factors.increment(0, displacement, velocity)
+        for name in _KEPT:
+            getattr(state, name)[...] = getattr(self, name)
+        if self.wear is not None:
+            assert state.wear is not None
+            state.wear[...] = self.wear
+
+
+def resolved_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
+    """The problem at a speed (rad/s), with steps so short that the velocity of every mode follows from two displacements.
+
+    Raises what Problem raises; UnstableStepError for an explicit step that is too long.
+    """
+    problem = stable_problem(model, speed, scene, choice)
+    fastest = problem.contact.highest_frequency
+    if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.grid.time_step < _LARGEST_TURN:
+        return problem
+    limit = _LARGEST_TURN / fastest
+    if not choice.shorten:
+        raise UnstableStepError(
+            f"time_step_s: {choice.time_step:g} s; allowed where the speed changes: below {limit:.6g} s, so that the fastest "
+            f"mode ({fastest / 2e3 / np.pi:.1f} kHz) turns by less than {_LARGEST_TURN:g} rad in a step",
+            limit,
+        )
+    return resolved_problem(model, speed, scene, replace(choice, time_step=0.99 * limit))

@@ -1,0 +1,135 @@
+# Motions that a start from rest does not show: sweeps up and down with the state carried on, dwells, branches of periodic motions.
+from r37core.second_motions.plan import DATASET, DWELLS, ORBITS, RESPONSE, STATES, SecondMotions
+
+second_motions = SecondMotions(sweep)
+
+
+use rule step as second_motion_sweep with:
+    input:
+        unpack(second_motions.models),
+    output:
+        response=RESPONSE,
+        states=STATES,
+    log:
+        "<logs>/{blade}/{scene}/second_motions_{motion}.log",
+    wildcard_constraints:
+        motion="up|down|rest",
+    params:
+        **stage(second_motions.march_stage(made)),
+
+
+use rule step as second_motion_dwells with:
+    input:
+        unpack(second_motions.marched),
+    output:
+        dwells=DWELLS,
+    log:
+        "<logs>/{blade}/{scene}/second_motions_dwells.log",
+    params:
+        **stage(second_motions.dwell_stage(made)),
+
+
+use rule step as second_motion_branches with:
+    input:
+        unpack(second_motions.marched),
+    output:
+        orbits=ORBITS,
+    log:
+        "<logs>/{blade}/{scene}/second_motions_orbits.log",
+    params:
+        **stage(second_motions.branch_stage(made)),
+
+
+use rule step as second_motions_dataset with:
+    input:
+        responses=paths.filled({RESPONSE: second_motions.marches}),
+        states=paths.filled({STATES: second_motions.marches}),
+    output:
+        dataset=DATASET,
+    log:
+        "<logs>/second_motions_dataset.log",
+    params:
+        **step("second_motions.steps.join"),
+        marches=second_motions.marches,
+        fidelity=settings.fidelity_name,
+
+
+use rule step as second_motions_all_dwells with:
+    input:
+        parts=paths.filled({DWELLS: paths.run_keys(second_motions.pairs)}),
+    output:
+        dataset="<results>/second_motions_dwells.nc",
+    log:
+        "<logs>/second_motions_all_dwells.log",
+    params:
+        **step("second_motions.steps.join_parts"),
+        pairs=second_motions.pairs,
+        along="dwell",
+        fidelity=settings.fidelity_name,
+
+
+use rule second_motions_all_dwells as second_motions_all_orbits with:
+    input:
+        parts=paths.filled({ORBITS: paths.run_keys(second_motions.bare)}),
+    output:
+        dataset="<results>/second_motions_orbits.nc",
+    log:
+        "<logs>/second_motions_all_orbits.log",
+    params:
+        **step("second_motions.steps.join_parts"),
+        pairs=second_motions.bare,
+        along="orbit",
+        fidelity=settings.fidelity_name,
+
+
+use rule step as second_motions_tables with:
+    input:
+        dataset=DATASET,
+        dwells=rules.second_motions_all_dwells.output.dataset,
+    output:
+        ranges=shown("<results>/second_motions.csv", PACKAGE / "second_motions/report.rst", TOGETHER, "second motions"),
+        dwells="<results>/second_motions_dwells.csv",
+    log:
+        "<logs>/second_motions_tables.log",
+    params:
+        **step("second_motions.steps.tabulate"),
+
+
+use rule step as second_motions_bifurcations with:
+    input:
+        orbits=rules.second_motions_all_orbits.output.dataset,
+    output:
+        table="<results>/second_motions_bifurcations.csv",
+    log:
+        "<logs>/second_motions_bifurcations.log",
+    params:
+        **step("second_motions.steps.tabulate_branches"),
+
+
+use rule figure as second_motions_figure with:
+    input:
+        motions=DATASET,
+        dwells=rules.second_motions_tables.output.dwells,
+    output:
+        **pictures("second_motions_{blade}__{scene}", "{blade}", "{scene}", "second motions"),
+    log:
+        "<logs>/figures/second_motions_{blade}__{scene}.log",
+    params:
+        **drawing(
+            code,
+            "second_motions.figures.draw_second_motions",
+            "second_motions",
+            blade="{blade}",
+            scene="{scene}",
+        ),
+
+
+use rule figure as second_motions_overview with:
+    input:
+        motions=DATASET,
+    output:
+        **pictures("second_motions_{scene}", TOGETHER, "{scene}", "second motions of all"),
+    log:
+        "<logs>/figures/second_motions_{scene}.log",
+    params:
+        **drawing(code, "second_motions.figures.draw_overview", "second_motions_of_all"),
