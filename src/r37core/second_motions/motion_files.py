@@ -40,9 +40,8 @@ class MarchedStates:
         if self._arrays["status"][place] != RunStatus.COMPLETED:
             return None
         wear = self._arrays.get(END_WEAR)
-        return CarriedMotion(
-            *(self._arrays[name][place] for name in CARRIED), None if wear is None else wear[place].astype(float)
-        )
+        wear = self._arrays[END_WEAR][place].astype(float) if END_WEAR in self._arrays else None
+        return CarriedMotion(**{name: self._arrays[name][place] for name in CARRIED}, wear=wear)
 
 
 def write_marched(files: Sequence[Path], speeds: Sequence[float], clearance: float, file: Path | str) -> None:
