@@ -15,7 +15,15 @@ from r37core.plans.structure_plan import Imported, Structure
 from r37core.plans.sweep_plan import MAPS, Datasets, Rounds, Simulations, Sweep
 from r37core.product.extensions import beside, sampling_of
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing
-from r37core.product.targets import panel_files, panel_modules, panel_parameters, simulated, tables, targets
+from r37core.product.targets import (
+    motion_files,
+    panel_files,
+    panel_modules,
+    panel_parameters,
+    simulated,
+    tables,
+    targets,
+)
 
 ROOT = Path(workflow.current_basedir).parent.parent
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"
@@ -36,6 +44,7 @@ structure = Structure(settings, samples)
 imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
 simulations, rounds, joined = Simulations(sweep), Rounds(sweep), Datasets(sweep)
+more_motions = motion_files(sweep)
 stages = {**structure_stages(structure, made), **sweep_stages(sweep, made)}
 
 

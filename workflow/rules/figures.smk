@@ -33,6 +33,7 @@ use rule figure as campbell_overview with:
 use rule figure as response_figure with:
     input:
         unpack(joined.response_pictured),
+        **more_motions,
     output:
         **pictures("response_{blade}", "{blade}", EVERY_SCENE, "response"),
     log:

@@ -47,6 +47,7 @@ use rule step as summary with:
     input:
         **datasets,
         **({"ranges": sampling.ranges} if sampling else {}),
+        **more_motions,
         campbell=rules.campbell_of_all.output[0],
     output:
         table=shown("<results>/summary.csv", TEXTS / "summary.rst", TOGETHER, "interactions"),
@@ -61,6 +62,7 @@ use rule step as ranking with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
         **({"members": sampling.dataset} if sampling else {}),
+        **more_motions,
     output:
         table=shown("<results>/ranking.csv", TEXTS / "ranking.rst", TOGETHER, "ranking"),
     log:

@@ -51,6 +51,8 @@ use rule step as second_motions_dataset with:
     params:
         **step("second_motions.steps.join"),
         marches=second_motions.marches,
+        blades=list(settings.blades),
+        scenes=list(settings.scenes),
         fidelity=settings.fidelity_name,
 
 

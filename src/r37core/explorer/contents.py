@@ -240,6 +240,10 @@ COLUMNS = (
     "sufficient_thickness_m",
     "motion_at_end",
     "lasting_share",
+    "second_motion",
+    "second_motion_speed_rad_s",
+    "second_motion_rms_m",
+    "second_motion_rest_rms_m",
     "largest_penetration_m",
     "status",
 )

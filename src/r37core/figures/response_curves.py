@@ -3,10 +3,12 @@
 from typing import Any
 
 import matplotlib.pyplot as plt
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.results.other_motions import swept
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -16,14 +18,23 @@ _MOTION_MARKERS = {MotionAtEnd.CUT_FREE: ("o", "cut free at the end"), MotionAtE
 """State of the motion at the end of a run -> its open marker, and what it is called."""
 
 
-def draw_response(title: str, campbell: xr.Dataset | None, rms: xr.Dataset, stress: xr.Dataset | None = None) -> Figure:
+def draw_response(
+    title: str,
+    campbell: xr.Dataset | None,
+    rms: xr.Dataset,
+    stress: xr.Dataset | None = None,
+    motions: xr.Dataset | None = None,
+) -> Figure:
     """One blade: normal and tangential rms of the leading edge in every scene, and the largest stress with the yield line.
 
-    `campbell`: where 1B crosses engine orders, None to leave that out.
+    `campbell`: where 1B crosses engine orders, None to leave that out; `motions`: more than that from rest, whose largest is
+    drawn where it differs from that (results/other_motions.py), and these speeds shaded.
     """
     figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, direction in zip(panels, ("normal", "tangential"), strict=False):
         _draw_scenes(axes, rms, direction)
+        if motions is not None:
+            _draw_largest(axes, motions, direction)
         axes.set_ylabel(f"rms, {direction} (mm)")
     if rms.sizes["speed"] > 1:
         panels[0].set_xlim(float(rms["speed"].min()), float(rms["speed"].max()))
@@ -77,6 +88,25 @@ def _mark_motion(axes: Axes, curve: xr.DataArray, states: xr.DataArray, colour: 
         there = curve[states.values == state]
         if there.size:
             axes.plot(there["speed"], there, marker, color=colour, fillstyle="none", markersize=4, label=label)
+
+
+def _draw_largest(axes: Axes, motions: xr.Dataset, direction: str) -> None:
+    """The largest of all motions of each scene where they differ, in the colour of the scene, on shaded speeds."""
+    for number, scene in enumerate(motions["scene"].values):
+        pair = swept(motions.sel(scene=scene))
+        largest = 1e3 * pair[f"rms_{direction}"].max("motion").where(pair["differ"] > 0.0)
+        label = f"{scene}, largest motion"
+        axes.plot(pair["speed"], largest, "+", color=f"C{number}", markersize=5, label=label)
+        shade(axes, pair, f"C{number}")
+
+
+def shade(axes: Axes, pair: xr.Dataset, colour: Any = "0.5") -> None:
+    """Shade the speeds at which the motions of one blade and scene differ (results/other_motions.py)."""
+    speeds, differ = pair["speed"].values, pair["differ"].values > 0.0
+    half = 0.5 * float(np.diff(speeds).min()) if len(speeds) > 1 else 0.0
+    for number, speed in enumerate(speeds[differ]):
+        label = "motions differ" if number == 0 else None
+        axes.axvspan(speed - half, speed + half, color=colour, alpha=0.15, linewidth=0, zorder=0, label=label)
 
 
 def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:

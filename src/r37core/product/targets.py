@@ -59,6 +59,12 @@ def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
 _PACKAGE = Path(__file__).parent.parent
 
 
+def motion_files(sweep: Sweep) -> dict[str, str]:
+    """The dataset of more motions than that from rest, as the input `motions`; none in a run without one."""
+    files = [file for extension in EXTENSIONS for file in filled(extension.motions(sweep))]
+    return {"motions": files[0]} if files else {}
+
+
 def panel_files(sweep: Sweep) -> dict[str, str]:
     """Extension -> the dataset that its panels show; those of extensions that have one in this run."""
     return {name: file for name, panel in _panels(sweep).items() for file in filled(panel.dataset(sweep))}

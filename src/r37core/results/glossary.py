@@ -88,6 +88,10 @@ INTERACTIONS = {
     "peak_motion_m": Word("rms, both directions", "normal and tangential rms together, at the peak speed", *_MM),
     "fall_speed_rad_s": Word("falls at", "speed above the peak at which the motion falls below half of it", _SPEED),
     "note": Word("note", "reason for empty columns, and where the lining is worn through"),
+    "second_motion": Word("second motion", "motion, carried `up` or `down` the speeds, that is most above that from rest"),
+    "second_motion_speed_rad_s": Word("at speed", "speed at which it is", _SPEED),
+    "second_motion_rms_m": Word("its normal rms", "normal rms of the second motion", *_MM),
+    "second_motion_rest_rms_m": Word("from rest there", "normal rms of the motion from rest at that speed", *_MM),
     "share_of_members": Word("members", "share of the members that show the interaction", *_PERCENT),
     "robust": Word("robust", "whether at least half of the members show it"),
 }
@@ -116,6 +120,14 @@ RANKING = {
         "largest gap", "largest distance of neighbouring speeds: it can hide a narrower interaction", _SPEED
     ),
     "diverged_runs": Word("diverged", "number of diverged runs"),
+    "length_certain_rest_rad_s": Word(
+        f"{_MOST}, from rest", "the same length by the motions from rest, at the speeds of the sweeps up and down", _SPEED
+    ),
+    "length_certain_worst_rad_s": Word(
+        f"{_MOST}, worst motion", "the same length by the worst of the motions up, down and from rest", _SPEED
+    ),
+    "largest_rms_worst_m": Word("largest rms, worst motion", "largest rms of the motions up, down and from rest", *_MM),
+    "rank_worst": Word("rank by the worst motion", "place in the scene by the length above yield of the worst motion"),
     "members": Word("members", "number of members of the sample"),
 }
 """Columns of ranking.csv, a line for each blade and scene."""

@@ -14,6 +14,7 @@ from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
+from .other_motions import ranking_with_motions, summary_with_motions
 from .ranges import ranged_summary, read_ranges
 from .ranking import measures_of_members, ranking_table, robustness
 from .response import write_response
@@ -69,19 +70,26 @@ def coincidences(input: Any, output: Any, params: Any) -> None:
 
 
 def summary(input: Any, output: Any, params: Any) -> None:
-    """List the interactions. Inputs: datasets by kind and, if there, ranges of members. Params: choice. Output: table (csv)."""
+    """List the interactions. Inputs: datasets by kind and, if there, ranges of members, and more motions. Output: table (csv).
+
+    Params: choice.
+    """
     files = dict(input.items())
-    ranges = files.pop("ranges", None)
+    ranges, motions = (files.pop(name, None) for name in ("ranges", "motions"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     table = summarise(datasets, from_plain(InteractionChoice, params.choice))
     if ranges:
         table = ranged_summary(table, read_ranges(ranges))
+    if motions:
+        table = summary_with_motions(table, read_dataset(motions))
     write_table(table, output.table)
 
 
 def ranking(input: Any, output: Any, params: Any) -> None:
-    """Rank the blades. Inputs: datasets by kind and, if there, members. Params: runs. Output: table (csv)."""
+    """Rank the blades. Inputs: datasets by kind and, if there, members and more motions. Params: runs. Output: table (csv)."""
     datasets = {kind: read_dataset(file) for kind, file in input.items()}
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
+    motions = datasets.pop("motions", None)
     measures = {(blade, scene): robustness(response_of(datasets, blade, scene)) for blade, scene in params.runs}
-    write_table(ranking_table(measures, members), output.table, digits=6)
+    table = ranking_table(measures, members)
+    write_table(table if motions is None else ranking_with_motions(table, motions), output.table, digits=6)

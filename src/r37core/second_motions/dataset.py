@@ -1,6 +1,6 @@
 """second_motions.nc, and the dwells and orbits of all blades and scenes joined."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -32,12 +32,15 @@ OF_ALL = ("yield_stress", "lined")
 
 
 def second_motions_dataset(
-    responses: Mapping[tuple[str, str, str], Path | str], states: Mapping[tuple[str, str, str], Path | str]
+    responses: Mapping[tuple[str, str, str], Path | str],
+    states: Mapping[tuple[str, str, str], Path | str],
+    blades: Sequence[str],
+    scenes: Sequence[str],
 ) -> xr.Dataset:
     """All sweeps, over (blade, scene, motion, speed), by the files of each blade, scene and motion.
 
     `motion_mean` and `motion_scatter` (m): of the rms of a revolution, normal and tangential together; `differ`, over (blade,
-    scene, speed): whether the motions do. NaN for a blade and scene that is not swept. Raises InputFileError.
+    scene, speed): whether the motions do. NaN for those of all `blades` and `scenes` that are not swept. Raises InputFileError.
     """
     pairs = list(dict.fromkeys((blade, scene) for blade, scene, _ in responses))
     parts = []
@@ -56,16 +59,11 @@ def second_motions_dataset(
         parts.append(part.expand_dims({"blade": [blade], "scene": [scene]}))
     joined = xr.combine_by_coords(parts, combine_attrs="drop_conflicts")
     assert isinstance(joined, xr.Dataset)
-    return joined
+    return joined.reindex(blade=list(blades), scene=list(scenes))
 
 
 def _over_motions(response: xr.Dataset) -> list[str]:
     return [str(name) for name in response.data_vars if name not in OF_ALL]
-
-
-def swept(motions: xr.Dataset) -> xr.Dataset:
-    """Motions of one blade and scene at the speeds that it is swept at."""
-    return motions.isel(speed=np.flatnonzero(motions["differ"].notnull().values))
 
 
 def join_pairs(files: Mapping[tuple[str, str], Path | str], along: str) -> xr.Dataset:

@@ -1,16 +1,16 @@
 """Motions up, down and from rest over the speed, and what dwells find."""
 
 import matplotlib.pyplot as plt
-import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.figures import style
+from r37core.figures.response_curves import shade
+from r37core.results.other_motions import swept
 
 from .choice import MOTIONS
-from .dataset import swept
 from .dwelling import Lasting
 
 COLOURS = {"up": "#D55E00", "down": "#0072B2", "rest": "0.25"}
@@ -33,15 +33,21 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, *
             )
         style.yield_lines(panels[1], {blade: float(pair["yield_stress"])}, named=True)
         panels[1].set_ylabel("median von Mises (GPa)")
-    shares, exponents = panels[-2:]
     for kind, marker in MARKERS.items():
         those = found[found["high"] == str(kind)]
-        if len(those):
-            shares.plot(
-                those["speed_rad_s"], those["share_of_time_high"], marker, color=COLOURS["up"], label=f"larger motion {kind}"
-            )
-    shares.set(ylabel="share of time\nin larger motion", ylim=(-0.05, 1.05))
-    for of, label, colour in (("high", "larger", COLOURS["up"]), ("low", "smaller", COLOURS["down"])):
+        panels[0].plot(
+            those["speed_rad_s"],
+            1e3 * those["level_high_m"],
+            marker,
+            color=COLOURS["up"],
+            fillstyle="none",
+            markersize=5,
+            label=f"largest motion {kind}",
+        )
+    shares, exponents = panels[-2:]
+    shares.plot(found["speed_rad_s"], found["share_of_time_high"], ".", color=COLOURS["up"])
+    shares.set(ylabel="share of time\nin largest motion", ylim=(-0.05, 1.05))
+    for of, label, colour in (("high", "largest", COLOURS["up"]), ("low", "smallest", COLOURS["down"])):
         exponents.plot(
             found["speed_rad_s"], found[f"lyapunov_exponent_{of}"], ".", color=colour, label=f"exponent, {label} motion"
         )
@@ -72,16 +78,6 @@ def draw_overview(motions: xr.Dataset, title: str) -> Figure:
     style.rpm_axis(grid[0, 0])
     figure.legend(*style.legend_entries(grid[:, 0]), loc="outside lower center", ncols=4)
     return figure
-
-
-def shade(axes: Axes, pair: xr.Dataset) -> None:
-    """Shade the speeds at which the motions differ."""
-    speeds, differ = pair["speed"].values, pair["differ"].values > 0.0
-    if len(speeds) > 1:
-        half = 0.5 * float(np.diff(speeds).min())
-        for number, speed in enumerate(speeds[differ]):
-            label = "motions differ" if number == 0 else None
-            axes.axvspan(speed - half, speed + half, color="0.88", linewidth=0, zorder=0, label=label)
 
 
 def _draw_motions(axes: Axes, pair: xr.Dataset) -> None:

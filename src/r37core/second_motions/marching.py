@@ -3,6 +3,7 @@
 import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from r37core.time_integration.settling import revolution_rms
 from r37core.time_integration.simulate import LEADING_EDGE
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import numbers_of_run
+from r37core.time_integration.status import RunStatus
 
 from .choice import DOWN, REST, SweepChoice
 
@@ -73,7 +75,8 @@ class March:
         Without a motion the blade starts from rest and does first the run of the pipeline.
         """
         if carried is None:
-            before = BladesSimulation(self.model, speed, self.scene, replace(self.carried_choice, revolutions=self.revolutions))
+            grown = replace(self.carried_choice, revolutions=self.choice.revolutions)
+            before = BladesSimulation(self.model, speed, self.scene, grown)
             states = before.start()
             if not before.run(states).blades[0].diverged:
                 carried = CarriedMotion.at_end(before.problem, states[0], keep_wear=self.sweep.worn)
@@ -81,16 +84,11 @@ class March:
         return self._numbers(simulation, carried, keep_wear=self.sweep.worn)
 
     @property
-    def revolutions(self) -> int:
-        """Revolutions of a run from rest."""
-        return self.choice.revolutions
-
-    @property
     def grown_scene(self) -> Scene:
         """The scene with lobes that are full-grown from the start."""
         return replace(self.scene, casing=replace(self.scene.casing, rise_fraction=0.0, rise_revolutions=None))
 
-    @property
+    @cached_property
     def carried_choice(self) -> IntegrationChoice:
         """Time integration of a speed to which the motion is carried, with its statistic over the last half."""
         highest = self.sweep.speeds[-1]
@@ -123,7 +121,7 @@ class March:
 
 def carried_of(numbers: Mapping[str, np.ndarray]) -> CarriedMotion | None:
     """The motion at the end of a run, by its numbers; None of one that diverged."""
-    if int(numbers["status"]) != 0:
+    if int(numbers["status"]) != RunStatus.COMPLETED:
         return None
     return CarriedMotion(**{name: numbers[name] for name in CARRIED}, wear=numbers.get("end_wear"))
 

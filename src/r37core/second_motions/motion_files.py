@@ -39,7 +39,6 @@ class MarchedStates:
         """Motion at the end of the speed at this place; None where it diverged."""
         if self._arrays["status"][place] != RunStatus.COMPLETED:
             return None
-        wear = self._arrays.get(END_WEAR)
         wear = self._arrays[END_WEAR][place].astype(float) if END_WEAR in self._arrays else None
         return CarriedMotion(**{name: self._arrays[name][place] for name in CARRIED}, wear=wear)
 
@@ -50,13 +49,22 @@ def write_marched(files: Sequence[Path], speeds: Sequence[float], clearance: flo
     Wear of carried linings is in single precision.
     """
     runs = [read_speed(each) for each in files]
-    counted = [run["revolution_rms"][: int(run["statistic_end"])][-int(run["statistic_revolutions"]) :] for run in runs]
+    counted = [_counted(run) for run in runs]
     arrays = {name: np.array([run[name] for run in runs]) for name in ("status", *CARRIED)}
     if END_WEAR in runs[0]:
         arrays[END_WEAR] = np.array([run[END_WEAR] for run in runs], dtype=np.float32)
     with atomic_write(file) as partial:
         arrays |= {"speed": np.array(speeds), "revolution_rms": np.array(counted), "clearance": np.array(clearance)}
         np.savez_compressed(partial, allow_pickle=False, **arrays)
+
+
+def _counted(run: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Rms (m) of the revolutions in a run's statistic, shape (revolutions,); NaN of one that diverged."""
+    end, count = int(run["statistic_end"]), int(run["statistic_revolutions"])
+    if int(run["status"]) != RunStatus.COMPLETED:
+        return np.full(count, np.nan)
+    last = run["revolution_rms"][:end][-count:]
+    return np.concatenate([np.full(count - len(last), np.nan), last])
 
 
 def levels_of(states: Mapping[str, MarchedStates]) -> Levels:

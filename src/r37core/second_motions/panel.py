@@ -4,8 +4,8 @@ import numpy as np
 import xarray as xr
 
 from r37core.explorer.contents import packed
+from r37core.results.other_motions import swept
 
-from .dataset import swept
 from .ranges import Levels
 
 

@@ -70,10 +70,14 @@ def follow(input: Any, output: Any, params: Any) -> None:
 
 
 def join(input: Any, output: Any, params: Any) -> None:
-    """Join the sweeps of all blades and scenes. Inputs: responses, states. Output: dataset (nc). Params: marches, fidelity."""
+    """Join the sweeps of all blades and scenes. Inputs: responses, states. Output: dataset (nc).
+
+    Params: marches, blades, scenes, fidelity.
+    """
     keys = [(run["blade"], run["scene"], run["motion"]) for run in params.marches]
     responses, states = (dict(zip(keys, as_list(files), strict=True)) for files in (input.responses, input.states))
-    write_dataset(second_motions_dataset(responses, states), output.dataset, {"fidelity": params.fidelity})
+    dataset = second_motions_dataset(responses, states, params.blades, params.scenes)
+    write_dataset(dataset, output.dataset, {"fidelity": params.fidelity})
 
 
 def join_parts(input: Any, output: Any, params: Any) -> None:

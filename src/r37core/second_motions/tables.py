@@ -8,11 +8,11 @@ import pandas as pd
 import xarray as xr
 
 from r37core.results.closing import counted
+from r37core.results.other_motions import swept
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import MotionKind
 
 from .choice import MOTIONS, REST
-from .dataset import swept
 from .dwelling import HIGH, LOW, STARTS, Lasting, judged
 from .ranges import Levels
 
@@ -133,7 +133,7 @@ def _range_row(blade: str, scene: str, pair: xr.Dataset, levels: Levels, part: s
     for kind in _STRONGEST:
         those = here[here["high"] == str(kind)]
         if len(those):
-            strongest = those.loc[those["share_of_time_high"].idxmax()]
+            strongest = those.loc[(those["level_high_m"] / those["level_low_m"]).idxmax()]
             row |= {
                 "dwell_speed_rad_s": strongest["speed_rad_s"],
                 "kind": str(kind),

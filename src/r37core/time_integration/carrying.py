@@ -61,7 +61,8 @@ class CarriedMotion:
             getattr(state, name)[...] = getattr(self, name)
         if self.wear is not None:
             assert state.wear is not None
-            state.wear[...] = self.wear
+            # where the tip reaches into the lining at this speed, it has cut its way already
+            np.maximum(state.wear, self.wear, out=state.wear)
 
 
 def resolved_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:

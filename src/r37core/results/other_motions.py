@@ -1,0 +1,75 @@
+"""What motions other than that from rest change in the answers: the worst of all motions at each speed.
+
+`motions` is the dataset of an extension, over (blade, scene, motion, speed); the motion from rest is among them, called REST.
+`motion_mean` (m) is the mean rms of a revolution, normal and tangential together; `differ` is 1 where the motions differ. What
+is not run is NaN.
+"""
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.time_integration.status import RunStatus
+
+from .exceedance import CERTAIN, Exceedance, is_lined
+
+REST = "rest"
+
+WITHIN = 0.06
+"""Distance of a speed from the peak of an interaction, as a share of it, within which another motion belongs to that."""
+
+RANKED = ("length_certain_rest_rad_s", "length_certain_worst_rad_s", "largest_rms_worst_m", "rank_worst")
+"""Columns of ranking.csv."""
+
+SUMMARISED = ("second_motion", "second_motion_speed_rad_s", "second_motion_rms_m", "second_motion_rest_rms_m")
+"""Columns of summary.csv."""
+
+
+def swept(motions: xr.Dataset) -> xr.Dataset:
+    """Motions of one blade and scene at the speeds that they are run at."""
+    return motions.isel(speed=np.flatnonzero(motions["differ"].notnull().values))
+
+
+def ranking_with_motions(ranking: pd.DataFrame, motions: xr.Dataset) -> pd.DataFrame:
+    """The ranking with the length of speeds above yield by the motion from rest and by the worst one, on the same speeds."""
+    rows = [_worst(swept(motions.sel(blade=row.blade, scene=row.scene))) for row in ranking.itertuples()]
+    table = pd.concat([ranking, pd.DataFrame(rows, index=ranking.index, columns=list(RANKED[:-1]))], axis=1)
+    table[RANKED[-1]] = table.groupby("scene")["length_certain_worst_rad_s"].rank(method="min").astype("Int64")
+    return table
+
+
+def _worst(pair: xr.Dataset) -> dict[str, float]:
+    if not pair.sizes["speed"]:
+        return {}
+    row = {"largest_rms_worst_m": float(pair["motion_mean"].max())}
+    if "share_of_revolutions_above_yield" in pair:
+        diverged = pair["status"] == RunStatus.DIVERGED
+        shares = pair["share_of_revolutions_above_yield"].where(~diverged, 1.0)
+        several = {"rest": shares.sel(motion=REST), "worst": shares.max("motion")}
+        for name, share in several.items():
+            exceedance = Exceedance(pair["speed"].values, share.values, not is_lined(pair))
+            row[f"length_certain_{name}_rad_s"] = exceedance.length(CERTAIN)
+    return row
+
+
+def summary_with_motions(summary: pd.DataFrame, motions: xr.Dataset) -> pd.DataFrame:
+    """The summary with the motion of each interaction that is most above that from rest, where they differ.
+
+    Speeds belong to the interaction whose peak is nearest, up to WITHIN of it.
+    """
+    table = summary.copy()
+    table[SUMMARISED[0]] = pd.Series("", table.index, dtype=object)
+    table[list(SUMMARISED[1:])] = np.nan
+    for (blade, scene), rows in table.groupby(["blade", "scene"], sort=False):
+        pair, peaks = swept(motions.sel(blade=blade, scene=scene)), rows["peak_speed_rad_s"]
+        mean = pair["motion_mean"].transpose("motion", "speed").values
+        above = mean - mean[pair["motion"].values == REST]
+        for place in np.argsort(above.max(axis=0, initial=0.0), kind="stable"):
+            speed, motion = float(pair["speed"][place]), int(np.argmax(above[:, place]))
+            nearest = (peaks - speed).abs().idxmin()
+            if pair["differ"][place] and above[motion, place] > 0.0 and abs(peaks[nearest] - speed) <= WITHIN * peaks[nearest]:
+                rms = pair["rms_normal"].isel(speed=place)
+                values = (str(pair["motion"].values[motion]), speed, float(rms[motion]), float(rms.sel(motion=REST)))
+                # the last one is the largest
+                table.loc[nearest, list(SUMMARISED)] = values
+    return table
