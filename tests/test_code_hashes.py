@@ -21,6 +21,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.product.reporting import drawing
 from r37core.run_ups.plan import RunUps
+from r37core.second_motions.plan import SecondMotions
 
 SCRIPT = "from job import run\nfrom r37core.a import f\n"
 
@@ -163,6 +164,12 @@ def rules(root):
     settings = read_settings(root)
     structure, made, sweep = Structure(settings), Provenance(settings), Sweep(settings)
     shared = {**structure_stages(structure, made), **sweep_stages(sweep, made), "run_up": RunUps(sweep).stage(made)}
+    motions = SecondMotions(sweep)
+    shared |= {
+        "second_motion_sweep": motions.sweep_stage(made),
+        "second_motion_dwells": motions.dwell_stage(made),
+        "second_motion_branches": motions.branch_stage(made),
+    }
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]

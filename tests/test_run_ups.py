@@ -22,11 +22,11 @@ from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError, check_high
 from r37core.run_ups.dataset import runs_of, write_run_ups
 from r37core.run_ups.figures import draw_rates, draw_run_ups
 from r37core.run_ups.integration import IntegratedSegments, RunUpIntegration
-from r37core.time_integration.carrying import resolved_problem
 from r37core.run_ups.revolutions import largest_stress, record_run_up
 from r37core.run_ups.schedule import RunUp, schedule
 from r37core.run_ups.tables import rate_table, run_up_table
 from r37core.time_integration import integration_choice
+from r37core.time_integration.carrying import resolved_problem
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.problem import Problem, stable_problem
 from r37core.time_integration.simulate import Simulation
@@ -341,7 +341,9 @@ def test_steps_are_so_short_that_every_mode_tells_its_velocity(contact):
     scene = replace(scene, casing=replace(scene.casing, ring=(RingMode(2, 2.8e6, 1e3, 0.0),)))
     problem = resolved_problem(contact, 1600.0, scene, choice)
     assert 2.5 < problem.contact.highest_frequency * problem.grid.time_step < 3.0
-    with pytest.raises(UnstableStepError, match=r"time_step_s: 1\.6e-06 s; allowed where the speed changes: below 1\.07\d+e-06 s"):
+    with pytest.raises(
+        UnstableStepError, match=r"time_step_s: 1\.6e-06 s; allowed where the speed changes: below 1\.07\d+e-06 s"
+    ):
         resolved_problem(contact, 1600.0, scene, replace(choice, shorten=False))
 
 

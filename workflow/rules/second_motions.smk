@@ -15,12 +15,12 @@ use rule step as second_motion_sweep with:
     wildcard_constraints:
         motion="up|down|rest",
     params:
-        **stage(second_motions.march_stage(made)),
+        **stage(second_motions.sweep_stage(made)),
 
 
 use rule step as second_motion_dwells with:
     input:
-        unpack(second_motions.marched),
+        unpack(second_motions.swept_files),
     output:
         dwells=DWELLS,
     log:
@@ -31,7 +31,7 @@ use rule step as second_motion_dwells with:
 
 use rule step as second_motion_branches with:
     input:
-        unpack(second_motions.marched),
+        unpack(second_motions.swept_files),
     output:
         orbits=ORBITS,
     log:
@@ -42,15 +42,15 @@ use rule step as second_motion_branches with:
 
 use rule step as second_motions_dataset with:
     input:
-        responses=paths.filled({RESPONSE: second_motions.marches}),
-        states=paths.filled({STATES: second_motions.marches}),
+        responses=paths.filled({RESPONSE: second_motions.runs}),
+        states=paths.filled({STATES: second_motions.runs}),
     output:
         dataset=DATASET,
     log:
         "<logs>/second_motions_dataset.log",
     params:
         **step("second_motions.steps.join"),
-        marches=second_motions.marches,
+        runs=second_motions.runs,
         blades=list(settings.blades),
         scenes=list(settings.scenes),
         fidelity=settings.fidelity_name,
@@ -70,7 +70,7 @@ use rule step as second_motions_all_dwells with:
         fidelity=settings.fidelity_name,
 
 
-use rule second_motions_all_dwells as second_motions_all_orbits with:
+use rule step as second_motions_all_orbits with:
     input:
         parts=paths.filled({ORBITS: paths.run_keys(second_motions.bare)}),
     output:

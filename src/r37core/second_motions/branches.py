@@ -12,7 +12,7 @@ from enum import StrEnum
 import numpy as np
 from scipy.linalg import solve
 
-from .periodic import CLOSED, Blade, NoOrbitError, Orbit, PeriodMap
+from .periodic import CLOSED, NoOrbitError, Orbit, PeriodicBlade, PeriodMap
 
 SPEED_SCALE = 30.0
 """Change of speed (rad/s) that counts in the arc length as much as a change of the state by its own size."""
@@ -48,7 +48,7 @@ class Bifurcation:
 class _Point:
     """An orbit with the map at its speed, and the derivative of P by the speed."""
 
-    def __init__(self, blade: Blade, orbit: Orbit, at_speed: PeriodMap):
+    def __init__(self, blade: PeriodicBlade, orbit: Orbit, at_speed: PeriodMap):
         self.orbit, self.map = orbit, at_speed
         self.by_speed = _by_speed(blade, orbit.speed, orbit.z, orbit.phase, orbit.samples, orbit.z)
 
@@ -62,12 +62,12 @@ class _Point:
         return tangent * (forward or 1.0)
 
 
-def _by_speed(blade: Blade, speed: float, z: np.ndarray, phase: int, samples: int, mapped: np.ndarray) -> np.ndarray:
+def _by_speed(blade: PeriodicBlade, speed: float, z: np.ndarray, phase: int, samples: int, mapped: np.ndarray) -> np.ndarray:
     """Derivative of P by the speed; `mapped`: P(z) at the speed."""
     return (blade.map_at(speed + _SPEED_DIFFERENCE)(z, phase, samples) - mapped) / _SPEED_DIFFERENCE
 
 
-def branch_through(blade: Blade, start: Orbit, first: float, last: float, most: int) -> list[Orbit]:
+def branch_through(blade: PeriodicBlade, start: Orbit, first: float, last: float, most: int) -> list[Orbit]:
     """Orbits of the branch through one, in their order along it, as far as the speeds (rad/s) `first` to `last`.
 
     At most so many on each side of it. A branch also ends where no orbit is found in the least arc length, and after
@@ -77,18 +77,18 @@ def branch_through(blade: Blade, start: Orbit, first: float, last: float, most: 
     return [*down[::-1], start, *up]
 
 
-def _followed(blade: Blade, start: Orbit, direction: float, first: float, last: float, most: int) -> Iterator[Orbit]:
+def _followed(blade: PeriodicBlade, start: Orbit, direction: float, first: float, last: float, most: int) -> Iterator[Orbit]:
     point, length, tangent, unstable = _Point(blade, start, blade.map_at(start.speed)), FIRST, None, 0
     for _ in range(most):
         tangent = point.tangent(tangent, direction)
-        found = None
-        while found is None:
-            found = _next(blade, point, tangent, length)
-            if found is None:
+        following = None
+        while following is None:
+            following = _next(blade, point, tangent, length)
+            if following is None:
                 length *= 0.5
                 if length < LEAST:
                     return
-        orbit, corrections = found
+        orbit, corrections = following
         if not first <= orbit.speed <= last:
             yield from _at_end(blade, point, orbit, min(max(orbit.speed, first), last))
             return
@@ -116,7 +116,7 @@ def _way(point: _Point, orbit: Orbit) -> np.ndarray:
     return np.append(change / np.linalg.norm(orbit.z), (orbit.speed - point.orbit.speed) / SPEED_SCALE)
 
 
-def _at_end(blade: Blade, point: _Point, beyond: Orbit, speed: float) -> list[Orbit]:
+def _at_end(blade: PeriodicBlade, point: _Point, beyond: Orbit, speed: float) -> list[Orbit]:
     """The orbit at the speed (rad/s) between a point of the branch and an orbit, if it is found."""
     share = (speed - point.orbit.speed) / (beyond.speed - point.orbit.speed)
     z = point.orbit.z + share * (beyond.z - point.orbit.z)
@@ -126,7 +126,7 @@ def _at_end(blade: Blade, point: _Point, beyond: Orbit, speed: float) -> list[Or
         return []
 
 
-def _next(blade: Blade, point: _Point, tangent: np.ndarray, length: float) -> tuple[Orbit, int] | None:
+def _next(blade: PeriodicBlade, point: _Point, tangent: np.ndarray, length: float) -> tuple[Orbit, int] | None:
     """The orbit at an arc length along the tangent, and the corrections that it took; None where none is found."""
     orbit, size = point.orbit, float(np.linalg.norm(point.orbit.z))
     along_z, along_speed = tangent[:-1] * size, tangent[-1] * SPEED_SCALE
@@ -154,7 +154,7 @@ def _next(blade: Blade, point: _Point, tangent: np.ndarray, length: float) -> tu
     return None
 
 
-def _at_free_instant(blade: Blade, orbit: Orbit) -> Orbit | None:
+def _at_free_instant(blade: PeriodicBlade, orbit: Orbit) -> Orbit | None:
     """The orbit as it is where nothing is pressed at its instant, else at another one; None where there is none."""
     at_speed = blade.map_at(orbit.speed)
     state = at_speed.state(orbit.z, orbit.phase)
@@ -168,7 +168,7 @@ def _at_free_instant(blade: Blade, orbit: Orbit) -> Orbit | None:
         return None
 
 
-def events_of(blade: Blade, orbits: list[Orbit]) -> list[Bifurcation]:
+def events_of(blade: PeriodicBlade, orbits: list[Orbit]) -> list[Bifurcation]:
     """Where a branch becomes stable or unstable: it turns in the speed, or a multiplier passes the unit circle.
 
     Where a multiplier passes through -1 the period doubles, a pair makes a torus; what passes through +1 apart from a fold is
@@ -195,18 +195,18 @@ def _turns(orbits: list[Orbit], number: int) -> bool:
     return (here.speed - before.speed) * (after.speed - here.speed) < 0.0
 
 
-def _between(blade: Blade, before: Orbit, after: Orbit, share: float) -> Orbit | None:
+def _between(blade: PeriodicBlade, before: Orbit, after: Orbit, share: float) -> Orbit | None:
     """The orbit of the branch nearest to a share of the way between two of its orbits at the same instant; None without one."""
     if before.phase != after.phase:
         return None
     size = float(np.linalg.norm(before.z))
     chord = np.append((after.z - before.z) / size, (after.speed - before.speed) / SPEED_SCALE)
     length = float(np.linalg.norm(chord))
-    found = _next(blade, _Point(blade, before, blade.map_at(before.speed)), chord / length, share * length)
-    return found[0] if found else None
+    following = _next(blade, _Point(blade, before, blade.map_at(before.speed)), chord / length, share * length)
+    return following[0] if following else None
 
 
-def _turn(blade: Blade, orbits: list[Orbit]) -> float:
+def _turn(blade: PeriodicBlade, orbits: list[Orbit]) -> float:
     """Extreme speed (rad/s) of the branch about the second of three orbits, halving the distance to both neighbours."""
     first, middle, last = orbits
     sense = np.sign(middle.speed - first.speed)
@@ -220,7 +220,7 @@ def _turn(blade: Blade, orbits: list[Orbit]) -> float:
     return middle.speed
 
 
-def _passing(blade: Blade, before: Orbit, after: Orbit) -> tuple[Event, float]:
+def _passing(blade: PeriodicBlade, before: Orbit, after: Orbit) -> tuple[Event, float]:
     """What passes the unit circle between a stable orbit and one that is not, and at which speed (rad/s)."""
     inner, outer = (before, after) if before.stable else (after, before)
     for _ in range(_HALVINGS):

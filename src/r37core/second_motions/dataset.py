@@ -9,7 +9,7 @@ import xarray as xr
 from r37core.dataset_file import about, read_dataset
 
 from .choice import MOTIONS
-from .motion_files import MarchedStates, levels_of
+from .motion_files import SweptStates, levels_of
 
 KEPT = (
     *(f"{kind}_{direction}" for kind in ("rms", "peak") for direction in ("normal", "radial", "tangential")),
@@ -50,7 +50,7 @@ def second_motions_dataset(
             response = read_dataset(responses[blade, scene, motion], {"tip_point": "leading_edge"})
             motions.append(response[[name for name in (*KEPT, *OF_ALL) if name in response]].reset_coords(drop=True))
         part = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=_over_motions(motions[0]))
-        levels = levels_of({motion: MarchedStates(states[blade, scene, motion]) for motion in MOTIONS})
+        levels = levels_of({motion: SweptStates(states[blade, scene, motion]) for motion in MOTIONS})
         over = ("motion", "speed")
         part["motion_mean"] = over, levels.mean, about("m", "mean rms of a revolution, normal and tangential together")
         part["motion_scatter"] = over, levels.scatter, about("m", "standard deviation of the rms of a revolution")

@@ -15,10 +15,9 @@ EXTENSION = Extension(
     motions=dataset,
     captions={
         "second_motions": (
-            "Blade {blade} in scene {scene}, carried up and down through the speeds, and from rest: rms of the leading edge's "
-            "motion, normal and tangential together, with its scatter from revolution to revolution; then the largest stress. "
-            "Shaded: the motions differ by more than they scatter. Below: share of the time that dwells spend in the larger "
-            "motion, and the Lyapunov exponent of each motion."
+            "Blade {blade} in scene {scene}, carried up and down the speeds, and from rest. Motion of the leading edge, "
+            "normal and tangential together, with its scatter over the revolutions. Shaded: the motions differ by more "
+            "than they scatter. Then the median stress, the largest motion's share of a long time, and Lyapunov exponents."
         ),
         "second_motions_of_all": (
             "All blades in scene {scene}, carried up and down through the speeds, and from rest. Shaded: the motions differ by "

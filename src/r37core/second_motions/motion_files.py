@@ -17,14 +17,14 @@ from r37core.time_integration.status import RunStatus
 from .branches import Bifurcation
 from .choice import MOTIONS
 from .dwelling import Dwell
-from .marching import CARRIED
 from .periodic import Orbit
-from .ranges import Levels
+from .ranges import MotionLevels
+from .sweeping import CARRIED
 
 END_WEAR = "end_wear"
 
 
-class MarchedStates:
+class SweptStates:
     """Motions at the end of each speed of a sweep, from its file; `speeds` (rad/s) ascend.
 
     `rms` (m): of the revolutions that count, shape (speeds, revolutions); `clearance` (m): of the scene.
@@ -43,7 +43,7 @@ class MarchedStates:
         return CarriedMotion(**{name: self._arrays[name][place] for name in CARRIED}, wear=wear)
 
 
-def write_marched(files: Sequence[Path], speeds: Sequence[float], clearance: float, file: Path | str) -> None:
+def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: float, file: Path | str) -> None:
     """Write the states of all speeds (rad/s, ascending) of a sweep, from the files of each, and the scene's `clearance` (m).
 
     Wear of carried linings is in single precision.
@@ -67,10 +67,10 @@ def _counted(run: Mapping[str, np.ndarray]) -> np.ndarray:
     return np.concatenate([np.full(count - len(last), np.nan), last])
 
 
-def levels_of(states: Mapping[str, MarchedStates]) -> Levels:
+def levels_of(states: Mapping[str, SweptStates]) -> MotionLevels:
     """Levels of the motions of a blade and scene, by motion."""
-    first = states[MOTIONS[0]]
-    return Levels.of_revolutions(first.speeds, {motion: each.rms for motion, each in states.items()}, float(first.clearance))
+    first, rms = states[MOTIONS[0]], {motion: each.rms for motion, each in states.items()}
+    return MotionLevels.of_revolutions(first.speeds, rms, float(first.clearance))
 
 
 OF_DWELLS = {
@@ -91,8 +91,8 @@ OF_DWELLS = {
 def dwell_dataset(rows: Sequence[tuple[Mapping[str, Any], Dwell]], revolutions: int) -> xr.Dataset:
     """Dataset of the dwells of one blade and scene: labels and levels of each, and what it found."""
     columns: dict[str, list[Any]] = {name: [] for name in ("start", "motion", *OF_DWELLS)}
-    for labels, found in rows:
-        kind = found.kind
+    for labels, dwell in rows:
+        kind = dwell.kind
         values = {
             **labels,
             "motion_kind": int(kind.kind),
@@ -100,7 +100,7 @@ def dwell_dataset(rows: Sequence[tuple[Mapping[str, Any], Dwell]], revolutions: 
             "lyapunov_exponent_error": kind.error,
             "recurrence": kind.recurrence,
             "recurrence_period": kind.period,
-            "revolution_rms": found.rms,
+            "revolution_rms": dwell.rms,
         }
         for name, column in columns.items():
             column.append(values[name])

@@ -6,7 +6,7 @@ import xarray as xr
 from r37core.explorer.contents import packed
 from r37core.results.other_motions import swept
 
-from .ranges import Levels
+from .ranges import MotionLevels
 
 
 def contents(motions: xr.Dataset) -> list[dict[str, object]]:
@@ -17,7 +17,7 @@ def contents(motions: xr.Dataset) -> list[dict[str, object]]:
             pair = swept(motions.sel(blade=blade, scene=scene))
             if not pair.sizes["speed"]:
                 continue
-            levels = Levels.of_dataset(pair)
+            levels = MotionLevels.of_dataset(pair)
             half = 0.5 * float(np.diff(levels.speeds).min(initial=np.inf)) if len(levels.speeds) > 1 else 0.0
             ends = [levels.speeds[part][[0, -1]] + (-half, half) for part in levels.ranges()]
             shown.append(

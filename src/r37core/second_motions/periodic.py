@@ -65,7 +65,7 @@ class Orbit:
 
 
 @dataclass(frozen=True, eq=False)
-class Blade:
+class PeriodicBlade:
     """A blade's `model` in a `scene` with full-grown lobes. All its maps have the steps per sample of a `reference` speed.
 
     `choice`: the time integration with these, and nothing recorded.
@@ -77,7 +77,7 @@ class Blade:
     reference: float
 
     @classmethod
-    def at_speed(cls, model: ContactModel, scene: Scene, choice: IntegrationChoice, reference: float) -> "Blade":
+    def at_speed(cls, model: ContactModel, scene: Scene, choice: IntegrationChoice, reference: float) -> "PeriodicBlade":
         """Blade with the steps per sample that the `reference` speed (rad/s) has."""
         bare = replace(choice, snapshot_revolutions=0, snapshots_per_revolution=0, until_settled=False)
         steps = Simulation(model, reference, scene, bare).problem.grid.steps_per_sample
@@ -163,14 +163,14 @@ class PeriodMap:
             if derivative is None:
                 derivative, fresh = self.derivative(z, phase, samples, distance + z), True
             step = solve(np.eye(len(z)) - derivative, distance)
-            found = self._nearer(z, step, distance, phase, samples, _HALVINGS if fresh else 1)
-            if found is None and fresh:
+            nearer = self._nearer(z, step, distance, phase, samples, _HALVINGS if fresh else 1)
+            if nearer is None and fresh:
                 break
-            if found is None:
+            if nearer is None:
                 derivative = None
                 continue
-            gain = np.linalg.norm(found[1]) / np.linalg.norm(distance)
-            z, distance = found
+            gain = np.linalg.norm(nearer[1]) / np.linalg.norm(distance)
+            z, distance = nearer
             fresh = False
             if gain > _GAIN:
                 derivative = None
@@ -199,7 +199,7 @@ class PeriodMap:
         return Orbit(self.simulation.problem.speed, z, phase, samples, derivative, rms, peak)
 
 
-def orbit_after(blade: Blade, simulation: Simulation, state: SimulationState, periods: int) -> Orbit:
+def orbit_after(blade: PeriodicBlade, simulation: Simulation, state: SimulationState, periods: int) -> Orbit:
     """The periodic motion of so many periods of the casing to which a motion comes near, from a `state` of it at angle 0 on.
 
     The state is of a `simulation` at the blade's reference speed. Raises NoOrbitError.

@@ -61,7 +61,7 @@ class SecondMotions:
         return [pair for pair in self.pairs if scenes[pair[1]].lining is None and not scenes[pair[1]].casing.ring]
 
     @property
-    def marches(self) -> paths.Wildcards:
+    def runs(self) -> paths.Wildcards:
         """Wildcards of all sweeps."""
         return [{**key, "motion": motion} for key in paths.run_keys(self.pairs) for motion in MOTIONS]
 
@@ -73,15 +73,15 @@ class SecondMotions:
             files["stress"] = file
         return files
 
-    def marched(self, wildcards: Any) -> dict[str, Any]:
+    def swept_files(self, wildcards: Any) -> dict[str, Any]:
         """Files that dwells and branches start from."""
         states = [paths.fill(STATES, blade=wildcards.blade, scene=wildcards.scene, motion=motion) for motion in MOTIONS]
         return {"model": self.sweep.contact_model(wildcards), "states": states}
 
-    def march_stage(self, made: Provenance) -> Stage:
+    def sweep_stage(self, made: Provenance) -> Stage:
         """Stage of a sweep."""
         return Stage(
-            "second_motions.steps.march",
+            "second_motions.steps.carry",
             {
                 **self._common(made),
                 "motion": lambda wildcards: wildcards.motion,
@@ -129,8 +129,8 @@ class SecondMotions:
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The sweeps, dwells and branches themselves."""
     plan = SecondMotions(sweep)
-    marches, pairs = plan.marches, paths.run_keys(plan.pairs)
-    return {RESPONSE: marches, STATES: marches, DWELLS: pairs, ORBITS: paths.run_keys(plan.bare)}
+    runs, pairs = plan.runs, paths.run_keys(plan.pairs)
+    return {RESPONSE: runs, STATES: runs, DWELLS: pairs, ORBITS: paths.run_keys(plan.bare)}
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:

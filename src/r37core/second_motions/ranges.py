@@ -13,7 +13,7 @@ from .choice import MOTIONS
 
 
 @dataclass(frozen=True, eq=False)
-class Levels:
+class MotionLevels:
     """Level of the motions (MOTIONS) at ascending `speeds` (rad/s).
 
     `mean` (m): of the rms of the leading edge's motion, normal and tangential together, over the revolutions that count;
@@ -27,7 +27,7 @@ class Levels:
     differ: np.ndarray
 
     @classmethod
-    def of_revolutions(cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float) -> "Levels":
+    def of_revolutions(cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float) -> "MotionLevels":
         """Levels by the rms (m) of the revolutions that count, motion -> shape (speeds, revolutions); NaN after a run's end."""
         counted = [np.ma.masked_invalid(rms[motion]) for motion in MOTIONS]
         mean = np.array([part.mean(axis=1).filled(np.nan) for part in counted])
@@ -35,7 +35,7 @@ class Levels:
         return cls(np.asarray(speeds), mean, scatter, motions_differ(mean, scatter, clearance))
 
     @classmethod
-    def of_dataset(cls, pair: xr.Dataset) -> "Levels":
+    def of_dataset(cls, pair: xr.Dataset) -> "MotionLevels":
         """Levels of one blade and scene of second_motions.nc."""
         mean, scatter = (pair[f"motion_{name}"].transpose("motion", "speed").values for name in ("mean", "scatter"))
         return cls(pair["speed"].values, mean, scatter, pair["differ"].values > 0.0)
@@ -64,14 +64,14 @@ class Levels:
 
 
 def motions_differ(mean: np.ndarray, scatter: np.ndarray, clearance: float) -> np.ndarray:
-    """Whether some two of the motions differ at each speed, shape (speeds,), by their `mean` and `scatter` (m) as in Levels.
+    """Whether some two motions differ at each speed, shape (speeds,), by their `mean` and `scatter` (m); see MotionLevels.
 
     They do where their means differ by more than SCATTERS of their common standard deviation and by more than SAME, and the
     larger one is above the `clearance` (m): within it the blade is quiet, as in settling.motion_at_end.
     """
     differ = np.zeros(mean.shape[1], dtype=bool)
-    for one, other in combinations(range(len(mean)), 2):
-        common = np.sqrt(0.5 * (scatter[one] ** 2 + scatter[other] ** 2))
-        larger = np.maximum(mean[one], mean[other])
-        differ |= (np.abs(mean[one] - mean[other]) > np.maximum(SCATTERS * common, SAME * larger)) & (larger > clearance)
+    for first, second in combinations(range(len(mean)), 2):
+        common = np.sqrt(0.5 * (scatter[first] ** 2 + scatter[second] ** 2))
+        larger = np.maximum(mean[first], mean[second])
+        differ |= (np.abs(mean[first] - mean[second]) > np.maximum(SCATTERS * common, SAME * larger)) & (larger > clearance)
     return differ

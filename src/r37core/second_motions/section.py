@@ -52,8 +52,8 @@ class SecondMotionSection(Section):
 
     def sweep(self) -> SweepChoice:
         """The sweeps that are asked for."""
-        given = self.step_rad_s is not None or self.step_rpm is not None
-        return si_form(SweepChoice, self, **({} if given else {"step": STEP}))
+        has_step = self.step_rad_s is not None or self.step_rpm is not None
+        return si_form(SweepChoice, self, **({} if has_step else {"step": STEP}))
 
     def dwells(self) -> DwellChoice:
         """The dwells that are asked for."""

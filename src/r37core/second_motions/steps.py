@@ -16,18 +16,18 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import DOWN, MOTIONS, BranchChoice, DwellChoice, SweepChoice
 from .dataset import join_pairs, second_motions_dataset
-from .found import branches_of, dwells_of
-from .marching import March, discard
-from .motion_files import MarchedStates, dwell_dataset, orbit_dataset, write_marched
+from .examining import branches_of, dwells_of
+from .motion_files import SweptStates, dwell_dataset, orbit_dataset, write_states
+from .sweeping import CarriedSweep, discard
 from .tables import bifurcation_table, dwell_table, range_table
 
 
-def march(input: Any, output: Any, params: Any) -> None:
+def carry(input: Any, output: Any, params: Any) -> None:
     """Sweep through the speeds. Inputs: model, and stress if needed. Outputs: response (nc), states (npz).
 
     Params: motion, scene, choice, sweep, results, kept, yield_stress, provenance, code. One that was interrupted goes on.
     """
-    run = _march(input, params, params.motion)
+    run = _sweep_of(input, params, params.motion)
     made_by = [params.code, params.motion, params.scene, params.choice, params.sweep, params.results, params.kept]
     inputs = [hashlib.sha256(Path(file).read_bytes()).hexdigest() for file in (input.model, *_stress_file(input))]
     made_of = hashlib.sha256(repr([made_by, inputs]).encode()).hexdigest()[:16]
@@ -45,7 +45,7 @@ def march(input: Any, output: Any, params: Any) -> None:
         yield_stress=params.yield_stress,
         provenance={**params.provenance, "motion": params.motion},
     )
-    write_marched(ascending, run.sweep.speeds, run.scene.casing.clearance, output.states)
+    write_states(ascending, run.sweep.speeds, run.scene.casing.clearance, output.states)
     discard(folder)
 
 
@@ -55,7 +55,7 @@ def dwell(input: Any, output: Any, params: Any) -> None:
     Params: scene, choice, sweep, dwell, provenance.
     """
     choice = from_plain(DwellChoice, params.dwell)
-    rows = dwells_of(_march(input, params), _states(input), choice)
+    rows = dwells_of(_sweep_of(input, params), _states(input), choice)
     write_dataset(dwell_dataset(rows, choice.revolutions), output.dwells, params.provenance)
 
 
@@ -64,7 +64,7 @@ def follow(input: Any, output: Any, params: Any) -> None:
 
     Params: scene, choice, sweep, branches, provenance.
     """
-    run = _march(input, params)
+    run = _sweep_of(input, params)
     branches = branches_of(run, _states(input), from_plain(BranchChoice, params.branches))
     write_dataset(orbit_dataset(branches, run.choice.samples_per_revolution), output.orbits, params.provenance)
 
@@ -72,9 +72,9 @@ def follow(input: Any, output: Any, params: Any) -> None:
 def join(input: Any, output: Any, params: Any) -> None:
     """Join the sweeps of all blades and scenes. Inputs: responses, states. Output: dataset (nc).
 
-    Params: marches, blades, scenes, fidelity.
+    Params: runs, blades, scenes, fidelity.
     """
-    keys = [(run["blade"], run["scene"], run["motion"]) for run in params.marches]
+    keys = [(run["blade"], run["scene"], run["motion"]) for run in params.runs]
     responses, states = (dict(zip(keys, as_list(files), strict=True)) for files in (input.responses, input.states))
     dataset = second_motions_dataset(responses, states, params.blades, params.scenes)
     write_dataset(dataset, output.dataset, {"fidelity": params.fidelity})
@@ -98,9 +98,9 @@ def tabulate_branches(input: Any, output: Any, params: Any) -> None:
     write_table(bifurcation_table(read_dataset(input.orbits)), output.table, digits=9)
 
 
-def _march(input: Any, params: Any, motion: str = MOTIONS[0]) -> March:
+def _sweep_of(input: Any, params: Any, motion: str = MOTIONS[0]) -> CarriedSweep:
     stress = _stress_file(input)
-    return March(
+    return CarriedSweep(
         read_contact_model(input.model),
         from_plain(Scene, params.scene),
         from_plain(IntegrationChoice, params.choice),
@@ -116,5 +116,5 @@ def _stress_file(input: Any) -> list[str]:
     return [input.stress] if hasattr(input, "stress") else []
 
 
-def _states(input: Any) -> dict[str, MarchedStates]:
-    return {motion: MarchedStates(file) for motion, file in zip(MOTIONS, as_list(input.states), strict=True)}
+def _states(input: Any) -> dict[str, SweptStates]:
+    return {motion: SweptStates(file) for motion, file in zip(MOTIONS, as_list(input.states), strict=True)}

@@ -14,7 +14,7 @@ from r37core.time_integration.status import MotionKind
 
 from .choice import MOTIONS, REST
 from .dwelling import HIGH, LOW, STARTS, Lasting, judged
-from .ranges import Levels
+from .ranges import MotionLevels
 
 RANGE_COLUMNS = (
     "blade",
@@ -81,12 +81,12 @@ def dwell_table(dwells: xr.Dataset) -> pd.DataFrame:
                 "random_starts_high": verdict.high_starts,
             }
         for of in (HIGH, LOW) if HIGH in starts and LOW in starts else ():
-            one = group.isel(dwell=int(np.flatnonzero(starts == of)[0]))
+            dwell = group.isel(dwell=int(np.flatnonzero(starts == of)[0]))
             row |= {
-                f"motion_{of}": str(one["motion"].values),
-                f"motion_kind_{of}": MotionKind(int(one["motion_kind"])).text,
-                f"period_revolutions_{of}": float(one["recurrence_period"]),
-                f"lyapunov_exponent_{of}": float(one["lyapunov_exponent"]),
+                f"motion_{of}": str(dwell["motion"].values),
+                f"motion_kind_{of}": MotionKind(int(dwell["motion_kind"])).text,
+                f"period_revolutions_{of}": float(dwell["recurrence_period"]),
+                f"lyapunov_exponent_{of}": float(dwell["lyapunov_exponent"]),
             }
         rows.append(row)
     return pd.DataFrame(rows, columns=list(DWELL_COLUMNS))
@@ -102,13 +102,15 @@ def range_table(motions: xr.Dataset, dwells: pd.DataFrame) -> pd.DataFrame:
     for blade in motions["blade"].values.tolist():
         for scene in motions["scene"].values.tolist():
             pair = swept(motions.sel(blade=blade, scene=scene))
-            levels = Levels.of_dataset(pair)
+            levels = MotionLevels.of_dataset(pair)
             of_pair = dwells[(dwells["blade"] == blade) & (dwells["scene"] == scene)]
             rows += [_range_row(blade, scene, pair, levels, part, of_pair) for part in levels.ranges()]
     return pd.DataFrame(rows, columns=list(RANGE_COLUMNS))
 
 
-def _range_row(blade: str, scene: str, pair: xr.Dataset, levels: Levels, part: slice, dwells: pd.DataFrame) -> dict[str, Any]:
+def _range_row(
+    blade: str, scene: str, pair: xr.Dataset, levels: MotionLevels, part: slice, dwells: pd.DataFrame
+) -> dict[str, Any]:
     place, of_range = levels.worst(part), levels.speeds[part]
     at = pair.isel(speed=place)
     row: dict[str, Any] = {

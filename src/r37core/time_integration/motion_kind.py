@@ -18,7 +18,7 @@ from .simulate import Simulation
 from .state import SimulationState
 from .status import MotionKind
 
-REVOLUTIONS = 100
+COUNTED = 100
 """Revolutions over which a motion is looked at, after those in which the twin finds its direction."""
 
 MOST_PERIODS = 24
@@ -80,12 +80,12 @@ def samples_of_period(problem: Problem) -> int:
     return samples // gcd(samples, max(lobes, 1))
 
 
-def kind_of_motion(simulation: Simulation, state: SimulationState, revolutions: int = REVOLUTIONS) -> KindNumbers:
+def kind_of_motion(simulation: Simulation, state: SimulationState) -> KindNumbers:
     """Kind of the motion that goes on from a `state` with full-grown lobes; that is left as it is."""
     state, space = copy.deepcopy(state), PhaseSpace(simulation.problem)
     samples = samples_of_period(simulation.problem)
     per_revolution = simulation.problem.choice.samples_per_revolution / samples
-    periods, aligning = round(revolutions * per_revolution), round(_ALIGNING * per_revolution)
+    periods, aligning = round(COUNTED * per_revolution), round(_ALIGNING * per_revolution)
     start, contact = space.coordinates(state), float(state.totals["steps_in_contact"])
     size = max(float(np.linalg.norm(start)), np.finfo(float).tiny)
     twin, beside = copy.deepcopy(state), np.random.default_rng(_SEED).normal(size=len(start))
@@ -125,13 +125,13 @@ def recurrence_of(simulation: Simulation, state: SimulationState) -> tuple[float
 
 def kind_numbers(simulation: Simulation, state: SimulationState, *, diverged: bool) -> dict[str, np.ndarray]:
     """Numbers of the kind of the motion after a run, as its file has them; unknown of one that has `diverged`."""
-    found = KindNumbers(MotionKind.UNKNOWN) if diverged else kind_of_motion(simulation, state)
+    motion = KindNumbers(MotionKind.UNKNOWN) if diverged else kind_of_motion(simulation, state)
     return {
-        "motion_kind": np.array(int(found.kind)),
-        "lyapunov_exponent": np.array(found.exponent),
-        "lyapunov_exponent_error": np.array(found.error),
-        "recurrence": np.array(found.recurrence),
-        "recurrence_period": np.array(found.period),
+        "motion_kind": np.array(int(motion.kind)),
+        "lyapunov_exponent": np.array(motion.exponent),
+        "lyapunov_exponent_error": np.array(motion.error),
+        "recurrence": np.array(motion.recurrence),
+        "recurrence_period": np.array(motion.period),
     }
 
 

@@ -12,10 +12,10 @@ from r37core.time_integration.simulate import Simulation
 from .branches import Bifurcation, branch_through, events_of
 from .choice import MOTIONS, BranchChoice, DwellChoice
 from .dwelling import HIGH, LOW, RANDOM, Dwell, carried_state, dwell, random_states, to_angle_0
-from .marching import March
-from .motion_files import MarchedStates, levels_of
-from .periodic import Blade, NoOrbitError, Orbit, orbit_after
-from .ranges import Levels
+from .motion_files import SweptStates, levels_of
+from .periodic import NoOrbitError, Orbit, PeriodicBlade, orbit_after
+from .ranges import MotionLevels
+from .sweeping import CarriedSweep
 
 _SAME = 1e-3
 """Difference of two rms, as a share, below which an orbit counts as one of a branch."""
@@ -24,7 +24,7 @@ _NEARLY = 10.0 * RECURS
 """Recurrence below which a motion is worth an attempt of Newton's method."""
 
 
-def speeds_dwelt_on(levels: Levels, choice: DwellChoice) -> list[float]:
+def speeds_dwelt_on(levels: MotionLevels, choice: DwellChoice) -> list[float]:
     """Speeds (rad/s) that are dwelt on, ascending: those that are given, and so many of each range of hysteresis.
 
     Of these one is the speed at which the motions differ most, the others are spread evenly.
@@ -36,7 +36,9 @@ def speeds_dwelt_on(levels: Levels, choice: DwellChoice) -> list[float]:
     return sorted(speeds)
 
 
-def dwells_of(march: March, states: Mapping[str, MarchedStates], choice: DwellChoice) -> list[tuple[dict[str, Any], Dwell]]:
+def dwells_of(
+    carried: CarriedSweep, states: Mapping[str, SweptStates], choice: DwellChoice
+) -> list[tuple[dict[str, Any], Dwell]]:
     """Dwells at all speeds that are dwelt on: from the largest and the smallest motion, and from random states.
 
     Each with its `speed`, its `start`, and the levels of the two motions: those at the nearest speed at which motions differ.
@@ -52,7 +54,7 @@ def dwells_of(march: March, states: Mapping[str, MarchedStates], choice: DwellCh
             "level_high": float(levels.mean[high[judged], judged]),
             "level_low": float(levels.mean[low[judged], judged]),
         }
-        simulation = Simulation(march.model, speed, march.grown_scene, march.unrecorded_choice)
+        simulation = Simulation(carried.model, speed, carried.grown_scene, carried.unrecorded_choice)
         size = 0.0
         for start, place in ((HIGH, int(high[nearest])), (LOW, int(low[nearest]))):
             motion = states[MOTIONS[place]].motion(nearest)
@@ -68,7 +70,7 @@ def dwells_of(march: March, states: Mapping[str, MarchedStates], choice: DwellCh
 
 
 def branches_of(
-    march: March, states: Mapping[str, MarchedStates], choice: BranchChoice
+    carried: CarriedSweep, states: Mapping[str, SweptStates], choice: BranchChoice
 ) -> list[tuple[list[Orbit], list[Bifurcation]]]:
     """Branches of the periodic motions among those of the sweeps, the largest motions first, with their bifurcations."""
     levels = levels_of(states)
@@ -81,7 +83,7 @@ def branches_of(
         if motion is None or _known(branches, speed, float(levels.mean[row, place])):
             continue
         try:
-            blade, orbit = _orbit(march, speed, motion)
+            blade, orbit = _orbit(carried, speed, motion)
             if not _known(branches, speed, float(np.linalg.norm(orbit.rms))):
                 ends = float(levels.speeds[0]), float(levels.speeds[-1])
                 orbits = branch_through(blade, orbit, *ends, choice.points)
@@ -91,10 +93,10 @@ def branches_of(
     return branches
 
 
-def _orbit(march: March, speed: float, motion: CarriedMotion) -> tuple[Blade, Orbit]:
+def _orbit(carried: CarriedSweep, speed: float, motion: CarriedMotion) -> tuple[PeriodicBlade, Orbit]:
     """The periodic motion that a motion at a speed (rad/s) comes near. Raises NoOrbitError where it does not recur."""
-    blade = Blade.at_speed(march.model, march.grown_scene, march.unrecorded_choice, speed)
-    simulation = Simulation(march.model, speed, blade.scene, blade.choice)
+    blade = PeriodicBlade.at_speed(carried.model, carried.grown_scene, carried.unrecorded_choice, speed)
+    simulation = Simulation(carried.model, speed, blade.scene, blade.choice)
     recurrence, periods = recurrence_of(simulation, carried_state(simulation.problem, motion))
     if recurrence > _NEARLY:
         raise NoOrbitError("does not recur")

@@ -29,7 +29,7 @@ CARRIED = ("displacement", "velocity", "touched", "contact_force", "penetration"
 
 
 @dataclass(frozen=True, eq=False)
-class March:
+class CarriedSweep:
     """A sweep of one `motion` (MOTIONS) of a blade's `model` in a `scene`.
 
     `choice`: the time integration of the scene's runs; `results` and `kept`: as run_speed takes them; `stress`: operator, where
