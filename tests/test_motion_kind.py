@@ -1,0 +1,151 @@
+"""Kind of a motion and its Lyapunov exponent, against closed forms."""
+
+import copy
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from defaults import Casing, IntegrationChoice, Scene
+from integration_cases import ABRADABLE, DIRECT, RING, model_of_node, oscillator, random_model, with_static_modes
+
+from r37core.time_integration import motion_kind as kinds
+from r37core.time_integration.carrying import CarriedMotion
+from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.motion_kind import kind_numbers, kind_of_motion, samples_of_period
+from r37core.time_integration.simulate import Simulation, rest_state
+from r37core.time_integration.status import MotionKind
+
+CHOICE = IntegrationChoice(2e-6, 4, 124, integrator=EXACT_MODAL)
+FREE = Scene(Casing(1.0, lobes=0), damping_ratio=0.004)
+SPEED = 2000.0
+
+
+def in_motion(simulation):
+    state = simulation.start()
+    state.displacement[:] = 1e-3
+    return state
+
+
+def test_neighbours_of_a_free_motion_meet_at_the_damping_of_the_slowest_mode():
+    model = model_of_node([[1.0, 1.0], [0.0, 0.0], [0.0, 0.0]], [5000.0, 9000.0])
+    simulation = Simulation(model, SPEED, FREE, CHOICE)
+    state = in_motion(simulation)
+    before = copy.deepcopy(state)
+    kind = kind_of_motion(simulation, state)
+    assert kind.kind is MotionKind.FREE
+    assert kind.exponent == pytest.approx(-FREE.damping_ratio * 5000.0 * 2.0 * np.pi / SPEED, rel=1e-2)
+    np.testing.assert_array_equal(state.displacement, before.displacement)
+
+
+@pytest.fixture
+def hopping():
+    """A mass that hops on a lobed casing through a spring."""
+    scene = Scene(Casing(0.356e-3, lobes=1, amplitude=1.5, rise_fraction=0.0), damping_ratio=0.02)
+    simulation = Simulation(with_static_modes(oscillator(5000.0), 1e-7), 5250.0, scene, CHOICE)
+    state = simulation.start()
+    simulation.advance(state, 400)
+    return simulation, state
+
+
+def test_a_motion_with_the_period_of_the_casing(hopping):
+    kind = kind_of_motion(*hopping)
+    assert kind.kind is MotionKind.PERIODIC
+    assert kind.period == 1.0
+    assert kind.recurrence < 1e-9
+    # a spring neither adds nor takes energy: neighbours meet at the damping of the mode
+    assert kind.exponent == pytest.approx(-0.02 * 5000.0 * 2.0 * np.pi / 5250.0, rel=1e-2)
+
+
+def test_the_engines_agree_on_a_kind(hopping, monkeypatch):
+    monkeypatch.setattr(kinds, "COUNTED", 10)
+    monkeypatch.setattr(kinds, "MOST_PERIODS", 2)
+    simulation, state = hopping
+    choice = replace(simulation.problem.choice, engine="reference")
+    reference = Simulation(simulation.problem.model, 5250.0, simulation.problem.scene, choice)
+    one, other = kind_of_motion(simulation, state), kind_of_motion(reference, state)
+    assert other.exponent == pytest.approx(one.exponent, rel=1e-6)
+    assert other.kind == one.kind
+
+
+def test_neighbours_of_a_chaotic_motion_part(contact):
+    simulation = Simulation(contact, 1340.0, DIRECT, IntegrationChoice(6.4e-6, 4, 248, integrator=EXACT_MODAL))
+    state = simulation.start()
+    simulation.advance(state, 100)
+    kind = kind_of_motion(simulation, state)
+    assert kind.kind is MotionKind.CHAOTIC
+    assert kind.exponent > 5.0 * kind.error > 0.0
+    assert kind.recurrence > 0.1
+
+
+@pytest.mark.parametrize(
+    ("exponent", "error", "recurrence", "period", "expected"),
+    [
+        (0.5, 0.1, 1e-6, 1, MotionKind.PERIODIC),
+        (0.5, 0.1, 1e-6, 3, MotionKind.MULTIPLE),
+        (0.5, 0.1, 1.0, 3, MotionKind.CHAOTIC),
+        (0.1, 0.1, 1.0, 3, MotionKind.QUASI_PERIODIC),
+        (-0.1, 0.1, 1.0, 1, MotionKind.QUASI_PERIODIC),
+        (-0.5, 0.1, 0.1, 1, MotionKind.PERIODIC),
+        (-0.5, 0.1, 0.1, 2, MotionKind.MULTIPLE),
+    ],
+)
+def test_kinds_by_their_numbers(exponent, error, recurrence, period, expected):
+    assert kinds._kind(exponent, error, recurrence, period) is expected
+
+
+def test_a_rotation_recurs_after_its_period():
+    turn = 2.0 * np.pi * np.arange(121) / 5.0
+    states = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    assert kinds._recurrence(states, 1.0) == (pytest.approx(0.0, abs=1e-12), 5)
+    incommensurate = np.stack([np.cos(turn * np.sqrt(2.0)), np.sin(turn * np.sqrt(2.0))], axis=1)
+    assert kinds._recurrence(incommensurate, 1.0)[0] > 1e-2
+
+
+def test_a_run_that_diverged_has_no_kind(hopping):
+    numbers = kind_numbers(*hopping, diverged=True)
+    assert numbers["motion_kind"] == MotionKind.UNKNOWN
+    assert np.isnan(numbers["lyapunov_exponent"])
+    simulation, state = hopping
+    state.displacement[:] = 10.0
+    assert kind_of_motion(simulation, state).kind is MotionKind.UNKNOWN
+
+
+@pytest.mark.parametrize(("lobes", "samples"), [(0, 124), (1, 124), (2, 62), (3, 124), (4, 31), (8, 31)])
+def test_the_period_of_a_casing(lobes, samples):
+    model = with_static_modes(oscillator(5000.0), 1e-7)
+    bare, lined = (replace(scene, casing=replace(scene.casing, lobes=lobes)) for scene in (DIRECT, ABRADABLE))
+    assert samples_of_period(Simulation(model, SPEED, bare, CHOICE).problem) == samples
+    assert samples_of_period(Simulation(model, SPEED, lined, CHOICE).problem) == 124
+
+
+@pytest.mark.parametrize("integrator", [EXACT_MODAL, CENTRAL_DIFFERENCE])
+@pytest.mark.parametrize("scene", ["direct", "abradable", "ring"])
+def test_a_carried_motion_goes_on_as_if_nothing_had_happened(scene, integrator):
+    scenes = {"direct": DIRECT, "abradable": ABRADABLE}
+    scenes["ring"] = replace(DIRECT, casing=replace(DIRECT.casing, ring=RING.modes()))
+    # as many modes as in the basis, so that nothing of it is lost
+    model = replace(random_model(8), squared_frequencies=np.linspace(5e3, 3e5, 24) ** 2)
+    choice = IntegrationChoice(2e-7, 4, 31, integrator=integrator)
+    simulation = Simulation(model, 12_000.0, scenes[scene], choice)
+    state = simulation.start()
+    simulation.advance(state, 2)
+    carried = CarriedMotion.at_end(simulation.problem, state, keep_wear=True)
+    other = rest_state(simulation.problem)
+    carried.put(simulation.problem, other)
+    np.testing.assert_allclose(other.displacement, state.displacement, rtol=0.0, atol=1e-12 * np.abs(state.displacement).max())
+    expected, motion = simulation.advance(state, 1).samples, simulation.advance(other, 1).samples
+    np.testing.assert_allclose(motion, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
+
+
+def test_a_carried_motion_keeps_its_energy_at_another_speed(contact):
+    choice = IntegrationChoice(6.4e-6, 4, 248, integrator=EXACT_MODAL)
+    before, after = (Simulation(contact, speed, DIRECT, choice) for speed in (1340.0, 1340.001))
+    state = before.start()
+    before.advance(state, 20)
+    carried, other = CarriedMotion.at_end(before.problem, state), after.start()
+    carried.put(after.problem, other)
+    assert after.energy(other) == pytest.approx(before.energy(state), rel=1e-4)
+    # what is carried is its own: the run goes on
+    force = carried.contact_force.copy()
+    before.advance(state, 1)
+    np.testing.assert_array_equal(carried.contact_force, force)

@@ -1,0 +1,376 @@
+"""Second motions: sweeps that carry the state on, where motions differ, what becomes of them, and the answers with them."""
+
+from dataclasses import replace
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+import yaml
+from defaults import IntegrationChoice, Lining
+from integration_cases import ABRADABLE, DIRECT
+
+from r37core.config import ConfigError, command_line_document
+from r37core.figures.response_curves import draw_response
+from r37core.product.reading import read_settings
+from r37core.results.other_motions import ranking_with_motions, summary_with_motions
+from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, BranchChoice, DwellChoice, SweepChoice
+from r37core.second_motions.dwelling import HIGH, LOW, RANDOM, Dwell, Lasting, dwell, is_high, judged, random_states, to_angle_0
+from r37core.second_motions.examining import branches_of, dwells_of, speeds_dwelt_on
+from r37core.second_motions.figures import draw_overview, draw_second_motions
+from r37core.second_motions.motion_files import SweptStates, dwell_dataset, levels_of, orbit_dataset, write_states
+from r37core.second_motions.panel import contents
+from r37core.second_motions.ranges import MotionLevels, motions_differ
+from r37core.second_motions.sweeping import CarriedSweep
+from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, bifurcation_table, dwell_table, range_table
+from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.motion_kind import KindNumbers
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_file import read_speed
+from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.status import MotionKind, RunStatus
+
+CHOICE = IntegrationChoice(6.4e-6, 20, 62, integrator=EXACT_MODAL)
+KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
+SWEEP = SweepChoice(1300.0, 1320.0, 10.0, revolutions=10)
+GROWING = replace(DIRECT, casing=replace(DIRECT.casing, rise_fraction=0.2))
+LINED = replace(ABRADABLE, lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_width=1e-3))
+
+
+def sweep_of(model, motion, scene=GROWING, sweep=SWEEP, choice=CHOICE):
+    return CarriedSweep(model, scene, choice, sweep, motion, (), KEPT)
+
+
+@pytest.fixture(scope="module")
+def swept(contact, tmp_path_factory):
+    """Files of the states of all three motions."""
+    folder, files = tmp_path_factory.mktemp("swept"), {}
+    for motion in MOTIONS:
+        run = sweep_of(contact, motion)
+        parts = run.run(folder / motion)
+        files[motion] = folder / f"{motion}.npz"
+        write_states(parts[::-1] if motion == DOWN else parts, SWEEP.speeds, 0.356e-3, files[motion])
+    return files
+
+
+def test_the_motion_from_rest_is_the_run_of_the_pipeline(contact, tmp_path):
+    files = sweep_of(contact, REST).run(tmp_path)
+    expected = run_speed(contact, 1310.0, GROWING, CHOICE, (), **KEPT)
+    numbers = read_speed(files[1])
+    for name, value in expected.items():
+        np.testing.assert_array_equal(numbers[name], value, err_msg=name)
+
+
+def test_a_sweep_begins_as_a_run_from_rest_that_goes_on(contact, tmp_path):
+    first = read_speed(sweep_of(contact, UP).run(tmp_path)[0])
+    simulation = Simulation(contact, 1300.0, GROWING, CHOICE)
+    state = simulation.start()
+    simulation.advance(state, 20)
+    # of lobes that grow in four revolutions nothing is left to grow after twenty
+    motion = simulation.advance(state, 1).samples[:, [0, 2]]
+    assert first["revolution_rms"][0] == pytest.approx(np.sqrt(np.sum(np.mean(motion**2, axis=0))), rel=1e-5)
+
+
+@pytest.mark.parametrize("motion", [UP, DOWN])
+def test_an_interrupted_sweep_goes_on_with_the_same_bits(contact, motion, tmp_path, monkeypatch):
+    scene = LINED
+    sweep = replace(SWEEP, worn=True)
+    whole = [read_speed(file) for file in sweep_of(contact, motion, scene, sweep).run(tmp_path / "whole")]
+    runs = []
+
+    def run_on(self, speed, carried):
+        if len(runs) == 2:
+            raise KeyboardInterrupt
+        runs.append(speed)
+        return original(self, speed, carried)
+
+    original = CarriedSweep.run_on
+    monkeypatch.setattr(CarriedSweep, "run_on", run_on)
+    with pytest.raises(KeyboardInterrupt):
+        sweep_of(contact, motion, scene, sweep).run(tmp_path / "parts")
+    monkeypatch.setattr(CarriedSweep, "run_on", original)
+    files = sweep_of(contact, motion, scene, sweep).run(tmp_path / "parts")
+    for file, expected in zip(files, whole, strict=True):
+        numbers = read_speed(file)
+        assert numbers.keys() == expected.keys()
+        for name, value in expected.items():
+            np.testing.assert_array_equal(numbers[name], value, err_msg=name)
+
+
+def test_a_lining_is_new_or_carried_on(contact, tmp_path):
+    wear = {}
+    for worn in (False, True):
+        files = sweep_of(contact, UP, LINED, replace(SWEEP, worn=worn)).run(tmp_path / str(worn))
+        wear[worn] = [read_speed(file).get("end_wear") for file in files]
+    assert wear[False] == [None, None, None]
+    for before, after in zip(wear[True], wear[True][1:], strict=False):
+        assert np.all(after >= before)
+    assert wear[True][0].max() > 0.0
+
+
+def test_after_a_run_that_diverged_the_sweep_starts_from_rest(contact, tmp_path):
+    hopeless = replace(GROWING, divergence_limit=1e-9)
+    files = sweep_of(contact, UP, hopeless).run(tmp_path)
+    assert [int(read_speed(file)["status"]) for file in files] == 3 * [RunStatus.DIVERGED]
+    write_states(files, SWEEP.speeds, 1e-3, tmp_path / "states.npz")
+    states = SweptStates(tmp_path / "states.npz")
+    assert states.motion(0) is None
+    levels = levels_of(dict.fromkeys(MOTIONS, states))
+    assert not levels.differ.any()
+    assert dwells_of(sweep_of(contact, UP, hopeless), dict.fromkeys(MOTIONS, states), DwellChoice(at=(1310.0,), starts=2)) == []
+    assert branches_of(sweep_of(contact, UP, hopeless), dict.fromkeys(MOTIONS, states), BranchChoice()) == []
+
+
+def levels(mean, scatter=0.0, clearance=0.0):
+    mean = np.array(mean, dtype=float)
+    scatter = np.broadcast_to(np.asarray(scatter, dtype=float), mean.shape)
+    speeds = 100.0 + 5.0 * np.arange(mean.shape[1])
+    return MotionLevels(speeds, mean, scatter, motions_differ(mean, scatter, clearance))
+
+
+def test_motions_differ_by_more_than_they_scatter():
+    mean = [[1.0, 1.005, 1.5, 1.5, np.nan, 0.2], [1.0, 1.0, 1.0, 1.0, 1.0, 0.1], [1.0, 1.0, 1.0, 1.0, np.nan, 0.1]]
+    scatter = [[0.0, 0.0, 0.2, 0.3, np.nan, 0.0], *2 * [[0.0, 0.0, 0.2, 0.3, 0.0, 0.0]]]
+    several = levels(mean, scatter, clearance=0.5)
+    # the same; within 1%; more than twice the scatter; less; one diverged; quiet
+    assert several.differ.tolist() == [False, False, True, False, False, False]
+    assert [(part.start, part.stop) for part in several.ranges()] == [(2, 3)]
+
+
+def test_ranges_and_the_speeds_that_are_dwelt_on():
+    up = [1.0, 2.0, 3.0, 2.5, 2.0, 1.0, 5.0]
+    several = levels([up, np.ones(7), np.ones(7)])
+    assert [(part.start, part.stop) for part in several.ranges()] == [(1, 5), (6, 7)]
+    assert [several.worst(part) for part in several.ranges()] == [2, 6]
+    assert speeds_dwelt_on(several, DwellChoice(speeds=3)) == [105.0, 110.0, 120.0, 130.0]
+    assert speeds_dwelt_on(several, DwellChoice(speeds=1, at=(111.0,))) == [110.0, 111.0, 130.0]
+    assert speeds_dwelt_on(several, DwellChoice(speeds=0)) == []
+
+
+def test_a_motion_is_high_until_it_is_clearly_low():
+    rms = np.concatenate([np.full(200, 4.0), np.full(100, 2.2), np.full(100, 1.8), np.full(200, 1.0)])
+    held = is_high(rms, 4.0, 1.0)
+    assert len(held) == 600 - 20 - 50 + 1
+    # the middle of both is 2; it is left when it falls below the third of the way, 1.59, by the last 20 revolutions
+    assert np.flatnonzero(held)[-1] + 70 == pytest.approx(400, abs=20)
+    assert len(is_high(rms[:60], 4.0, 1.0)) == 0
+
+
+def switching(*parts):
+    return np.concatenate([np.full(length, level) for length, level in parts])
+
+
+def test_motions_last_switch_or_are_transients():
+    high, low = switching((500, 4.0)), switching((500, 1.0))
+    verdict = judged({HIGH: [high], LOW: [low], RANDOM: [high, low]}, 4.0, 1.0)
+    assert (verdict.high, verdict.low) == (Lasting.LASTING, Lasting.LASTING)
+    assert np.isnan(verdict.share)
+    assert verdict.high_starts == 0.5
+    falls = switching((300, 4.0), (200, 1.0))
+    verdict = judged({HIGH: [falls], LOW: [low], RANDOM: []}, 4.0, 1.0)
+    assert (verdict.high, verdict.low, verdict.share) == (Lasting.TRANSIENT, Lasting.LASTING, 0.0)
+    assert verdict.high_revolutions == pytest.approx(300 - 70, abs=20)
+    rises = switching((250, 1.0), (250, 4.0))
+    verdict = judged({HIGH: [falls], LOW: [rises], RANDOM: []}, 4.0, 1.0)
+    assert (verdict.high, verdict.low) == (Lasting.SWITCHING, Lasting.SWITCHING)
+    assert 0.4 < verdict.share < 0.6
+    # gone before it was looked at
+    verdict = judged({HIGH: [low], LOW: [low], RANDOM: []}, 4.0, 1.0)
+    assert verdict.high is Lasting.TRANSIENT
+    assert verdict.high_revolutions == 0.0
+
+
+def test_random_states_are_outside_of_the_casing(contact):
+    simulation = Simulation(contact, 1310.0, DIRECT, CHOICE)
+    problem, states = simulation.problem, random_states(simulation.problem, 30.0, 8, 3)
+    assert len(states) == 8
+    for state in states:
+        nodes = problem.contact.displacement_operator @ state.displacement
+        gap, _ = problem.casing.gaps(problem.casing.clearance, nodes, state.samples * problem.grid.steps_per_sample, 0.0)
+        assert gap.min() >= 0.0
+        assert not state.contact_force.any()
+        to_angle_0(simulation, state)
+        assert state.samples % CHOICE.samples_per_revolution == 0
+    again = random_states(problem, 30.0, 8, 3)
+    other = random_states(problem, 30.0, 8, 4)
+    simulation_state = [state.displacement for state in again]
+    assert not np.array_equal(simulation_state[0], other[0].displacement)
+    np.testing.assert_array_equal(simulation_state[5], random_states(problem, 30.0, 6, 3)[5].displacement)
+    inside = replace(DIRECT, casing=replace(DIRECT.casing, clearance=0.0, lobes=8, width=1.0))
+    assert random_states(Simulation(contact, 1310.0, inside, CHOICE).problem, 30.0, 2, 0) == []
+
+
+def test_a_dwell_keeps_the_rms_of_every_revolution(contact):
+    simulation = Simulation(contact, 1310.0, DIRECT, CHOICE)
+    state, again = simulation.start(), simulation.start()
+    kept = dwell(simulation, state, 130)
+    motion = simulation.advance(again, 130).samples[:, [0, 2]].reshape(130, -1, 2)
+    np.testing.assert_allclose(kept.rms, np.sqrt(np.sum(np.mean(motion**2, axis=1), axis=1)), rtol=1e-12)
+    far = simulation.start()
+    far.displacement[:] = 10.0
+    assert np.isnan(dwell(simulation, far, 110).rms).all()
+
+
+@pytest.fixture
+def motions(tmp_path):
+    """second_motions.nc of two blades, of which one is swept: up differs from rest at three speeds of five."""
+    speeds = 1000.0 + 5.0 * np.arange(5)
+    mean = {UP: [1.0, 3.0, 4.0, 3.0, 1.0], DOWN: 5 * [1.0], REST: 5 * [1.0]}
+    values = 1e-3 * np.array([mean[motion] for motion in MOTIONS])
+    over = ("motion", "speed")
+    data = {
+        "motion_mean": (over, values),
+        "motion_scatter": (over, 0.0 * values),
+        "rms_normal": (over, 0.2 * values),
+        "rms_tangential": (over, values),
+        "peak_normal": (over, values),
+        "max_von_mises_median": (over, 1e12 * values),
+        "share_of_revolutions_above_yield": (over, 1.0 * (values > 2e-3)),
+        "status": (over, np.zeros(values.shape)),
+        "differ": ("speed", [0.0, 1.0, 1.0, 1.0, 0.0]),
+        "yield_stress": ((), 1.38e9),
+        "lined": ((), 0.0),
+    }
+    dataset = xr.Dataset(data, {"motion": list(MOTIONS), "speed": speeds}).expand_dims({"blade": ["Ref"], "scene": ["direct"]})
+    return dataset.reindex(blade=["Ref", "S100"])
+
+
+def test_the_worst_motion_stands_in_the_ranking(motions):
+    ranking = pd.DataFrame({"blade": ["Ref", "S100"], "scene": "direct", "rank": [1, 2]})
+    table = ranking_with_motions(ranking, motions)
+    assert table.loc[0, "length_certain_rest_rad_s"] == 0.0
+    # half of the way from one speed to the next on both sides
+    assert table.loc[0, "length_certain_worst_rad_s"] == pytest.approx(15.0)
+    assert table.loc[0, "largest_rms_worst_m"] == pytest.approx(4e-3)
+    assert table.loc[1, ["length_certain_worst_rad_s", "rank_worst"]].isna().all()
+    assert table.loc[0, "rank_worst"] == 1
+
+
+def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions):
+    summary = pd.DataFrame({"blade": "Ref", "scene": "direct", "peak_speed_rad_s": [500.0, 990.0, 1100.0]})
+    table = summary_with_motions(summary, motions)
+    assert table["second_motion"].tolist() == ["", "up", ""]
+    assert table.loc[1, "second_motion_speed_rad_s"] == 1010.0
+    assert table.loc[1, "second_motion_rms_m"] == pytest.approx(0.8e-3)
+    assert table.loc[1, "second_motion_rest_rms_m"] == pytest.approx(0.2e-3)
+    far = summary_with_motions(summary.assign(peak_speed_rad_s=[500.0, 700.0, 1400.0]), motions)
+    assert set(far["second_motion"]) == {""}
+
+
+def dwells(*rows, revolutions=300):
+    frame = [
+        (
+            {"speed": speed, "level_high": 4e-3, "level_low": 1e-3, "start": start, "motion": motion},
+            dwell_of(level, revolutions),
+        )
+        for speed, start, motion, level in rows
+    ]
+    dataset = dwell_dataset(frame, revolutions)
+    labels = {name: ("dwell", np.array(len(rows) * [label], dtype=object)) for name, label in LABELS.items()}
+    return dataset.assign(labels)
+
+
+LABELS = {"blade": "Ref", "scene": "direct"}
+
+
+def dwell_of(level, revolutions):
+    return Dwell(np.full(revolutions, level), KindNumbers(MotionKind.CHAOTIC, 0.5, 0.1, 1.0, 2.0))
+
+
+def test_tables_of_ranges_and_dwells(motions):
+    dataset = dwells(
+        (1005.0, HIGH, "up", 1e-3), (1005.0, LOW, "rest", 1e-3), (1010.0, HIGH, "up", 4e-3), (1010.0, LOW, "down", 1e-3)
+    )
+    table = dwell_table(dataset)
+    assert list(table.columns) == list(DWELL_COLUMNS)
+    assert table["high"].tolist() == ["transient", "lasting"]
+    assert table["motion_kind_high"].tolist() == ["chaotic", "chaotic"]
+    assert table["period_revolutions_low"].tolist() == [2.0, 2.0]
+    ranges = range_table(motions, table)
+    assert list(ranges.columns) == list(RANGE_COLUMNS)
+    (row,) = ranges.to_dict("records")
+    assert (row["from_rad_s"], row["to_rad_s"], row["speeds"], row["speed_rad_s"]) == (1005.0, 1015.0, 3, 1010.0)
+    assert row["largest_motion"] == "up"
+    assert row["rms_up_m"] == pytest.approx(0.8e-3)
+    assert row["rms_rest_m"] == pytest.approx(0.2e-3)
+    assert (row["kind"], row["dwell_speed_rad_s"], row["held_revolutions"]) == ("lasting", 1010.0, np.inf)
+    nothing = range_table(motions, dwell_table(dwells()))
+    assert nothing["kind"].isna().all()
+    assert bifurcation_table(orbit_dataset([], 248).assign(LABELS)).empty
+
+
+def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
+    table = dwell_table(dwells((1010.0, HIGH, "up", 4e-3), (1010.0, LOW, "down", 1e-3)))
+    pair = motions.sel(blade="Ref", scene="direct")
+    figure = draw_second_motions(pair, table, "Ref, direct", blade="Ref", scene="direct")
+    assert len(figure.axes[0].patches) == 3
+    assert draw_overview(motions.sel(scene="direct"), "direct").axes[0].get_ylabel() == "Ref (mm)"
+    rms = xr.Dataset(
+        {
+            **{f"rms_{name}": (("scene", "speed", "tip_point"), np.ones((1, 5, 1))) for name in ("normal", "tangential")},
+            "status": (("scene", "speed"), np.zeros((1, 5))),
+        },
+        {"scene": ["direct"], "speed": motions["speed"].values, "tip_point": ["leading_edge"]},
+    )
+    shaded = draw_response("Ref", None, rms, None, motions.sel(blade="Ref"))
+    plain = draw_response("S100", None, rms, None, motions.sel(blade="S100"))
+    assert (len(shaded.axes[0].patches), len(plain.axes[0].patches)) == (3, 0)
+    plt.close("all")
+
+
+def test_the_explorer_has_the_swept_blades(motions):
+    (pair,) = contents(motions)
+    assert (pair["blade"], pair["ranges"]) == ("Ref", [[1002.5, 1017.5]])
+
+
+def test_dwells_and_branches_of_real_sweeps(contact, swept, tmp_path):
+    states = {motion: SweptStates(file) for motion, file in swept.items()}
+    assert levels_of(states).mean.shape == (3, 3)
+    carried = sweep_of(contact, UP)
+    rows = dwells_of(carried, states, DwellChoice(revolutions=100, speeds=1, starts=1, at=(1310.0,)))
+    assert {labels["start"] for labels, _ in rows} == {HIGH, LOW, RANDOM}
+    assert dwell_dataset(rows, 100).sizes == {"dwell": len(rows), "revolution": 100}
+    # this motion is chaotic
+    assert branches_of(carried, states, BranchChoice(points=2)) == []
+
+
+def test_a_blade_with_more_damping_has_a_branch(contact, tmp_path):
+    damped, sweep = replace(GROWING, damping_ratio=0.05), SweepChoice(1300.0, 1306.0, 2.0, revolutions=60)
+    states = {}
+    for motion in MOTIONS:
+        run = sweep_of(contact, motion, damped, sweep, replace(CHOICE, revolutions=60))
+        parts = run.run(tmp_path / motion)
+        write_states(parts[::-1] if motion == DOWN else parts, sweep.speeds, 0.356e-3, tmp_path / f"{motion}.npz")
+        states[motion] = SweptStates(tmp_path / f"{motion}.npz")
+    ((orbits, events),) = branches_of(run, states, BranchChoice(points=40))
+    assert (orbits[0].speed, orbits[-1].speed) == (1300.0, 1306.0)
+    assert all(orbit.stable for orbit in orbits)
+    assert events == []
+    curve = orbit_dataset([(orbits, events)], CHOICE.samples_per_revolution)
+    np.testing.assert_allclose(curve["period"], 0.5)
+    np.testing.assert_allclose(
+        np.hypot(curve["rms_normal"][0], curve["rms_tangential"][0]), levels_of(states).mean[0, 0], rtol=1e-4
+    )
+
+
+@pytest.mark.parametrize(
+    ("section", "message"),
+    [
+        ("{ from_rad_s: 1000 }", "second_motions.to_rad_s: found nothing; allowed: to_rad_s or to_rpm"),
+        ("{ to_rpm: 9000 }", "second_motions.from_rad_s: found nothing; allowed: from_rad_s or from_rpm"),
+        ("{ from_rad_s: 1000, to_rad_s: 900 }", "second_motions.to_rad_s: found a speed below the lowest one"),
+        ("{ from_rad_s: 1000, to_rad_s: 1100, step_rad_s: 5, step_rpm: 5 }", "step_rad_s and step_rpm; allowed: one of them"),
+        ("{ from_rad_s: 1000, to_rad_s: 2100 }", "second_motions.to_rad_s: found 2100 rad/s; allowed: up to"),
+        ("{ from_rad_s: 1000, to_rad_s: 1100, dwell: { at_rad_s: [2500] } }", "second_motions.dwell: found 2500 rad/s"),
+        ("{ from_rad_s: 1, to_rad_s: 1900, step_rad_s: 0.01 }", "second_motions: found 1.899e+05 speeds"),
+        ("{ from_rad_s: 1000, to_rad_s: 1100, scenes: [direct], lining: worn }", "worn in the scene 'direct', which has no"),
+        ("{ from_rad_s: 1000, to_rad_s: 1100, scenes: [rotor_abradable] }", "'rotor_abradable', which has a rotor"),
+        ("{ from_rad_s: 1000, to_rad_s: 1100, blades: [Reff] }", "second_motions.blades"),
+        ("{ from_rad_s: 1000, to_rad_s: 1100, revolutions: 1 }", "second_motions.revolutions: found 1"),
+    ],
+)
+def test_what_cannot_be_swept_is_refused(root, section, message):
+    with pytest.raises(ConfigError) as error:
+        read_settings(root, command_line_document({"second_motions": yaml.safe_load(section)}))
+    assert message in str(error.value)
