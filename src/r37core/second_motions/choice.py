@@ -67,5 +67,5 @@ class DwellChoice:
 class BranchChoice:
     """How many branches of periodic motions are followed over the speed, and how far."""
 
-    number: Annotated[int, Key("Most branches of periodic motions that are followed", ge=0, le=1000)] = 4
-    points: Annotated[int, Key("Most points of a branch", ge=2, le=100_000)] = 400
+    number: Annotated[int, Key("Most branches of periodic motions that are followed", ge=0, le=1000)] = 2
+    points: Annotated[int, Key("Most points of a branch, on each side of where it is found", ge=2, le=100_000)] = 200
