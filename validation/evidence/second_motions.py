@@ -1,0 +1,296 @@
+"""Motions that a start from rest does not show: those of the seven blades, their kinds, Ref's drop, checks of two."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.axes import Axes
+
+from r37core.contact.scene import Scene
+from r37core.dataset_file import read_dataset
+from r37core.figures import style
+from r37core.figures.response_curves import shade
+from r37core.io import scratch_folder
+from r37core.results.other_motions import ranking_with_motions, swept
+from r37core.rom.contact_model import ContactModel, read_contact_model
+from r37core.second_motions.branches import branch_through, events_of
+from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
+from r37core.second_motions.dwelling import carried_state
+from r37core.second_motions.examining import dwells_of
+from r37core.second_motions.figures import COLOURS, LINES
+from r37core.second_motions.motion_files import SweptStates, dwell_dataset
+from r37core.second_motions.periodic import PeriodicBlade, orbit_after
+from r37core.second_motions.sweeping import CarriedSweep
+from r37core.second_motions.tables import dwell_table
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.motion_kind import MotionKind, kind_of_motion
+from r37core.time_integration.settling import revolution_rms
+from r37core.time_integration.simulate import LEADING_EDGE, Simulation
+from r37core.time_integration.speed_file import read_speed
+
+from .configuration import settings_of
+from .pages import write_table
+
+CONTACTS = ("points", "patches")
+SCENES = {"bare casing": ("direct", "direct"), "lining": ("abradable", "material_abradable")}
+"""Name of a scene in the page -> the scene on points and on patches."""
+
+KINDS = ("lasting", "switching", "transient")
+EVERY = 5
+"""Every so many-th of the speeds of a sweep has its kind of motion measured."""
+
+DROP = tuple(np.arange(1338.0, 1359.0, 2.0))
+STEPS = (4.8e-6, 2.4e-6, 1.2e-6)
+DAMPED, FIRST, LAST, START = 0.01, 1100.0, 1420.0, 1200.0
+"""Damping ratio of the curve of Ref, its speeds (rad/s), and the one that it begins at."""
+
+AGAIN = {"CS100": 1195.0, "S50": 1405.0}
+"""Blade -> speed (rad/s) of a second motion that is marched again."""
+
+REVOLUTIONS = 100
+
+
+def tables(input: Any, output: Any, params: Any) -> None:
+    """Second motions of all blades. Inputs: points, patches, ranges, dwells. Outputs: table, ranges, ranking, picture."""
+    motions = {contact: read_dataset(getattr(input, contact)) for contact in CONTACTS}
+    ranges = {contact: pd.read_csv(file) for contact, file in zip(CONTACTS, input.ranges, strict=True)}
+    columns = [(name, contact) for name in SCENES for contact in CONTACTS]
+    blades = [str(blade) for blade in motions["points"]["blade"].values]
+    rows = []
+    for blade in blades:
+        cells = []
+        for name, contact in columns:
+            scene = SCENES[name][CONTACTS.index(contact)]
+            table = ranges[contact]
+            cells.append(_cell(table[(table["blade"] == blade) & (table["scene"] == scene)], motions[contact]))
+        rows.append([blade, *cells])
+    write_table(["blade", *(f"{name}, {contact}" for name, contact in columns)], rows, output.table)
+    together = pd.concat([table.assign(contact=contact) for contact, table in ranges.items()])
+    together.to_csv(output.ranges, index=False, float_format="%.6g")
+    write_table(*_ranking(motions, blades), output.ranking)
+    _picture(motions, blades, output.picture)
+
+
+def _cell(ranges: pd.DataFrame, motions: xr.Dataset) -> str:
+    """Length of the ranges by their kind, and the motion that is most above that from rest."""
+    above = ranges[ranges["largest_motion"] != REST]
+    if above.empty:
+        return "none"
+    step = float(motions["speed"].diff("speed").min())
+    lengths = [(kind, step * above.loc[above["kind"] == kind, "speeds"].sum()) for kind in KINDS]
+    several = ", ".join(f"{length:.0f} {kind}" for kind, length in lengths if length)
+    strongest = next(above[above["kind"] == kind] for kind in KINDS if (above["kind"] == kind).any())
+    ratio = [_size(row, row["largest_motion"]) / _size(row, REST) for _, row in strongest.iterrows()]
+    row = strongest.iloc[int(np.argmax(ratio))]
+    motion = row["largest_motion"]
+    rest, most = (1e3 * row[f"rms_{name}_m"] for name in (REST, motion))
+    return f"{several}; {row['speed_rad_s']:.0f}: {rest:.2f}, {motion} {most:.2f}"
+
+
+def _size(row: pd.Series, motion: str) -> float:
+    return float(row[f"rms_{motion}_m"])
+
+
+def _ranking(motions: dict[str, xr.Dataset], blades: Iterable[str]) -> tuple[list[str], list[list[str]]]:
+    """Lengths above yield (place) by the motion from rest and by the worst one."""
+    head, columns = ["blade"], []
+    for name, scenes in SCENES.items():
+        for contact, scene in zip(CONTACTS, scenes, strict=True):
+            table = ranking_with_motions(pd.DataFrame({"blade": list(blades), "scene": scene}), motions[contact])
+            for motion in ("rest", "worst"):
+                length = table[f"length_certain_{motion}_rad_s"]
+                place = length.rank(method="min").astype(int)
+                columns.append([f"{value:.0f} ({rank})" for value, rank in zip(length, place, strict=True)])
+                head.append(f"{name}, {contact}: {'from rest' if motion == 'rest' else 'worst motion'}")
+    return head, [[blade, *cells] for blade, *cells in zip(blades, *columns, strict=True)]
+
+
+def _picture(motions: dict[str, xr.Dataset], blades: list[str], file: Path | str) -> None:
+    figure, grid = plt.subplots(
+        len(blades), len(CONTACTS), figsize=(style.PAGE, 1.05 * len(blades) + 0.8), sharex=True, sharey="row"
+    )
+    for row, blade in zip(grid, blades, strict=True):
+        for axes, contact in zip(row, CONTACTS, strict=True):
+            _draw(axes, swept(motions[contact].sel(blade=blade, scene="direct")))
+        row[0].set_ylabel(f"{blade} (mm)")
+    for axes, contact in zip(grid[0], CONTACTS, strict=True):
+        axes.set_title(f"bare casing, {contact}")
+        style.rpm_axis(axes)
+    for axes in grid[-1]:
+        axes.set_xlabel("speed (rad/s)")
+    figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=4)
+    style.save(figure, file)
+
+
+def _draw(axes: Axes, pair: xr.Dataset) -> None:
+    for motion in MOTIONS:
+        label = "from rest" if motion == REST else f"carried {motion}"
+        mean = 1e3 * pair["motion_mean"].sel(motion=motion)
+        axes.plot(pair["speed"], mean, LINES[motion], color=COLOURS[motion], label=label, linewidth=0.8)
+    shade(axes, pair)
+
+
+def kinds(input: Any, output: Any, params: Any) -> None:
+    """Kinds of the motions from rest in the bare casing. Inputs: points, patches (states), models of both. Output: table."""
+    settings = settings_of(Path.cwd())
+    rows = []
+    for place, blade in enumerate(settings.blades):
+        cells = []
+        for contact in CONTACTS:
+            model = read_contact_model(getattr(input, f"{contact}_models")[place])
+            states = SweptStates(getattr(input, contact)[place])
+            cells += _kinds_of(model, states, *_scene_and_choice(settings, blade))
+        rows.append([blade, *cells])
+    names = ("chaotic", "quasi-periodic", "periodic", "exponent per revolution")
+    write_table(["blade", *(f"{contact}: {name}" for contact in CONTACTS for name in names)], rows, output.table)
+
+
+def _kinds_of(model: ContactModel, states: SweptStates, scene: Scene, choice: IntegrationChoice) -> list[str]:
+    found, exponents = [], []
+    for place in range(0, len(states.speeds), EVERY):
+        motion = states.motion(place)
+        if motion is None:
+            continue
+        simulation = Simulation(model, float(states.speeds[place]), scene, choice)
+        kind = kind_of_motion(simulation, carried_state(simulation.problem, motion))
+        found.append(kind.kind)
+        exponents.append(kind.exponent)
+    shares = [
+        np.mean([kind in of for kind in found])
+        for of in ([MotionKind.CHAOTIC], [MotionKind.QUASI_PERIODIC], [MotionKind.PERIODIC, MotionKind.MULTIPLE])
+    ]
+    chaotic = [exponent for exponent, kind in zip(exponents, found, strict=True) if kind is MotionKind.CHAOTIC]
+    median = f"{np.median(chaotic):.2f}" if chaotic else ""
+    return [*(f"{share:.0%}" for share in shares), median]
+
+
+def _scene_and_choice(settings: Any, blade: str, **scene: float) -> tuple[Scene, IntegrationChoice]:
+    """The bare casing with full-grown lobes, and the time integration with nothing recorded."""
+    direct = settings.scenes["direct"].scene
+    grown = replace(direct, casing=replace(direct.casing, rise_fraction=0.0), **scene)
+    choice = settings.integration_choice(blade, "direct", 0.0)
+    return grown, replace(choice, snapshots_per_revolution=0, snapshot_revolutions=0)
+
+
+def switching(input: Any, output: Any, params: Any) -> None:
+    """Ref about its published drop: share of time in the high motion, exponents at three steps. Inputs: model, states."""
+    settings, model = settings_of(Path.cwd()), read_contact_model(input.model)
+    states = {motion: SweptStates(file) for motion, file in zip(MOTIONS, input.states, strict=True)}
+    speeds = states[UP].speeds
+    sweep = SweepChoice(float(speeds[0]), float(speeds[-1]), float(speeds[1] - speeds[0]))
+    grown, choice = _scene_and_choice(settings, "Ref")
+    dwells = DwellChoice(speeds=0, at=DROP)
+    rows = dwells_of(CarriedSweep(model, grown, choice, sweep, UP, (), {}), states, dwells)
+    table = dwell_table(_labelled(dwell_dataset(rows, dwells.revolutions)))
+    lines = []
+    for _, row in table.iterrows():
+        nearest = int(np.argmin(np.abs(speeds - row["speed_rad_s"])))
+        exponents = []
+        for step in STEPS:
+            simulation = Simulation(model, row["speed_rad_s"], grown, replace(choice, time_step=step))
+            motion = states[UP].motion(nearest)
+            assert motion is not None
+            state = carried_state(simulation.problem, motion)
+            simulation.advance(state, REVOLUTIONS)
+            kind = kind_of_motion(simulation, state)
+            exponents.append(f"{kind.exponent:.2f} ± {kind.error:.2f}")
+        held = [_revolutions(row[f"{of}_revolutions"]) for of in ("high", "low")]
+        lines.append([f"{row['speed_rad_s']:.0f}", f"{row['share_of_time_high']:.0%}", *held, *exponents])
+    head = ["speed (rad/s)", "time in the high motion", "high held for (revolutions)", "low held for (revolutions)"]
+    write_table([*head, *(f"exponent, step {1e6 * step:g} us" for step in STEPS)], lines, output.table)
+
+
+def _labelled(dataset: xr.Dataset) -> xr.Dataset:
+    labels = {"blade": "Ref", "scene": "direct"}
+    return dataset.assign({name: ("dwell", np.full(dataset.sizes["dwell"], label, object)) for name, label in labels.items()})
+
+
+def _revolutions(number: float) -> str:
+    if np.isnan(number):
+        return ""
+    return "all" if np.isinf(number) else f"{number:.0f}"
+
+
+def folds(input: Any, output: Any, params: Any) -> None:
+    """Ref with more damping: folds of its branch, and where sweeps leave it. Input: model. Outputs: table, picture."""
+    settings, model = settings_of(Path.cwd()), read_contact_model(input.model)
+    grown, choice = _scene_and_choice(settings, "Ref", damping_ratio=DAMPED)
+    blade = PeriodicBlade.at_speed(model, grown, choice, START)
+    simulation = Simulation(model, START, grown, blade.choice)
+    state = simulation.start()
+    simulation.advance(state, REVOLUTIONS)
+    orbits = branch_through(blade, orbit_after(blade, simulation, state, 1), FIRST, LAST, 400)
+    events = [event for event in events_of(blade, orbits) if event.speed < 1330.0]
+    rms = {motion: _carried(model, grown, choice, motion) for motion in (UP, DOWN)}
+    speeds = np.array(list(rms[UP]))
+    differ = np.array([abs(rms[UP][speed] - rms[DOWN][speed]) > 0.05 * rms[UP][speed] for speed in speeds])
+    ends = {"high": speeds[differ].max(), "low": speeds[differ].min()}
+    rows = []
+    for end, event in zip(("high", "low"), sorted(events, key=lambda event: -event.speed), strict=True):
+        carried = f"{ends[end]:.0f} to {ends[end] + 1:.0f}" if end == "high" else f"{ends[end] - 1:.0f} to {ends[end]:.0f}"
+        rows.append([f"{'upper' if end == 'high' else 'lower'} fold", f"{event.speed:.2f}", carried])
+    write_table(["Ref, damping ratio 0.01", "branch (rad/s)", "sweeps leave it between (rad/s)"], rows, output.table)
+    figure, axes = plt.subplots(figsize=(style.PAGE, 2.8))
+    curve, sizes = [orbit.speed for orbit in orbits], [1e3 * np.linalg.norm(orbit.rms) for orbit in orbits]
+    unstable = [np.nan if orbit.stable else size for orbit, size in zip(orbits, sizes, strict=True)]
+    axes.plot(curve, sizes, color="0.6", label="periodic motion")
+    axes.plot(curve, unstable, color="0.1", linewidth=2, label="unstable")
+    for motion, marker in ((UP, "^"), (DOWN, "v")):
+        axes.plot(
+            speeds,
+            1e3 * np.array(list(rms[motion].values())),
+            marker,
+            markersize=3,
+            fillstyle="none",
+            color=COLOURS[motion],
+            label=f"carried {motion}",
+        )
+    axes.set(xlabel="speed (rad/s)", ylabel="rms (mm)", title="Ref, bare casing, damping ratio 0.01")
+    axes.legend()
+    style.save(figure, output.picture)
+
+
+def _carried(model: ContactModel, scene: Scene, choice: IntegrationChoice, motion: str) -> dict[float, float]:
+    """Rms (m) at the end of every 1 rad/s about the folds, by ascending speed, carried up or down."""
+    kept = {"spectrum_highest_order": 1, "wear_angles": 1}
+    run = CarriedSweep(model, scene, choice, SweepChoice(1255.0, 1310.0, 1.0, REVOLUTIONS), motion, (), kept)
+    with scratch_folder() as folder:
+        files = run.run(folder)
+        rms = {speed: float(read_speed(file)["revolution_rms"][-1]) for speed, file in zip(run.speeds, files, strict=True)}
+    return dict(sorted(rms.items()))
+
+
+def again(input: Any, output: Any, params: Any) -> None:
+    """Two second motions by the plain engine, and with half the step. Inputs: models, states. Output: table."""
+    settings, rows = settings_of(Path.cwd()), []
+    for place, (name, speed) in enumerate(AGAIN.items()):
+        model = read_contact_model(input.models[place])
+        grown, choice = _scene_and_choice(settings, name)
+        up, rest = (SweptStates(input.states[2 * place + number]) for number in range(2))
+        at = int(np.argmin(np.abs(up.speeds - speed)))
+        cells = []
+        for states in (up, rest):
+            for change in ({}, {"time_step": 0.5 * choice.time_step}, {"engine": "reference"}):
+                simulation = Simulation(model, speed, grown, replace(choice, **change))
+                motion = states.motion(at)
+                assert motion is not None
+                state = carried_state(simulation.problem, motion)
+                motion_of = simulation.advance(state, REVOLUTIONS).samples[:, LEADING_EDGE]
+                rms = revolution_rms(motion_of[:, :1], choice.samples_per_revolution)
+                cells.append(f"{1e3 * np.sqrt(np.mean(rms[REVOLUTIONS // 2 :] ** 2)):.4f}")
+        blade = PeriodicBlade.at_speed(model, grown, choice, speed)
+        simulation = Simulation(model, speed, grown, blade.choice)
+        motion = up.motion(at)
+        assert motion is not None
+        state = carried_state(simulation.problem, motion)
+        simulation.advance(state, 10 * REVOLUTIONS)
+        kind = kind_of_motion(simulation, state)
+        orbit = orbit_after(blade, simulation, state, max(1, round(2 * kind.period)))
+        rows.append([f"{name}, {speed:.0f} rad/s", *cells, f"{abs(orbit.multipliers[0]):.2f}"])
+    head = [f"{motion}: {way}" for motion in ("up", "from rest") for way in ("as shipped", "half the step", "plain engine")]
+    write_table(["normal rms (mm)", *head, "largest multiplier, up"], rows, output.table)
