@@ -150,6 +150,33 @@ def test_run_ups_of_a_finished_run(sweep_copy):
     assert planned(sweep_copy, *given) == {}
 
 
+def test_second_motions_of_a_finished_run(sweep_copy):
+    """Sweeps start from the models that are there; the motion from rest is the run of the sweep; answers have the worst one."""
+    (sweep_copy / "config/second_motions.yaml").write_text(
+        "second_motions:\n"
+        "  { from_rad_s: 1140, to_rad_s: 1160, step_rad_s: 10, revolutions: 10, dwell: { revolutions: 100, at_rad_s: [1145] } }\n"
+    )
+    given = ("all_blades", "--configfile", "config/config.yaml", "config/second_motions.yaml")
+    text = snakemake(sweep_copy, *given, "--cores", "2")
+    assert "rule simulate" not in text
+    results = sweep_copy / "results"
+    motions, rms = (read_dataset(results / f"{name}.nc") for name in ("second_motions", "rms"))
+    assert motions.sizes == {"blade": 2, "scene": 2, "motion": 3, "speed": 3}
+    same = {"speed": 1150.0}
+    from_rest = motions["rms_normal"].sel(motion="rest", **same)
+    np.testing.assert_array_equal(from_rest, rms["rms_normal"].sel(tip_point="leading_edge", **same))
+    dwells = pd.read_csv(results / "second_motions_dwells.csv")
+    assert set(dwells.loc[dwells["speed_rad_s"] == 1145.0, "blade"]) == {"Ref", "CS100"}
+    ranking = pd.read_csv(results / "ranking.csv")
+    assert (ranking["length_certain_worst_rad_s"] >= ranking["length_certain_rest_rad_s"]).all()
+    assert "second_motion_speed_rad_s" in pd.read_csv(results / "summary.csv")
+    for name in ("second_motions_Ref__abradable", "second_motions_direct"):
+        assert (results / f"figures/{name}.png").stat().st_size > 10_000
+    assert "carried up, down and from rest" in (results / "explorer.html").read_text()
+    assert not list(results.rglob("*.parts"))
+    assert planned(sweep_copy, *given) == {}
+
+
 def test_tolerances_of_a_finished_run(root, sweep_copy):
     """Members run beside the nominal runs; one with nominal values is the nominal run."""
     (sweep_copy / "config/tolerances.yaml").write_text(
