@@ -129,7 +129,7 @@ def test_a_carried_motion_goes_on_as_if_nothing_had_happened(scene, integrator):
     simulation = Simulation(model, 12_000.0, scenes[scene], choice)
     state = simulation.start()
     simulation.advance(state, 2)
-    carried = CarriedMotion.at_end(simulation.problem, state, keep_wear=True)
+    carried = CarriedMotion.ended(simulation.problem, state, keep_wear=True)
     other = rest_state(simulation.problem)
     carried.put(simulation.problem, other)
     np.testing.assert_allclose(other.displacement, state.displacement, rtol=0.0, atol=1e-12 * np.abs(state.displacement).max())
@@ -142,7 +142,7 @@ def test_a_carried_motion_keeps_its_energy_at_another_speed(contact):
     before, after = (Simulation(contact, speed, DIRECT, choice) for speed in (1340.0, 1340.001))
     state = before.start()
     before.advance(state, 20)
-    carried, other = CarriedMotion.at_end(before.problem, state), after.start()
+    carried, other = CarriedMotion.ended(before.problem, state), after.start()
     carried.put(after.problem, other)
     assert after.energy(other) == pytest.approx(before.energy(state), rel=1e-4)
     # what is carried is its own: the run goes on

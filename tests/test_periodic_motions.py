@@ -30,7 +30,7 @@ KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
 @cache
 def followed():
     """Branch through the small motion at the highest speed, as far as the lowest, and what happens to it."""
-    blade = PeriodicBlade.at_speed(MODEL, SCENE, CHOICE, LAST)
+    blade = PeriodicBlade.stepped(MODEL, SCENE, CHOICE, LAST)
     simulation = Simulation(MODEL, LAST, SCENE, blade.choice)
     state = simulation.start()
     simulation.advance(state, 400)
@@ -115,7 +115,7 @@ def test_sweeps_leave_their_motion_at_the_folds(tmp_path):
 def test_a_free_motion_has_the_multipliers_of_its_mode():
     """Within the clearance the map is that of the free motion, whatever the point: e^(lambda T)."""
     free = replace(SCENE, casing=replace(SCENE.casing, lobes=0))
-    blade = PeriodicBlade.at_speed(MODEL, free, CHOICE, 5000.0)
+    blade = PeriodicBlade.stepped(MODEL, free, CHOICE, 5000.0)
     at_speed = PeriodMap(Simulation(MODEL, 5000.0, free, blade.choice), *blade.basis)
     z, samples = np.array([0.1, 0.2]), CHOICE.samples_per_revolution
     multipliers = np.linalg.eigvals(at_speed.derivative(z, 0, samples, at_speed(z, 0, samples)))
@@ -125,7 +125,7 @@ def test_a_free_motion_has_the_multipliers_of_its_mode():
 
 
 def test_what_does_not_close_is_said():
-    blade = PeriodicBlade.at_speed(MODEL, SCENE, CHOICE, 5300.0)
+    blade = PeriodicBlade.stepped(MODEL, SCENE, CHOICE, 5300.0)
     at_speed = blade.map_at(5300.0)
     with pytest.raises(NoOrbitError):
         at_speed.orbit(np.array([1e3, 1e3]), 0, CHOICE.samples_per_revolution)

@@ -16,7 +16,18 @@ from r37core.figures.response_curves import draw_response
 from r37core.product.reading import read_settings
 from r37core.results.other_motions import ranking_with_motions, summary_with_motions
 from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, BranchChoice, DwellChoice, SweepChoice
-from r37core.second_motions.dwelling import HIGH, LOW, RANDOM, Dwell, Lasting, dwell, is_high, judged, random_states, to_angle_0
+from r37core.second_motions.dwelling import (
+    HIGH,
+    LOW,
+    RANDOM,
+    Dwell,
+    Lasting,
+    dwell,
+    finish_revolution,
+    is_high,
+    judged,
+    random_states,
+)
 from r37core.second_motions.examining import branches_of, dwells_of, speeds_dwelt_on
 from r37core.second_motions.figures import draw_overview, draw_second_motions
 from r37core.second_motions.motion_files import SweptStates, dwell_dataset, levels_of, orbit_dataset, write_states
@@ -118,8 +129,9 @@ def test_after_a_run_that_diverged_the_sweep_starts_from_rest(contact, tmp_path)
     assert states.motion(0) is None
     levels = levels_of(dict.fromkeys(MOTIONS, states))
     assert not levels.differ.any()
-    assert dwells_of(sweep_of(contact, UP, hopeless), dict.fromkeys(MOTIONS, states), DwellChoice(at=(1310.0,), starts=2)) == []
-    assert branches_of(sweep_of(contact, UP, hopeless), dict.fromkeys(MOTIONS, states), BranchChoice()) == []
+    run, several = sweep_of(contact, UP, hopeless), dict.fromkeys(MOTIONS, states)
+    assert dwells_of(run, several, DwellChoice(speeds=(1310.0,), starts=2)) == []
+    assert branches_of(run, several, BranchChoice()) == []
 
 
 def levels(mean, scatter=0.0, clearance=0.0):
@@ -143,9 +155,9 @@ def test_ranges_and_the_speeds_that_are_dwelt_on():
     several = levels([up, np.ones(7), np.ones(7)])
     assert [(part.start, part.stop) for part in several.ranges()] == [(1, 5), (6, 7)]
     assert [several.worst(part) for part in several.ranges()] == [2, 6]
-    assert speeds_dwelt_on(several, DwellChoice(speeds=3)) == [105.0, 110.0, 120.0, 130.0]
-    assert speeds_dwelt_on(several, DwellChoice(speeds=1, at=(111.0,))) == [110.0, 111.0, 130.0]
-    assert speeds_dwelt_on(several, DwellChoice(speeds=0)) == []
+    assert speeds_dwelt_on(several, DwellChoice(range_speeds=3)) == [105.0, 110.0, 120.0, 130.0]
+    assert speeds_dwelt_on(several, DwellChoice(range_speeds=1, speeds=(111.0,))) == [110.0, 111.0, 130.0]
+    assert speeds_dwelt_on(several, DwellChoice(range_speeds=0)) == []
 
 
 def test_a_motion_is_high_until_it_is_clearly_low():
@@ -190,7 +202,7 @@ def test_random_states_are_outside_of_the_casing(contact):
         gap, _ = problem.casing.gaps(problem.casing.clearance, nodes, state.samples * problem.grid.steps_per_sample, 0.0)
         assert gap.min() >= 0.0
         assert not state.contact_force.any()
-        to_angle_0(simulation, state)
+        finish_revolution(simulation, state)
         assert state.samples % CHOICE.samples_per_revolution == 0
     again = random_states(problem, 30.0, 8, 3)
     other = random_states(problem, 30.0, 8, 4)
@@ -328,7 +340,7 @@ def test_dwells_and_branches_of_real_sweeps(contact, swept, tmp_path):
     states = {motion: SweptStates(file) for motion, file in swept.items()}
     assert levels_of(states).mean.shape == (3, 3)
     carried = sweep_of(contact, UP)
-    rows = dwells_of(carried, states, DwellChoice(revolutions=100, speeds=1, starts=1, at=(1310.0,)))
+    rows = dwells_of(carried, states, DwellChoice(revolutions=100, range_speeds=1, starts=1, speeds=(1310.0,)))
     assert {labels["start"] for labels, _ in rows} == {HIGH, LOW, RANDOM}
     assert dwell_dataset(rows, 100).sizes == {"dwell": len(rows), "revolution": 100}
     # this motion is chaotic
@@ -362,7 +374,7 @@ def test_a_blade_with_more_damping_has_a_branch(contact, tmp_path):
         ("{ from_rad_s: 1000, to_rad_s: 900 }", "second_motions.to_rad_s: found a speed below the lowest one"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, step_rad_s: 5, step_rpm: 5 }", "step_rad_s and step_rpm; allowed: one of them"),
         ("{ from_rad_s: 1000, to_rad_s: 2100 }", "second_motions.to_rad_s: found 2100 rad/s; allowed: up to"),
-        ("{ from_rad_s: 1000, to_rad_s: 1100, dwell: { at_rad_s: [2500] } }", "second_motions.dwell: found 2500 rad/s"),
+        ("{ from_rad_s: 1000, to_rad_s: 1100, dwell: { speeds_rad_s: [2500] } }", "second_motions.dwell: found 2500 rad/s"),
         ("{ from_rad_s: 1, to_rad_s: 1900, step_rad_s: 0.01 }", "second_motions: found 1.899e+05 speeds"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, scenes: [direct], lining: worn }", "worn in the scene 'direct', which has no"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, scenes: [rotor_abradable] }", "'rotor_abradable', which has a rotor"),

@@ -184,7 +184,7 @@ def switching(input: Any, output: Any, params: Any) -> None:
     speeds = states[UP].speeds
     sweep = SweepChoice(float(speeds[0]), float(speeds[-1]), float(speeds[1] - speeds[0]))
     grown, choice = _scene_and_choice(settings, "Ref")
-    dwells = DwellChoice(speeds=0, at=DROP)
+    dwells = DwellChoice(range_speeds=0, speeds=DROP)
     rows = dwells_of(CarriedSweep(model, grown, choice, sweep, UP, (), {}), states, dwells)
     table = dwell_table(_labelled(dwell_dataset(rows, dwells.revolutions)))
     lines = []
@@ -220,7 +220,7 @@ def folds(input: Any, output: Any, params: Any) -> None:
     """Ref with more damping: folds of its branch, and where sweeps leave it. Input: model. Outputs: table, picture."""
     settings, model = settings_of(Path.cwd()), read_contact_model(input.model)
     grown, choice = _scene_and_choice(settings, "Ref", damping_ratio=DAMPED)
-    blade = PeriodicBlade.at_speed(model, grown, choice, START)
+    blade = PeriodicBlade.stepped(model, grown, choice, START)
     simulation = Simulation(model, START, grown, blade.choice)
     state = simulation.start()
     simulation.advance(state, REVOLUTIONS)
@@ -283,7 +283,7 @@ def again(input: Any, output: Any, params: Any) -> None:
                 motion_of = simulation.advance(state, REVOLUTIONS).samples[:, LEADING_EDGE]
                 rms = revolution_rms(motion_of[:, :1], choice.samples_per_revolution)
                 cells.append(f"{1e3 * np.sqrt(np.mean(rms[REVOLUTIONS // 2 :] ** 2)):.4f}")
-        blade = PeriodicBlade.at_speed(model, grown, choice, speed)
+        blade = PeriodicBlade.stepped(model, grown, choice, speed)
         simulation = Simulation(model, speed, grown, blade.choice)
         motion = up.motion(at)
         assert motion is not None

@@ -48,21 +48,23 @@ class Bifurcation:
 class _Point:
     """An orbit with the map at its speed, and the derivative of P by the speed."""
 
-    def __init__(self, blade: PeriodicBlade, orbit: Orbit, at_speed: PeriodMap):
-        self.orbit, self.map = orbit, at_speed
-        self.by_speed = _by_speed(blade, orbit.speed, orbit.z, orbit.phase, orbit.samples, orbit.z)
+    def __init__(self, blade: PeriodicBlade, orbit: Orbit, period_map: PeriodMap):
+        self.orbit, self.map = orbit, period_map
+        self.speed_derivative = _speed_derivative(blade, orbit.speed, orbit.z, orbit.phase, orbit.samples, orbit.z)
 
     def tangent(self, before: np.ndarray | None, direction: float) -> np.ndarray:
         """Unit tangent of the branch, in state over its size and speed over its scale, on from the one `before`."""
         orbit = self.orbit
-        by_speed = solve(np.eye(len(orbit.z)) - orbit.derivative, self.by_speed)
-        tangent = np.append(by_speed / np.linalg.norm(orbit.z), 1.0 / SPEED_SCALE)
+        speed_derivative = solve(np.eye(len(orbit.z)) - orbit.derivative, self.speed_derivative)
+        tangent = np.append(speed_derivative / np.linalg.norm(orbit.z), 1.0 / SPEED_SCALE)
         tangent /= np.linalg.norm(tangent)
         forward = np.sign(tangent[-1]) * direction if before is None else np.sign(tangent @ before)
         return tangent * (forward or 1.0)
 
 
-def _by_speed(blade: PeriodicBlade, speed: float, z: np.ndarray, phase: int, samples: int, mapped: np.ndarray) -> np.ndarray:
+def _speed_derivative(
+    blade: PeriodicBlade, speed: float, z: np.ndarray, phase: int, samples: int, mapped: np.ndarray
+) -> np.ndarray:
     """Derivative of P by the speed; `mapped`: P(z) at the speed."""
     return (blade.map_at(speed + _SPEED_DIFFERENCE)(z, phase, samples) - mapped) / _SPEED_DIFFERENCE
 
@@ -90,11 +92,11 @@ def _followed(blade: PeriodicBlade, start: Orbit, direction: float, first: float
                     return
         orbit, corrections = following
         if not first <= orbit.speed <= last:
-            yield from _at_end(blade, point, orbit, min(max(orbit.speed, first), last))
+            yield from _end_orbit(blade, point, orbit, min(max(orbit.speed, first), last))
             return
         if corrections <= _EASY:
             length = min(length * GROWTH, LARGEST)
-        moved = _at_free_instant(blade, orbit)
+        moved = _free_orbit(blade, orbit)
         if moved is None:
             yield orbit
             return
@@ -116,7 +118,7 @@ def _way(point: _Point, orbit: Orbit) -> np.ndarray:
     return np.append(change / np.linalg.norm(orbit.z), (orbit.speed - point.orbit.speed) / SPEED_SCALE)
 
 
-def _at_end(blade: PeriodicBlade, point: _Point, beyond: Orbit, speed: float) -> list[Orbit]:
+def _end_orbit(blade: PeriodicBlade, point: _Point, beyond: Orbit, speed: float) -> list[Orbit]:
     """The orbit at the speed (rad/s) between a point of the branch and an orbit, if it is found."""
     share = (speed - point.orbit.speed) / (beyond.speed - point.orbit.speed)
     z = point.orbit.z + share * (beyond.z - point.orbit.z)
@@ -131,39 +133,41 @@ def _next(blade: PeriodicBlade, point: _Point, tangent: np.ndarray, length: floa
     orbit, size = point.orbit, float(np.linalg.norm(point.orbit.z))
     along_z, along_speed = tangent[:-1] * size, tangent[-1] * SPEED_SCALE
     z, speed = orbit.z + length * along_z, orbit.speed + length * along_speed
-    derivative, by_speed, before = orbit.derivative, point.by_speed, np.inf
+    derivative, speed_derivative, before = orbit.derivative, point.speed_derivative, np.inf
     for correction in range(_MOST_CORRECTIONS):
         try:
-            at_speed = blade.map_at(speed)
-            distance = at_speed(z, orbit.phase, orbit.samples) - z
+            period_map = blade.map_at(speed)
+            distance = period_map(z, orbit.phase, orbit.samples) - z
             error = float(np.linalg.norm(distance)) / size
             if error < CLOSED:
-                return at_speed.closed(z, orbit.phase, orbit.samples), correction
+                return period_map.closed(z, orbit.phase, orbit.samples), correction
             if correction and error > 5.0 * before:
                 return None
             if error > 0.3 * before or correction == 0:
-                derivative = at_speed.derivative(z, orbit.phase, orbit.samples, distance + z)
-                by_speed = _by_speed(blade, speed, z, orbit.phase, orbit.samples, distance + z)
+                derivative = period_map.derivative(z, orbit.phase, orbit.samples, distance + z)
+                speed_derivative = _speed_derivative(blade, speed, z, orbit.phase, orbit.samples, distance + z)
         except (NoOrbitError, ValueError):
             return None
         before = error
         left = length - tangent @ np.append((z - orbit.z) / size, (speed - orbit.speed) / SPEED_SCALE)
-        matrix = np.block([[np.eye(len(z)) - derivative, -by_speed[:, None]], [tangent[:-1] / size, tangent[-1] / SPEED_SCALE]])
+        matrix = np.block(
+            [[np.eye(len(z)) - derivative, -speed_derivative[:, None]], [tangent[:-1] / size, tangent[-1] / SPEED_SCALE]]
+        )
         change = solve(matrix, np.append(distance, left))
         z, speed = z + change[:-1], speed + change[-1]
     return None
 
 
-def _at_free_instant(blade: PeriodicBlade, orbit: Orbit) -> Orbit | None:
+def _free_orbit(blade: PeriodicBlade, orbit: Orbit) -> Orbit | None:
     """The orbit as it is where nothing is pressed at its instant, else at another one; None where there is none."""
-    at_speed = blade.map_at(orbit.speed)
-    state = at_speed.state(orbit.z, orbit.phase)
-    at_speed.simulation.advance_samples(state, orbit.samples)
+    period_map = blade.map_at(orbit.speed)
+    state = period_map.state(orbit.z, orbit.phase)
+    period_map.simulation.advance_samples(state, orbit.samples)
     if not state.contact_force.any():
         return orbit
     try:
         # with its forces the state is not exactly the one without
-        return at_speed.orbit(*at_speed.free_instant(state, orbit.samples), orbit.samples)
+        return period_map.orbit(*period_map.free_instant(state, orbit.samples), orbit.samples)
     except NoOrbitError:
         return None
 
@@ -179,7 +183,7 @@ def events_of(blade: PeriodicBlade, orbits: list[Orbit]) -> list[Bifurcation]:
         before, after = orbits[number - 1], orbits[number]
         if before.stable == after.stable:
             continue
-        turn = next((at for at in (number - 1, number) if _turns(orbits, at)), None)
+        turn = next((turned for turned in (number - 1, number) if _turns(orbits, turned)), None)
         if turn is not None:
             events.append(Bifurcation(Event.FOLD, _turn(blade, orbits[turn - 1 : turn + 2]), number))
         else:

@@ -30,7 +30,7 @@ def can_be_swept(settings: Settings) -> None:
     highest = settings.structure.maximum_speed_rad_s
     for key, speeds in (
         ("to_rad_s" if section.to_rpm is None else "to_rpm", [sweep.speeds[-1]]),
-        ("dwell", section.dwell.at_rad_s),
+        ("dwell", section.dwell.speeds_rad_s),
     ):
         for speed in speeds:
             if speed > highest:

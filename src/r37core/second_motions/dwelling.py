@@ -95,7 +95,7 @@ def _room(problem: Problem, displacement: np.ndarray, step: int) -> float:
     return float(problem.casing.gaps(problem.casing.clearance, nodes, step, 0.0)[0].min())
 
 
-def to_angle_0(simulation: Simulation, state: SimulationState) -> None:
+def finish_revolution(simulation: Simulation, state: SimulationState) -> None:
     """Go on to the end of the revolution that a `state` is in, which is changed."""
     per_revolution = simulation.problem.choice.samples_per_revolution
     left = -state.samples % per_revolution

@@ -11,7 +11,7 @@ from r37core.time_integration.simulate import Simulation
 
 from .branches import Bifurcation, branch_through, events_of
 from .choice import MOTIONS, BranchChoice, DwellChoice
-from .dwelling import HIGH, LOW, RANDOM, Dwell, carried_state, dwell, random_states, to_angle_0
+from .dwelling import HIGH, LOW, RANDOM, Dwell, carried_state, dwell, finish_revolution, random_states
 from .motion_files import SweptStates, levels_of
 from .periodic import NoOrbitError, Orbit, PeriodicBlade, orbit_after
 from .ranges import MotionLevels
@@ -29,9 +29,9 @@ def speeds_dwelt_on(levels: MotionLevels, choice: DwellChoice) -> list[float]:
 
     Of these one is the speed at which the motions differ most, the others are spread evenly.
     """
-    speeds = set(choice.at)
-    for part in levels.ranges() if choice.speeds else []:
-        spread = np.linspace(part.start, part.stop - 1, choice.speeds - 1).round().astype(int)
+    speeds = set(choice.speeds)
+    for part in levels.ranges() if choice.range_speeds else []:
+        spread = np.linspace(part.start, part.stop - 1, choice.range_speeds - 1).round().astype(int)
         speeds |= set(levels.speeds[[levels.worst(part), *spread]].tolist())
     return sorted(speeds)
 
@@ -64,7 +64,7 @@ def dwells_of(
             size = max(size, float(np.linalg.norm(PhaseSpace(simulation.problem).coordinates(state))))
             rows.append((about | {"start": start, "motion": MOTIONS[place]}, dwell(simulation, state, choice.revolutions)))
         for number, state in enumerate(random_states(simulation.problem, size, choice.starts if size else 0, choice.seed), 1):
-            to_angle_0(simulation, state)
+            finish_revolution(simulation, state)
             rows.append((about | {"start": RANDOM, "motion": f"random_{number}"}, dwell(simulation, state, choice.revolutions)))
     return rows
 
@@ -95,7 +95,7 @@ def branches_of(
 
 def _orbit(carried: CarriedSweep, speed: float, motion: CarriedMotion) -> tuple[PeriodicBlade, Orbit]:
     """The periodic motion that a motion at a speed (rad/s) comes near. Raises NoOrbitError where it does not recur."""
-    blade = PeriodicBlade.at_speed(carried.model, carried.grown_scene, carried.unrecorded_choice, speed)
+    blade = PeriodicBlade.stepped(carried.model, carried.grown_scene, carried.unrecorded_choice, speed)
     simulation = Simulation(carried.model, speed, blade.scene, blade.choice)
     recurrence, periods = recurrence_of(simulation, carried_state(simulation.problem, motion))
     if recurrence > _NEARLY:

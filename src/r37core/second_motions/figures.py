@@ -22,7 +22,7 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, *
     """One blade in one scene: motion and stress of the three motions, and what becomes of the larger one in dwells."""
     pair = swept(motions)
     stress = "max_von_mises_median" in pair and bool(pair["max_von_mises_median"].notnull().any())
-    of_blade = dwells[(dwells["blade"] == blade) & (dwells["scene"] == scene)]
+    blade_dwells = dwells[(dwells["blade"] == blade) & (dwells["scene"] == scene)]
     figure, panels = plt.subplots(3 + stress, 1, figsize=(style.PAGE, 2.0 * (3 + stress)), sharex=True)
     _draw_motions(panels[0], pair)
     panels[0].set_ylabel("rms (mm)")
@@ -34,7 +34,7 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, *
         style.yield_lines(panels[1], {blade: float(pair["yield_stress"])}, named=True)
         panels[1].set_ylabel("median von Mises (GPa)")
     for kind, marker in MARKERS.items():
-        those = of_blade[of_blade["high"] == str(kind)]
+        those = blade_dwells[blade_dwells["high"] == str(kind)]
         panels[0].plot(
             those["speed_rad_s"],
             1e3 * those["level_high_m"],
@@ -45,11 +45,15 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, *
             label=f"largest motion {kind}",
         )
     shares, exponents = panels[-2:]
-    shares.plot(of_blade["speed_rad_s"], of_blade["share_of_time_high"], ".", color=COLOURS["up"])
+    shares.plot(blade_dwells["speed_rad_s"], blade_dwells["share_of_time_high"], ".", color=COLOURS["up"])
     shares.set(ylabel="share of time\nin largest motion", ylim=(-0.05, 1.05))
-    for of, label, colour in (("high", "largest", COLOURS["up"]), ("low", "smallest", COLOURS["down"])):
+    for which, label, colour in (("high", "largest", COLOURS["up"]), ("low", "smallest", COLOURS["down"])):
         exponents.plot(
-            of_blade["speed_rad_s"], of_blade[f"lyapunov_exponent_{of}"], ".", color=colour, label=f"exponent, {label} motion"
+            blade_dwells["speed_rad_s"],
+            blade_dwells[f"lyapunov_exponent_{which}"],
+            ".",
+            color=colour,
+            label=f"exponent, {label} motion",
         )
     exponents.axhline(0.0, color="0.6", linewidth=0.8)
     exponents.set_ylabel("exponent\nper revolution")

@@ -70,7 +70,7 @@ def _counted(run: Mapping[str, np.ndarray]) -> np.ndarray:
 def levels_of(states: Mapping[str, SweptStates]) -> MotionLevels:
     """Levels of the motions of a blade and scene, by motion."""
     first, rms = states[MOTIONS[0]], {motion: each.rms for motion, each in states.items()}
-    return MotionLevels.of_revolutions(first.speeds, rms, float(first.clearance))
+    return MotionLevels.averaged(first.speeds, rms, float(first.clearance))
 
 
 OF_DWELLS = {

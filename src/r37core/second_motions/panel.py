@@ -17,7 +17,7 @@ def contents(motions: xr.Dataset) -> list[dict[str, object]]:
             pair = swept(motions.sel(blade=blade, scene=scene))
             if not pair.sizes["speed"]:
                 continue
-            levels = MotionLevels.of_dataset(pair)
+            levels = MotionLevels.read(pair)
             half = 0.5 * float(np.diff(levels.speeds).min(initial=np.inf)) if len(levels.speeds) > 1 else 0.0
             ends = [levels.speeds[part][[0, -1]] + (-half, half) for part in levels.ranges()]
             shown.append(

@@ -77,7 +77,7 @@ class PeriodicBlade:
     reference: float
 
     @classmethod
-    def at_speed(cls, model: ContactModel, scene: Scene, choice: IntegrationChoice, reference: float) -> "PeriodicBlade":
+    def stepped(cls, model: ContactModel, scene: Scene, choice: IntegrationChoice, reference: float) -> "PeriodicBlade":
         """Blade with the steps per sample that the `reference` speed (rad/s) has."""
         bare = replace(choice, snapshot_revolutions=0, snapshots_per_revolution=0, until_settled=False)
         steps = Simulation(model, reference, scene, bare).problem.grid.steps_per_sample
@@ -204,6 +204,6 @@ def orbit_after(blade: PeriodicBlade, simulation: Simulation, state: SimulationS
 
     The state is of a `simulation` at the blade's reference speed. Raises NoOrbitError.
     """
-    at_speed = PeriodMap(simulation, *blade.basis)
+    period_map = PeriodMap(simulation, *blade.basis)
     samples = periods * samples_of_period(simulation.problem)
-    return at_speed.orbit(*at_speed.free_instant(state, samples), samples)
+    return period_map.orbit(*period_map.free_instant(state, samples), samples)

@@ -27,7 +27,7 @@ class MotionLevels:
     differ: np.ndarray
 
     @classmethod
-    def of_revolutions(cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float) -> "MotionLevels":
+    def averaged(cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float) -> "MotionLevels":
         """Levels by the rms (m) of the revolutions that count, motion -> shape (speeds, revolutions); NaN after a run's end."""
         counted = [np.ma.masked_invalid(rms[motion]) for motion in MOTIONS]
         mean = np.array([part.mean(axis=1).filled(np.nan) for part in counted])
@@ -35,7 +35,7 @@ class MotionLevels:
         return cls(np.asarray(speeds), mean, scatter, motions_differ(mean, scatter, clearance))
 
     @classmethod
-    def of_dataset(cls, pair: xr.Dataset) -> "MotionLevels":
+    def read(cls, pair: xr.Dataset) -> "MotionLevels":
         """Levels of one blade and scene of second_motions.nc."""
         mean, scatter = (pair[f"motion_{name}"].transpose("motion", "speed").values for name in ("mean", "scatter"))
         return cls(pair["speed"].values, mean, scatter, pair["differ"].values > 0.0)

@@ -16,7 +16,7 @@ _ENDS = (("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm"))
 class DwellSection(Section):
     """Dwells at speeds at which motions differ."""
 
-    at_rad_s: list[Speed] = Field(default=[], description="More speeds that are dwelt on")
+    speeds_rad_s: list[Speed] = Field(default=[], description="More speeds that are dwelt on")
 
 
 @declared_by(BranchChoice)
@@ -57,7 +57,7 @@ class SecondMotionSection(Section):
 
     def dwells(self) -> DwellChoice:
         """The dwells that are asked for."""
-        return si_form(DwellChoice, self.dwell, at=tuple(self.dwell.at_rad_s))
+        return si_form(DwellChoice, self.dwell, speeds=tuple(self.dwell.speeds_rad_s))
 
     def followed(self) -> BranchChoice:
         """The branches that are asked for."""

@@ -79,7 +79,7 @@ class CarriedSweep:
             before = BladesSimulation(self.model, speed, self.scene, grown)
             states = before.start()
             if not before.run(states).blades[0].diverged:
-                carried = CarriedMotion.at_end(before.problem, states[0], keep_wear=self.sweep.worn)
+                carried = CarriedMotion.ended(before.problem, states[0], keep_wear=self.sweep.worn)
         simulation = BladesSimulation(self.model, speed, self.grown_scene, self.carried_choice)
         return self._numbers(simulation, carried, keep_wear=self.sweep.worn)
 
@@ -112,7 +112,7 @@ class CarriedSweep:
         choice, blade = simulation.problem.choice, record.blades[0]
         samples = whole(blade.samples, choice.revolutions * choice.samples_per_revolution, blade.diverged)
         numbers["revolution_rms"] = revolution_rms(samples[:, LEADING_EDGE], choice.samples_per_revolution)
-        carried = CarriedMotion.at_end(simulation.problem, states[0], keep_wear=keep_wear)
+        carried = CarriedMotion.ended(simulation.problem, states[0], keep_wear=keep_wear)
         numbers |= {name: getattr(carried, name) for name in CARRIED}
         if carried.wear is not None:
             numbers["end_wear"] = carried.wear

@@ -47,8 +47,8 @@ DWELL_COLUMNS = (
     "low_revolutions",
     "random_starts_high",
     *(
-        f"{what}_{of}"
-        for of in ("high", "low")
+        f"{what}_{which}"
+        for which in ("high", "low")
         for what in ("motion", "motion_kind", "period_revolutions", "lyapunov_exponent")
     ),
 )
@@ -80,13 +80,13 @@ def dwell_table(dwells: xr.Dataset) -> pd.DataFrame:
                 "low_revolutions": verdict.low_revolutions,
                 "random_starts_high": verdict.high_starts,
             }
-        for of in (HIGH, LOW) if HIGH in starts and LOW in starts else ():
-            dwell = group.isel(dwell=int(np.flatnonzero(starts == of)[0]))
+        for which in (HIGH, LOW) if HIGH in starts and LOW in starts else ():
+            dwell = group.isel(dwell=int(np.flatnonzero(starts == which)[0]))
             row |= {
-                f"motion_{of}": str(dwell["motion"].values),
-                f"motion_kind_{of}": MotionKind(int(dwell["motion_kind"])).text,
-                f"period_revolutions_{of}": float(dwell["recurrence_period"]),
-                f"lyapunov_exponent_{of}": float(dwell["lyapunov_exponent"]),
+                f"motion_{which}": str(dwell["motion"].values),
+                f"motion_kind_{which}": MotionKind(int(dwell["motion_kind"])).text,
+                f"period_revolutions_{which}": float(dwell["recurrence_period"]),
+                f"lyapunov_exponent_{which}": float(dwell["lyapunov_exponent"]),
             }
         rows.append(row)
     return pd.DataFrame(rows, columns=list(DWELL_COLUMNS))
@@ -102,23 +102,23 @@ def range_table(motions: xr.Dataset, dwells: pd.DataFrame) -> pd.DataFrame:
     for blade in motions["blade"].values.tolist():
         for scene in motions["scene"].values.tolist():
             pair = swept(motions.sel(blade=blade, scene=scene))
-            levels = MotionLevels.of_dataset(pair)
-            of_pair = dwells[(dwells["blade"] == blade) & (dwells["scene"] == scene)]
-            rows += [_range_row(blade, scene, pair, levels, part, of_pair) for part in levels.ranges()]
+            levels = MotionLevels.read(pair)
+            pair_dwells = dwells[(dwells["blade"] == blade) & (dwells["scene"] == scene)]
+            rows += [_range_row(blade, scene, pair, levels, part, pair_dwells) for part in levels.ranges()]
     return pd.DataFrame(rows, columns=list(RANGE_COLUMNS))
 
 
 def _range_row(
     blade: str, scene: str, pair: xr.Dataset, levels: MotionLevels, part: slice, dwells: pd.DataFrame
 ) -> dict[str, Any]:
-    place, of_range = levels.worst(part), levels.speeds[part]
-    at = pair.isel(speed=place)
+    place, speeds = levels.worst(part), levels.speeds[part]
+    worst = pair.isel(speed=place)
     row: dict[str, Any] = {
         "blade": blade,
         "scene": scene,
-        "from_rad_s": float(of_range[0]),
-        "to_rad_s": float(of_range[-1]),
-        "speeds": len(of_range),
+        "from_rad_s": float(speeds[0]),
+        "to_rad_s": float(speeds[-1]),
+        "speeds": len(speeds),
         "speed_rad_s": float(levels.speeds[place]),
         "largest_motion": MOTIONS[int(levels.high[place])],
     }
@@ -129,9 +129,9 @@ def _range_row(
         "share_above_yield_{}": "share_of_revolutions_above_yield",
     }
     for column, name in names.items():
-        if name in at:
-            row |= {column.format(motion): float(at[name].sel(motion=motion)) for motion in MOTIONS}
-    here = dwells[dwells["speed_rad_s"].between(of_range[0], of_range[-1]) & dwells["high"].notna()]
+        if name in worst:
+            row |= {column.format(motion): float(worst[name].sel(motion=motion)) for motion in MOTIONS}
+    here = dwells[dwells["speed_rad_s"].between(speeds[0], speeds[-1]) & dwells["high"].notna()]
     for kind in _STRONGEST:
         those = here[here["high"] == str(kind)]
         if len(those):

@@ -39,7 +39,7 @@ class CarriedMotion:
     wear: np.ndarray | None = None
 
     @classmethod
-    def at_end(cls, problem: Problem, state: SimulationState, *, keep_wear: bool = False) -> "CarriedMotion":
+    def ended(cls, problem: Problem, state: SimulationState, *, keep_wear: bool = False) -> "CarriedMotion":
         """The motion of a `state`; `keep_wear`: whether the next run has the worn lining."""
         factors, blade = own_increments(problem), len(problem.blade.frequencies)
         velocity = factors.velocity(0, state.displacement, state.increment)
@@ -51,9 +51,9 @@ class CarriedMotion:
 
     def put(self, problem: Problem, state: SimulationState) -> None:
         """Put the motion into a state at rest, as far as the speed's modes are stepped."""
-        factors, at_rest = own_increments(problem), len(problem.blade.modes)
+        factors, blade_modes = own_increments(problem), len(problem.blade.modes)
         displacement, velocity = (
-            np.concatenate([problem.blade.modes.T @ part[:at_rest], part[at_rest:]])
+            np.concatenate([problem.blade.modes.T @ part[:blade_modes], part[blade_modes:]])
             for part in (self.displacement, self.velocity)
         )
         state.displacement, state.increment = displacement, factors.increment(0, displacement, velocity)
