@@ -72,7 +72,7 @@ def tables(input: Any, output: Any, params: Any) -> None:
     write_table(["blade", *(f"{name}, {contact}" for name, contact in columns)], rows, output.table)
     together = pd.concat([table.assign(contact=contact) for contact, table in ranges.items()])
     together.to_csv(output.ranges, index=False, float_format="%.6g")
-    write_table(*_ranking(motions, blades), output.ranking)
+    write_table(*_ranking(motions["patches"], blades), output.ranking)
     _picture(motions, blades, output.picture)
 
 
@@ -96,17 +96,16 @@ def _size(row: pd.Series, motion: str) -> float:
     return float(row[f"rms_{motion}_m"])
 
 
-def _ranking(motions: dict[str, xr.Dataset], blades: Iterable[str]) -> tuple[list[str], list[list[str]]]:
-    """Lengths above yield (place) by the motion from rest and by the worst one."""
+def _ranking(motions: xr.Dataset, blades: Iterable[str]) -> tuple[list[str], list[list[str]]]:
+    """Lengths above yield (place) by the motion from rest and by the worst one, on patches."""
     head, columns = ["blade"], []
-    for name, scenes in SCENES.items():
-        for contact, scene in zip(CONTACTS, scenes, strict=True):
-            table = ranking_with_motions(pd.DataFrame({"blade": list(blades), "scene": scene}), motions[contact])
-            for motion in ("rest", "worst"):
-                length = table[f"length_certain_{motion}_rad_s"]
-                place = length.rank(method="min").astype(int)
-                columns.append([f"{value:.0f} ({rank})" for value, rank in zip(length, place, strict=True)])
-                head.append(f"{name}, {contact}: {'from rest' if motion == 'rest' else 'worst motion'}")
+    for name, (_, scene) in SCENES.items():
+        table = ranking_with_motions(pd.DataFrame({"blade": list(blades), "scene": scene}), motions)
+        for motion, words in (("rest", "from rest"), ("worst", "worst motion")):
+            length = table[f"length_certain_{motion}_rad_s"]
+            places = length.rank(method="min").astype(int)
+            columns.append([f"{value:.0f} ({place})" for value, place in zip(length, places, strict=True)])
+            head.append(f"{name}: {words}")
     return head, [[blade, *cells] for blade, *cells in zip(blades, *columns, strict=True)]
 
 
@@ -146,25 +145,23 @@ def kinds(input: Any, output: Any, params: Any) -> None:
             states = SweptStates(getattr(input, contact)[place])
             cells += _kinds_of(model, states, *_scene_and_choice(settings, blade))
         rows.append([blade, *cells])
-    names = ("chaotic", "quasi-periodic", "periodic", "exponent per revolution")
+    names = ("chaotic", "periodic", "exponent")
     write_table(["blade", *(f"{contact}: {name}" for contact in CONTACTS for name in names)], rows, output.table)
 
 
 def _kinds_of(model: ContactModel, states: SweptStates, scene: Scene, choice: IntegrationChoice) -> list[str]:
-    found, exponents = [], []
+    measured, exponents = [], []
     for place in range(0, len(states.speeds), EVERY):
         motion = states.motion(place)
         if motion is None:
             continue
         simulation = Simulation(model, float(states.speeds[place]), scene, choice)
         kind = kind_of_motion(simulation, carried_state(simulation.problem, motion))
-        found.append(kind.kind)
+        measured.append(kind.kind)
         exponents.append(kind.exponent)
-    shares = [
-        np.mean([kind in of for kind in found])
-        for of in ([MotionKind.CHAOTIC], [MotionKind.QUASI_PERIODIC], [MotionKind.PERIODIC, MotionKind.MULTIPLE])
-    ]
-    chaotic = [exponent for exponent, kind in zip(exponents, found, strict=True) if kind is MotionKind.CHAOTIC]
+    several = [MotionKind.CHAOTIC], [MotionKind.PERIODIC, MotionKind.MULTIPLE]
+    shares = [np.mean([kind in those for kind in measured]) for those in several]
+    chaotic = [exponent for exponent, kind in zip(exponents, measured, strict=True) if kind is MotionKind.CHAOTIC]
     median = f"{np.median(chaotic):.2f}" if chaotic else ""
     return [*(f"{share:.0%}" for share in shares), median]
 

@@ -99,7 +99,7 @@ def remarks_on_laws(settings: Settings) -> list[str]:
             lines.append(
                 f"scene '{name}': friction.coefficient is {friction.coefficient:g}; above {LARGE_FRICTION:g} exact_modal and "
                 "central_difference differ in direct contact, at any step, by a fifth and more on some blades; compare "
-                "fidelity standard with paper (docs/accuracy.md#what-chance-decides)"
+                "fidelity standard with paper (docs/accuracy.md#what-chaos-decides)"
             )
         if lining is not None and lining.plastic_modulus == 0.0:
             lines.append(
