@@ -6,13 +6,14 @@ distance is halved where no orbit is found.
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 from scipy.linalg import solve
 
-from .periodic import CLOSED, NoOrbitError, Orbit, PeriodicBlade, PeriodMap
+from .periodic import CLOSED, NoOrbitError, Orbit, PeriodicBlade
 
 SPEED_SCALE = 30.0
 """Change of speed (rad/s) that counts in the arc length as much as a change of the state by its own size."""
@@ -22,6 +23,9 @@ FIRST, LEAST, LARGEST, GROWTH = 0.02, 1e-5, 0.2, 1.4
 
 MOST_UNSTABLE = 60
 """Unstable orbits in a row after which a branch is not followed any farther."""
+
+_FAILED = (NoOrbitError, ValueError)
+"""Errors of an orbit that is not there, of a step that is too long at its speed, and of matrices that are singular."""
 
 _SPEED_DIFFERENCE = 1e-3
 _MOST_CORRECTIONS, _EASY, _HALVINGS = 12, 4, 6
@@ -48,8 +52,8 @@ class Bifurcation:
 class _Point:
     """An orbit with the map at its speed, and the derivative of P by the speed."""
 
-    def __init__(self, blade: PeriodicBlade, orbit: Orbit, period_map: PeriodMap):
-        self.orbit, self.map = orbit, period_map
+    def __init__(self, blade: PeriodicBlade, orbit: Orbit):
+        self.orbit, self.map = orbit, blade.map_at(orbit.speed)
         self.speed_derivative = _speed_derivative(blade, orbit.speed, orbit.z, orbit.phase, orbit.samples, orbit.z)
 
     def tangent(self, before: np.ndarray | None, direction: float) -> np.ndarray:
@@ -80,34 +84,39 @@ def branch_through(blade: PeriodicBlade, start: Orbit, first: float, last: float
 
 
 def _followed(blade: PeriodicBlade, start: Orbit, direction: float, first: float, last: float, most: int) -> Iterator[Orbit]:
-    point, length, tangent, unstable = _Point(blade, start, blade.map_at(start.speed)), FIRST, None, 0
+    orbit, length, tangent, unstable = start, FIRST, None, 0
     for _ in range(most):
-        tangent = point.tangent(tangent, direction)
+        try:
+            point = _Point(blade, orbit)
+            tangent = point.tangent(tangent, direction)
+        except _FAILED:
+            return
         following = None
         while following is None:
-            following = _next(blade, point, tangent, length)
+            with suppress(*_FAILED):
+                following = _next(blade, point, tangent, length)
             if following is None:
                 length *= 0.5
                 if length < LEAST:
                     return
-        orbit, corrections = following
-        if not first <= orbit.speed <= last:
-            yield from _end_orbit(blade, point, orbit, min(max(orbit.speed, first), last))
+        pressed, corrections = following
+        if not first <= pressed.speed <= last:
+            yield from _end_orbit(blade, point, pressed, min(max(pressed.speed, first), last))
             return
         if corrections <= _EASY:
             length = min(length * GROWTH, LARGEST)
-        moved = _free_orbit(blade, orbit)
-        if moved is None:
-            yield orbit
+        free = _free_orbit(blade, pressed)
+        if free is None:
+            yield pressed
             return
-        if moved is not orbit:
+        orbit = free
+        if orbit is not pressed:
             # at another instant the tangent is another one, too
-            tangent = _way(point, moved)
-        yield moved
-        unstable = 0 if moved.stable else unstable + 1
+            tangent = _way(point, orbit)
+        yield orbit
+        unstable = 0 if orbit.stable else unstable + 1
         if unstable == MOST_UNSTABLE:
             return
-        point = _Point(blade, moved, blade.map_at(moved.speed))
 
 
 def _way(point: _Point, orbit: Orbit) -> np.ndarray:
@@ -124,30 +133,27 @@ def _end_orbit(blade: PeriodicBlade, point: _Point, beyond: Orbit, speed: float)
     z = point.orbit.z + share * (beyond.z - point.orbit.z)
     try:
         return [blade.map_at(speed).orbit(z, beyond.phase, beyond.samples, beyond.derivative)]
-    except NoOrbitError:
+    except _FAILED:
         return []
 
 
 def _next(blade: PeriodicBlade, point: _Point, tangent: np.ndarray, length: float) -> tuple[Orbit, int] | None:
-    """The orbit at an arc length along the tangent, and the corrections that it took; None where none is found."""
+    """The orbit at an arc length along the tangent, and the corrections that it took; None, or one of _FAILED, without one."""
     orbit, size = point.orbit, float(np.linalg.norm(point.orbit.z))
     along_z, along_speed = tangent[:-1] * size, tangent[-1] * SPEED_SCALE
     z, speed = orbit.z + length * along_z, orbit.speed + length * along_speed
     derivative, speed_derivative, before = orbit.derivative, point.speed_derivative, np.inf
     for correction in range(_MOST_CORRECTIONS):
-        try:
-            period_map = blade.map_at(speed)
-            distance = period_map(z, orbit.phase, orbit.samples) - z
-            error = float(np.linalg.norm(distance)) / size
-            if error < CLOSED:
-                return period_map.closed(z, orbit.phase, orbit.samples), correction
-            if correction and error > 5.0 * before:
-                return None
-            if error > 0.3 * before or correction == 0:
-                derivative = period_map.derivative(z, orbit.phase, orbit.samples, distance + z)
-                speed_derivative = _speed_derivative(blade, speed, z, orbit.phase, orbit.samples, distance + z)
-        except (NoOrbitError, ValueError):
+        period_map = blade.map_at(speed)
+        distance = period_map(z, orbit.phase, orbit.samples) - z
+        error = float(np.linalg.norm(distance)) / size
+        if error < CLOSED:
+            return period_map.closed(z, orbit.phase, orbit.samples), correction
+        if correction and error > 5.0 * before:
             return None
+        if error > 0.3 * before or correction == 0:
+            derivative = period_map.derivative(z, orbit.phase, orbit.samples, distance + z)
+            speed_derivative = _speed_derivative(blade, speed, z, orbit.phase, orbit.samples, distance + z)
         before = error
         left = length - tangent @ np.append((z - orbit.z) / size, (speed - orbit.speed) / SPEED_SCALE)
         matrix = np.block(
@@ -168,7 +174,7 @@ def _free_orbit(blade: PeriodicBlade, orbit: Orbit) -> Orbit | None:
     try:
         # with its forces the state is not exactly the one without
         return period_map.orbit(*period_map.free_instant(state, orbit.samples), orbit.samples)
-    except NoOrbitError:
+    except _FAILED:
         return None
 
 
@@ -206,7 +212,10 @@ def _between(blade: PeriodicBlade, before: Orbit, after: Orbit, share: float) ->
     size = float(np.linalg.norm(before.z))
     chord = np.append((after.z - before.z) / size, (after.speed - before.speed) / SPEED_SCALE)
     length = float(np.linalg.norm(chord))
-    following = _next(blade, _Point(blade, before, blade.map_at(before.speed)), chord / length, share * length)
+    try:
+        following = _next(blade, _Point(blade, before), chord / length, share * length)
+    except _FAILED:
+        return None
     return following[0] if following else None
 
 

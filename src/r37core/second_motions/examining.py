@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.linalg import LinAlgError
 
 from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.motion_kind import RECURS, PhaseSpace, recurrence_of
@@ -85,10 +86,10 @@ def branches_of(
         try:
             blade, orbit = _orbit(carried, speed, motion)
             if not _known(branches, speed, float(np.linalg.norm(orbit.rms))):
-                ends = float(levels.speeds[0]), float(levels.speeds[-1])
+                ends = max(float(levels.speeds[0]), blade.lowest_speed), float(levels.speeds[-1])
                 orbits = branch_through(blade, orbit, *ends, choice.points)
                 branches.append((orbits, events_of(blade, orbits)))
-        except NoOrbitError:
+        except (NoOrbitError, LinAlgError):
             continue
     return branches
 

@@ -23,6 +23,9 @@ from r37core.time_integration.state import SimulationState
 CLOSED = 1e-10
 """Distance of a motion from its start after a period, as a share of its size, at which it counts as closed."""
 
+LONGEST = 1.5
+"""Longest step of a branch, as its steps per sample are held, over the chosen one."""
+
 _DIFFERENCE = 1e-6
 """Size of the differences by which derivatives are taken, as a share of that of the state."""
 
@@ -80,8 +83,17 @@ class PeriodicBlade:
     def stepped(cls, model: ContactModel, scene: Scene, choice: IntegrationChoice, reference: float) -> "PeriodicBlade":
         """Blade with the steps per sample that the `reference` speed (rad/s) has."""
         bare = replace(choice, snapshot_revolutions=0, snapshots_per_revolution=0, until_settled=False)
-        steps = Simulation(model, reference, scene, bare).problem.grid.steps_per_sample
-        return cls(model, scene, replace(bare, steps_per_sample=steps), reference)
+        problem = Simulation(model, reference, scene, bare).problem
+        # as it may have been shortened
+        held = replace(problem.choice, shorten=False, steps_per_sample=problem.grid.steps_per_sample)
+        return cls(model, scene, held, reference)
+
+    @property
+    def lowest_speed(self) -> float:
+        """Lowest speed (rad/s) at which these steps are not too long: LONGEST of the chosen one."""
+        assert self.choice.steps_per_sample is not None
+        steps = self.choice.steps_per_sample * self.choice.samples_per_revolution
+        return 2.0 * np.pi / steps / (LONGEST * self.choice.time_step)
 
     @cached_property
     def basis(self) -> tuple[np.ndarray, np.ndarray]:
