@@ -8,11 +8,17 @@ import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, RING, model_of_node, oscillator, random_model, with_static_modes
 
+from r37core.config import ConfigError, checked_scene, command_line_document, plain
+from r37core.dataset_file import read_dataset
+from r37core.product.reading import read_settings
+from r37core.results.response import write_response
 from r37core.time_integration import motion_kind as kinds
 from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.motion_kind import kind_numbers, kind_of_motion, samples_of_period
 from r37core.time_integration.simulate import Simulation, rest_state
+from r37core.time_integration.speed_file import read_speed, write_speed
+from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import MotionKind
 
 CHOICE = IntegrationChoice(2e-6, 4, 124, integrator=EXACT_MODAL)
@@ -149,3 +155,33 @@ def test_a_carried_motion_keeps_its_energy_at_another_speed(contact):
     force = carried.contact_force.copy()
     before.advance(state, 1)
     np.testing.assert_array_equal(carried.contact_force, force)
+
+
+def test_a_run_keeps_the_kind_that_is_asked_for(contact, tmp_path):
+    choice = IntegrationChoice(6.4e-6, 4, 62, integrator=EXACT_MODAL)
+    files = []
+    for number, results in enumerate(((), ("motion_kind",))):
+        run = run_speed(contact, 1340.0, DIRECT, choice, results, spectrum_highest_order=4, wear_angles=8)
+        files.append(tmp_path / f"{number}.npz")
+        write_speed(run, files[-1], {})
+    without, asked = (read_speed(file) for file in files)
+    assert asked.keys() - without.keys() == {
+        "motion_kind",
+        "lyapunov_exponent",
+        "lyapunov_exponent_error",
+        "recurrence",
+        "recurrence_period",
+    }
+    for name, value in without.items():
+        np.testing.assert_array_equal(asked[name], value, err_msg=name)
+    write_response(files[1:], [1340.0], tmp_path / "response.nc", stress_history_speeds=(), yield_stress=1e9, provenance={})
+    response = read_dataset(tmp_path / "response.nc")
+    assert MotionKind(int(response["motion_kind"][0])) is MotionKind.CHAOTIC
+    assert response["motion_kind"].attrs["flag_meanings"].split()[MotionKind.CHAOTIC] == "chaotic"
+    assert response["lyapunov_exponent"][0] > 0.0
+
+
+def test_a_rotor_has_no_kind(root):
+    entry = plain(read_settings(root, command_line_document({"scenes": "all"})).scene_entries["rotor_abradable"])
+    with pytest.raises(ConfigError, match="motion_kind with a rotor"):
+        checked_scene(entry | {"results": ["motion_kind"]})
