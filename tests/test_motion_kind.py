@@ -33,7 +33,7 @@ def in_motion(simulation):
 
 
 def test_neighbours_of_a_free_motion_meet_at_the_damping_of_the_slowest_mode():
-    model = model_of_node([[1.0, 1.0], [0.0, 0.0], [0.0, 0.0]], [5000.0, 9000.0])
+    model = model_of_node([[1.0, 1.0], [0.0, 0.0], [0.0, 0.0]], [5000.0, 50_000.0])
     simulation = Simulation(model, SPEED, FREE, CHOICE)
     state = in_motion(simulation)
     before = copy.deepcopy(state)
@@ -60,6 +60,15 @@ def test_a_motion_with_the_period_of_the_casing(hopping):
     assert kind.recurrence < 1e-9
     # a spring neither adds nor takes energy: neighbours meet at the damping of the mode
     assert kind.exponent == pytest.approx(-0.02 * 5000.0 * 2.0 * np.pi / 5250.0, rel=1e-2)
+
+
+def test_the_twin_s_forces_are_brought_back_with_its_motion(hopping):
+    simulation, state = hopping
+    twin = copy.deepcopy(state)
+    state.contact_force[:], twin.contact_force[:] = 10.0, 16.0
+    kinds._bring_back(twin, state, 3.0)
+    np.testing.assert_array_equal(twin.contact_force, 12.0)
+    np.testing.assert_array_equal(state.contact_force, 10.0)
 
 
 def test_the_engines_agree_on_a_kind(hopping, monkeypatch):
