@@ -33,7 +33,7 @@ def in_motion(simulation):
 
 
 def test_neighbours_of_a_free_motion_meet_at_the_damping_of_the_slowest_mode():
-    model = model_of_node(3 * [[1.0, 0.0, 0.0]], [5000.0, 50_000.0, 51_000.0])
+    model = model_of_node([3 * [1.0], 3 * [0.0], 3 * [0.0]], [5000.0, 50_000.0, 51_000.0])
     simulation = Simulation(model, SPEED, FREE, CHOICE)
     state = in_motion(simulation)
     before = copy.deepcopy(state)
