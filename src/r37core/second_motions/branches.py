@@ -27,6 +27,9 @@ MOST_UNSTABLE = 60
 _FAILED = (NoOrbitError, ValueError)
 """Errors of an orbit that is not there, of a step that is too long at its speed, and of matrices that are singular."""
 
+_AGAIN, _SAME = 3, 1e-4
+"""Orbits in a row that lie on the branch as it was followed before, and relative difference of the rms that counts as none."""
+
 _SPEED_DIFFERENCE = 1e-3
 _MOST_CORRECTIONS, _EASY, _HALVINGS = 12, 4, 6
 
@@ -76,15 +79,17 @@ def _speed_derivative(
 def branch_through(blade: PeriodicBlade, start: Orbit, first: float, last: float, most: int) -> list[Orbit]:
     """Orbits of the branch through one, in their order along it, as far as the speeds (rad/s) `first` to `last`.
 
-    At most so many on each side of it. A branch also ends where no orbit is found in the least arc length, and after
-    MOST_UNSTABLE unstable orbits in a row: with little damping it would wind through chaotic speeds without end.
+    At most so many on each side of it. A branch also ends where no orbit is found in the least arc length, where it has turned
+    back at a sharp bend and lies on itself, and after MOST_UNSTABLE unstable orbits in a row: with little damping it would wind
+    through chaotic speeds without end.
     """
     down, up = (list(_followed(blade, start, direction, first, last, most)) for direction in (-1.0, 1.0))
     return [*down[::-1], start, *up]
 
 
 def _followed(blade: PeriodicBlade, start: Orbit, direction: float, first: float, last: float, most: int) -> Iterator[Orbit]:
-    orbit, length, tangent, unstable = start, FIRST, None, 0
+    orbit, length, tangent, unstable, again = start, FIRST, None, 0, 0
+    orbits: list[Orbit] = [start]
     for _ in range(most):
         try:
             point = _Point(blade, orbit)
@@ -115,8 +120,24 @@ def _followed(blade: PeriodicBlade, start: Orbit, direction: float, first: float
             tangent = _way(point, orbit)
         yield orbit
         unstable = 0 if orbit.stable else unstable + 1
-        if unstable == MOST_UNSTABLE:
+        again = again + 1 if lies_on(orbits[:-_AGAIN], orbit.speed, orbit.size, _SAME) else 0
+        orbits.append(orbit)
+        if unstable == MOST_UNSTABLE or again == _AGAIN:
             return
+
+
+def lies_on(orbits: list[Orbit], speed: float, size: float, tolerance: float) -> bool:
+    """Whether a motion of this size (m), normal and tangential rms, at a speed (rad/s) lies on the line through some orbits.
+
+    `tolerance`: relative difference of the size.
+    """
+    speeds, sizes = np.array([orbit.speed for orbit in orbits]), np.array([orbit.size for orbit in orbits])
+    for first in np.flatnonzero((speeds[:-1] - speed) * (speeds[1:] - speed) <= 0.0):
+        way = speeds[first + 1] - speeds[first]
+        share = (speed - speeds[first]) / way if way else 0.0
+        if abs(sizes[first] + share * (sizes[first + 1] - sizes[first]) - size) < tolerance * size:
+            return True
+    return False
 
 
 def _way(point: _Point, orbit: Orbit) -> np.ndarray:

@@ -10,7 +10,7 @@ from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.motion_kind import RECURS, PhaseSpace, recurrence_of
 from r37core.time_integration.simulate import Simulation
 
-from .branches import Bifurcation, branch_through, events_of
+from .branches import Bifurcation, branch_through, events_of, lies_on
 from .choice import MOTIONS, BranchChoice, DwellChoice
 from .dwelling import HIGH, LOW, RANDOM, Dwell, carried_state, dwell, finish_revolution, random_states
 from .motion_files import SweptStates, levels_of
@@ -85,7 +85,7 @@ def branches_of(
             continue
         try:
             blade, orbit = _orbit(carried, speed, motion)
-            if not _known(branches, speed, float(np.linalg.norm(orbit.rms))):
+            if not _known(branches, speed, orbit.size):
                 ends = max(float(levels.speeds[0]), blade.lowest_speed), float(levels.speeds[-1])
                 orbits = branch_through(blade, orbit, *ends, choice.points)
                 branches.append((orbits, events_of(blade, orbits)))
@@ -106,13 +106,4 @@ def _orbit(carried: CarriedSweep, speed: float, motion: CarriedMotion) -> tuple[
 
 def _known(branches: list[tuple[list[Orbit], list[Bifurcation]]], speed: float, rms: float) -> bool:
     """Whether a motion of this rms (m) at a speed (rad/s) is one of the branches that there are."""
-    for orbits, _ in branches:
-        speeds = np.array([orbit.speed for orbit in orbits])
-        sizes = np.array([np.linalg.norm(orbit.rms) for orbit in orbits])
-        crossed = np.flatnonzero((speeds[:-1] - speed) * (speeds[1:] - speed) <= 0.0)
-        for first in crossed:
-            way = speeds[first + 1] - speeds[first]
-            share = (speed - speeds[first]) / way if way else 0.0
-            if abs(sizes[first] + share * (sizes[first + 1] - sizes[first]) - rms) < _SAME * rms:
-                return True
-    return False
+    return any(lies_on(orbits, speed, rms, _SAME) for orbits, _ in branches)

@@ -62,6 +62,11 @@ class Orbit:
         return values[np.argsort(-np.abs(values), kind="stable")]
 
     @property
+    def size(self) -> float:
+        """Rms (m) of the normal and tangential motion together."""
+        return float(np.linalg.norm(self.rms))
+
+    @property
     def stable(self) -> bool:
         """Whether all multipliers are within the unit circle."""
         return bool(abs(self.multipliers[0]) < 1.0)
