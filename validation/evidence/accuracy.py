@@ -1,6 +1,6 @@
 """What accuracy costs on the seven blades: tables and picture of docs/accuracy.md, from the rows of contact_runs.
 
-Errors are relative differences of rms of the leading edge's whole motion, in percent: at settled speeds, where no perturbation
+Errors are relative differences of rms of the leading edge's whole motion, in percent: at repeatable speeds, where no perturbation
 changes much and no branch ends, and at steep places, the four steepest jumps of a blade's curve.
 """
 
@@ -116,7 +116,7 @@ class Runs:
         return curve.index.to_numpy(), curve.to_numpy()
 
     def errors(self, ours: Of, theirs: Of, at: str = "settled", quantity: str = "rms") -> pd.Series:
-        """Relative differences in percent at the settled speeds of SPREAD, or the steep ones, by blade and speed."""
+        """Relative differences in percent at the repeatable speeds of SPREAD, or the steep ones, by blade and speed."""
         error = 100.0 * abs(self.of(ours, quantity) / self.of(theirs, quantity) - 1.0).dropna()
         return error[self._mask(ours.scene, ours.contact, at).reindex(error.index, fill_value=False)]
 
@@ -176,7 +176,7 @@ JUDGED = dict(zip(HEADS[::-1], KINDS[::-1], strict=True))
 
 
 def levels(input: Any, output: Any, params: Any) -> None:
-    """Levels: the price of each at settled speeds and in steep places, and its cost. Input: files of runs."""
+    """Levels: the price of each at repeatable speeds and in steep places, and its cost. Input: files of runs."""
     runs = Runs(as_list(input.files))
     known, rows = settings_of(Path.cwd()).levels, []
     for name, level in LEVELS.items():
@@ -276,7 +276,7 @@ def _motion_rows(runs: Runs) -> list[list[str]]:
 
 
 def chance(input: Any, output: Any, params: Any) -> None:
-    """What chance decides: unsettled speeds, and how far a perturbation of 0.1% moves them. Input: files of runs."""
+    """What chance decides: speeds that do not repeat, and how far a perturbation of 0.1% moves them. Input: files of runs."""
     runs, rows = Runs(as_list(input.files)), []
     for blade in runs.blades:
         rows.append([blade, *(_chance_cell(runs, blade, scene, contact) for scene, contact in KINDS)])
@@ -303,7 +303,7 @@ def _friction_table(runs: Runs) -> tuple[list[str], list[list[str]]]:
             error = 100.0 * abs(ours / central - 1.0)[calm]
             cells += [f"{calm.mean():.0%}", _percent(error.max()) if len(error.dropna()) else ""]
         rows.append([f"{value:g}", *cells])
-    head = [f"{blade}: {what}" for blade in FRICTION_BLADES for what in ("settled speeds", "largest difference there")]
+    head = [f"{blade}: {what}" for blade in FRICTION_BLADES for what in ("repeatable speeds", "largest difference there")]
     return ["coefficient", *head], rows
 
 

@@ -117,7 +117,7 @@ def mesh_runs_of_blade(input: Any, output: Any, params: Any) -> None:
 
 
 def mesh_limit(input: Any, output: Any, params: Any) -> None:
-    """Differences of normal and tangential rms between two meshes at settled speeds, or all where a blade has none.
+    """Differences of normal and tangential rms between two meshes at repeatable speeds, or all where a blade has none.
 
     Input: files of mesh_runs_of_blade. Output: table.
     """
@@ -134,7 +134,7 @@ def mesh_limit(input: Any, output: Any, params: Any) -> None:
         friction = 100.0 * abs(runs[STANDARD, PERTURBED[0]] / base[STANDARD] - 1.0)
         cells += [", ".join(f"{change[name].median():.1f}%" for name in change) for change in (error, friction)]
         table.append([blade, kind, f"{settled.sum()} of {len(settled)}", *cells])
-    head = ["blade", "patches", "settled speeds", "normal rms: median; largest", "tangential rms: median; largest"]
+    head = ["blade", "patches", "repeatable speeds", "normal rms: median; largest", "tangential rms: median; largest"]
     write_table([*head, "all speeds: medians", f"{PERTURBED[0]}: medians"], table, output.table)
 
 

@@ -122,7 +122,7 @@ def test_what_chance_decides(made):
     tables = made(accuracy.chance, "table", "friction")
     # three of 51
     assert {row["lining, points"] for row in tables["table"]} == {"6%: 10%, 10%"}
-    assert tables["friction"][0]["Ref: settled speeds"] == "100%"
+    assert tables["friction"][0]["Ref: repeatable speeds"] == "100%"
 
 
 def test_points_and_patches(made):
