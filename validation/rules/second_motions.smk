@@ -17,6 +17,8 @@ module motions_patches:
             ROOT,
             "patches",
             "second_motions",
+            # on a lining over all of the tip most speeds are in some range
+            second_motions={"dwell": {"range_speeds": 1}},
             run={"name": "motions_patches", "engine": "validation/engine_numbers.json"},
         )
 

@@ -63,10 +63,12 @@ def summary_with_motions(summary: pd.DataFrame, motions: xr.Dataset) -> pd.DataF
     for (blade, scene), rows in table.groupby(["blade", "scene"], sort=False):
         pair, peaks = swept(motions.sel(blade=blade, scene=scene)), rows["peak_speed_rad_s"]
         mean = pair["motion_mean"].transpose("motion", "speed").values
-        above = mean - mean[pair["motion"].values == REST]
+        # one that diverged is above all others
+        above = np.nan_to_num(mean, nan=np.inf) - np.nan_to_num(mean[pair["motion"].values == REST])
+        above[np.broadcast_to(np.isnan(mean[pair["motion"].values == REST]), above.shape)] = 0.0
         for place in np.argsort(above.max(axis=0, initial=0.0), kind="stable"):
             speed, motion = float(pair["speed"][place]), int(np.argmax(above[:, place]))
-            nearest = (peaks - speed).abs().idxmin()
+            nearest = (peaks - speed).abs().fillna(np.inf).idxmin()
             if pair["differ"][place] and above[motion, place] > 0.0 and abs(peaks[nearest] - speed) <= WITHIN * peaks[nearest]:
                 rms = pair["rms_normal"].isel(speed=place)
                 values = (str(pair["motion"].values[motion]), speed, float(rms[motion]), float(rms.sel(motion=REST)))

@@ -150,6 +150,8 @@ def _way(point: _Point, orbit: Orbit) -> np.ndarray:
 
 def _end_orbit(blade: PeriodicBlade, point: _Point, beyond: Orbit, speed: float) -> list[Orbit]:
     """The orbit at the speed (rad/s) between a point of the branch and an orbit, if it is found."""
+    if speed == point.orbit.speed:
+        return []
     share = (speed - point.orbit.speed) / (beyond.speed - point.orbit.speed)
     z = point.orbit.z + share * (beyond.z - point.orbit.z)
     try:

@@ -4,6 +4,7 @@ from r37core.config import Settings
 from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
 from r37core.config.speed_choice import length_of_run
+from r37core.yaml_file import KeyPath
 
 from .plan import pairs_of, section_of
 
@@ -26,18 +27,17 @@ def can_be_swept(settings: Settings) -> None:
             raise document.refusal((*path, "scenes"), f"'{scene}', which has a rotor", "scenes of a single blade")
     count = (sweep.last - sweep.first) / sweep.step + 1.0
     if count > MOST_SPEEDS:
-        raise document.refusal(path, f"{count:.4g} speeds", f"at most {MOST_SPEEDS}; a larger step has fewer")
+        raise document.refusal(path, f"{count:.8g} speeds", f"at most {MOST_SPEEDS}; a larger step has fewer")
     highest = settings.structure.maximum_speed_rad_s
-    for key, speeds in (
-        ("to_rad_s" if section.to_rpm is None else "to_rpm", [sweep.speeds[-1]]),
-        ("dwell", section.dwell.speeds_rad_s),
-    ):
-        for speed in speeds:
-            if speed > highest:
-                raise document.refusal((*path, key), f"{speed:g} rad/s", f"up to structure.maximum_speed_rad_s, {highest:g}")
+    last_key: KeyPath = ("to_rad_s" if section.to_rpm is None else "to_rpm",)
+    dwelt = [(("dwell", "speeds_rad_s", number), speed) for number, speed in enumerate(section.dwell.speeds_rad_s)]
+    for key, speed in [(last_key, sweep.speeds[-1]), *dwelt]:
+        if speed > highest:
+            raise document.refusal((*path, *key), f"{speed:g} rad/s", f"up to structure.maximum_speed_rad_s, {highest:g}")
     for _, scene in pairs_of(settings):
         if sweep.worn and section.scenes != "all" and settings.scenes[scene].scene.lining is None:
             raise document.refusal((*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new")
         longest = max(sweep.revolutions, section.dwell.revolutions, settings.scenes[scene].revolutions)
-        refusals.of(slow_run_can_be_done, length_of_run(settings, scene, sweep.first, longest), settings, path)
+        slowest = min([sweep.first, *section.dwell.speeds_rad_s])
+        refusals.of(slow_run_can_be_done, length_of_run(settings, scene, slowest, longest), settings, path)
     refusals.tell()

@@ -35,6 +35,7 @@ class Lasting(StrEnum):
     LASTING = "lasting"
     SWITCHING = "switching"
     TRANSIENT = "transient"
+    DIVERGED = "diverged"
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +52,11 @@ def dwell(simulation: Simulation, state: SimulationState, revolutions: int) -> D
     for first in range(0, revolutions, AT_ONCE):
         count = min(AT_ONCE, revolutions - first)
         record = simulation.advance(state, count)
+        reached = (len(record.samples) - record.diverged) // per_revolution
+        motion = record.samples[: reached * per_revolution, LEADING_EDGE]
+        rms[first : first + reached] = revolution_rms(motion, per_revolution)
         if record.diverged:
             return Dwell(rms, KindNumbers(MotionKind.UNKNOWN))
-        rms[first : first + count] = revolution_rms(record.samples[:, LEADING_EDGE], per_revolution)
     return Dwell(rms, kind_of_motion(simulation, state))
 
 
@@ -67,14 +70,17 @@ def carried_state(problem: Problem, motion: CarriedMotion) -> SimulationState:
 def random_states(problem: Problem, size: float, number: int, seed: int) -> list[SimulationState]:
     """Random states outside of the casing and lining, at the sample at which the blade at rest has most room.
 
-    The energy is spread over the stepped modes alike; the states' sizes are shares of `size`, a motion's. Displacements that
-    reach into the casing are made smaller. None where the casing has no room for the blade at rest.
+    The energy is spread over the stepped modes alike; the states' sizes are shares of `size`, a motion's, and of at least that
+    with which the first mode reaches the casing. Displacements that reach into the casing are made smaller. None where the
+    casing has no room for the blade at rest.
     """
     space, random = PhaseSpace(problem), np.random.default_rng(seed)
     steps = problem.grid.steps_per_sample
     instants = range(problem.choice.samples_per_revolution)
     room = [_room(problem, np.zeros(len(space.frequencies)), instant * steps) for instant in instants]
     phase = int(np.argmax(room))
+    reach = np.abs(problem.contact.displacement_operator[0, :, 0]).max()
+    size = max(size, space.frequencies[0] * max(room[phase], 0.0) / max(reach, np.finfo(float).tiny))
     states: list[SimulationState] = []
     while len(states) < number and room[phase] > 0.0:
         state = rest_state(problem)
@@ -107,9 +113,9 @@ def finish_revolution(simulation: Simulation, state: SimulationState) -> None:
 class Verdict:
     """What becomes of the `high` and the `low` motion, the high one's `share` of the time, and how long each is held.
 
-    `share`: of a long time, by the times for which both are held; NaN where neither is left. `high_revolutions`,
-    `low_revolutions`: mean time until it is left, infinite where it is never left, NaN where it is never there. `high_starts`:
-    share of the random starts that end in the high one.
+    `share`: of a long time, by the times for which both are held; NaN where neither is left, and of a lined blade.
+    `high_revolutions`, `low_revolutions`: mean time until it is left, infinite where it is never left, NaN where it is never
+    there. `high_starts`: share of the random starts that end in the high one.
     """
 
     high: Lasting
@@ -120,32 +126,46 @@ class Verdict:
     high_starts: float
 
 
-def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float) -> Verdict:
+def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float, *, lined: bool) -> Verdict:
     """Verdict on motions by the `rms` (m) of each revolution of dwells that start HIGH, LOW and at RANDOM.
 
     `high`, `low` (m): their levels. A motion that is left and come back to is switching. One that is left and never come back
-    to is a transient, one that is never left lasts.
+    to is a transient, one that is never left lasts. Random starts count from the first time that they go over to the other
+    motion. A `lined` blade has worn its lining when it comes back: there a motion lasts that is held at the end of its dwell.
     """
     held = {start: [is_high(each, high, low) for each in several] for start, several in rms.items()}
     # a motion may be left before the first revolution that counts
-    since = [*(np.append(True, part) for part in held[HIGH]), *(np.append(False, part) for part in held[LOW]), *held[RANDOM]]
-    exits, entries = (
-        sum(int(np.count_nonzero(part[:-1] & ~part[1:])) for part in several) for several in (since, [~part for part in since])
-    )
-    counted = np.concatenate([part for several in held.values() for part in several] or [np.zeros(0, dtype=bool)])
-    above, below = int(counted.sum()), int((~counted).sum())
+    begun = {HIGH: [np.append(True, part) for part in held[HIGH]], LOW: [np.append(True, ~part) for part in held[LOW]]}
     ended = [bool(part[-1]) for part in held[RANDOM] if len(part)]
-    return Verdict(
-        _lasting(left=exits, come_back=entries),
-        _lasting(left=entries, come_back=exits),
-        _share(_held(above, exits), _held(below, entries)),
-        _held(above, exits),
-        _held(below, entries),
-        float(np.mean(ended)) if ended else np.nan,
-    )
+    lost = {start: not rms[start] or any(np.isnan(each).any() for each in rms[start]) for start in (HIGH, LOW)}
+    if lined:
+        since = {start: [np.logical_and.accumulate(part) for part in several] for start, several in begun.items()}
+        left = {start: sum(int(not part[-1]) for part in several) for start, several in since.items()}
+        back = {start: sum(int(part[-1]) for part in several) == len(several) for start, several in begun.items()}
+        verdicts = {start: Lasting.LASTING if back[start] else Lasting.TRANSIENT for start in begun}
+        times = {start: _held(sum(int(part[1:].sum()) for part in since[start]), left[start]) for start in begun}
+    else:
+        counted = [*begun[HIGH], *(~part for part in begun[LOW]), *map(_settled, held[RANDOM])]
+        left = {
+            HIGH: sum(int(np.count_nonzero(part[:-1] & ~part[1:])) for part in counted),
+            LOW: sum(int(np.count_nonzero(~part[:-1] & part[1:])) for part in counted),
+        }
+        above = sum(int(part.sum()) for part in counted) - len(begun[HIGH])
+        below = sum(int((~part).sum()) for part in counted) - len(begun[LOW])
+        verdicts = {HIGH: _lasting(left[HIGH], left[LOW]), LOW: _lasting(left[LOW], left[HIGH])}
+        times = {HIGH: _held(above, left[HIGH]), LOW: _held(below, left[LOW])}
+    verdicts |= {start: Lasting.DIVERGED for start, gone in lost.items() if gone}
+    share = np.nan if lined or any(lost.values()) else _share(times[HIGH], times[LOW])
+    return Verdict(verdicts[HIGH], verdicts[LOW], share, times[HIGH], times[LOW], float(np.mean(ended)) if ended else np.nan)
 
 
-def _lasting(*, left: int, come_back: int) -> Lasting:
+def _settled(held: np.ndarray) -> np.ndarray:
+    """What a random start holds from its first change on; all of it where it has none."""
+    changes = np.flatnonzero(held[:-1] != held[1:])
+    return held[changes[0] + 1 :] if len(changes) else held
+
+
+def _lasting(left: int, come_back: int) -> Lasting:
     if not left:
         return Lasting.LASTING
     return Lasting.SWITCHING if come_back else Lasting.TRANSIENT

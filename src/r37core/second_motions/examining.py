@@ -4,14 +4,14 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.linalg import LinAlgError
 
 from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.motion_kind import RECURS, PhaseSpace, recurrence_of
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.state import SimulationState
 
 from .branches import Bifurcation, branch_through, events_of, lies_on
-from .choice import MOTIONS, BranchChoice, DwellChoice
+from .choice import DOWN, MOTIONS, UP, BranchChoice, DwellChoice
 from .dwelling import HIGH, LOW, RANDOM, Dwell, carried_state, dwell, finish_revolution, random_states
 from .motion_files import SweptStates, levels_of
 from .periodic import NoOrbitError, Orbit, PeriodicBlade, orbit_after
@@ -37,37 +37,61 @@ def speeds_dwelt_on(levels: MotionLevels, choice: DwellChoice) -> list[float]:
     return sorted(speeds)
 
 
+NEAR = 5
+"""Steps of the sweeps up to which the motions of a range are looked for at a speed that is dwelt on."""
+
+
 def dwells_of(
     carried: CarriedSweep, states: Mapping[str, SweptStates], choice: DwellChoice
 ) -> list[tuple[dict[str, Any], Dwell]]:
     """Dwells at all speeds that are dwelt on: from the largest and the smallest motion, and from random states.
 
-    Each with its `speed`, its `start`, and the levels of the two motions: those at the nearest speed at which motions differ.
+    Each with its `speed`, its `start`, and the levels of the two motions: those at the nearest speed at which motions differ,
+    NaN where that is more than NEAR steps away.
     """
     levels, rows = levels_of(states), []
     differing = np.flatnonzero(levels.differ)
     for speed in speeds_dwelt_on(levels, choice):
+        places = {HIGH: levels.high, LOW: levels.low}
         nearest = int(np.argmin(np.abs(levels.speeds - speed)))
-        judged = int(differing[np.argmin(np.abs(levels.speeds[differing] - speed))]) if len(differing) else nearest
-        high, low = levels.high, levels.low
-        about = {
-            "speed": speed,
-            "level_high": float(levels.mean[high[judged], judged]),
-            "level_low": float(levels.mean[low[judged], judged]),
-        }
-        simulation = Simulation(carried.model, speed, carried.grown_scene, carried.unrecorded_choice)
-        size = 0.0
-        for start, place in ((HIGH, int(high[nearest])), (LOW, int(low[nearest]))):
-            motion = states[MOTIONS[place]].motion(nearest)
-            if motion is None:
-                continue
-            state = carried_state(simulation.problem, motion)
-            size = max(size, float(np.linalg.norm(PhaseSpace(simulation.problem).coordinates(state))))
-            rows.append((about | {"start": start, "motion": MOTIONS[place]}, dwell(simulation, state, choice.revolutions)))
-        for number, state in enumerate(random_states(simulation.problem, size, choice.starts if size else 0, choice.seed), 1):
+        close = differing[np.abs(levels.speeds[differing] - speed) <= NEAR * carried.sweep.step]
+        level = dict.fromkeys(places, np.nan)
+        if len(close):
+            judged = close[np.argmin(np.abs(levels.speeds[close] - speed))]
+            level = {start: float(levels.mean[several[judged], judged]) for start, several in places.items()}
+        about = {"speed": speed, "lined": int(carried.scene.lining is not None)}
+        about |= {f"level_{start}": value for start, value in level.items()}
+        simulation, size = Simulation(carried.model, speed, carried.grown_scene, carried.unrecorded_choice), 0.0
+        for start, several in places.items():
+            motion = MOTIONS[several[nearest]]
+            begun = _begun(carried, states, motion, nearest, simulation)
+            if begun is not None:
+                size = max(size, float(np.linalg.norm(PhaseSpace(simulation.problem).coordinates(begun[1]))))
+                rows.append((about | {"start": start, "motion": motion}, dwell(*begun, choice.revolutions)))
+        for number, state in enumerate(random_states(simulation.problem, size, choice.starts, choice.seed), 1):
             finish_revolution(simulation, state)
             rows.append((about | {"start": RANDOM, "motion": f"random_{number}"}, dwell(simulation, state, choice.revolutions)))
     return rows
+
+
+def _begun(
+    carried: CarriedSweep, states: Mapping[str, SweptStates], motion: str, place: int, simulation: Simulation
+) -> tuple[Simulation, SimulationState] | None:
+    """Simulation and state that a dwell in a motion of the sweeps starts from; None where there is none.
+
+    It goes on where the sweep has left the speed at this place. On a lining that is new at each speed it begins as the sweep
+    did there, since the motion belongs to the lining that it has worn.
+    """
+    problem, kept = simulation.problem, states[motion]
+    if carried.scene.lining is None or kept.worn:
+        ended = kept.motion(place)
+        return None if ended is None else (simulation, carried_state(problem, ended))
+    before = {UP: place - 1, DOWN: place + 1}.get(motion, -1)
+    ended = kept.motion(before) if 0 <= before < len(kept.speeds) else None
+    if ended is not None:
+        return simulation, carried_state(problem, ended)
+    rising = Simulation(carried.model, problem.speed, carried.rising_scene, carried.unrecorded_choice)
+    return rising, rising.start()
 
 
 def branches_of(
@@ -76,7 +100,7 @@ def branches_of(
     """Branches of the periodic motions among those of the sweeps, the largest motions first, with their bifurcations."""
     levels = levels_of(states)
     branches: list[tuple[list[Orbit], list[Bifurcation]]] = []
-    order = np.argsort(-np.nan_to_num(levels.mean), axis=None, kind="stable")
+    order = np.argsort(-levels.mean, axis=None, kind="stable")
     for row, place in zip(*np.unravel_index(order, levels.mean.shape), strict=True):
         if len(branches) == choice.number:
             break
@@ -89,7 +113,7 @@ def branches_of(
                 ends = max(float(levels.speeds[0]), blade.lowest_speed), float(levels.speeds[-1])
                 orbits = branch_through(blade, orbit, *ends, choice.points)
                 branches.append((orbits, events_of(blade, orbits)))
-        except (NoOrbitError, LinAlgError):
+        except (NoOrbitError, ValueError):
             continue
     return branches
 
@@ -98,9 +122,10 @@ def _orbit(carried: CarriedSweep, speed: float, motion: CarriedMotion) -> tuple[
     """The periodic motion that a motion at a speed (rad/s) comes near. Raises NoOrbitError where it does not recur."""
     blade = PeriodicBlade.stepped(carried.model, carried.grown_scene, carried.unrecorded_choice, speed)
     simulation = Simulation(carried.model, speed, blade.scene, blade.choice)
-    recurrence, periods = recurrence_of(simulation, carried_state(simulation.problem, motion))
-    if recurrence > _NEARLY:
-        raise NoOrbitError("does not recur")
+    state = carried_state(simulation.problem, motion)
+    recurrence, periods = recurrence_of(simulation, state)
+    if recurrence > _NEARLY or not state.totals["steps_in_contact"]:
+        raise NoOrbitError("does not recur, or is free")
     return blade, orbit_after(blade, simulation, carried_state(simulation.problem, motion), periods)
 
 

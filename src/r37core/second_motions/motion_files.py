@@ -27,13 +27,15 @@ END_WEAR = "end_wear"
 class SweptStates:
     """Motions at the end of each speed of a sweep, from its file; `speeds` (rad/s) ascend.
 
-    `rms` (m): of the revolutions that count, shape (speeds, revolutions); `clearance` (m): of the scene.
+    `rms` (m): of the revolutions that count, shape (speeds, revolutions); `clearance` (m): of the scene; `worn`: whether the
+    sweep carries a worn lining.
     """
 
     def __init__(self, file: Path | str):
         with readable(file), np.load(file) as stored:
             self._arrays = dict(stored)
             self.speeds, self.rms, self.clearance = (self._arrays[name] for name in ("speed", "revolution_rms", "clearance"))
+        self.worn = END_WEAR in self._arrays
 
     def motion(self, place: int) -> CarriedMotion | None:
         """Motion at the end of the speed at this place; None where it diverged."""
@@ -70,13 +72,14 @@ def _counted(run: Mapping[str, np.ndarray]) -> np.ndarray:
 def levels_of(states: Mapping[str, SweptStates]) -> MotionLevels:
     """Levels of the motions of a blade and scene, by motion."""
     first, rms = states[MOTIONS[0]], {motion: each.rms for motion, each in states.items()}
-    return MotionLevels.averaged(first.speeds, rms, float(first.clearance))
+    return MotionLevels.averaged(first.speeds, rms, float(first.clearance), worn=first.worn)
 
 
 OF_DWELLS = {
     "speed": Variable((), "rad s-1", "angular speed of the rotor"),
     "level_high": Variable((), "m", "level of the largest motion of the sweeps there: mean rms of a revolution"),
     "level_low": Variable((), "m", "level of the smallest motion of the sweeps there"),
+    "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "i1"),
     "motion_kind": Variable((), "1", "kind of the motion at the end of the dwell", "i1"),
     "lyapunov_exponent": Variable((), "1", "largest Lyapunov exponent per revolution of the motion at the end"),
     "lyapunov_exponent_error": Variable((), "1", "standard error of the Lyapunov exponent"),

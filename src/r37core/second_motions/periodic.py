@@ -68,8 +68,8 @@ class Orbit:
 
     @property
     def stable(self) -> bool:
-        """Whether all multipliers are within the unit circle."""
-        return bool(abs(self.multipliers[0]) < 1.0)
+        """Whether all multipliers are within the unit circle, or on it where nothing is damped."""
+        return bool(abs(self.multipliers[0]) < 1.0 + _DIFFERENCE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,6 +173,8 @@ class PeriodMap:
 
         `derivative`: dP/dz near it, where it is known. Raises NoOrbitError where the motion does not close.
         """
+        if not z.any():
+            raise NoOrbitError("at rest")
         distance, fresh = self(z, phase, samples) - z, False
         for _ in range(_MOST_STEPS):
             if np.linalg.norm(distance) < CLOSED * np.linalg.norm(z):

@@ -9,46 +9,54 @@ import xarray as xr
 
 from r37core.time_integration.settling import SAME, SCATTERS
 
-from .choice import MOTIONS
+from .choice import MOTIONS, REST
 
 
 @dataclass(frozen=True, eq=False)
 class MotionLevels:
     """Level of the motions (MOTIONS) at ascending `speeds` (rad/s).
 
-    `mean` (m): of the rms of the leading edge's motion, normal and tangential together, over the revolutions that count;
-    `scatter` (m): standard deviation of these; both of shape (motions, speeds), NaN of a motion that diverged. `differ`, shape
-    (speeds,): whether some two of the motions do.
+    `mean` (m): of the rms of the leading edge's motion, normal and tangential together, over the revolutions that count,
+    infinite of a motion that diverged; `scatter` (m): standard deviation of these; both of shape (motions, speeds). `compared`:
+    places of the motions that are compared, all but that from rest where the others have a worn lining. `differ`, shape
+    (speeds,): whether some two of these do.
     """
 
     speeds: np.ndarray
     mean: np.ndarray
     scatter: np.ndarray
+    compared: tuple[int, ...]
     differ: np.ndarray
 
     @classmethod
-    def averaged(cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float) -> "MotionLevels":
+    def averaged(
+        cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float, *, worn: bool = False
+    ) -> "MotionLevels":
         """Levels by the rms (m) of the revolutions that count, motion -> shape (speeds, revolutions); NaN after a run's end."""
         counted = [np.ma.masked_invalid(rms[motion]) for motion in MOTIONS]
-        mean = np.array([part.mean(axis=1).filled(np.nan) for part in counted])
-        scatter = np.array([part.std(axis=1).filled(np.nan) for part in counted])
-        return cls(np.asarray(speeds), mean, scatter, motions_differ(mean, scatter, clearance))
+        mean = np.array([part.mean(axis=1).filled(np.inf) for part in counted])
+        scatter = np.array([part.std(axis=1).filled(0.0) for part in counted])
+        compared = tuple(place for place, motion in enumerate(MOTIONS) if not (worn and motion == REST))
+        differ = motions_differ(mean[list(compared)], scatter[list(compared)], clearance)
+        return cls(np.asarray(speeds), mean, scatter, compared, differ)
 
     @classmethod
     def read(cls, pair: xr.Dataset) -> "MotionLevels":
         """Levels of one blade and scene of second_motions.nc."""
         mean, scatter = (pair[f"motion_{name}"].transpose("motion", "speed").values for name in ("mean", "scatter"))
-        return cls(pair["speed"].values, mean, scatter, pair["differ"].values > 0.0)
+        compared = tuple(np.flatnonzero(pair["compared"].values > 0.0).tolist())
+        differ = pair["differ"].values > 0.0
+        return cls(pair["speed"].values, np.nan_to_num(mean, nan=np.inf), np.nan_to_num(scatter), compared, differ)
 
     @property
     def high(self) -> np.ndarray:
-        """Place of the largest motion at each speed, shape (speeds,)."""
-        return np.argmax(np.nan_to_num(self.mean, nan=-1.0), axis=0)
+        """Place of the largest of the compared motions at each speed, shape (speeds,)."""
+        return np.array(self.compared)[np.argmax(self.mean[list(self.compared)], axis=0)]
 
     @property
     def low(self) -> np.ndarray:
-        """Place of the smallest motion at each speed, shape (speeds,)."""
-        return np.argmin(np.nan_to_num(self.mean, nan=np.inf), axis=0)
+        """Place of the smallest of the compared motions at each speed, shape (speeds,)."""
+        return np.array(self.compared)[np.argmin(self.mean[list(self.compared)], axis=0)]
 
     def ranges(self) -> list[slice]:
         """Places of the speeds of each range of hysteresis: neighbours at which motions differ."""
@@ -59,19 +67,22 @@ class MotionLevels:
     def worst(self, part: slice) -> int:
         """Place of the speed in a range at which the largest motion is most above the smallest."""
         places = np.arange(len(self.speeds))[part]
-        ratio = self.mean[self.high[part], places] / self.mean[self.low[part], places]
-        return int(places[np.argmax(np.nan_to_num(ratio))])
+        smallest = np.maximum(self.mean[self.low[part], places], np.finfo(float).tiny)
+        return int(places[np.argmax(self.mean[self.high[part], places] / smallest)])
 
 
 def motions_differ(mean: np.ndarray, scatter: np.ndarray, clearance: float) -> np.ndarray:
     """Whether some two motions differ at each speed, shape (speeds,), by their `mean` and `scatter` (m); see MotionLevels.
 
     They do where their means differ by more than SCATTERS of their common standard deviation and by more than SAME, and the
-    larger one is above the `clearance` (m): within it the blade is quiet, as in settling.motion_at_end.
+    larger one is above the `clearance` (m): within it the blade is quiet, as in settling.motion_at_end. One that diverged
+    differs from one that did not.
     """
     differ = np.zeros(mean.shape[1], dtype=bool)
     for first, second in combinations(range(len(mean)), 2):
-        common = np.sqrt(0.5 * (scatter[first] ** 2 + scatter[second] ** 2))
-        larger = np.maximum(mean[first], mean[second])
-        differ |= (np.abs(mean[first] - mean[second]) > np.maximum(SCATTERS * common, SAME * larger)) & (larger > clearance)
+        diverged = np.isinf(mean[[first, second]])
+        both = np.where(diverged.any(axis=0), 0.0, mean[[first, second]])
+        common, larger = np.sqrt(0.5 * (scatter[first] ** 2 + scatter[second] ** 2)), both.max(axis=0)
+        apart = np.abs(both[0] - both[1]) > np.maximum(SCATTERS * common, SAME * larger)
+        differ |= (apart & (larger > clearance)) | (diverged[0] != diverged[1])
     return differ

@@ -67,7 +67,7 @@ class CarriedSweep:
 
     def run_from_rest(self, speed: float) -> dict[str, np.ndarray]:
         """Numbers of the run at a speed (rad/s) as the sweep of the pipeline has it: from rest, with lobes that grow."""
-        return self._numbers(BladesSimulation(self.model, speed, self.scene, self.choice), None, keep_wear=False)
+        return self._numbers(BladesSimulation(self.model, speed, self.scene, self.choice), None)
 
     def run_on(self, speed: float, carried: CarriedMotion | None) -> dict[str, np.ndarray]:
         """Numbers of the revolutions at a speed (rad/s) from a motion on, in a casing with full-grown lobes.
@@ -80,13 +80,20 @@ class CarriedSweep:
             states = before.start()
             if not before.run(states).blades[0].diverged:
                 carried = CarriedMotion.ended(before.problem, states[0], keep_wear=self.sweep.worn)
-        simulation = BladesSimulation(self.model, speed, self.grown_scene, self.carried_choice)
-        return self._numbers(simulation, carried, keep_wear=self.sweep.worn)
+        return self._numbers(BladesSimulation(self.model, speed, self.grown_scene, self.carried_choice), carried)
 
     @property
     def grown_scene(self) -> Scene:
         """The scene with lobes that are full-grown from the start."""
         return replace(self.scene, casing=replace(self.scene.casing, rise_fraction=0.0, rise_revolutions=None))
+
+    @property
+    def rising_scene(self) -> Scene:
+        """The scene with lobes that grow as in a run of the pipeline, however long a run is."""
+        casing = self.scene.casing
+        if casing.rise_revolutions is None:
+            casing = replace(casing, rise_revolutions=casing.rise_fraction * self.choice.length_of_rise_fraction)
+        return replace(self.scene, casing=casing)
 
     @cached_property
     def carried_choice(self) -> IntegrationChoice:
@@ -102,7 +109,7 @@ class CarriedSweep:
         """The same, with nothing recorded but the motion."""
         return replace(self.carried_choice, snapshot_revolutions=0, snapshots_per_revolution=0)
 
-    def _numbers(self, simulation: BladesSimulation, start: CarriedMotion | None, *, keep_wear: bool) -> dict[str, np.ndarray]:
+    def _numbers(self, simulation: BladesSimulation, start: CarriedMotion | None) -> dict[str, np.ndarray]:
         states = simulation.start()
         if start is not None:
             start.put(simulation.problem, states[0])
@@ -112,7 +119,7 @@ class CarriedSweep:
         choice, blade = simulation.problem.choice, record.blades[0]
         samples = whole(blade.samples, choice.revolutions * choice.samples_per_revolution, blade.diverged)
         numbers["revolution_rms"] = revolution_rms(samples[:, LEADING_EDGE], choice.samples_per_revolution)
-        carried = CarriedMotion.ended(simulation.problem, states[0], keep_wear=keep_wear)
+        carried = CarriedMotion.ended(simulation.problem, states[0], keep_wear=self.sweep.worn)
         numbers |= {name: getattr(carried, name) for name in CARRIED}
         if carried.wear is not None:
             numbers["end_wear"] = carried.wear

@@ -57,7 +57,7 @@ DWELL_COLUMNS = (
 BIFURCATION_COLUMNS = ("blade", "scene", "branch", "event", "speed_rad_s", "rms_normal_m", "period_revolutions", "becomes")
 """Columns of second_motions_bifurcations.csv."""
 
-_STRONGEST = (Lasting.LASTING, Lasting.SWITCHING, Lasting.TRANSIENT)
+_STRONGEST = (Lasting.DIVERGED, Lasting.LASTING, Lasting.SWITCHING, Lasting.TRANSIENT)
 
 
 def dwell_table(dwells: xr.Dataset) -> pd.DataFrame:
@@ -71,7 +71,8 @@ def dwell_table(dwells: xr.Dataset) -> pd.DataFrame:
         rms = group["revolution_rms"].values.astype(float)
         row: dict[str, Any] = {"blade": blade, "scene": scene, "speed_rad_s": speed, "level_high_m": high, "level_low_m": low}
         if high > low > 0.0:
-            verdict = judged({start: list(rms[starts == start]) for start in STARTS}, high, low)
+            several = {start: list(rms[starts == start]) for start in STARTS}
+            verdict = judged(several, high, low, lined=bool(group["lined"][0]))
             row |= {
                 "high": str(verdict.high),
                 "low": str(verdict.low),
@@ -135,7 +136,7 @@ def _range_row(
     for kind in _STRONGEST:
         those = here[here["high"] == str(kind)]
         if len(those):
-            strongest = those.loc[(those["level_high_m"] / those["level_low_m"]).idxmax()]
+            strongest = those.loc[(those["level_high_m"] / those["level_low_m"]).fillna(np.inf).idxmax()]
             row |= {
                 "dwell_speed_rad_s": strongest["speed_rad_s"],
                 "kind": str(kind),
@@ -165,13 +166,13 @@ def closing(results: Path) -> str:
     text = counted(len(table), "range") + " of hysteresis"
     if not len(table):
         return text
-    lasting = int((table["kind"] == str(Lasting.LASTING)).sum())
+    second = table[table["largest_motion"] != REST]
+    lasting = int((second["kind"] == str(Lasting.LASTING)).sum())
     text += f", {lasting} of them with a second motion that lasts"
-    worst = table.loc[(_largest(table) / table[f"rms_{REST}_m"]).idxmax()]
+    ratio = second[[f"rms_{motion}_m" for motion in MOTIONS]].max(axis=1) / second[f"rms_{REST}_m"]
+    if not ratio.notna().any():
+        return text
+    worst = second.loc[ratio.idxmax()]
     motion, speed = worst["largest_motion"], worst["speed_rad_s"]
     rest, largest = (1e3 * worst[f"rms_{name}_m"] for name in (REST, motion))
     return f"{text}; {worst['blade']} in {worst['scene']} at {speed:g} rad/s: from rest {rest:.2f}, {motion} {largest:.2f} mm"
-
-
-def _largest(table: pd.DataFrame) -> pd.Series:
-    return table[[f"rms_{motion}_m" for motion in MOTIONS]].max(axis=1)

@@ -86,12 +86,14 @@ def kind_of_motion(simulation: Simulation, state: SimulationState) -> KindNumber
     samples = samples_of_period(simulation.problem)
     per_revolution = simulation.problem.choice.samples_per_revolution / samples
     periods, aligning = round(COUNTED * per_revolution), round(_ALIGNING * per_revolution)
-    start, contact = space.coordinates(state), float(state.totals["steps_in_contact"])
+    start, contact = space.coordinates(state), 0.0
     size = max(float(np.linalg.norm(start)), np.finfo(float).tiny)
     twin, beside = copy.deepcopy(state), np.random.default_rng(_SEED).normal(size=len(start))
     space.put(start + _DISTANCE * size / np.linalg.norm(beside) * beside, twin)
     states, growths = [start], []
-    for _ in range(aligning + periods):
+    for number in range(aligning + periods):
+        if number == aligning:
+            contact = float(state.totals["steps_in_contact"])
         if simulation.advance_samples(state, samples).diverged or simulation.advance_samples(twin, samples).diverged:
             return KindNumbers(MotionKind.UNKNOWN)
         here = space.coordinates(state)
@@ -158,7 +160,9 @@ def _recurrence(states: np.ndarray, size: float) -> tuple[float, int]:
 
 
 def _kind(exponent: float, error: float, recurrence: float, period: int) -> MotionKind:
-    """Kind of a motion in contact. One whose neighbours meet has a period, though it may still be on its way there."""
-    if recurrence < RECURS or exponent < -_ERRORS * error:
+    """Kind of a motion in contact."""
+    if recurrence < RECURS:
         return MotionKind.PERIODIC if period == 1 else MotionKind.MULTIPLE
+    if exponent < -_ERRORS * error:
+        return MotionKind.CONVERGING
     return MotionKind.CHAOTIC if exponent > _ERRORS * error else MotionKind.QUASI_PERIODIC

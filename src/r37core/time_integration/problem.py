@@ -83,6 +83,7 @@ def stable_problem(model: ContactModel, speed: float, scene: Scene, choice: Inte
         try:
             return Problem(model, speed, scene, choice)
         except UnstableStepError as error:
-            if not choice.shorten:
+            # steps that a run keeps over many speeds do not become shorter
+            if not choice.shorten or choice.steps_per_sample is not None:
                 raise
             choice = replace(choice, time_step=error.shortened)

@@ -20,7 +20,8 @@ class MotionKind(IntEnum):
     """Kind of a motion.
 
     `FREE`: without contact; `PERIODIC`: with the period of the casing; `MULTIPLE`: with several of them; `QUASI_PERIODIC`:
-    without a period, and neighbours neither part nor meet; `CHAOTIC`: neighbours part exponentially; `UNKNOWN`: diverged.
+    without a period, and neighbours neither part nor meet; `CHAOTIC`: neighbours part exponentially; `CONVERGING`: they meet,
+    and the motion has not come back to itself yet; `UNKNOWN`: diverged.
     """
 
     FREE = 0
@@ -28,7 +29,8 @@ class MotionKind(IntEnum):
     MULTIPLE = 2
     QUASI_PERIODIC = 3
     CHAOTIC = 4
-    UNKNOWN = 5
+    CONVERGING = 5
+    UNKNOWN = 6
 
     @property
     def text(self) -> str:
