@@ -63,7 +63,7 @@ def test_a_motion_with_the_period_of_the_casing(hopping):
 
 
 def test_the_twin_s_forces_are_brought_back_with_its_motion(hopping):
-    simulation, state = hopping
+    state = hopping[1]
     twin = copy.deepcopy(state)
     state.contact_force[:], twin.contact_force[:] = 10.0, 16.0
     kinds._bring_back(twin, state, 3.0)
@@ -100,8 +100,7 @@ def test_neighbours_of_a_chaotic_motion_part(contact):
         (0.5, 0.1, 1.0, 3, MotionKind.CHAOTIC),
         (0.1, 0.1, 1.0, 3, MotionKind.QUASI_PERIODIC),
         (-0.1, 0.1, 1.0, 1, MotionKind.QUASI_PERIODIC),
-        (-0.5, 0.1, 0.1, 1, MotionKind.PERIODIC),
-        (-0.5, 0.1, 0.1, 2, MotionKind.MULTIPLE),
+        (-0.5, 0.1, 0.1, 2, MotionKind.CONVERGING),
     ],
 )
 def test_kinds_by_their_numbers(exponent, error, recurrence, period, expected):

@@ -28,19 +28,22 @@ from r37core.second_motions.dwelling import (
     judged,
     random_states,
 )
-from r37core.second_motions.examining import branches_of, dwells_of, speeds_dwelt_on
+from r37core.second_motions.examining import begun_as, branches_of, dwells_of, speeds_dwelt_on
 from r37core.second_motions.figures import draw_overview, draw_second_motions
 from r37core.second_motions.motion_files import SweptStates, dwell_dataset, levels_of, orbit_dataset, write_states
 from r37core.second_motions.panel import contents
+from r37core.second_motions.periodic import PeriodicBlade
 from r37core.second_motions.ranges import MotionLevels, motions_differ
 from r37core.second_motions.sweeping import CarriedSweep
-from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, bifurcation_table, dwell_table, range_table
+from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, bifurcation_table, closing, dwell_table, range_table
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.motion_kind import KindNumbers
+from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import MotionKind, RunStatus
+from r37core.time_integration.step_limit import UnstableStepError
 
 CHOICE = IntegrationChoice(6.4e-6, 20, 62, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
@@ -130,7 +133,10 @@ def test_after_a_run_that_diverged_the_sweep_starts_from_rest(contact, tmp_path)
     levels = levels_of(dict.fromkeys(MOTIONS, states))
     assert not levels.differ.any()
     run, several = sweep_of(contact, UP, hopeless), dict.fromkeys(MOTIONS, states)
-    assert dwells_of(run, several, DwellChoice(speeds=(1310.0,), starts=2)) == []
+    rows = dwells_of(run, several, DwellChoice(revolutions=100, speeds=(1310.0,), starts=2))
+    # none of the sweeps' motions is there, and the random ones diverge
+    assert [labels["start"] for labels, _ in rows] == [RANDOM, RANDOM]
+    assert all(np.isnan(kept.rms).all() for _, kept in rows)
     assert branches_of(run, several, BranchChoice()) == []
 
 
@@ -138,16 +144,29 @@ def levels(mean, scatter=0.0, clearance=0.0):
     mean = np.array(mean, dtype=float)
     scatter = np.broadcast_to(np.asarray(scatter, dtype=float), mean.shape)
     speeds = 100.0 + 5.0 * np.arange(mean.shape[1])
-    return MotionLevels(speeds, mean, scatter, motions_differ(mean, scatter, clearance))
+    return MotionLevels(speeds, mean, scatter, (0, 1, 2), motions_differ(mean, scatter, clearance))
 
 
 def test_motions_differ_by_more_than_they_scatter():
-    mean = [[1.0, 1.005, 1.5, 1.5, np.nan, 0.2], [1.0, 1.0, 1.0, 1.0, 1.0, 0.1], [1.0, 1.0, 1.0, 1.0, np.nan, 0.1]]
-    scatter = [[0.0, 0.0, 0.2, 0.3, np.nan, 0.0], *2 * [[0.0, 0.0, 0.2, 0.3, 0.0, 0.0]]]
+    mean = [[1.0, 1.005, 1.5, 1.5, 0.2, np.inf], [1.0, 1.0, 1.0, 1.0, 0.1, np.inf], [1.0, 1.0, 1.0, 1.0, 0.1, np.inf]]
+    scatter = 3 * [[0.0, 0.0, 0.2, 0.3, 0.0, 0.0]]
     several = levels(mean, scatter, clearance=0.5)
-    # the same; within 1%; more than twice the scatter; less; one diverged; quiet
+    # the same; within 1%; more than twice the scatter; less; quiet; all diverged
     assert several.differ.tolist() == [False, False, True, False, False, False]
     assert [(part.start, part.stop) for part in several.ranges()] == [(2, 3)]
+
+
+def test_a_motion_that_diverges_differs_and_is_the_largest():
+    several = levels([[np.inf, 1.0], [0.1, 1.0], [0.1, 1.0]], clearance=0.5)
+    assert several.differ.tolist() == [True, False]
+    assert (several.high[0], several.low[0], several.worst(slice(0, 1))) == (0, 1, 0)
+
+
+def test_a_worn_lining_is_not_compared_with_a_new_one():
+    rms = {UP: [[1.0, 1.0]], DOWN: [[1.0, 1.0]], REST: [[9.0, 9.0]]}
+    new, worn = (MotionLevels.averaged([100.0], rms, 0.0, worn=worn) for worn in (False, True))
+    assert (new.differ.tolist(), worn.differ.tolist()) == ([True], [False])
+    assert (MOTIONS[new.high[0]], MOTIONS[worn.high[0]]) == (REST, UP)
 
 
 def test_ranges_and_the_speeds_that_are_dwelt_on():
@@ -173,24 +192,57 @@ def switching(*parts):
     return np.concatenate([np.full(length, level) for length, level in parts])
 
 
+def verdict_of(high, low, *random, lined=False):
+    return judged({HIGH: high, LOW: low, RANDOM: list(random)}, 4.0, 1.0, lined=lined)
+
+
 def test_motions_last_switch_or_are_transients():
     high, low = switching((500, 4.0)), switching((500, 1.0))
-    verdict = judged({HIGH: [high], LOW: [low], RANDOM: [high, low]}, 4.0, 1.0)
+    verdict = verdict_of([high], [low], high, low)
     assert (verdict.high, verdict.low) == (Lasting.LASTING, Lasting.LASTING)
     assert np.isnan(verdict.share)
     assert verdict.high_starts == 0.5
     falls = switching((300, 4.0), (200, 1.0))
-    verdict = judged({HIGH: [falls], LOW: [low], RANDOM: []}, 4.0, 1.0)
+    verdict = verdict_of([falls], [low])
     assert (verdict.high, verdict.low, verdict.share) == (Lasting.TRANSIENT, Lasting.LASTING, 0.0)
     assert verdict.high_revolutions == pytest.approx(300 - 70, abs=20)
     rises = switching((250, 1.0), (250, 4.0))
-    verdict = judged({HIGH: [falls], LOW: [rises], RANDOM: []}, 4.0, 1.0)
+    verdict = verdict_of([falls], [rises])
     assert (verdict.high, verdict.low) == (Lasting.SWITCHING, Lasting.SWITCHING)
     assert 0.4 < verdict.share < 0.6
     # gone before it was looked at
-    verdict = judged({HIGH: [low], LOW: [low], RANDOM: []}, 4.0, 1.0)
+    verdict = verdict_of([low], [low])
     assert verdict.high is Lasting.TRANSIENT
     assert verdict.high_revolutions == 0.0
+
+
+def test_random_starts_count_from_their_first_change():
+    high, low, falls = switching((500, 4.0)), switching((500, 1.0)), switching((200, 4.0), (300, 1.0))
+    verdict = verdict_of([high], [low], falls, switching((200, 1.0), (300, 4.0)))
+    assert (verdict.high, verdict.low, verdict.high_starts) == (Lasting.LASTING, Lasting.LASTING, 0.5)
+    # a second change is the blade's own
+    verdict = verdict_of([high], [low], switching((150, 1.0), (150, 4.0), (200, 1.0)))
+    assert (verdict.high, verdict.low) == (Lasting.TRANSIENT, Lasting.LASTING)
+
+
+def test_a_dwell_that_diverges_does_not_last():
+    high, low = switching((500, 4.0)), switching((500, 1.0))
+    diverged = np.where(np.arange(500) < 200, 4.0, np.nan)
+    assert verdict_of([diverged], [low]).high is Lasting.DIVERGED
+    assert verdict_of([np.full(500, np.nan)], [low]).high is Lasting.DIVERGED
+    verdict = verdict_of([], [low])
+    assert (verdict.high, verdict.low) == (Lasting.DIVERGED, Lasting.LASTING)
+    assert np.isnan(verdict_of([high], [diverged]).share)
+
+
+def test_on_a_lining_a_motion_lasts_that_is_held_at_the_end():
+    high, low = switching((500, 4.0)), switching((500, 1.0))
+    falls, rises = switching((300, 4.0), (200, 1.0)), switching((300, 1.0), (200, 4.0))
+    verdict = verdict_of([falls], [rises], high, lined=True)
+    assert (verdict.high, verdict.low) == (Lasting.TRANSIENT, Lasting.TRANSIENT)
+    assert np.isnan(verdict.share)
+    assert verdict.high_revolutions == pytest.approx(300 - 70, abs=20)
+    assert verdict_of([high], [low], falls, lined=True).high is Lasting.LASTING
 
 
 def test_random_states_are_outside_of_the_casing(contact):
@@ -209,6 +261,10 @@ def test_random_states_are_outside_of_the_casing(contact):
     simulation_state = [state.displacement for state in again]
     assert not np.array_equal(simulation_state[0], other[0].displacement)
     np.testing.assert_array_equal(simulation_state[5], random_states(problem, 30.0, 6, 3)[5].displacement)
+    # where the sweeps' motions are quiet, random ones are not
+    small, none = (random_states(problem, size, 1, 0)[0] for size in (1e-9, 0.0))
+    assert np.abs(problem.contact.displacement_operator[0] @ small.displacement).max() > 1e-5
+    np.testing.assert_array_equal(small.displacement, none.displacement)
     inside = replace(DIRECT, casing=replace(DIRECT.casing, clearance=0.0, lobes=8, width=1.0))
     assert random_states(Simulation(contact, 1310.0, inside, CHOICE).problem, 30.0, 2, 0) == []
 
@@ -241,6 +297,7 @@ def motions(tmp_path):
         "share_of_revolutions_above_yield": (over, 1.0 * (values > 2e-3)),
         "status": (over, np.zeros(values.shape)),
         "differ": ("speed", [0.0, 1.0, 1.0, 1.0, 0.0]),
+        "compared": ("motion", np.ones(3)),
         "yield_stress": ((), 1.38e9),
         "lined": ((), 0.0),
     }
@@ -273,7 +330,7 @@ def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions
 def dwells(*rows, revolutions=300):
     frame = [
         (
-            {"speed": speed, "level_high": 4e-3, "level_low": 1e-3, "start": start, "motion": motion},
+            {"speed": speed, "level_high": 4e-3, "level_low": 1e-3, "lined": 0, "start": start, "motion": motion},
             dwell_of(level, revolutions),
         )
         for speed, start, motion, level in rows
@@ -331,6 +388,20 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
     plt.close("all")
 
 
+def test_a_motion_that_diverges_is_the_second_motion(motions):
+    motions["motion_mean"].loc[{"blade": "Ref", "motion": UP, "speed": 1005.0}] = np.nan
+    table = summary_with_motions(pd.DataFrame({"blade": ["Ref"], "scene": "direct", "peak_speed_rad_s": [1000.0]}), motions)
+    assert table.loc[0, ["second_motion", "second_motion_speed_rad_s"]].tolist() == ["up", 1005.0]
+
+
+def test_the_last_line_names_no_motion_without_one_from_rest(tmp_path):
+    table = pd.DataFrame([{name: np.nan for name in RANGE_COLUMNS} | {"largest_motion": "up", "kind": "lasting"}])
+    table.to_csv(tmp_path / "second_motions.csv", index=False)
+    assert closing(tmp_path) == "1 range of hysteresis, 1 of them with a second motion that lasts"
+    table.assign(largest_motion=REST).to_csv(tmp_path / "second_motions.csv", index=False)
+    assert closing(tmp_path) == "1 range of hysteresis, 0 of them with a second motion that lasts"
+
+
 def test_the_explorer_has_the_swept_blades(motions):
     (pair,) = contents(motions)
     assert (pair["blade"], pair["ranges"]) == ("Ref", [[1002.5, 1017.5]])
@@ -343,6 +414,9 @@ def test_dwells_and_branches_of_real_sweeps(contact, swept, tmp_path):
     rows = dwells_of(carried, states, DwellChoice(revolutions=100, range_speeds=1, starts=1, speeds=(1310.0,)))
     assert {labels["start"] for labels, _ in rows} == {HIGH, LOW, RANDOM}
     assert dwell_dataset(rows, 100).sizes == {"dwell": len(rows), "revolution": 100}
+    # judged by the motions of a range that is near, if there is one
+    differ = levels_of(states).differ.any()
+    assert all(np.isfinite(labels["level_high"]) == differ for labels, _ in rows)
     # this motion is chaotic
     assert branches_of(carried, states, BranchChoice(points=2)) == []
 
@@ -374,15 +448,60 @@ def test_a_blade_with_more_damping_has_a_branch(contact, tmp_path):
         ("{ from_rad_s: 1000, to_rad_s: 900 }", "second_motions.to_rad_s: found a speed below the lowest one"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, step_rad_s: 5, step_rpm: 5 }", "step_rad_s and step_rpm; allowed: one of them"),
         ("{ from_rad_s: 1000, to_rad_s: 2100 }", "second_motions.to_rad_s: found 2100 rad/s; allowed: up to"),
-        ("{ from_rad_s: 1000, to_rad_s: 1100, dwell: { speeds_rad_s: [2500] } }", "second_motions.dwell: found 2500 rad/s"),
-        ("{ from_rad_s: 1, to_rad_s: 1900, step_rad_s: 0.01 }", "second_motions: found 1.899e+05 speeds"),
+        (
+            "{ from_rad_s: 1000, to_rad_s: 1100, dwell: { speeds_rad_s: [2500] } }",
+            "second_motions.dwell.speeds_rad_s.0: found 2500 rad/s",
+        ),
+        ("{ from_rad_s: 1, to_rad_s: 1900, step_rad_s: 0.01 }", "second_motions: found 189901 speeds"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, scenes: [direct], lining: worn }", "worn in the scene 'direct', which has no"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, scenes: [rotor_abradable] }", "'rotor_abradable', which has a rotor"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, blades: [Reff] }", "second_motions.blades"),
         ("{ from_rad_s: 1000, to_rad_s: 1100, revolutions: 1 }", "second_motions.revolutions: found 1"),
+        ("{ revolutions: 50 }", "second_motions: found no speeds; allowed: from_rad_s and to_rad_s"),
+        (
+            "{ from_rad_s: 1000, to_rad_s: 1100, dwell: { speeds_rad_s: [0.1] } }",
+            "second_motions: found 0.1 rad/s, a revolution",
+        ),
     ],
 )
 def test_what_cannot_be_swept_is_refused(root, section, message):
     with pytest.raises(ConfigError) as error:
         read_settings(root, command_line_document({"second_motions": yaml.safe_load(section)}))
     assert message in str(error.value)
+
+
+@pytest.mark.parametrize("motion", [UP, DOWN, REST])
+def test_a_dwell_on_a_new_lining_goes_on_as_the_sweep_did(contact, tmp_path, motion):
+    """Its first revolutions are those of the sweep at that speed: the motion belongs to the lining that it has worn."""
+    carried, states, kept = sweep_of(contact, UP, LINED), {}, {}
+    for each in MOTIONS:
+        parts = sweep_of(contact, each, LINED).run(tmp_path / each)
+        kept[each] = parts[::-1] if each == DOWN else parts
+        write_states(kept[each], SWEEP.speeds, 0.356e-3, tmp_path / f"{each}.npz")
+        states[each] = SweptStates(tmp_path / f"{each}.npz")
+    simulation = Simulation(contact, 1310.0, carried.grown_scene, carried.unrecorded_choice)
+    begun, state = begun_as(carried, states, motion, 1, simulation)
+    rms = dwell(begun, state, 100).rms
+    expected = read_speed(kept[motion][1])["revolution_rms"]
+    np.testing.assert_allclose(rms[: len(expected)], expected, rtol=1e-12)
+
+
+def test_branches_of_a_casing_that_is_not_reached_are_none(contact, tmp_path):
+    round_casing = replace(GROWING, casing=replace(GROWING.casing, lobes=0))
+    states = {}
+    for motion in MOTIONS:
+        parts = sweep_of(contact, motion, round_casing).run(tmp_path / motion)
+        write_states(parts[::-1] if motion == DOWN else parts, SWEEP.speeds, 0.356e-3, tmp_path / f"{motion}.npz")
+        states[motion] = SweptStates(tmp_path / f"{motion}.npz")
+    assert branches_of(sweep_of(contact, UP, round_casing), states, BranchChoice()) == []
+
+
+def test_steps_that_are_held_do_not_become_shorter_for_ever(contact):
+    """The step of a branch grows towards lower speeds, until it is unstable: that is said."""
+    blade = PeriodicBlade.stepped(contact, DIRECT, replace(CHOICE, shorten=True), 1990.0)
+    assert blade.lowest_speed < 1990.0
+    with pytest.raises(UnstableStepError):
+        for speed in np.arange(1900.0, 50.0, -100.0):
+            blade.map_at(speed)
+    with pytest.raises(UnstableStepError):
+        stable_problem(contact, 50.0, DIRECT, replace(blade.choice, shorten=True))

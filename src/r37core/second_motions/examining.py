@@ -64,7 +64,7 @@ def dwells_of(
         simulation, size = Simulation(carried.model, speed, carried.grown_scene, carried.unrecorded_choice), 0.0
         for start, several in places.items():
             motion = MOTIONS[several[nearest]]
-            begun = _begun(carried, states, motion, nearest, simulation)
+            begun = begun_as(carried, states, motion, nearest, simulation)
             if begun is not None:
                 size = max(size, float(np.linalg.norm(PhaseSpace(simulation.problem).coordinates(begun[1]))))
                 rows.append((about | {"start": start, "motion": motion}, dwell(*begun, choice.revolutions)))
@@ -74,7 +74,7 @@ def dwells_of(
     return rows
 
 
-def _begun(
+def begun_as(
     carried: CarriedSweep, states: Mapping[str, SweptStates], motion: str, place: int, simulation: Simulation
 ) -> tuple[Simulation, SimulationState] | None:
     """Simulation and state that a dwell in a motion of the sweeps starts from; None where there is none.
