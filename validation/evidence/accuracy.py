@@ -1,7 +1,7 @@
 """What accuracy costs on the seven blades: tables and picture of docs/accuracy.md, from the rows of contact_runs.
 
-Errors are relative differences of rms of the leading edge's whole motion, in percent: at repeatable speeds, where no perturbation
-changes much and no branch ends, and at steep places, the four steepest jumps of a blade's curve.
+Errors are relative differences of rms of the leading edge's whole motion, in percent: at repeatable speeds, where no
+perturbation changes much and no branch ends, and at steep places, the four steepest jumps of a blade's curve.
 """
 
 from __future__ import annotations
