@@ -29,9 +29,7 @@ class MotionLevels:
     differ: np.ndarray
 
     @classmethod
-    def averaged(
-        cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float, *, worn: bool = False
-    ) -> "MotionLevels":
+    def averaged(cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float, *, worn: bool) -> "MotionLevels":
         """Levels by the rms (m) of the revolutions that count, motion -> shape (speeds, revolutions); NaN after a run's end."""
         counted = [np.ma.masked_invalid(rms[motion]) for motion in MOTIONS]
         mean = np.array([part.mean(axis=1).filled(np.inf) for part in counted])

@@ -36,7 +36,8 @@ class SecondMotionSection(Section):
     @model_validator(mode="after")
     def _complete(self) -> Self:
         ends = [[key for key in keys if getattr(self, key) is not None] for keys in _ENDS]
-        if self.model_fields_set and not any(ends):
+        changed = any(getattr(self, key) != field.default for key, field in type(self).model_fields.items())
+        if changed and not any(ends):
             raise refused((), "no speeds", "from_rad_s and to_rad_s, or from_rpm and to_rpm")
         for keys, present in zip(_ENDS, ends, strict=True):
             if len(present) != 1 and any(ends):
