@@ -75,8 +75,8 @@ class CarriedSweep:
         Without a motion the blade starts from rest and does first the run of the pipeline.
         """
         if carried is None:
-            grown = replace(self.carried_choice, revolutions=self.choice.revolutions)
-            before = BladesSimulation(self.model, speed, self.scene, grown)
+            whole_run = replace(self.carried_choice, revolutions=self.choice.revolutions)
+            before = BladesSimulation(self.model, speed, self.scene, whole_run)
             states = before.start()
             if not before.run(states).blades[0].diverged:
                 carried = CarriedMotion.ended(before.problem, states[0], keep_wear=self.sweep.worn)
