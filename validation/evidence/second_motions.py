@@ -29,8 +29,7 @@ from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import dwell_table
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.motion_kind import MotionKind, kind_of_motion
-from r37core.time_integration.settling import revolution_rms
-from r37core.time_integration.simulate import LEADING_EDGE, Simulation
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed
 
 from .configuration import settings_of
@@ -53,6 +52,7 @@ AGAIN = {"CS100": 1195.0, "S50": 1405.0}
 """Blade -> speed (rad/s) of a second motion that is marched again."""
 
 REVOLUTIONS = 100
+WAYS = ("as shipped", "plain engine", "half the step")
 
 
 def tables(input: Any, output: Any, params: Any) -> None:
@@ -271,15 +271,19 @@ def again(input: Any, output: Any, params: Any) -> None:
         up, rest = (SweptStates(input.states[2 * place + number]) for number in range(2))
         at = int(np.argmin(np.abs(up.speeds - speed)))
         cells = []
-        for states in (up, rest):
-            for change in ({}, {"time_step": 0.5 * choice.time_step}, {"engine": "reference"}):
-                simulation = Simulation(model, speed, grown, replace(choice, **change))
-                motion = states.motion(at)
-                assert motion is not None
+        changes = {
+            "as shipped": {},
+            "plain engine": {"engine": "reference"},
+            "half the step": {"time_step": 0.5 * choice.time_step},
+        }
+        for states, ways in ((up, WAYS), (rest, WAYS[:2])):
+            motion = states.motion(at)
+            assert motion is not None
+            for way in ways:
+                simulation = Simulation(model, speed, grown, replace(choice, **changes[way]))
                 state = carried_state(simulation.problem, motion)
-                motion_of = simulation.advance(state, REVOLUTIONS).samples[:, LEADING_EDGE]
-                rms = revolution_rms(motion_of[:, :1], choice.samples_per_revolution)
-                cells.append(f"{1e3 * np.sqrt(np.mean(rms[REVOLUTIONS // 2 :] ** 2)):.4f}")
+                normal = simulation.advance(state, REVOLUTIONS).samples[:, 0]
+                cells.append(f"{1e3 * np.sqrt(np.mean(normal[len(normal) // 2 :] ** 2)):.4f}")
         blade = PeriodicBlade.stepped(model, grown, choice, speed)
         simulation = Simulation(model, speed, grown, blade.choice)
         motion = up.motion(at)
@@ -289,5 +293,5 @@ def again(input: Any, output: Any, params: Any) -> None:
         kind = kind_of_motion(simulation, state)
         orbit = orbit_after(blade, simulation, state, max(1, round(2 * kind.period)))
         rows.append([f"{name}, {speed:.0f} rad/s", *cells, f"{abs(orbit.multipliers[0]):.2f}"])
-    head = [f"{motion}: {way}" for motion in ("up", "from rest") for way in ("as shipped", "half the step", "plain engine")]
+    head = [*(f"up: {way}" for way in WAYS), *(f"from rest: {way}" for way in WAYS[:2])]
     write_table(["normal rms (mm)", *head, "largest multiplier, up"], rows, output.table)
