@@ -77,19 +77,19 @@ def tables(input: Any, output: Any, params: Any) -> None:
 
 
 def _cell(ranges: pd.DataFrame, motions: xr.Dataset) -> str:
-    """Length of the ranges by their kind, and the motion that is most above that from rest."""
+    """Length of the ranges by their kind, its first letter, and the motion that is most above that from rest."""
     above = ranges[ranges["largest_motion"] != REST]
     if above.empty:
         return "none"
     step = float(motions["speed"].diff("speed").min())
     lengths = [(kind, step * above.loc[above["kind"] == kind, "speeds"].sum()) for kind in KINDS]
-    several = ", ".join(f"{length:.0f} {kind}" for kind, length in lengths if length)
+    several = ", ".join(f"{length:.0f} {kind[0].upper()}" for kind, length in lengths if length)
     strongest = next(above[above["kind"] == kind] for kind in KINDS if (above["kind"] == kind).any())
     ratio = [_size(row, row["largest_motion"]) / _size(row, REST) for _, row in strongest.iterrows()]
     row = strongest.iloc[int(np.argmax(ratio))]
     motion = row["largest_motion"]
     rest, most = (1e3 * row[f"rms_{name}_m"] for name in (REST, motion))
-    return f"{several}; {row['speed_rad_s']:.0f}: {rest:.2f}, {motion} {most:.2f}"
+    return f"{several}; {row['speed_rad_s']:.0f}: {rest:.2f}/{most:.2f}"
 
 
 def _size(row: pd.Series, motion: str) -> float:
