@@ -54,8 +54,7 @@ INTERACTIONS = {
     "max_wear_m": Word("largest wear", "largest wear of the lining", *_MM),
     "worn_through_share": Word(
         "worn through",
-        "largest share of the circumference where the tip has reached the casing behind the lining; "
-        "wear is less than the thickness there, because the lining springs back",
+        "largest share of the circumference where the tip has reached the casing behind the lining",
         *_PERCENT,
     ),
     "sufficient_thickness_m": Word(
@@ -79,19 +78,19 @@ INTERACTIONS = {
         "width ever above yield", f"width above yield if any of the {_REVOLUTIONS} counts", _SPEED
     ),
     "possible_from_rad_s": Word(f"{_SOME} from", f"lowest speed at which {_POSSIBLE}", _SPEED),
-    "possible_to_rad_s": Word(f"{_SOME} to", f"highest speed at which {_POSSIBLE}", _SPEED),
+    "possible_to_rad_s": Word(f"{_SOME} to", "highest such speed", _SPEED),
     "certain_from_rad_s": Word(f"{_MOST} from", f"lowest speed at which {_CERTAIN}", _SPEED),
-    "certain_to_rad_s": Word(f"{_MOST} to", f"highest speed at which {_CERTAIN}", _SPEED),
+    "certain_to_rad_s": Word(f"{_MOST} to", "highest such speed", _SPEED),
     "certain_length_rad_s": Word(_MOST, f"length of all speeds at which {_CERTAIN}", _SPEED),
     "median_von_mises_pa": Word("median stress", f"largest {_MEDIAN}", *_MPA),
     "high_von_mises_pa": Word("high stress", f"largest 90% quantile of the von Mises stress over the {_REVOLUTIONS}", *_MPA),
     "peak_motion_m": Word("rms, both directions", "normal and tangential rms together, at the peak speed", *_MM),
     "fall_speed_rad_s": Word("falls at", "speed above the peak at which the motion falls below half of it", _SPEED),
     "note": Word("note", "reason for empty columns, and where the lining is worn through"),
-    "second_motion": Word("second motion", "motion, carried `up` or `down` the speeds, that is most above that from rest"),
-    "second_motion_speed_rad_s": Word("at speed", "speed at which it is", _SPEED),
-    "second_motion_rms_m": Word("its normal rms", "normal rms of the second motion", *_MM),
-    "second_motion_rest_rms_m": Word("from rest there", "normal rms of the motion from rest at that speed", *_MM),
+    "second_motion": Word("second motion", "motion, carried `up` or `down`, that is most above that from rest"),
+    "second_motion_speed_rad_s": Word("at speed", "its speed", _SPEED),
+    "second_motion_rms_m": Word("its normal rms", "its normal rms", *_MM),
+    "second_motion_rest_rms_m": Word("from rest there", "normal rms from rest at that speed", *_MM),
     "share_of_members": Word("members", "share of the members that show the interaction", *_PERCENT),
     "robust": Word("robust", "whether at least half of the members show it"),
 }
@@ -104,31 +103,27 @@ RANKING = {
     "length_ever_rad_s": Word(
         "ever above yield", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", _SPEED
     ),
-    "length_lasting_rad_s": Word(
-        f"{_MOST}, lasting", f"length of all speeds at which {_CERTAIN} and the motion lasts or grows at the end", _SPEED
-    ),
+    "length_lasting_rad_s": Word(f"{_MOST}, lasting", "the same where the motion lasts or grows at the end", _SPEED),
     "largest_median_stress_pa": Word("largest median stress", f"largest {_MEDIAN}", *_MPA),
     "first_certain_rad_s": Word(f"first speed {_MOST}", f"lowest speed at which {_CERTAIN}", _SPEED),
     "first_possible_rad_s": Word(f"first speed {_SOME}", f"lowest speed at which {_POSSIBLE}", _SPEED),
-    "widest_range_rad_s": Word(f"widest range {_MOST}", f"width of the widest range in which {_CERTAIN}", _SPEED),
+    "widest_range_rad_s": Word(f"widest range {_MOST}", "width of the widest of these ranges", _SPEED),
     "largest_rms_m": Word(
         "largest rms, both directions", "largest normal and tangential rms of the leading edge together", *_MM
     ),
-    "largest_rms_speed_rad_s": Word("speed of the largest rms", "speed of the largest rms", _SPEED),
+    "largest_rms_speed_rad_s": Word("speed of the largest rms", "its speed", _SPEED),
     "drop": INTERACTIONS["drop"],
     "largest_gap_rad_s": Word(
         "largest gap", "largest distance of neighbouring speeds: it can hide a narrower interaction", _SPEED
     ),
-    "diverged_runs": Word("diverged", "number of diverged runs"),
-    "length_certain_rest_rad_s": Word(
-        f"{_MOST}, from rest", "the same length by the motions from rest, at the speeds of the sweeps up and down", _SPEED
-    ),
+    "diverged_runs": Word("diverged", "diverged runs"),
+    "length_certain_rest_rad_s": Word(f"{_MOST}, from rest", "this length from rest, at the speeds of sweeps", _SPEED),
     "length_certain_worst_rad_s": Word(
-        f"{_MOST}, worst motion", "the same length by the worst of the motions up, down and from rest", _SPEED
+        f"{_MOST}, worst motion", "this length by the worst motion up, down and from rest", _SPEED
     ),
-    "largest_rms_worst_m": Word("largest rms, worst motion", "largest rms of the motions up, down and from rest", *_MM),
-    "rank_worst": Word("rank by the worst motion", "place in the scene by the length above yield of the worst motion"),
-    "members": Word("members", "number of members of the sample"),
+    "largest_rms_worst_m": Word("largest rms, worst motion", "largest rms of these motions", *_MM),
+    "rank_worst": Word("rank by the worst motion", "place by the worst motion"),
+    "members": Word("members", "members of the sample"),
 }
 """Columns of ranking.csv, a line for each blade and scene."""
 
