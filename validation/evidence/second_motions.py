@@ -88,12 +88,12 @@ def _cell(ranges: pd.DataFrame, motions: xr.Dataset) -> str:
     ratio = [_size(row, row["largest_motion"]) / _size(row, REST) for _, row in strongest.iterrows()]
     row = strongest.iloc[int(np.argmax(ratio))]
     motion = row["largest_motion"]
-    rest, most = (1e3 * row[f"rms_{name}_m"] for name in (REST, motion))
+    rest, most = (1e3 * row[f"rms_normal_{name}_m"] for name in (REST, motion))
     return f"{several}; {row['speed_rad_s']:.0f}: {rest:.2f}/{most:.2f}"
 
 
 def _size(row: pd.Series, motion: str) -> float:
-    return float(row[f"rms_{motion}_m"])
+    return float(row[f"rms_normal_{motion}_m"])
 
 
 def _ranking(motions: xr.Dataset, blades: Iterable[str]) -> tuple[list[str], list[list[str]]]:

@@ -242,8 +242,8 @@ COLUMNS = (
     "lasting_share",
     "second_motion",
     "second_motion_speed_rad_s",
-    "second_motion_rms_m",
-    "second_motion_rest_rms_m",
+    "second_motion_rms_normal_m",
+    "second_motion_rest_rms_normal_m",
     "largest_penetration_m",
     "status",
 )

@@ -97,15 +97,15 @@ def _draw_largest(axes: Axes, motions: xr.Dataset, direction: str) -> None:
         largest = 1e3 * pair[f"rms_{direction}"].max("motion").where(pair["differ"] > 0.0)
         label = f"{scene}, largest motion"
         axes.plot(pair["speed"], largest, "+", color=f"C{number}", markersize=5, label=label)
-        shade(axes, pair, f"C{number}")
+        shade(axes, pair, f"C{number}", f"{scene}: motions differ")
 
 
-def shade(axes: Axes, pair: xr.Dataset, colour: Any = "0.5") -> None:
+def shade(axes: Axes, pair: xr.Dataset, colour: Any = "0.5", name: str = "motions differ") -> None:
     """Shade the speeds at which the motions of one blade and scene differ (results/other_motions.py)."""
     speeds, differ = pair["speed"].values, pair["differ"].values > 0.0
     half = 0.5 * float(np.diff(speeds).min()) if len(speeds) > 1 else 0.0
     for number, speed in enumerate(speeds[differ]):
-        label = "motions differ" if number == 0 else None
+        label = name if number == 0 else None
         axes.axvspan(speed - half, speed + half, color=colour, alpha=0.15, linewidth=0, zorder=0, label=label)
 
 

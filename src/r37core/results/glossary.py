@@ -88,9 +88,9 @@ INTERACTIONS = {
     "fall_speed_rad_s": Word("falls at", "speed above the peak at which the motion falls below half of it", _SPEED),
     "note": Word("note", "reason for empty columns, and where the lining is worn through"),
     "second_motion": Word("second motion", "motion, carried `up` or `down`, that is most above that from rest"),
-    "second_motion_speed_rad_s": Word("at speed", "its speed", _SPEED),
-    "second_motion_rms_m": Word("its normal rms", "its normal rms", *_MM),
-    "second_motion_rest_rms_m": Word("from rest there", "normal rms from rest at that speed", *_MM),
+    "second_motion_speed_rad_s": Word("speed of the second motion", "its speed", _SPEED),
+    "second_motion_rms_normal_m": Word("normal rms of the second motion", "its normal rms", *_MM),
+    "second_motion_rest_rms_normal_m": Word("normal rms from rest there", "normal rms from rest at that speed", *_MM),
     "share_of_members": Word("members", "share of the members that show the interaction", *_PERCENT),
     "robust": Word("robust", "whether at least half of the members show it"),
 }

@@ -21,7 +21,7 @@ WITHIN = 0.06
 RANKED = ("length_certain_rest_rad_s", "length_certain_worst_rad_s", "largest_rms_worst_m", "rank_worst")
 """Columns of ranking.csv."""
 
-SUMMARISED = ("second_motion", "second_motion_speed_rad_s", "second_motion_rms_m", "second_motion_rest_rms_m")
+SUMMARISED = ("second_motion", "second_motion_speed_rad_s", "second_motion_rms_normal_m", "second_motion_rest_rms_normal_m")
 """Columns of summary.csv."""
 
 
@@ -63,13 +63,14 @@ def summary_with_motions(summary: pd.DataFrame, motions: xr.Dataset) -> pd.DataF
     for (blade, scene), rows in table.groupby(["blade", "scene"], sort=False):
         pair, peaks = swept(motions.sel(blade=blade, scene=scene)), rows["peak_speed_rad_s"]
         mean = pair["motion_mean"].transpose("motion", "speed").values
-        # one that diverged is above all others
-        above = np.nan_to_num(mean, nan=np.inf) - np.nan_to_num(mean[pair["motion"].values == REST])
-        above[np.broadcast_to(np.isnan(mean[pair["motion"].values == REST]), above.shape)] = 0.0
+        rest = mean[pair["motion"].values == REST]
+        # by ratio, as ranges have it; one that diverged is above all others, and nothing is above it
+        above = np.nan_to_num(mean, nan=np.inf) / np.maximum(np.nan_to_num(rest, nan=np.inf), np.finfo(float).tiny)
+        above = np.where(np.isnan(rest), 0.0, above)
         for place in np.argsort(above.max(axis=0, initial=0.0), kind="stable"):
             speed, motion = float(pair["speed"][place]), int(np.argmax(above[:, place]))
             nearest = (peaks - speed).abs().fillna(np.inf).idxmin()
-            if pair["differ"][place] and above[motion, place] > 0.0 and abs(peaks[nearest] - speed) <= WITHIN * peaks[nearest]:
+            if pair["differ"][place] and above[motion, place] > 1.0 and abs(peaks[nearest] - speed) <= WITHIN * peaks[nearest]:
                 rms = pair["rms_normal"].isel(speed=place)
                 values = (str(pair["motion"].values[motion]), speed, float(rms[motion]), float(rms.sel(motion=REST)))
                 # the last one is the largest

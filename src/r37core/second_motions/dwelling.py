@@ -143,7 +143,8 @@ def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float, *, 
         left = {start: sum(int(not part[-1]) for part in several) for start, several in since.items()}
         back = {start: sum(int(part[-1]) for part in several) == len(several) for start, several in begun.items()}
         verdicts = {start: Lasting.LASTING if back[start] else Lasting.TRANSIENT for start in begun}
-        times = {start: _held(sum(int(part[1:].sum()) for part in since[start]), left[start]) for start in begun}
+        first = {start: _held(sum(int(part[1:].sum()) for part in since[start]), left[start]) for start in begun}
+        times = {start: np.inf if back[start] else first[start] for start in begun}
     else:
         counted = [*begun[HIGH], *(~part for part in begun[LOW]), *map(_settled, held[RANDOM])]
         left = {

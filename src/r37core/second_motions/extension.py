@@ -25,5 +25,6 @@ EXTENSION = Extension(
         ),
     },
     closing="second_motions.tables.closing",
+    look_at="<results>/second_motions.csv",
     panel=Panel(dataset, "second_motions.panel.contents", "second_motions/panel.js"),
 )

@@ -11,11 +11,11 @@ from r37core.figures.response_curves import shade
 from r37core.results.other_motions import swept
 
 from .choice import MOTIONS
-from .dwelling import Lasting
+from .dwelling import HIGH, LOW, Lasting
 
 COLOURS = {"up": "#D55E00", "down": "#0072B2", "rest": "0.25"}
 LINES = {"up": "-", "down": "-", "rest": ":"}
-MARKERS = {Lasting.LASTING: "o", Lasting.SWITCHING: "D", Lasting.TRANSIENT: "x"}
+MARKERS = {Lasting.LASTING: "o", Lasting.SWITCHING: "D", Lasting.TRANSIENT: "x", Lasting.DIVERGED: "P"}
 
 
 def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, *, blade: str, scene: str) -> Figure:
@@ -23,40 +23,39 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, *
     pair = swept(motions)
     stress = "max_von_mises_median" in pair and bool(pair["max_von_mises_median"].notnull().any())
     blade_dwells = dwells[(dwells["blade"] == blade) & (dwells["scene"] == scene)]
-    figure, panels = plt.subplots(3 + stress, 1, figsize=(style.PAGE, 2.0 * (3 + stress)), sharex=True)
-    _draw_motions(panels[0], pair)
-    panels[0].set_ylabel("rms (mm)")
-    if stress:
-        for motion in MOTIONS:
-            panels[1].plot(
-                pair["speed"], 1e-9 * pair["max_von_mises_median"].sel(motion=motion), LINES[motion], color=COLOURS[motion]
-            )
-        style.yield_lines(panels[1], {blade: float(pair["yield_stress"])}, named=True)
-        panels[1].set_ylabel("median von Mises (GPa)")
+    shares = blade_dwells["share_of_time_high"].notna().any()
+    exponents = blade_dwells[[f"lyapunov_exponent_{which}" for which in (HIGH, LOW)]].notna().any(axis=None)
+    count = 1 + int(stress) + int(shares) + int(exponents)
+    figure, grid = plt.subplots(count, 1, figsize=(style.PAGE, 1.9 * count + 0.8), sharex=True, squeeze=False)
+    panels = grid[:, 0]
+    left = iter(panels)
+    axes = next(left)
+    _draw_motions(axes, pair)
+    axes.set_ylabel("rms (mm)")
     for kind, marker in MARKERS.items():
         those = blade_dwells[blade_dwells["high"] == str(kind)]
-        panels[0].plot(
-            those["speed_rad_s"],
-            1e3 * those["level_high_m"],
-            marker,
-            color=COLOURS["up"],
-            fillstyle="none",
-            markersize=5,
-            label=f"largest motion {kind}",
-        )
-    shares, exponents = panels[-2:]
-    shares.plot(blade_dwells["speed_rad_s"], blade_dwells["share_of_time_high"], ".", color=COLOURS["up"])
-    shares.set(ylabel="share of time\nin largest motion", ylim=(-0.05, 1.05))
-    for which, label, colour in (("high", "largest", COLOURS["up"]), ("low", "smallest", COLOURS["down"])):
-        exponents.plot(
-            blade_dwells["speed_rad_s"],
-            blade_dwells[f"lyapunov_exponent_{which}"],
-            ".",
-            color=colour,
-            label=f"exponent, {label} motion",
-        )
-    exponents.axhline(0.0, color="0.6", linewidth=0.8)
-    exponents.set_ylabel("exponent\nper revolution")
+        if len(those):
+            place = those["speed_rad_s"], 1e3 * those["level_high_m"]
+            axes.plot(*place, marker, color="0.1", fillstyle="none", markersize=5, label=f"largest motion {kind}")
+    if stress:
+        axes = next(left)
+        for motion in MOTIONS:
+            median = 1e-9 * pair["max_von_mises_median"].sel(motion=motion)
+            axes.plot(pair["speed"], median, LINES[motion], color=COLOURS[motion])
+        style.yield_lines(axes, {blade: float(pair["yield_stress"])}, named=True)
+        axes.set_ylabel("median von Mises (GPa)")
+    if shares:
+        axes = next(left)
+        axes.plot(blade_dwells["speed_rad_s"], blade_dwells["share_of_time_high"], ".", color="0.1")
+        axes.set(ylabel="share of time\nin largest motion", ylim=(-0.05, 1.05))
+    if exponents:
+        axes = next(left)
+        for which, label, fill in ((HIGH, "largest", "full"), (LOW, "smallest", "none")):
+            values = blade_dwells[f"lyapunov_exponent_{which}"]
+            name = f"exponent, {label} motion"
+            axes.plot(blade_dwells["speed_rad_s"], values, "o", color="0.1", fillstyle=fill, markersize=3, label=name)
+        axes.axhline(0.0, color="0.6", linewidth=0.8)
+        axes.set_ylabel("exponent\nper revolution")
     for axes in panels:
         shade(axes, pair)
     panels[0].set_title(f"{title}: carried up and down, and from rest; leading edge, normal and tangential together")

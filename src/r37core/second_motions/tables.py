@@ -24,7 +24,7 @@ RANGE_COLUMNS = (
     "speeds",
     "speed_rad_s",
     "largest_motion",
-    *(f"{what}_{motion}_{unit}" for what, unit in (("rms", "m"), ("peak", "m")) for motion in MOTIONS),
+    *(f"{what}_normal_{motion}_m" for what in ("rms", "peak") for motion in MOTIONS),
     *(f"median_von_mises_{motion}_pa" for motion in MOTIONS),
     *(f"share_above_yield_{motion}" for motion in MOTIONS),
     "dwell_speed_rad_s",
@@ -57,6 +57,8 @@ DWELL_COLUMNS = (
 BIFURCATION_COLUMNS = ("blade", "scene", "branch", "event", "speed_rad_s", "rms_normal_m", "period_revolutions", "becomes")
 """Columns of second_motions_bifurcations.csv."""
 
+_RECURRING = (MotionKind.PERIODIC, MotionKind.MULTIPLE)
+
 _STRONGEST = (Lasting.DIVERGED, Lasting.LASTING, Lasting.SWITCHING, Lasting.TRANSIENT)
 
 
@@ -83,10 +85,11 @@ def dwell_table(dwells: xr.Dataset) -> pd.DataFrame:
             }
         for which in (HIGH, LOW) if HIGH in starts and LOW in starts else ():
             dwell = group.isel(dwell=int(np.flatnonzero(starts == which)[0]))
+            kind = MotionKind(int(dwell["motion_kind"]))
             row |= {
                 f"motion_{which}": str(dwell["motion"].values),
-                f"motion_kind_{which}": MotionKind(int(dwell["motion_kind"])).text,
-                f"period_revolutions_{which}": float(dwell["recurrence_period"]),
+                f"motion_kind_{which}": kind.text,
+                f"period_revolutions_{which}": float(dwell["recurrence_period"]) if kind in _RECURRING else np.nan,
                 f"lyapunov_exponent_{which}": float(dwell["lyapunov_exponent"]),
             }
         rows.append(row)
@@ -124,8 +127,8 @@ def _range_row(
         "largest_motion": MOTIONS[int(levels.high[place])],
     }
     names = {
-        "rms_{}_m": "rms_normal",
-        "peak_{}_m": "peak_normal",
+        "rms_normal_{}_m": "rms_normal",
+        "peak_normal_{}_m": "peak_normal",
         "median_von_mises_{}_pa": "max_von_mises_median",
         "share_above_yield_{}": "share_of_revolutions_above_yield",
     }
@@ -168,11 +171,14 @@ def closing(results: Path) -> str:
         return text
     second = table[table["largest_motion"] != REST]
     lasting = int((second["kind"] == str(Lasting.LASTING)).sum())
-    text += f", {lasting} of them with a second motion that lasts"
-    ratio = second[[f"rms_{motion}_m" for motion in MOTIONS]].max(axis=1) / second[f"rms_{REST}_m"]
+    if second["kind"].notna().any():
+        text += f", {lasting} of them with a second motion that lasts"
+    ratio = second[[f"rms_normal_{motion}_m" for motion in MOTIONS]].max(axis=1) / second[f"rms_normal_{REST}_m"]
     if not ratio.notna().any():
         return text
     worst = second.loc[ratio.idxmax()]
     motion, speed = worst["largest_motion"], worst["speed_rad_s"]
-    rest, largest = (1e3 * worst[f"rms_{name}_m"] for name in (REST, motion))
-    return f"{text}; {worst['blade']} in {worst['scene']} at {speed:g} rad/s: from rest {rest:.2f}, {motion} {largest:.2f} mm"
+    rest, largest = (1e3 * worst[f"rms_normal_{name}_m"] for name in (REST, motion))
+    text += f"; {worst['blade']} in {worst['scene']} at {speed:g} rad/s: from rest {rest:.2f}, {motion} {largest:.2f} mm"
+    stress = worst.get(f"median_von_mises_{motion}_pa", np.nan)
+    return f"{text} (normal rms), {1e-9 * stress:.2f} GPa" if np.isfinite(stress) else f"{text} (normal rms)"
