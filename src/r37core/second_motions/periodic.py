@@ -29,6 +29,9 @@ LONGEST = 1.5
 _DIFFERENCE = 1e-6
 """Size of the differences by which derivatives are taken, as a share of that of the state."""
 
+UNIT_CIRCLE = 1.0 + _DIFFERENCE
+"""Size of the largest Floquet multiplier below which a motion is stable: by differences, one on the circle may lie outside."""
+
 _PHASES = 62
 """Instants of a motion's period at which it is looked whether a node is pressed."""
 
@@ -69,7 +72,7 @@ class Orbit:
     @property
     def stable(self) -> bool:
         """Whether all multipliers are within the unit circle, or on it where nothing is damped."""
-        return bool(abs(self.multipliers[0]) < 1.0 + _DIFFERENCE)
+        return bool(abs(self.multipliers[0]) < UNIT_CIRCLE)
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ from r37core.time_integration.status import MotionKind
 
 from .choice import MOTIONS, REST
 from .dwelling import HIGH, LOW, STARTS, Lasting, judged
+from .periodic import UNIT_CIRCLE
 from .ranges import MotionLevels
 
 RANGE_COLUMNS = (
@@ -32,7 +33,7 @@ RANGE_COLUMNS = (
     "share_of_time",
     "held_revolutions",
 )
-"""Columns of second_motions.csv; see docs/second_motions.md."""
+"""Columns of second_motions.csv; their meaning is in docs/glossary.md."""
 
 DWELL_COLUMNS = (
     "blade",
@@ -48,7 +49,7 @@ DWELL_COLUMNS = (
     "random_starts_high",
     *(
         f"{what}_{which}"
-        for which in ("high", "low")
+        for which in (HIGH, LOW)
         for what in ("motion", "motion_kind", "period_revolutions", "lyapunov_exponent")
     ),
 )
@@ -158,7 +159,7 @@ def bifurcation_table(orbits: xr.Dataset) -> pd.DataFrame:
         speed_rad_s=frame["event_speed"],
         rms_normal_m=frame["rms_normal"],
         period_revolutions=frame["period"],
-        becomes=np.where(size < 1.0, "stable", "unstable"),
+        becomes=np.where(size < UNIT_CIRCLE, "stable", "unstable"),
     )
     return table.loc[frame["event"] != "", list(BIFURCATION_COLUMNS)]
 
