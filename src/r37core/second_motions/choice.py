@@ -57,7 +57,9 @@ class DwellChoice:
     """How motions are told apart that last, that go, and between which the blade switches."""
 
     revolutions: Annotated[int, Key("Revolutions of each dwell", ge=100, le=200_000)] = 3000
-    range_speeds: Annotated[int, Key("Speeds of each range of hysteresis, spread over it evenly", ge=0, le=1000)] = 3
+    range_speeds: Annotated[
+        int, Key("Speeds of each range: that of the largest difference, others spread evenly", ge=0, le=1000)
+    ] = 3
     starts: Annotated[int, Key("Random states outside of the casing from which more dwells start", ge=0, le=1000)] = 5
     seed: Annotated[int, Key("Seed of the random states", ge=0, le=2**31)] = 0
     speeds: tuple[float, ...] = field(default=())
