@@ -3,12 +3,11 @@
 from typing import Any
 
 import matplotlib.pyplot as plt
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from r37core.results.other_motions import swept
+from r37core.results.other_motions import half_step, swept
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -103,7 +102,7 @@ def _draw_largest(axes: Axes, motions: xr.Dataset, direction: str) -> None:
 def shade(axes: Axes, pair: xr.Dataset, colour: Any = "0.5", name: str = "motions differ") -> None:
     """Shade the speeds at which the motions of one blade and scene differ (results/other_motions.py)."""
     speeds, differ = pair["speed"].values, pair["differ"].values > 0.0
-    half = 0.5 * float(np.diff(speeds).min()) if len(speeds) > 1 else 0.0
+    half = half_step(speeds)
     for number, speed in enumerate(speeds[differ]):
         label = name if number == 0 else None
         axes.axvspan(speed - half, speed + half, color=colour, alpha=0.15, linewidth=0, zorder=0, label=label)

@@ -101,6 +101,12 @@ class Sweep:
         return self.samples.sample(wildcards).history_speeds
 
     @property
+    def kept(self) -> dict[str, int]:
+        """How much of the spectrum and of the wear a simulation keeps."""
+        integration = self.settings.fidelity.time_integration
+        return {key: getattr(integration, key) for key in ("spectrum_highest_order", "wear_angles")}
+
+    @property
     def kinds(self) -> list[str]:
         """Kinds of datasets that this run ends in."""
         return [kind for kind in KINDS if self.runs_with(kind)]
@@ -143,12 +149,11 @@ class Simulations:
 
     def task(self, wildcards: Any) -> str:
         """What one simulation does, as JSON text."""
-        integration = self.sweep.settings.fidelity.time_integration
         task = {
             "scene": self.plain_scene(wildcards),
             "choice": to_plain(self._choice(wildcards, float(wildcards.speed))),
             "results": [result for result in self.sweep.results(wildcards) if result in OF_RUNS],
-            "kept": {key: getattr(integration, key) for key in ("spectrum_highest_order", "wear_angles")},
+            "kept": self.sweep.kept,
         }
         return json.dumps(task)
 

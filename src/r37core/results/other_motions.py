@@ -30,6 +30,11 @@ def swept(motions: xr.Dataset) -> xr.Dataset:
     return motions.isel(speed=np.flatnonzero(motions["differ"].notnull().values))
 
 
+def half_step(speeds: np.ndarray) -> float:
+    """Half of the smallest step between speeds: by so much a range of speeds is drawn beyond its ends; 0 of a single one."""
+    return 0.5 * float(np.diff(speeds).min()) if len(speeds) > 1 else 0.0
+
+
 def ranking_with_motions(ranking: pd.DataFrame, motions: xr.Dataset) -> pd.DataFrame:
     """The ranking with the length of speeds above yield by the motion from rest and by the worst one, on the same speeds."""
     rows = [_worst(swept(motions.sel(blade=row.blade, scene=row.scene))) for row in ranking.itertuples()]

@@ -36,13 +36,14 @@ _MOTION = {
     "revolution_maximum": Variable(("revolution", "tip_point"), "m", "largest normal displacement of each revolution", "f4"),
 }
 
-_KIND = {
+OF_KIND = {
     "motion_kind": Variable((), "1", "kind of the motion that goes on after the run", "i1"),
     "lyapunov_exponent": Variable((), "1", "largest Lyapunov exponent per revolution of the motion after the run"),
     "lyapunov_exponent_error": Variable((), "1", "standard error of the Lyapunov exponent"),
     "recurrence": Variable((), "1", "distance of the state from that a period before, as a share of its size"),
     "recurrence_period": Variable((), "1", "period of the motion in revolutions, after which it comes nearest to itself"),
 }
+"""Variables of KindNumbers."""
 
 _GIVEN_MOTION = {
     "initial_energy": Variable((), "J", "energy of the vibration at the start"),
@@ -86,7 +87,7 @@ _WAVES = {
     "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the later revolutions", "f4"),
 }
 
-VARIABLES = _STATUS | _MOTION | _KIND | _GIVEN_MOTION | _SPECTRUM | _STRESS | _WEAR | _WAVES
+VARIABLES = _STATUS | _MOTION | OF_KIND | _GIVEN_MOTION | _SPECTRUM | _STRESS | _WEAR | _WAVES
 """Variables over the speeds of a response."""
 
 OF_LINING = {
@@ -140,7 +141,7 @@ AXES = {
 """Numeric axes, of which a dataset has what its responses have together."""
 
 DATASETS = {
-    "rms": ("lined", *OF_LINING, "casing_cone_angle", *_MOTION, *_KIND),
+    "rms": ("lined", *OF_LINING, "casing_cone_angle", *_MOTION, *OF_KIND),
     "spectrum": tuple(_SPECTRUM),
     "stress": ("lined", *_STRESS, *OF_STRESS, *HISTORIES),
     "wear": tuple(_WEAR),

@@ -18,6 +18,9 @@ from .periodic import NoOrbitError, Orbit, PeriodicBlade, orbit_after
 from .ranges import MotionLevels
 from .sweeping import CarriedSweep
 
+NEAR = 5
+"""Steps of the sweeps up to which the motions of a range are looked for at a speed that is dwelt on."""
+
 _SAME = 1e-3
 """Difference of two rms, as a share, below which an orbit counts as one of a branch."""
 
@@ -35,10 +38,6 @@ def speeds_dwelt_on(levels: MotionLevels, choice: DwellChoice) -> list[float]:
         spread = np.linspace(part.start, part.stop - 1, choice.range_speeds - 1).round().astype(int)
         speeds |= set(levels.speeds[[levels.worst(part), *spread]].tolist())
     return sorted(speeds)
-
-
-NEAR = 5
-"""Steps of the sweeps up to which the motions of a range are looked for at a speed that is dwelt on."""
 
 
 def dwells_of(

@@ -10,11 +10,11 @@ from r37core.figures import style
 from r37core.figures.response_curves import shade
 from r37core.results.other_motions import swept
 
-from .choice import MOTIONS
+from .choice import DOWN, MOTIONS, REST, UP
 from .dwelling import HIGH, LOW, Lasting
 
-COLOURS = {"up": "#D55E00", "down": "#0072B2", "rest": "0.25"}
-LINES = {"up": "-", "down": "-", "rest": ":"}
+COLOURS = {UP: "#D55E00", DOWN: "#0072B2", REST: "0.25"}
+LINES = {UP: "-", DOWN: "-", REST: ":"}
 MARKERS = {Lasting.LASTING: "o", Lasting.SWITCHING: "D", Lasting.TRANSIENT: "x", Lasting.DIVERGED: "P"}
 
 
@@ -86,6 +86,6 @@ def draw_overview(motions: xr.Dataset, title: str) -> Figure:
 def _draw_motions(axes: Axes, pair: xr.Dataset) -> None:
     for motion in MOTIONS:
         mean, scatter = (1e3 * pair[name].sel(motion=motion) for name in ("motion_mean", "motion_scatter"))
-        label = "from rest" if motion == "rest" else f"carried {motion}"
+        label = "from rest" if motion == REST else f"carried {motion}"
         axes.plot(pair["speed"], mean, LINES[motion], color=COLOURS[motion], label=label, linewidth=1.0)
         axes.fill_between(pair["speed"], mean - scatter, mean + scatter, color=COLOURS[motion], alpha=0.15, linewidth=0)

@@ -10,6 +10,7 @@ import xarray as xr
 from r37core.dataset_file import Variable, about
 from r37core.io import atomic_write, readable
 from r37core.results.netcdf import state_flags
+from r37core.results.variables import OF_KIND
 from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
@@ -19,9 +20,7 @@ from .choice import MOTIONS
 from .dwelling import Dwell
 from .periodic import Orbit
 from .ranges import MotionLevels
-from .sweeping import CARRIED
-
-END_WEAR = "end_wear"
+from .sweeping import CARRIED, END_WEAR, carried_of
 
 
 class SweptStates:
@@ -39,10 +38,8 @@ class SweptStates:
 
     def motion(self, place: int) -> CarriedMotion | None:
         """Motion at the end of the speed at this place; None where it diverged."""
-        if self._arrays["status"][place] != RunStatus.COMPLETED:
-            return None
-        wear = self._arrays[END_WEAR][place].astype(float) if END_WEAR in self._arrays else None
-        return CarriedMotion(**{name: self._arrays[name][place] for name in CARRIED}, wear=wear)
+        names = ("status", *CARRIED, *([END_WEAR] if self.worn else []))
+        return carried_of({name: self._arrays[name][place] for name in names})
 
 
 def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: float, file: Path | str) -> None:
@@ -80,11 +77,7 @@ OF_DWELLS = {
     "level_high": Variable((), "m", "level of the largest motion of the sweeps there: mean rms of a revolution"),
     "level_low": Variable((), "m", "level of the smallest motion of the sweeps there"),
     "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "i1"),
-    "motion_kind": Variable((), "1", "kind of the motion at the end of the dwell", "i1"),
-    "lyapunov_exponent": Variable((), "1", "largest Lyapunov exponent per revolution of the motion at the end"),
-    "lyapunov_exponent_error": Variable((), "1", "standard error of the Lyapunov exponent"),
-    "recurrence": Variable((), "1", "distance of the state from that a period before, as a share of its size"),
-    "recurrence_period": Variable((), "1", "period of the motion in revolutions, after which it comes nearest to itself"),
+    **OF_KIND,
     "revolution_rms": Variable(
         ("revolution",), "m", "rms of the leading edge's motion, normal and tangential together, in each revolution", "f4"
     ),
@@ -95,16 +88,7 @@ def dwell_dataset(rows: Sequence[tuple[Mapping[str, Any], Dwell]], revolutions: 
     """Dataset of the dwells of one blade and scene: labels and levels of each, and what it found."""
     columns: dict[str, list[Any]] = {name: [] for name in ("start", "motion", *OF_DWELLS)}
     for labels, dwell in rows:
-        kind = dwell.kind
-        values = {
-            **labels,
-            "motion_kind": int(kind.kind),
-            "lyapunov_exponent": kind.exponent,
-            "lyapunov_exponent_error": kind.error,
-            "recurrence": kind.recurrence,
-            "recurrence_period": kind.period,
-            "revolution_rms": dwell.rms,
-        }
+        values = {**labels, **dwell.kind.values, "revolution_rms": dwell.rms}
         for name, column in columns.items():
             column.append(values[name])
     labels = {name: np.array(columns.pop(name), dtype=object) for name in ("start", "motion")}

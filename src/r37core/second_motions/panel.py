@@ -1,10 +1,9 @@
 """Panel of the explorer about second motions: the three motions over speed, with the ranges in which they differ."""
 
-import numpy as np
 import xarray as xr
 
 from r37core.explorer.contents import packed
-from r37core.results.other_motions import swept
+from r37core.results.other_motions import half_step, swept
 
 from .ranges import MotionLevels
 
@@ -18,7 +17,7 @@ def contents(motions: xr.Dataset) -> list[dict[str, object]]:
             if not pair.sizes["speed"]:
                 continue
             levels = MotionLevels.read(pair)
-            half = 0.5 * float(np.diff(levels.speeds).min(initial=np.inf)) if len(levels.speeds) > 1 else 0.0
+            half = half_step(levels.speeds)
             ends = [levels.speeds[part][[0, -1]] + (-half, half) for part in levels.ranges()]
             shown.append(
                 {

@@ -10,7 +10,6 @@ from r37core.plans import paths
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Simulations, Sweep
-from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import MOTIONS
 from .section import SECTION, SecondMotionSection
@@ -86,7 +85,7 @@ class SecondMotions:
                 **self._common(made),
                 "motion": lambda wildcards: wildcards.motion,
                 "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in KEPT],
-                "kept": self._kept,
+                "kept": self.sweep.kept,
                 "yield_stress": self.sweep.yield_stress,
             },
         )
@@ -103,11 +102,6 @@ class SecondMotions:
     def _section(self) -> SecondMotionSection:
         return section_of(self.sweep.settings)
 
-    @property
-    def _kept(self) -> dict[str, Any]:
-        integration = self.sweep.settings.fidelity.time_integration
-        return {key: getattr(integration, key) for key in ("spectrum_highest_order", "wear_angles")}
-
     def _common(self, made: Provenance) -> dict[str, Any]:
         return {
             "scene": Simulations(self.sweep).plain_scene,
@@ -118,12 +112,8 @@ class SecondMotions:
         }
 
     def choice(self, wildcards: Any) -> dict[str, Any]:
-        """Numbers of the time integration, as plain values."""
-        return to_plain(self.integration_choice(wildcards.blade, wildcards.scene))
-
-    def integration_choice(self, blade: str, scene: str) -> IntegrationChoice:
         """Numbers of the time integration of a run from rest: those of the pipeline."""
-        return self.sweep.settings.integration_choice(blade, scene, 0.0)
+        return to_plain(self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, 0.0))
 
 
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:

@@ -2,7 +2,7 @@
 
 import shutil
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -24,8 +24,11 @@ from r37core.time_integration.status import RunStatus
 
 from .choice import DOWN, REST, SweepChoice
 
-CARRIED = ("displacement", "velocity", "touched", "contact_force", "penetration", "bar_position")
+CARRIED = tuple(part.name for part in fields(CarriedMotion) if part.name != "wear")
 """Parts of a CarriedMotion that are kept of every speed."""
+
+END_WEAR = "end_wear"
+"""Name of the wear at the end of a speed, which is kept where the lining is carried."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +125,7 @@ class CarriedSweep:
         carried = CarriedMotion.ended(simulation.problem, states[0], keep_wear=self.sweep.worn)
         numbers |= {name: getattr(carried, name) for name in CARRIED}
         if carried.wear is not None:
-            numbers["end_wear"] = carried.wear
+            numbers[END_WEAR] = carried.wear
         return numbers
 
 
@@ -130,7 +133,7 @@ def carried_of(numbers: Mapping[str, np.ndarray]) -> CarriedMotion | None:
     """The motion at the end of a run, by its numbers; None of one that diverged."""
     if int(numbers["status"]) != RunStatus.COMPLETED:
         return None
-    return CarriedMotion(**{name: numbers[name] for name in CARRIED}, wear=numbers.get("end_wear"))
+    return CarriedMotion(**{name: numbers[name] for name in CARRIED}, wear=numbers.get(END_WEAR))
 
 
 def discard(folder: Path) -> None:

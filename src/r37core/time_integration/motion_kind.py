@@ -51,6 +51,17 @@ class KindNumbers:
     recurrence: float = np.nan
     period: float = np.nan
 
+    @property
+    def values(self) -> dict[str, float]:
+        """Name of each number in datasets -> its value."""
+        return {
+            "motion_kind": int(self.kind),
+            "lyapunov_exponent": self.exponent,
+            "lyapunov_exponent_error": self.error,
+            "recurrence": self.recurrence,
+            "recurrence_period": self.period,
+        }
+
 
 class PhaseSpace:
     """Coordinates of a state whose squared length is twice the energy of free modes: omega u and velocity, shape (2 modes,)."""
@@ -128,13 +139,7 @@ def recurrence_of(simulation: Simulation, state: SimulationState) -> tuple[float
 def kind_numbers(simulation: Simulation, state: SimulationState, *, diverged: bool) -> dict[str, np.ndarray]:
     """Numbers of the kind of the motion after a run, as its file has them; unknown of one that has `diverged`."""
     motion = KindNumbers(MotionKind.UNKNOWN) if diverged else kind_of_motion(simulation, state)
-    return {
-        "motion_kind": np.array(int(motion.kind)),
-        "lyapunov_exponent": np.array(motion.exponent),
-        "lyapunov_exponent_error": np.array(motion.error),
-        "recurrence": np.array(motion.recurrence),
-        "recurrence_period": np.array(motion.period),
-    }
+    return {name: np.array(value) for name, value in motion.values.items()}
 
 
 def _bring_back(twin: SimulationState, state: SimulationState, growth: float) -> None:
