@@ -331,3 +331,15 @@ def test_lengths_ever_and_lasting():
     # a run that diverged is worse than one that lasts
     states[speeds >= 970.0] = MotionAtEnd.UNKNOWN
     assert robustness(lined.assign(motion_at_end=("speed", states)))["length_lasting_rad_s"] == 50.0
+
+
+def test_the_integral_counts_every_share_and_has_no_threshold():
+    """Three speeds, 10 rad/s apart, bare or lined; chance moves the integral in a bare casing alone."""
+    speeds, shares = np.arange(900.0, 1001.0, 10.0), np.zeros(11)
+    shares[4:7] = 0.3, 0.45, 0.35
+    lined = robustness(response(speeds, shares, np.ones(11), lined=1))
+    assert lined["exceedance_integral_rad_s"] == pytest.approx(11.0)
+    assert np.isnan(lined["exceedance_integral_scatter_rad_s"])
+    bare = robustness(response(speeds, shares, np.ones(11), lined=0))
+    assert bare["exceedance_integral_rad_s"] == pytest.approx(11.0)
+    assert bare["exceedance_integral_scatter_rad_s"] > 0.0

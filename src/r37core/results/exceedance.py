@@ -89,6 +89,16 @@ class Exceedance:
         """Length (rad/s) of all ranges above `share` together."""
         return float(sum(part.length for part in self.ranges(share)))
 
+    @property
+    def integral(self) -> float:
+        """Integral of the shares over speed (rad/s): without threshold and smoothing, it scatters less than lengths do."""
+        return float(np.trapezoid(self.shares, self.speeds))
+
+    @property
+    def scatter_of_integral(self) -> float:
+        """Standard deviation of `integral` (rad/s) by chance; NaN where there is none."""
+        return float(np.std(np.trapezoid(self._drawn, self.speeds))) if self.chance else np.nan
+
     @cached_property
     def _drawn(self) -> np.ndarray:
         """Smoothed shares as chance could have had them, shape (draws, speeds); the same every time.

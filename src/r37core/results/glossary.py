@@ -104,6 +104,9 @@ RANKING = {
         "ever above yield", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", _SPEED
     ),
     "length_lasting_rad_s": Word(f"{_MOST}, lasting", "the same where the motion lasts or grows at the end", _SPEED),
+    "exceedance_integral_rad_s": Word(
+        "integral above yield", f"integral over speed of the share of {_REVOLUTIONS} that exceed yield", _SPEED
+    ),
     "largest_median_stress_pa": Word("largest median stress", f"largest {_MEDIAN}", *_MPA),
     "first_certain_rad_s": Word(f"first speed {_MOST}", f"lowest speed at which {_CERTAIN}", _SPEED),
     "first_possible_rad_s": Word(f"first speed {_SOME}", f"lowest speed at which {_POSSIBLE}", _SPEED),

@@ -26,6 +26,8 @@ ROBUSTNESS = (
     "length_possible_scatter_rad_s",
     "length_ever_rad_s",
     "length_lasting_rad_s",
+    "exceedance_integral_rad_s",
+    "exceedance_integral_scatter_rad_s",
     "largest_median_stress_pa",
     "first_certain_rad_s",
     "first_possible_rad_s",
@@ -76,6 +78,9 @@ def robustness(response: xr.Dataset, *, chance_scatter: bool = True) -> dict[str
             if chance_scatter:
                 measures[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
             measures[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
+        measures["exceedance_integral_rad_s"] = exceedance.integral
+        if chance_scatter:
+            measures["exceedance_integral_scatter_rad_s"] = exceedance.scatter_of_integral
         measures["length_ever_rad_s"] = speeds_above_yield(response, "max_von_mises_ever").length
         if "motion_at_end" in response:
             measures["length_lasting_rad_s"] = _length_lasting(response)

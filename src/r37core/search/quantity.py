@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 CONTACT_MEASURES = {
+    "exceedance_integral_rad_s": "integral over speed of the share of revolutions above yield",
     "length_certain_rad_s": "length of all speeds where half of the revolutions are above yield",
     "length_possible_rad_s": "the same where one in twenty is",
     "widest_range_rad_s": "widest of these ranges",
