@@ -115,7 +115,7 @@ def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
         (GRID.replace("chordwise_sweep_deg", "sweep"), r"found unknown key sweep; .* \(did you mean sweep_percent\?\)"),
         (
             GRID.replace("chordwise_sweep_deg", "casing.clearance_m"),
-            r"found unknown key casing\.clearance_m; .* \(a number of a scene varies under tolerances\.of_scenes",
+            r"found unknown key casing\.clearance_m; .* \(a number of a scene varies in scenes\.yaml",
         ),
         (GRID.replace("density_kg_m3", "density"), r"yaml:\d+: Grid.*: found unknown key density; allowed keys: youngs"),
         (GRID.replace("[-2.5, 5]", "[5, 5]"), r"Grid\.vary\.chordwise_sweep_deg\.1: found 5\.0 twice; allowed: each once"),

@@ -190,6 +190,6 @@ def test_a_run_keeps_the_kind_that_is_asked_for(contact, tmp_path):
 
 
 def test_a_rotor_has_no_kind(root):
-    entry = plain(read_settings(root, command_line_document({"scenes": "all"})).scene_entries["rotor_abradable"])
+    entry = plain(read_settings(root, command_line_document({"scenes": "all"})).scene_designs.entries["rotor_abradable"])
     with pytest.raises(ConfigError, match="motion_kind with a rotor"):
         checked_scene(entry | {"results": ["motion_kind"]})

@@ -130,7 +130,7 @@ def test_files_of_ones_own_may_lie_anywhere(root, tmp_path):
     (tmp_path / "scenes.yaml").write_text((root / "config/scenes.yaml").read_text().replace("abradable:", "mine:", 1))
     blade = r37.blade("Mine", file=tmp_path / "mine.yaml")
     assert len(blade.settings.definition.profiles) == len(read_settings(root).blades["Ref"].definition.profiles)
-    assert r37.scene("mine", file=tmp_path / "scenes.yaml").entry == read_settings(root).scene_entries["abradable"]
+    assert r37.scene("mine", file=tmp_path / "scenes.yaml").entry == read_settings(root).scene_designs.entries["abradable"]
     with pytest.raises(r37.ConfigError, match="abradable, direct"):
         r37.simulate(blade, "none", 1000)
 

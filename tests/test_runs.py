@@ -154,7 +154,7 @@ def test_a_folder_says_what_the_call_said(config, written, tmp_path):
     ((settings, targets),) = written
     assert targets == ["tables"] and settings.config.interactions.prominence == 0.2
     assert settings.blades["Swept"] == swept.settings and list(settings.scenes) == ["smooth"]
-    assert settings.scene_entries["smooth"] == smooth.entry
+    assert settings.scene_designs.entries["smooth"] == smooth.entry
     r37.designs("S100", "abradable", [1150], vary=table, config=config, folder=tmp_path / "b")
     assert written[-1][0].blade_names == ["Near", "Far"]
     for name, share in (("Near", 50), ("Far", 80)):

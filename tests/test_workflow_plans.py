@@ -136,8 +136,8 @@ def test_a_member_is_run_like_the_nominal_blade(with_members):
 
 def test_members_keep_no_history_of_the_stress(with_members):
     settings = with_members[0].settings
-    history = settings.scene_entries["abradable"].model_copy(update={"stress_history_speeds_rad_s": [900.0]})
-    settings = replace(settings, scene_entries=settings.scene_entries | {"abradable": history})
+    history = settings.scene_designs.entries["abradable"].model_copy(update={"stress_history_speeds_rad_s": [900.0]})
+    settings = replace(settings, scene_entries=settings.scene_designs.entries | {"abradable": history})
     sweep = Sweep(settings, None, {"tolerances": Tolerances(settings).samples})
     places = [of(**vars(REF), member=member, speed="900") for member in ("", "tolerances/0/")]
     kept = [json.loads(Simulations(sweep).task(place))["choice"]["snapshot_revolutions"] for place in places]
@@ -192,8 +192,8 @@ def test_models_of_a_scene_and_without_stress_no_basis(chosen):
     assert sweep.contact_model(REF) == "<results>/Ref/contact_pressure_edge.npz"
     assert sweep.stress_operator(L50) == ["<results>/L50/stress_pressure_edge.npz"]
     assert Structure(chosen).reduction(of(blade="Ref", tip_line="camber"))["boundary"]["tip_line"] == "camber"
-    plain = chosen.scene_entries["direct"].model_copy(update={"results": ["spectrum"]})
-    sweep = Sweep(replace(chosen, scene_entries=chosen.scene_entries | {"direct": plain}))
+    plain = chosen.scene_designs.entries["direct"].model_copy(update={"results": ["spectrum"]})
+    sweep = Sweep(replace(chosen, scene_entries=chosen.scene_designs.entries | {"direct": plain}))
     assert sweep.stress_operator(L50) == []
     assert Datasets(sweep).runs(of(kind="stress")) == [("Ref", "abradable"), ("L50", "abradable")]
 

@@ -166,14 +166,15 @@ class SceneChoice(Choice):
 
     @cached_property
     def entry(self) -> SceneEntry:
-        """The scene's keys, in the units of their names. Raises ConfigError."""
+        """The scene's keys, in the units of their names, or those of a family of scenes. Raises ConfigError."""
         try:
             entries = self.document.check(Scenes).root
+            designs = expanded_families(entries, self.configuration.root, self.document)
         except ConfigError as error:
             raise self.refusal(error) from None
-        if self.name not in entries:
-            raise _unknown(self.kind, self.name, entries, self.document.name)
-        return entries[self.name]
+        if self.name not in designs.names:
+            raise _unknown(self.kind, self.name, designs.names, self.document.name)
+        return designs.entries.get(self.name) or entries[self.name]
 
     @property
     def changes_clearance(self) -> bool:

@@ -90,7 +90,7 @@ def _run_histories(name: str, entry: Mapping[str, Any], call: Call) -> dict[str,
         return dict(entry)
     kept = {key: value for key, value in entry.items() if key not in keys}
     run = {speed for (_, scene), plan in settings.speed_plans.items() if scene == name for speed in plan.certain}
-    return {**kept, keys[0]: [speed for speed in settings.scene_entries[name].stress_history_speeds() if speed in run]}
+    return {**kept, keys[0]: [speed for speed in settings.scene_designs.entries[name].stress_history_speeds() if speed in run]}
 
 
 def _write(content: Mapping[str, Any], file: Path) -> None:

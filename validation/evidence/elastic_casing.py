@@ -69,7 +69,7 @@ class Runs:
     def casing(self, casing: tuple[float, float], diameters: int = 20) -> ElasticCasing:
         """The shipped ring with another thickness, other flanges, and modes up to some nodal diameters."""
         thickness, flanges = casing
-        shipped = si_form(Ring, self.settings.scene_entries[LINING].casing.ring)
+        shipped = si_form(Ring, self.settings.scene_designs.entries[LINING].casing.ring)
         other = {"thickness": thickness, "radial_foundation": flanges, "tangential_foundation": flanges}
         ring = replace(shipped, **other, highest_nodal_diameter=diameters)
         return ElasticCasing(ring.modes(), ring)

@@ -77,21 +77,22 @@ def _stacking_rows(text: str) -> tuple[dict, ...]:
     return tuple(_rows(text, STACKING_COLUMNS, text_columns=("blade",)))
 
 
-def read_designs(file: Path) -> tuple[tuple[str, ...], dict[str, tuple[float, ...]]]:
-    """Keys and, by name, their values of the designs of a CSV table with a column `blade`, in the units of the keys.
+def read_designs(file: Path, kind: str) -> tuple[tuple[str, ...], dict[str, tuple[float, ...]]]:
+    """Keys and, by name, their values of the designs of a CSV table, in the units of the keys.
 
-    Raises BladeShapeError for missing columns, unreadable numbers and a name given twice; TextFileError as for others.
+    `kind`: column of the names, blade or scene. Raises BladeShapeError for missing columns, unreadable numbers and a name given
+    twice; TextFileError as for others.
     """
-    rows = _rows(read_text(file), None, text_columns=("blade",))
-    keys = tuple(column for column in rows[0] if column != "blade") if rows else ()
+    rows = _rows(read_text(file), None, text_columns=(kind,))
+    keys = tuple(column for column in rows[0] if column != kind) if rows else ()
     if not keys:
         raise BladeShapeError(
-            "the table has no designs; it needs the column blade, one more for each key, and a row for each blade"
+            f"the table has no designs; it needs the column {kind}, one more for each key, and a row for each {kind}"
         )
-    twice = [name for name, times in Counter(row["blade"] for row in rows).items() if times > 1]
+    twice = [name for name, times in Counter(row[kind] for row in rows).items() if times > 1]
     if twice:
-        raise BladeShapeError(f"the blade '{twice[0]}' is given twice")
-    return keys, {row["blade"]: tuple(row[key] for key in keys) for row in rows}
+        raise BladeShapeError(f"the {kind} '{twice[0]}' is given twice")
+    return keys, {row[kind]: tuple(row[key] for key in keys) for row in rows}
 
 
 def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...]:

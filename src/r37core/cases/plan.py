@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from r37core.config import Settings
+from r37core.config import Settings, scenes_named
 from r37core.config.document import ConfigRefusals
 from r37core.config.fidelity import Level
 from r37core.config.section import AllOrNames, LeftOut, Name, Section, left_out
@@ -38,7 +38,7 @@ class CasesSection(Section):
 
     def scenes_of(self, settings: Settings) -> list[str]:
         """Scenes of the cases, as far as they are run."""
-        return [name for name in settings.scene_names if self.scenes == "all" or name in self.scenes]
+        return [name for name in settings.scene_names if name in scenes_named(settings, self.scenes)]
 
     def base_of(self, settings: Settings) -> str:
         """Level of the cases."""
@@ -132,7 +132,7 @@ def names_are_known(settings: Settings, extension: str, section: CasesSection, l
     if section.blade:
         refusals.of(documents.known, (extension, "blade"), [section.blade], settings.designs.entries, documents.blades)
     if section.scenes != "all":
-        refusals.of(documents.known, (extension, "scenes"), section.scenes, settings.scene_entries, documents.scenes)
+        refusals.of(documents.known, (extension, "scenes"), section.scenes, settings.scene_designs.names, documents.scenes)
     if section.base:
         refusals.of(documents.known, (extension, "base"), [section.base], settings.levels, documents.levels)
     refusals.of(documents.known, (extension, "parameters", "level"), list(levels), settings.levels, documents.levels)

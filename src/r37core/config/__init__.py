@@ -4,17 +4,19 @@ from .blades import BladeSettings
 from .declaring import si_fields, si_form
 from .document import ConfigError, Document, command_line_document, read_document
 from .section import plain
-from .settings import Settings, checked_scene
+from .settings import Settings, blades_named, checked_scene, scenes_named
 
 __all__ = [
     "BladeSettings",
     "ConfigError",
     "Document",
     "Settings",
+    "blades_named",
     "checked_scene",
     "command_line_document",
     "plain",
     "read_document",
+    "scenes_named",
     "si_fields",
     "si_form",
 ]

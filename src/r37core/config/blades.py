@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
@@ -21,17 +21,14 @@ from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
 from r37core.io import TextFileError
 from r37core.rom.reduction_choice import StressSubmesh
-from r37core.speeds import spaced
 
 from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
 from .declaring import si_fields, si_form
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
-from .section import ByName, FileName, LeftOut, Name, Section, Unique, left_out, plain, refused
+from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
 from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, profiles_by_laws, section_laws
-
-LARGEST_FAMILY = 10_000
-"""Designs of one entry."""
+from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, is_family, vary_field
 
 SHIFTS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
 """Keys of the ways to give sweep and lean, of which a blade has at most one."""
@@ -48,34 +45,6 @@ class SweepLean(Section):
     span_percent: float = Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")
     sweep_cm: float = Field(ge=-100, le=100, description="Sweep, positive downstream")
     lean_deg: float = Field(gt=-90, lt=90, description="Lean, positive in the direction of rotation")
-
-
-class Variation(Section):
-    """Values from `start` to `stop`, both included, as far as the step goes."""
-
-    start: float = Field(ge=-1e12, le=1e12, description="First value, in the unit of the varied key")
-    stop: float = Field(ge=-1e12, le=1e12, description="Last value, if the step reaches it")
-    step: float = Field(ge=1e-12, le=1e12, description="Distance between values")
-
-    @model_validator(mode="after")
-    def _forward(self) -> Variation:
-        if self.stop < self.start:
-            raise refused(("stop",), f"{self.stop:g}", f"not below start ({self.start:g})")
-        if self.step > self.stop - self.start > 0.0:
-            raise refused(("step",), f"{self.step:g}", f"at most stop - start ({self.stop - self.start:g})")
-        if (self.stop - self.start) / self.step >= LARGEST_FAMILY:
-            raise refused(("step",), f"{self.step:g}", f"at most {LARGEST_FAMILY} values")
-        return self
-
-    def values(self) -> list[float]:
-        """All values of the range."""
-        return spaced(self.start, self.stop, self.step)
-
-
-Varied = Annotated[
-    Annotated[Unique[float], Tag("list")] | Annotated[Variation, Tag("range")],
-    Discriminator(lambda value: "list" if isinstance(value, list) else "range"),
-]
 
 
 class BladeEntry(Section):
@@ -104,20 +73,13 @@ class BladeEntry(Section):
     contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
     sense_check: bool = Field(default=True, description="Whether a blade whose trailing edge leads is refused")
     material: MaterialSection = MaterialSection()
-    vary: Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut = left_out(
-        "Family: values of numeric keys, such as sweep_percent or material.density_kg_m3"
-    )
-    combine: Literal["grid", "pairs"] = Field(
-        default="grid", description="grid combines every value with every other, pairs the first with the first"
-    )
-    designs: FileName | LeftOut = left_out(
-        "Family as a table (CSV): a design per row, its name in the column `blade`, then numeric keys"
-    )
+    vary: Vary = vary_field("sweep_percent or material.density_kg_m3")
+    combine: Combine = COMBINE
+    designs: DesignTable = designs_field("blade")
 
     @model_validator(mode="after")
     def _one_shift(self) -> BladeEntry:
-        if self.vary is not None and self.designs is not None:
-            raise refused((), "both vary and designs", "one of them")
+        is_family(self)
         shifts = [key for key in SHIFTS if getattr(self, key) is not None]
         if len(shifts) > 1:
             raise refused((), " and ".join(shifts), f"at most one of {', '.join(SHIFTS)}")

@@ -16,7 +16,7 @@ from r37core.units import si_name
 
 from .blade_sections import MaterialSection
 from .blades import SHARES, BladeSettings, SweepLean, TableShare
-from .families import changed_content
+from .families import changed_content, numbers_of
 from .messages import explain
 from .scenes import SceneEntry
 from .section import Section, plain
@@ -62,7 +62,7 @@ entry of a blade changes of its profiles is there already, and stands under thes
 
 def scene_numbers(entry: SceneEntry) -> dict[str, float]:
     """Dotted key -> value of all numbers of a scene but those that count something or stop a run."""
-    return {key: value for key, value in _numbers(plain(entry), "").items() if key != "divergence_limit_m"}
+    return {key: value for key, value in numbers_of(plain(entry)).items() if key != "divergence_limit_m"}
 
 
 def blade_number(blade: BladeSettings, key: str) -> float | None:
@@ -144,13 +144,3 @@ def _checked(model: type[BaseModel], content: dict[str, Any], above: str = "") -
     except ValidationError as error:
         path, _, text = explain(error, content, model)
         raise ImpossibleValueError(above + ".".join(map(str, path)), text) from None
-
-
-def _numbers(content: Mapping[str, Any], path: str) -> dict[str, float]:
-    numbers: dict[str, float] = {}
-    for key, value in content.items():
-        if isinstance(value, Mapping):
-            numbers |= _numbers(value, f"{path}{key}.")
-        elif isinstance(value, float):
-            numbers[path + key] = value
-    return numbers

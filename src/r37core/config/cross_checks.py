@@ -18,7 +18,8 @@ from r37core.time_integration.rotor_blades import NO_ROTOR
 from r37core.units import RPM
 from r37core.yaml_file import KeyPath
 
-from .document import ConfigRefusals
+from .document import ConfigRefusals, Document
+from .families import Designs
 from .settings import Settings
 from .speed_choice import RunLength, fastest_of, length_of_run, slowest_speeds
 from .speed_section import key_of_speeds
@@ -37,22 +38,24 @@ def what_is_named_is_there(settings: Settings) -> None:
 
 def names_are_there(settings: Settings, path: KeyPath, section: Any) -> None:
     """Blades, families and scenes that a section at `path` of config.yaml names, if not `all`, are in their files."""
-    designs, documents, refusals = settings.designs, settings.documents, ConfigRefusals()
-    entries = [*designs.entries, *designs.families]
-    if section.blades != "all":
-        refusals.of(documents.known, (*path, "blades"), section.blades, entries, documents.blades)
-    if section.scenes != "all":
-        refusals.of(documents.known, (*path, "scenes"), section.scenes, settings.scene_entries, documents.scenes)
+    refusals = ConfigRefusals()
+    for key, file, designs in files_of_names(settings):
+        if getattr(section, key) not in (None, "all"):
+            refusals.of(settings.documents.known, (*path, key), getattr(section, key), designs.names, file)
     refusals.tell()
+
+
+def files_of_names(settings: Settings) -> list[tuple[str, Document, Designs[Any]]]:
+    """Key of blades and of scenes in a section of config.yaml, the file of their names, and what that has."""
+    documents = settings.documents
+    return [("blades", documents.blades, settings.designs), ("scenes", documents.scenes, settings.scene_designs)]
 
 
 def speed_rules_name_what_is_there(settings: Settings) -> None:
     """Blades and scenes with speeds of their own are in their files."""
-    documents, refusals = settings.documents, ConfigRefusals()
+    refusals = ConfigRefusals()
     for number, rule in enumerate(settings.config.speeds_for):
-        path = ("speeds_for", number)
-        refusals.of(documents.known, (*path, "blades"), rule.blades or [], settings.designs.entries, documents.blades)
-        refusals.of(documents.known, (*path, "scenes"), rule.scenes or [], settings.scene_entries, documents.scenes)
+        refusals.of(names_are_there, settings, ("speeds_for", number), rule)
     refusals.tell()
 
 
@@ -82,7 +85,7 @@ def history_speeds_are_run(settings: Settings) -> None:
     """Stress histories are wanted at speeds that are simulated in their scene."""
     for name, chosen in settings.scenes.items():
         run = {speed for (_, scene), plan in settings.speed_plans.items() if scene == name for speed in plan.certain}
-        entry = settings.scene_entries[name]
+        entry = settings.scene_designs.entries[name]
         key = "stress_history_speeds_rpm" if entry.stress_history_speeds_rpm else "stress_history_speeds_rad_s"
         for value, speed in zip(getattr(entry, key), chosen.stress_history_speeds, strict=True):
             if speed not in run:

@@ -74,13 +74,13 @@ class Reader:
         refusals = ConfigRefusals()
         checked = refusals.of(document.check, self.model)
         files = [self._file(document, key) for key in ("blades_file", "fidelity_file", "scenes_file")]
-        designs = refusals.of(_designs, root, files[0], blades_above)
+        designs = refusals.of(_designs, root, files[0], Blades, blades_above)
         levels = refusals.of(_entries, root, files[1], Levels)
-        scenes = refusals.of(_entries, root, files[2], Scenes, scenes_above)
+        scenes = refusals.of(_designs, root, files[2], Scenes, scenes_above)
         refusals.tell()
         assert checked and designs and levels and scenes
-        documents = Documents(document, designs.document, levels[0], scenes[0])
-        settings = Settings(root, documents, checked, designs, levels[1], scenes[1])
+        documents = Documents(document, designs.document, levels[0], scenes.document)
+        settings = Settings(root, documents, checked, designs, levels[1], scenes)
         for check in self.checks:
             refusals.of(check, settings)
         refusals.tell()
@@ -101,8 +101,8 @@ def _entries(
     return document, document.check(model).root
 
 
-def _designs(root: Path, name: str, above: Document | None) -> Designs:
-    document, entries = _entries(root, name, Blades, above)
+def _designs(root: Path, name: str, model: type[RootModel[dict[str, Any]]], above: Document | None) -> Designs[Any]:
+    document, entries = _entries(root, name, model, above)
     return expanded_families(entries, root, document)
 
 

@@ -119,7 +119,7 @@ def remarks_on_laws(settings: Settings) -> list[str]:
 
 def remarks_on_lobes(settings: Settings, changed: Collection[str] = ()) -> list[str]:
     """Remark on lobes given in clearances in scenes whose clearance is spread, `changed` by a call, or differs in this run."""
-    casings = {name: settings.scene_entries[name].casing for name in settings.scene_names}
+    casings = {name: settings.scene_designs.entries[name].casing for name in settings.scene_names}
     scaled = {name: casing for name, casing in casings.items() if casing.lobes_scale}
     spread, differ = _spread_numbers(settings), len({casing.cold_clearance for casing in scaled.values()}) > 1
     names = [name for name, casing in scaled.items() if differ or name in changed or casing.clearance_key in spread]
@@ -158,7 +158,7 @@ _KEY = "casing.ring.highest_nodal_diameter"
 
 def elastic_casings(settings: Settings) -> dict[str, ElasticCasing]:
     """Elastic casing of each scene to run that has one."""
-    entries = {name: settings.scene_entries[name].casing for name in settings.scene_names}
+    entries = {name: settings.scene_designs.entries[name].casing for name in settings.scene_names}
     return {name: casing.elastic_casing() for name, casing in entries.items() if casing.elastic}
 
 

@@ -14,6 +14,7 @@ from .declaring import DECLARED, declared_by, si_fields, si_form
 from .rotor_section import RotorSection
 from .section import ByName, LeftOut, Rpm, Section, Speed, left_out, refused
 from .speed_section import refuse_both_units
+from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, is_family, vary_field
 
 TipLine = Literal["pressure_edge", "camber", "suction_edge"]
 OF_ONE_BLADE = ("signal", "shapes", "motion_kind")
@@ -46,7 +47,7 @@ class FrictionSection(Section):
 
 @declared_by(Scene)
 class SceneEntry(Section):
-    """One scene of scenes.yaml."""
+    """One scene of scenes.yaml; with `vary` or `designs` a family, many scenes that differ in some numbers."""
 
     tip_line: TipLine | LeftOut = left_out("Line of the contact nodes; by default structure.boundary.tip_line")
     casing: CasingSection
@@ -70,9 +71,13 @@ class SceneEntry(Section):
         default=[], description="Speeds at which the largest stress of every revolution is kept"
     )
     stress_history_speeds_rpm: list[Rpm] = Field(default=[], description="The same speeds in revolutions per minute")
+    vary: Vary = vary_field("casing.clearance_m or lining.thickness_m")
+    combine: Combine = COMBINE
+    designs: DesignTable = designs_field("scene")
 
     @model_validator(mode="after")
     def _results_fit(self) -> SceneEntry:
+        is_family(self)
         histories = ("stress_history_speeds_rad_s", "stress_history_speeds_rpm")
         if all(getattr(self, key) for key in histories):
             refuse_both_units(*histories)

@@ -21,7 +21,7 @@ from .blades import BladeSettings, all_blades
 from .config_file import Config, StructureSection
 from .declaring import si_form
 from .document import ConfigRefusals, Document, Documents
-from .families import Designs
+from .families import AnyEntry, Designs
 from .fidelity import Level, cheapest_level
 from .scenes import SceneEntry
 from .section import ExtensionSection, plain
@@ -51,16 +51,16 @@ class SceneSettings:
 class Settings:
     """Everything the workflow needs to know; what concerns several files is checked by r37core.config.cross_checks.
 
-    `root`: folder that file names start from; `config`: config.yaml; `designs`, `levels` and `scene_entries`: all that their
+    `root`: folder that file names start from; `config`: config.yaml; `designs`, `levels` and `scene_designs`: all that their
     files have, of which `blades`, `fidelity` and `scenes` are those to run, in order.
     """
 
     root: Path
     documents: Documents
     config: Config
-    designs: Designs
+    designs: Designs[AnyEntry]
     levels: dict[str, Level]
-    scene_entries: dict[str, SceneEntry]
+    scene_designs: Designs[SceneEntry]
 
     @property
     def structure(self) -> StructureSection:
@@ -84,7 +84,7 @@ class Settings:
         """
         chosen, designs = self.config.blades, self.designs
         if chosen != "all":
-            self.documents.known(("blades",), chosen, [*designs.entries, *designs.families], self.documents.blades)
+            self.documents.known(("blades",), chosen, designs.names, self.documents.blades)
         several = list(designs.entries) if chosen == "all" else designs.named(chosen)
         names = self.config.run.part_blades(several)
         if not names:
@@ -99,11 +99,15 @@ class Settings:
 
     @cached_property
     def scene_names(self) -> list[str]:
-        """Names of the scenes to run. Raises ConfigError for a name that is not in the file."""
-        if self.config.scenes == "all":
-            return list(self.scene_entries)
-        self.documents.known(("scenes",), self.config.scenes, self.scene_entries, self.documents.scenes)
-        return list(self.config.scenes)
+        """Scenes that config.yaml chooses, of a family all of its designs.
+
+        Raises ConfigError for a name that is not in the file.
+        """
+        chosen, designs = self.config.scenes, self.scene_designs
+        if chosen == "all":
+            return list(designs.entries)
+        self.documents.known(("scenes",), chosen, designs.names, self.documents.scenes)
+        return designs.named(chosen)
 
     @cached_property
     def scenes(self) -> dict[str, SceneSettings]:
@@ -117,7 +121,7 @@ class Settings:
                 results=tuple(entry.results),
                 stress_history_speeds=entry.stress_history_speeds(),
             )
-            for name, entry in ((name, self.scene_entries[name]) for name in self.scene_names)
+            for name, entry in ((name, self.scene_designs.entries[name]) for name in self.scene_names)
         }
 
     @cached_property
@@ -134,7 +138,7 @@ class Settings:
     @property
     def direct_on_points(self) -> tuple[list[str], list[str]]:
         """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
-        scenes = [name for name in self.scene_names if self.scene_entries[name].lining is None]
+        scenes = [name for name in self.scene_names if self.scene_designs.entries[name].lining is None]
         meshed = [name for name, blade in self.blades.items() if not blade.is_matrices]
         blades = [name for name in meshed if self.contact_of(name) == POINTS]
         return (scenes, blades) if scenes and blades else ([], [])
@@ -155,7 +159,8 @@ class Settings:
         assert general
         return {
             (blade, scene): next(
-                (plan for (_, rule), plan in zip(sections, special, strict=True) if plan and rule.fits(blade, scene)), general
+                (plan for (_, rule), plan in zip(sections, special, strict=True) if plan and _fits(self, rule, blade, scene)),
+                general,
             )
             for blade in self.blade_names
             for scene in self.scene_names
@@ -178,7 +183,7 @@ class Settings:
         return {
             "config": {key: value for key, value in plain(self.config).items() if key not in other_speeds},
             "fidelity": {self.fidelity_name: plain(self.fidelity)},
-            "scenes": {name: plain(self.scene_entries[name]) for name in self.scenes},
+            "scenes": {name: plain(self.scene_designs.entries[name]) for name in self.scenes},
             "blades": to_plain(self.blades),
         }
 
@@ -238,6 +243,21 @@ def _planned(document: Document, path: KeyPath, section: Config | SpeedRule, ste
         return plan_speeds(entries, step, UNITS[key])
     except SpeedError as error:
         raise document.error((*path, key), str(error)) from None
+
+
+def blades_named(settings: Settings, chosen: Sequence[str] | str) -> list[str]:
+    """Blades and designs of families of these names; those that are run for `all`."""
+    return settings.blade_names if chosen == "all" else settings.designs.named(chosen)
+
+
+def scenes_named(settings: Settings, chosen: Sequence[str] | str) -> list[str]:
+    """Scenes and designs of families of these names; those that are run for `all`."""
+    return settings.scene_names if chosen == "all" else settings.scene_designs.named(chosen)
+
+
+def _fits(settings: Settings, rule: SpeedRule, blade: str, scene: str) -> bool:
+    """Whether a rule of speeds is for this blade in this scene."""
+    return blade in blades_named(settings, rule.blades or "all") and scene in scenes_named(settings, rule.scenes or "all")
 
 
 def location_of_contact(settings: Settings, blade: str) -> str:

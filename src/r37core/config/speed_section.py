@@ -65,10 +65,6 @@ class SpeedRule(Section):
             raise refused((), "neither speeds nor speeds_rpm", "one of them")
         return self
 
-    def fits(self, blade: str, scene: str) -> bool:
-        """Whether the rule is for this blade in this scene."""
-        return (self.blades is None or blade in self.blades) and (self.scenes is None or scene in self.scenes)
-
 
 def refuse_both_units(first: str, second: str) -> None:
     """Raise the error of a section that gives the same speeds in two keys, of two units."""

@@ -2,7 +2,7 @@
 
 import math
 
-from r37core.config import Settings
+from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
 from r37core.config.speed_choice import length_of_run
@@ -39,8 +39,8 @@ def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
             f"{entry.crossing.engine_order}",
             f"at most campbell.highest_engine_order ({settings.config.campbell.highest_engine_order})",
         )
-    for scene in settings.scenes if entry.scenes == "all" else entry.scenes:
-        if entry.lining == "worn" and settings.scene_entries[scene].lining is None:
+    for scene in scenes_named(settings, entry.scenes):
+        if entry.lining == "worn" and settings.scene_designs.entries[scene].lining is None:
             lining = f"worn in the scene '{scene}', which has no lining"
             raise document.refusal((*path, "lining"), lining, "new, or scenes with a lining")
 
@@ -64,7 +64,7 @@ def no_rotors(settings: Settings) -> None:
     """Run-ups are wanted of single blades."""
     rotors = [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is not None]
     for name, entry in entries(settings).items():
-        for scene in rotors if entry.scenes == "all" else [scene for scene in entry.scenes if scene in rotors]:
+        for scene in [scene for scene in scenes_named(settings, entry.scenes) if scene in rotors]:
             raise settings.documents.config.refusal(
                 ("run_ups", name, "scenes"),
                 f"'{scene}', which has a rotor",

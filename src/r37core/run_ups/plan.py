@@ -5,7 +5,7 @@ from functools import cached_property
 from itertools import product
 from typing import Any
 
-from r37core.config import Settings
+from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.remarks import elastic_casings, remark_on_overtaken_waves
 from r37core.config.speed_choice import fastest_of
 from r37core.plain import to_plain
@@ -50,8 +50,7 @@ class RunUps:
             (blade, scene): {} for blade in settings.blade_names for scene in settings.scene_names
         }
         for name, entry in entries(settings).items():
-            blades = settings.blade_names if entry.blades == "all" else settings.designs.named(entry.blades)
-            scenes = settings.scene_names if entry.scenes == "all" else entry.scenes
+            blades, scenes = blades_named(settings, entry.blades), scenes_named(settings, entry.scenes)
             choices = {scene: entry.choice(settings.scenes[scene].revolutions) for scene in scenes if scene in settings.scenes}
             for blade, (scene, choice) in product(blades, choices.items()):
                 if (blade, scene) in pair_choices:

@@ -85,7 +85,7 @@ def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None
     if tolerances is None:
         return
     path = ("search", "tolerances")
-    known = {key for scene in designs.scenes for key in scene_numbers(settings.scene_entries[scene])}
+    known = {key for scene in designs.scenes for key in scene_numbers(settings.scene_designs.entries[scene])}
     for where, allowed in (("of_blades", BLADE_KEYS), ("of_scenes", sorted(known))):
         for key in getattr(tolerances, where):
             if key not in allowed:

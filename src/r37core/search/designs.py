@@ -100,7 +100,7 @@ class SearchDesigns:
 
     def _members(self, name: str, blade: BladeSettings, scene: str) -> dict[str, Member]:
         """Members under tolerances, with a model of their own where the blade is another one."""
-        tolerances, scene_entry = self.entry.tolerances, self.settings.scene_entries[scene]
+        tolerances, scene_entry = self.entry.tolerances, self.settings.scene_designs.entries[scene]
         if tolerances is None:
             return {}
         scene_values, spreads = scene_numbers(scene_entry), tolerances.spreads

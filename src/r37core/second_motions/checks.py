@@ -1,6 +1,6 @@
 """Checks of the second motions that need more than their section."""
 
-from r37core.config import Settings
+from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
 from r37core.config.speed_choice import length_of_run
@@ -21,8 +21,8 @@ def can_be_swept(settings: Settings) -> None:
     sweep, path, refusals = section.sweep(), ("second_motions",), ConfigRefusals()
     if settings.structure.coriolis:
         raise document.refusal(path, "sweeps with structure.coriolis: true", "none; they do not carry the Coriolis force yet")
-    for scene in [] if section.scenes == "all" else section.scenes:
-        entry = settings.scene_entries[scene]
+    for scene in [] if section.scenes == "all" else scenes_named(settings, section.scenes):
+        entry = settings.scene_designs.entries[scene]
         if entry.rotor is not None:
             raise document.refusal((*path, "scenes"), f"'{scene}', which has a rotor", "scenes of a single blade")
     count = (sweep.last - sweep.first) / sweep.step + 1.0

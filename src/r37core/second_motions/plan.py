@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from r37core.config import Settings
+from r37core.config import Settings, blades_named, scenes_named
 from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.provenance import Provenance
@@ -34,10 +34,11 @@ def pairs_of(settings: Settings) -> list[tuple[str, str]]:
     section = section_of(settings)
     if not section.asked:
         return []
-    blades = settings.blade_names if section.blades == "all" else settings.designs.named(section.blades)
     single = [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is None]
-    scenes = single if section.scenes == "all" else [name for name in section.scenes if name in settings.scenes]
-    return [(blade, scene) for blade in blades if blade in settings.blade_names for scene in scenes]
+    scenes = single if section.scenes == "all" else [n for n in scenes_named(settings, section.scenes) if n in settings.scenes]
+    return [
+        (blade, scene) for blade in blades_named(settings, section.blades) if blade in settings.blade_names for scene in scenes
+    ]
 
 
 @dataclass(frozen=True)

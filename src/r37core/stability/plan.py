@@ -105,7 +105,7 @@ def extremes(settings: Settings) -> list[Extreme]:
         for value in EXTREMES[what][0]
         for scene in section.scenes_of(settings)
     )
-    entries = {name: plain(entry) for name, entry in settings.scene_entries.items()}
+    entries = {name: plain(entry) for name, entry in settings.scene_designs.entries.items()}
     return [
         extreme
         for extreme in several
@@ -123,7 +123,7 @@ def cases(settings: Settings) -> dict[str, Case]:
 
 
 def _case(settings: Settings, extreme: Extreme) -> Case:
-    section, entry = settings.section(SECTION), plain(settings.scene_entries[extreme.scene])
+    section, entry = settings.section(SECTION), plain(settings.scene_designs.entries[extreme.scene])
     blade, base = section.blade_of(settings), section.base_of(settings)
     assert blade is not None
     scene, refused = None, _refusal(settings, blade, extreme)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
 
-from r37core.config import BladeSettings, ConfigError, Settings
+from r37core.config import BladeSettings, ConfigError, Settings, blades_named, scenes_named
 from r37core.config.changed_numbers import (
     BLADE_KEYS,
     ImpossibleValueError,
@@ -59,8 +59,7 @@ class Members:
     def _chosen(self) -> tuple[list[str], list[str]]:
         """Blades and scenes that are to have members."""
         settings, entry = self._settings, self._entry
-        blades = settings.blade_names if entry.blades == "all" else settings.designs.named(entry.blades)
-        return blades, settings.scene_names if entry.scenes == "all" else entry.scenes
+        return blades_named(settings, entry.blades), scenes_named(settings, entry.scenes)
 
     @cached_property
     def _nominals(self) -> dict[tuple[str, str], list[float | None]]:
@@ -74,7 +73,7 @@ class Members:
     @cached_property
     def _scene_numbers(self) -> dict[str, dict[str, float]]:
         """Numbers of the scenes that are run, by dotted key."""
-        return {name: scene_numbers(self._settings.scene_entries[name]) for name in self._settings.scene_names}
+        return {name: scene_numbers(self._settings.scene_designs.entries[name]) for name in self._settings.scene_names}
 
     @cached_property
     def all(self) -> dict[tuple[str, str], dict[str, Member]]:
@@ -139,7 +138,7 @@ class Members:
         )
         return (
             self._possible("of_blades", who, lambda: changed_blade(settings.blades[blade], blade_changes)),
-            self._possible("of_scenes", who, lambda: changed_scene(settings.scene_entries[scene], scene_changes)),
+            self._possible("of_scenes", who, lambda: changed_scene(settings.scene_designs.entries[scene], scene_changes)),
         )
 
     def _possible(self, section: str, who: str, change: Callable[[], T]) -> T:

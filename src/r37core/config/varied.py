@@ -1,0 +1,65 @@
+"""Keys that make one entry a family of designs: `vary`, `combine` and `designs`, of blades and of scenes."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from r37core.speeds import spaced
+
+from .section import FileName, LeftOut, Section, Unique, left_out, refused
+
+LARGEST_FAMILY = 10_000
+"""Designs of one entry."""
+
+
+class Variation(Section):
+    """Values from `start` to `stop`, both included, as far as the step goes."""
+
+    start: float = Field(ge=-1e12, le=1e12, description="First value, in the unit of the varied key")
+    stop: float = Field(ge=-1e12, le=1e12, description="Last value, if the step reaches it")
+    step: float = Field(ge=1e-12, le=1e12, description="Distance between values")
+
+    @model_validator(mode="after")
+    def _forward(self) -> Variation:
+        if self.stop < self.start:
+            raise refused(("stop",), f"{self.stop:g}", f"not below start ({self.start:g})")
+        if self.step > self.stop - self.start > 0.0:
+            raise refused(("step",), f"{self.step:g}", f"at most stop - start ({self.stop - self.start:g})")
+        if (self.stop - self.start) / self.step >= LARGEST_FAMILY:
+            raise refused(("step",), f"{self.step:g}", f"at most {LARGEST_FAMILY} values")
+        return self
+
+    def values(self) -> list[float]:
+        """All values of the range."""
+        return spaced(self.start, self.stop, self.step)
+
+
+Varied = Annotated[
+    Annotated[Unique[float], Tag("list")] | Annotated[Variation, Tag("range")],
+    Discriminator(lambda value: "list" if isinstance(value, list) else "range"),
+]
+Vary = Annotated[dict[str, Varied], Field(min_length=1)] | LeftOut
+Combine = Literal["grid", "pairs"]
+DesignTable = FileName | LeftOut
+COMBINE: Any = Field(default="grid", description="grid combines every value with every other, pairs the first with the first")
+FAMILY_KEYS = ("vary", "combine", "designs")
+
+
+def vary_field(example: str) -> Any:
+    """Field of the key `vary`; `example`: of keys."""
+    return left_out(f"Family: values of numeric keys, such as {example}")
+
+
+def designs_field(kind: str) -> Any:
+    """Field of the key `designs` of a `kind` of entry."""
+    return left_out(f"Family as a table (CSV): a design per row, its name in the column `{kind}`, then numeric keys")
+
+
+def is_family(entry: Any) -> bool:
+    """Whether an entry is a family. Raises the error of one that is so in two ways."""
+    ways = [key for key in ("vary", "designs") if getattr(entry, key, None) is not None]
+    if len(ways) > 1:
+        raise refused((), "both vary and designs", "one of them")
+    return bool(ways)
