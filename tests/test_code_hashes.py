@@ -195,7 +195,7 @@ def test_every_rule_of_a_step_names_one_that_is_there(rules):
 def test_a_figure_s_parameters_have_the_code_of_its_module(root):
     code = CodeHashes(root / "src", root / "workflow/scripts")
     step = "r37core.figures.steps.draw"
-    assert drawing(code, "figures.maps.draw_map")["code"] == code("step", step, "r37core.figures.maps") != code("step", step)
+    assert drawing(code, None, "figures.maps.draw_map")["code"] == code("step", step, "r37core.figures.maps") != code("step", step)
     names = {file.name for file in code.closure("step", step, "r37core.figures.maps")}
     assert "maps.py" in names
     assert not {"waterfall.py", "comparison.py", "response_curves.py", "blade_shapes.py"} & names

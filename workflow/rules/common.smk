@@ -1,12 +1,14 @@
 # Settings of this run, and the plans that the rules take their inputs and parameters from (r37core.plans).
 # Snakemake re-runs a job when a parameter of plain types changes.
+from functools import partial
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from r37core.config import plain
+from r37core.config import operating_range, plain
 from r37core.console.snakemake_run import PYTHON, begin
 from r37core.explorer import parts_hash, page_parts
+from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes, EngineNumbers
 from r37core.plans.provenance import Provenance
@@ -14,7 +16,7 @@ from r37core.plans.stages import Stage, structure_stages, sweep_stages
 from r37core.plans.structure_plan import Imported, Structure
 from r37core.plans.sweep_plan import MAPS, Datasets, Rounds, Simulations, Sweep
 from r37core.product.extensions import beside, sampling_of
-from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing
+from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing as drawing_of
 from r37core.product.targets import (
     motion_files,
     panel_files,
@@ -45,6 +47,9 @@ imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
 simulations, rounds, joined = Simulations(sweep), Rounds(sweep), Datasets(sweep)
 more_motions = motion_files(sweep)
+# speeds in operation, by which results are judged as well
+operating = to_plain(operating_range(settings))
+drawing = partial(drawing_of, code, operating)
 stages = {**structure_stages(structure, made), **sweep_stages(sweep, made)}
 
 

@@ -32,4 +32,4 @@ use rule figure as design_figure with:
     wildcard_constraints:
         family="|".join(families_of(settings)) or "none",
     params:
-        **drawing(code, "designs.figures.draw_designs", "designs", blades=families.blades, varied=families.varied),
+        **drawing("designs.figures.draw_designs", "designs", blades=families.blades, varied=families.varied),

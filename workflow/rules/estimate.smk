@@ -36,4 +36,4 @@ use rule figure as estimate_figure with:
     log:
         "<logs>/figures/estimate.log",
     params:
-        **drawing(code, "estimate.figures.draw_estimate", "estimate"),
+        **drawing("estimate.figures.draw_estimate", "estimate"),

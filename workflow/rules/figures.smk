@@ -16,7 +16,7 @@ use rule figure as campbell_figure with:
     log:
         "<logs>/figures/campbell_{blade}.log",
     params:
-        **drawing(code, "figures.campbell_diagram.draw_campbell", "campbell", casings=joined.casings),
+        **drawing("figures.campbell_diagram.draw_campbell", "campbell", casings=joined.casings),
 
 
 use rule figure as campbell_overview with:
@@ -27,7 +27,7 @@ use rule figure as campbell_overview with:
     log:
         "<logs>/figures/campbell_overview.log",
     params:
-        **drawing(code, "figures.campbell_diagram.draw_campbell_overview", "campbell_overview"),
+        **drawing("figures.campbell_diagram.draw_campbell_overview", "campbell_overview"),
 
 
 use rule figure as response_figure with:
@@ -39,7 +39,7 @@ use rule figure as response_figure with:
     log:
         "<logs>/figures/response_{blade}.log",
     params:
-        **drawing(code, "figures.response_curves.draw_response", "response"),
+        **drawing("figures.response_curves.draw_response", "response"),
 
 
 use rule figure as response_overview with:
@@ -50,7 +50,7 @@ use rule figure as response_overview with:
     log:
         "<logs>/figures/response_overview.log",
     params:
-        **drawing(code, "figures.response_curves.draw_response_overview", "response_overview"),
+        **drawing("figures.response_curves.draw_response_overview", "response_overview"),
 
 
 use rule figure as map_figure with:
@@ -64,7 +64,7 @@ use rule figure as map_figure with:
     wildcard_constraints:
         kind="|".join(MAPS),
     params:
-        **drawing(code, "figures.maps.draw_map"),
+        **drawing("figures.maps.draw_map"),
 
 
 use rule figure as waterfall_figure with:
@@ -76,7 +76,7 @@ use rule figure as waterfall_figure with:
     log:
         "<logs>/figures/waterfall_{blade}__{scene}.log",
     params:
-        **drawing(code, "figures.waterfall.draw_waterfall", "waterfall"),
+        **drawing("figures.waterfall.draw_waterfall", "waterfall"),
 
 
 use rule figure as comparison_figure with:
@@ -88,7 +88,6 @@ use rule figure as comparison_figure with:
         "<logs>/figures/comparison_{scene}.log",
     params:
         **drawing(
-            code,
             "figures.comparison.draw_comparison",
             "comparison",
             below=settings.config.interactions.below,
@@ -104,7 +103,7 @@ use rule figure as ranking_figure with:
     log:
         "<logs>/figures/ranking.log",
     params:
-        **drawing(code, "figures.comparison.draw_ranking", "ranking"),
+        **drawing("figures.comparison.draw_ranking", "ranking"),
 
 
 use rule figure as clearance_figure with:
@@ -115,7 +114,7 @@ use rule figure as clearance_figure with:
     log:
         "<logs>/figures/clearance_{scene}.log",
     params:
-        **drawing(code, "figures.response_curves.draw_clearance", "clearance"),
+        **drawing("figures.response_curves.draw_clearance", "clearance"),
 
 
 use rule step as blade_shapes_figure with:

@@ -38,4 +38,4 @@ use rule figure as rotor_figure with:
     log:
         "<logs>/figures/rotor_{blade}__{scene}.log",
     params:
-        **drawing(code, "rotors.figures.draw_rotor", "rotor"),
+        **drawing("rotors.figures.draw_rotor", "rotor"),

@@ -50,7 +50,7 @@ use rule figure as run_up_figure with:
     log:
         "<logs>/figures/run_ups_{blade}__{scene}.log",
     params:
-        **drawing(code, "run_ups.figures.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
+        **drawing("run_ups.figures.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
 
 
 use rule figure as run_up_rates_figure with:
@@ -61,4 +61,4 @@ use rule figure as run_up_rates_figure with:
     log:
         "<logs>/figures/run_up_rates_{scene}.log",
     params:
-        **drawing(code, "run_ups.figures.draw_rates", "run_up_rates", scene="{scene}"),
+        **drawing("run_ups.figures.draw_rates", "run_up_rates", scene="{scene}"),

@@ -123,7 +123,7 @@ use rule figure as search_designs_figure with:
     log:
         "<logs>/figures/search_designs.log",
     params:
-        **drawing(code, "search.figures.draw_designs", "search_designs"),
+        **drawing("search.figures.draw_designs", "search_designs"),
 
 
 use rule figure as search_slices_figure with:
@@ -134,4 +134,4 @@ use rule figure as search_slices_figure with:
     log:
         "<logs>/figures/search_slices.log",
     params:
-        **drawing(code, "search.figures.draw_slices", "search_slices"),
+        **drawing("search.figures.draw_slices", "search_slices"),

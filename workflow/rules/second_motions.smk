@@ -118,7 +118,6 @@ use rule figure as second_motions_figure with:
         "<logs>/figures/second_motions_{blade}__{scene}.log",
     params:
         **drawing(
-            code,
             "second_motions.figures.draw_second_motions",
             "second_motions",
             blade="{blade}",
@@ -134,4 +133,4 @@ use rule figure as second_motions_overview with:
     log:
         "<logs>/figures/second_motions_{scene}.log",
     params:
-        **drawing(code, "second_motions.figures.draw_overview", "second_motions_of_all"),
+        **drawing("second_motions.figures.draw_overview", "second_motions_of_all"),

@@ -45,7 +45,7 @@ use rule figure as spectrogram_figure with:
     log:
         "<logs>/figures/spectrogram_{blade}__{scene}.log",
     params:
-        **drawing(code, "signals.figures.draw_spectrograms", "spectrogram"),
+        **drawing("signals.figures.draw_spectrograms", "spectrogram"),
 
 
 use rule figure as orders_figure with:
@@ -56,4 +56,4 @@ use rule figure as orders_figure with:
     log:
         "<logs>/figures/orders_{blade}__{scene}.log",
     params:
-        **drawing(code, "signals.figures.draw_orders", "orders"),
+        **drawing("signals.figures.draw_orders", "orders"),

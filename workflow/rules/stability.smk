@@ -36,4 +36,4 @@ use rule figure as stability_figure with:
     log:
         "<logs>/figures/stability.log",
     params:
-        **drawing(code, "stability.figures.draw_stability", "stability"),
+        **drawing("stability.figures.draw_stability", "stability"),

@@ -46,4 +46,4 @@ use rule figure as tolerance_figure with:
     log:
         "<logs>/figures/tolerances_{blade}__{scene}.log",
     params:
-        **drawing(code, "tolerances.figures.draw_tolerances", "tolerances"),
+        **drawing("tolerances.figures.draw_tolerances", "tolerances"),

@@ -39,7 +39,7 @@ use rule figure as tradeoff_figure with:
     log:
         "<logs>/figures/tradeoff.log",
     params:
-        **drawing(code, "tradeoff.figures.draw_tradeoff", "tradeoff"),
+        **drawing("tradeoff.figures.draw_tradeoff", "tradeoff"),
 
 
 use rule figure as tradeoff_growth_figure with:
@@ -51,7 +51,7 @@ use rule figure as tradeoff_growth_figure with:
     log:
         "<logs>/figures/tradeoff_growth.log",
     params:
-        **drawing(code, "tradeoff.figures.draw_growth", "tradeoff_growth"),
+        **drawing("tradeoff.figures.draw_growth", "tradeoff_growth"),
 
 
 use rule figure as tradeoff_parameter_figure with:
@@ -64,4 +64,4 @@ use rule figure as tradeoff_parameter_figure with:
     wildcard_constraints:
         parameter="|".join(tradeoff_plan.CHANGES),
     params:
-        **drawing(code, "tradeoff.figures.draw_parameter", "tradeoff_parameter", parameter="{parameter}"),
+        **drawing("tradeoff.figures.draw_parameter", "tradeoff_parameter", parameter="{parameter}"),

@@ -15,6 +15,7 @@ from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice
 
 from .blade_sections import Contact, Submesh
 from .declaring import DECLARED, declared_by
+from .operating_section import OperatingSection
 from .section import AllOrNames, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 
@@ -145,6 +146,7 @@ class Config(Section):
         default=[], description="Other speeds for some blades or scenes; the first entry that fits counts"
     )
     structure: StructureSection = StructureSection()
+    operating: OperatingSection | LeftOut = left_out("Speeds in operation, which results are judged by as well")
     interactions: Interactions = Interactions()
     refinement: RefinementSection = RefinementSection()
     tolerance: float = Field(

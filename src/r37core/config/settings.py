@@ -12,6 +12,7 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.plain import to_plain
+from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice, StressSubmesh
 from r37core.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -253,6 +254,12 @@ def blades_named(settings: Settings, chosen: Sequence[str] | str) -> list[str]:
 def scenes_named(settings: Settings, chosen: Sequence[str] | str) -> list[str]:
     """Scenes and designs of families of these names; those that are run for `all`."""
     return settings.scene_names if chosen == "all" else settings.scene_designs.named(chosen)
+
+
+def operating_range(settings: Settings) -> OperatingRange | None:
+    """Speeds in operation, where config.yaml has them."""
+    section = settings.config.operating
+    return None if section is None else section.operating()
 
 
 def _fits(settings: Settings, rule: SpeedRule, blade: str, scene: str) -> bool:

@@ -26,7 +26,7 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
     figure, (left, right) = plt.subplots(1, 2, figsize=(style.PAGE, 3.6), width_ratios=[1.7, 1.0])
     speed = campbell["speed"].values
     highest = 1.3 * float(campbell["frequency"].sel(mode="2B").max())
-    left.set(xlabel="speed (rad/s)", ylabel="frequency (Hz)", ylim=(0.0, highest), xlim=(0.0, speed[-1]))
+    left.set(xlabel=style.SPEED_LABEL, ylabel="frequency (Hz)", ylim=(0.0, highest), xlim=(0.0, speed[-1]))
     _draw_engine_orders(left, campbell["engine_order"].values, speed, highest)
     for name in campbell["mode"].values:
         frequency = campbell["frequency"].sel(mode=name)
@@ -59,7 +59,7 @@ def draw_campbell_overview(campbell: xr.Dataset) -> Figure:
             axes.plot(speed, frequencies.sel(blade=blade), label=str(blade), **styles[str(blade)])
         low, high = float(frequencies.min()), float(frequencies.max())
         margin = 0.08 * (high - low)
-        axes.set(xlabel="speed (rad/s)", title=name, xlim=(0.0, speed[-1]), ylim=(low - margin, high + margin))
+        axes.set(xlabel=style.SPEED_LABEL, title=name, xlim=(0.0, speed[-1]), ylim=(low - margin, high + margin))
         _draw_engine_orders(axes, campbell["engine_order"].values, speed, high + margin)
         style.rpm_axis(axes, most_ticks=5)
     panels[0].set_ylabel("frequency (Hz)")

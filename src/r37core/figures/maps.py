@@ -64,7 +64,7 @@ def _draw_spectrum(strip: Axes, axes: Axes, amplitude: xr.DataArray, campbell: x
         order_of_mode = 2.0 * np.pi * frequency.values[1:] / turning
         axes.plot(turning, order_of_mode, color="white", linewidth=0.6, alpha=0.7, dashes=(3.0, 5.0))
         _write_on_dark(axes, mode, 0.99, float(np.interp(speed[-1], turning, order_of_mode)), ha="right", va="bottom")
-    axes.set(xlabel="speed (rad/s)", xlim=(float(speed[0]), float(speed[-1])), ylim=(0.0, round(float(order[-1]))))
+    axes.set(xlabel=style.SPEED_LABEL, xlim=(float(speed[0]), float(speed[-1])), ylim=(0.0, round(float(order[-1]))))
     axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     axes.grid(False)
     return picture
@@ -95,7 +95,7 @@ def draw_wear_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
         axes.plot(worn, np.full(len(worn), 0.97), "v", transform=axes.get_xaxis_transform(), **look)
     else:
         style.say(axes, style.ALL_DIVERGED)
-    axes.set(xlabel="speed (rad/s)", ylabel="angle round the casing (degrees)", title=f"wear: {title}")
+    axes.set(xlabel=style.SPEED_LABEL, ylabel="angle round the casing (degrees)", title=f"wear: {title}")
     style.rpm_axis(axes)
     axes.grid(False)
     return figure
@@ -157,8 +157,8 @@ def draw_casing_map(maps: xr.Dataset, title: str) -> Figure:
     energy = maps["casing_energy"].transpose("casing_mode", "speed").values.sum(axis=0)
     look = "." if len(speed) == 1 else "-"
     panels[1, 0].semilogy(speed, np.maximum(energy, 1e-15), look)
-    panels[1, 0].set(xlabel="speed (rad/s)", ylabel="energy (J)")
+    panels[1, 0].set(xlabel=style.SPEED_LABEL, ylabel="energy (J)")
     total = 1e3 * np.sqrt(sum(np.sum(level**2, axis=0) for level in levels.values()))
     panels[1, 1].semilogy(speed, np.maximum(total, 1e-12), look)
-    panels[1, 1].set(xlabel="speed (rad/s)", ylabel="rms (mm)")
+    panels[1, 1].set(xlabel=style.SPEED_LABEL, ylabel="rms (mm)")
     return figure

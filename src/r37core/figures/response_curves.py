@@ -47,7 +47,7 @@ def draw_response(
             panels[2].plot(largest["speed"], 1e-9 * largest, ".-", markersize=3, label=str(scene))
         style.yield_lines(panels[2], stress["yield_stress"].to_series(), named=True)
         panels[2].set_ylabel("largest von Mises (GPa)")
-    panels[-1].set_xlabel("speed (rad/s)")
+    panels[-1].set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
     figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     return figure
@@ -66,7 +66,7 @@ def draw_response_overview(rms: xr.Dataset) -> Figure:
         axes.set_title(f"rms, {title}, leading edge (mm)")
         style.rpm_axis(axes)
     for axes in grid[-1]:
-        axes.set_xlabel("speed (rad/s)")
+        axes.set_xlabel(style.SPEED_LABEL)
     figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=4)
     return figure
 
@@ -130,7 +130,7 @@ def draw_clearance(rms: xr.Dataset, title: str) -> Figure:
         for name, node, line in (("leading edge", 0, "-"), ("trailing edge", -1, "--")):
             curve = room.isel(contact_node=node)
             axes.plot(curve["speed"], curve, label=f"{blade}, {name}", color=styles[str(blade)]["color"], linestyle=line)
-    axes.set(xlabel="speed (rad/s)", ylabel="clearance before vibration (µm)", title=f"clearance in scene {title}")
+    axes.set(xlabel=style.SPEED_LABEL, ylabel="clearance before vibration (µm)", title=f"clearance in scene {title}")
     style.rpm_axis(axes)
     figure.legend(loc="outside right center")
     return figure

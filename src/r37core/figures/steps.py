@@ -5,24 +5,30 @@ from typing import Any
 
 from r37core.dataset_file import read_dataset
 from r37core.io import as_list
+from r37core.plain import from_plain
+from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table
 
 from .blade_shapes import draw_blade_shapes
-from .style import picture_figure, save
+from .style import mark_operating, picture_figure, save
 
 
 def draw(input: Any, output: Any, params: Any) -> None:
     """Draw a figure. Inputs: named as its function takes them. Outputs: png, pdf.
 
-    Params: those of `reporting.drawing`; draw: the function, `module.function`; of: the wildcards; caption.
+    Params: those of `reporting.drawing`; draw: the function, `module.function`; of: the wildcards; caption; operating.
     """
     arguments = dict(params.items())
+    operating = arguments.pop("operating", None)
     function, caption, of, *_ = (arguments.pop(name) for name in ("draw", "caption", "of", "step", "code"))
     # a table, or the part of a dataset that is of the figure's blade and scene
     arguments |= {name: read_table(file) if file.endswith(".csv") else read_dataset(file, of) for name, file in input.items()}
     if of:
         arguments["title"] = ", ".join(of.values())
-    save(resolve_name(function)(**arguments), [output.png, output.pdf], caption)
+    figure = resolve_name(function)(**arguments)
+    if operating:
+        mark_operating(figure, from_plain(OperatingRange, operating))
+    save(figure, [output.png, output.pdf], caption)
 
 
 def blade_shapes(input: Any, output: Any, params: Any) -> None:

@@ -22,6 +22,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
 from r37core.io import atomic_write
+from r37core.results.operating_range import OperatingRange
 from r37core.units import RPM
 
 COLUMN, PAGE = 3.5, 7.2
@@ -35,6 +36,10 @@ CURVES = {
     "max_von_mises": ("largest von Mises (GPa)", 1e-9),
 }
 """Variable that is drawn over speed -> label of its axis, and what a unit there is in the SI, inverted."""
+
+SPEED_LABEL = "speed (rad/s)"
+RUN_UP_LABEL = "mean speed of the revolution (rad/s)"
+"""Labels of axes of speeds, by which the operating range is marked."""
 
 OUTSIDE = "above yield: outside the linear model"
 
@@ -111,6 +116,23 @@ def mark_diverged(axes: Axes, places: np.ndarray, colour: str = "red") -> None:
     if len(places):
         where = axes.get_xaxis_transform()
         axes.plot(places, np.full(len(places), 0.97), "x", color=colour, label="diverged", transform=where)
+
+
+def mark_operating(figure: Figure, operating: OperatingRange) -> None:
+    """Shade the judged range of operation and its dwells, with lines at its ends, in every panel with an axis of speeds."""
+    spans = [(operating.first, operating.last, 0.12), *((dwell.start, dwell.stop, 0.2) for dwell in operating.dwell)]
+    for axes in figure.axes:
+        labels = {panel.get_xlabel() for panel in axes.get_shared_x_axes().get_siblings(axes)}
+        across, upward = labels & {SPEED_LABEL, RUN_UP_LABEL}, axes.get_ylabel() == SPEED_LABEL
+        limits = axes.get_xlim(), axes.get_ylim()
+        for span, line in ([(axes.axvspan, axes.axvline)] if across else []) + (
+            [(axes.axhspan, axes.axhline)] if upward else []
+        ):
+            for begin, end, alpha in spans:
+                span(begin, end, color=COLOURS[4], alpha=alpha, linewidth=0.0, zorder=0.0)
+            for end in (operating.first, operating.last):
+                line(end, color=COLOURS[4], linewidth=0.9, linestyle="-.")
+        axes.set(xlim=limits[0], ylim=limits[1])
 
 
 ALL_DIVERGED = "every run diverged"

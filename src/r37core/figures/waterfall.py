@@ -37,7 +37,7 @@ def draw_waterfall(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure
         axes.set(xlabel="frequency (Hz)", xlim=(0.0, highest))
         axes.set_title(f"leading edge, {direction}", pad=14)
         axes.grid(False)
-    panels[0].set_ylabel("speed (rad/s)")
+    panels[0].set_ylabel(style.SPEED_LABEL)
     style.rpm_axis_beside(panels[1])
     return figure
 

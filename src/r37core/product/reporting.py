@@ -1,6 +1,6 @@
 """What the report (snakemake --report) shows: categories by blade, then scene, labels and captions."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from r37core.figures import captions
@@ -17,12 +17,17 @@ def captioned(figure: str | None = None) -> Callable[[Any], str]:
     return lambda wildcards: caption(figure or wildcards.kind, **dict(wildcards.items()))
 
 
-def drawing(code: CodeHashes, function: str, figure: str | None = None, **arguments: Any) -> dict[str, Any]:
+def drawing(
+    code: CodeHashes, operating: Mapping[str, Any] | None, function: str, figure: str | None = None, **arguments: Any
+) -> dict[str, Any]:
     """Parameters of a rule of figures: the `function` of r37core, as `folder.module.function`, and its code alone.
 
-    `arguments`: what the function takes beside the datasets; `figure`: the kind that the caption is of, as in `captioned`.
+    `operating`: range of speeds that is marked in the figure, as plain values; `arguments`: what the function takes beside the
+    datasets; `figure`: the kind that the caption is of, as in `captioned`.
     """
     step = code.step("figures.steps.draw", function.rpartition(".")[0])
+    if operating:
+        arguments["operating"] = operating
     return {**step, "draw": f"r37core.{function}", "of": _title_parts, "caption": captioned(figure), **arguments}
 
 

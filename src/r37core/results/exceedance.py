@@ -97,10 +97,10 @@ class Exceedance:
     @property
     def scatter_of_integral(self) -> float:
         """Standard deviation of `integral` (rad/s) by chance; NaN where there is none."""
-        return float(np.std(np.trapezoid(self._drawn, self.speeds))) if self.chance else np.nan
+        return float(np.std(np.trapezoid(self.drawn, self.speeds))) if self.chance else np.nan
 
     @cached_property
-    def _drawn(self) -> np.ndarray:
+    def drawn(self) -> np.ndarray:
         """Smoothed shares as chance could have had them, shape (draws, speeds); the same every time.
 
         Each speed's share is one of its neighbours', drawn by the weights.
@@ -111,7 +111,7 @@ class Exceedance:
 
     @cached_property
     def _ranges_drawn(self) -> dict[float, list[list[SpeedRange]]]:
-        return {share: [ranges_above(self.speeds, drawn, share) for drawn in self._drawn] for share in (CERTAIN, POSSIBLE)}
+        return {share: [ranges_above(self.speeds, drawn, share) for drawn in self.drawn] for share in (CERTAIN, POSSIBLE)}
 
     def scatter_of_length(self, share: float) -> float:
         """Standard deviation of `length` (rad/s) by chance; NaN where there is none."""

@@ -127,6 +127,11 @@ RANKING = {
     "largest_rms_worst_m": Word("largest rms, worst motion", "largest rms of these motions", *_MM),
     "rank_worst": Word("rank by the worst motion", "place by the worst motion"),
     "members": Word("members", "members of the sample"),
+    "length_certain_operating_rad_s": Word(f"{_MOST}, in operation", "this length inside the operating range", _SPEED),
+    "exceedance_integral_operating_rad_s": Word(
+        "integral above yield, in operation", "the integral over the operating range, weighted by its dwells", _SPEED
+    ),
+    "rank_operating": Word("rank in operation", "place by this integral"),
 }
 """Columns of ranking.csv, a line for each blade and scene."""
 

@@ -13,6 +13,7 @@ from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of
 from .measures import drop_after, lasts, motion, peak_of, speeds_above_yield
+from .operating import INTEGRAL, RANK
 from .ranges import ENDS
 from .table_file import read_table
 
@@ -112,7 +113,8 @@ def ranking_table(
 ) -> pd.DataFrame:
     """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
 
-    `measures`: blade and scene -> its `robustness`; `members`: the same of each member of a sample, by name, for their
+    `measures`: blade and scene -> its `robustness` and, with an operating range, `operating_measures`, which have a rank of
+    their own; `members`: the same of each member of a sample, by name, for their
     ranges (`_low`, `_high`: ranges.ENDS) and the chance to be better than each other blade: the share of the
     members that both blades have, which have the same values of the scene's numbers, in which it is; equal ones count half.
     """
@@ -121,6 +123,8 @@ def ranking_table(
     ranks = [1 + sum(other < key for other in keys[table["scene"] == of]) for key, of in zip(keys, table["scene"], strict=True)]
     # blades without stress have nothing to be ranked by
     table.insert(2, "rank", pd.Series(ranks, dtype="Int64").where(table[RANKED_BY[0]].notna()))
+    if INTEGRAL in table:
+        table[RANK] = table.groupby("scene")[INTEGRAL].rank(method="min").astype("Int64")
     if members:
         table = pd.concat([table, pd.DataFrame([_member_columns(pair, members) for pair in measures])], axis=1)
     scenes = list(dict.fromkeys(table["scene"]))

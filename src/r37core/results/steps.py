@@ -14,6 +14,8 @@ from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
+from .operating import operating_measures
+from .operating_range import OperatingRange
 from .other_motions import ranking_with_motions, summary_with_motions
 from .ranges import ranged_summary, read_ranges
 from .ranking import measures_of_members, ranking_table, robustness
@@ -86,10 +88,17 @@ def summary(input: Any, output: Any, params: Any) -> None:
 
 
 def ranking(input: Any, output: Any, params: Any) -> None:
-    """Rank the blades. Inputs: datasets by kind and, if there, members and more motions. Params: runs. Output: table (csv)."""
+    """Rank the blades. Inputs: datasets by kind and, if there, members and more motions. Output: table (csv).
+
+    Params: runs, operating (the range, or None).
+    """
     datasets = {kind: read_dataset(file) for kind, file in input.items()}
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
     motions = datasets.pop("motions", None)
-    measures = {(blade, scene): robustness(response_of(datasets, blade, scene)) for blade, scene in params.runs}
+    operating = params.operating and from_plain(OperatingRange, params.operating)
+    measures = {}
+    for blade, scene in params.runs:
+        response = response_of(datasets, blade, scene)
+        measures[blade, scene] = robustness(response) | (operating_measures(response, operating) if operating else {})
     table = ranking_table(measures, members)
     write_table(table if motions is None else ranking_with_motions(table, motions), output.table, digits=6)

@@ -51,13 +51,13 @@ def _draw_map(axes: Axes, rotor: xr.Dataset) -> None:
         places = np.zeros(len(speeds)) if alone else rotor["leader"].values
         axes.plot(speeds[diverged], places[diverged], "rx", label="diverged")
         axes.legend(loc="upper left", fontsize=6)
-    axes.set_xlabel("speed (rad/s)")
+    axes.set_xlabel(style.SPEED_LABEL)
 
 
 def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
     """Largest stress of any blade, coloured by how many are above yield; the median blade beside it."""
     speeds, number = rotor["speed"].values, rotor.sizes["blade_number"]
-    axes.set_xlabel("speed (rad/s)")
+    axes.set_xlabel(style.SPEED_LABEL)
     if "blade_max_von_mises" not in rotor:
         axes.plot(speeds, 1e3 * rotor["blade_rms"].max("blade_number"), ".-", markersize=3)
         axes.set_ylabel(f"largest {_MOTION}")

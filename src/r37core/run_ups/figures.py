@@ -64,7 +64,7 @@ def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> 
     if not there:
         for axes in grid.flat:
             style.say(axes, style.ALL_DIVERGED)
-    grid[-1, 0].set_xlabel("mean speed of the revolution (rad/s)")
+    grid[-1, 0].set_xlabel(style.RUN_UP_LABEL)
     grid[-1, 1].set_xlabel("revolutions since the change began")
     if there:
         grid[-1, 1].set_xscale("log")

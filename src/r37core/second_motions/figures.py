@@ -59,7 +59,7 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, *
     for axes in panels:
         shade(axes, pair)
     panels[0].set_title(f"{title}: carried up and down, and from rest; leading edge, normal and tangential together")
-    panels[-1].set_xlabel("speed (rad/s)")
+    panels[-1].set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
     figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     return figure
@@ -77,7 +77,7 @@ def draw_overview(motions: xr.Dataset, title: str) -> Figure:
         shade(axes, pair)
         axes.set_ylabel(f"{blade} (mm)")
     grid[0, 0].set_title(f"{title}: rms of the leading edge, normal and tangential together")
-    grid[-1, 0].set_xlabel("speed (rad/s)")
+    grid[-1, 0].set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(grid[0, 0])
     figure.legend(*style.legend_entries(grid[:, 0]), loc="outside lower center", ncols=4)
     return figure

@@ -40,7 +40,7 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
         _band(axes, tolerances, leading_edge(nominal), name)
     if chance:
         _probability(panels[-1], tolerances)
-    panels[-1].set_xlabel("speed (rad/s)")
+    panels[-1].set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
     if "max_von_mises" in curves:
         style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())}, named=True)

@@ -1,0 +1,96 @@
+"""The range of speeds that an engine flies in, and the time at each speed. Light: the configuration imports it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+
+from r37core.declared import Key
+
+if TYPE_CHECKING:
+    from .exceedance import SpeedRange
+
+
+@dataclass(frozen=True)
+class Dwell:
+    """A `share` of the operating time that the speed (rad/s) lies between `start` and `stop`."""
+
+    start: Annotated[
+        float,
+        Key("Lowest speed of the dwell", "_rad_s", "from", ge=1e-3, le=1e6, optional=True),
+        Key("The same speed in revolutions per minute", "_rpm", "from", ge=0.01, le=9.5e6, optional=True),
+    ]
+    stop: Annotated[
+        float,
+        Key("Highest speed of the dwell", "_rad_s", "to", ge=1e-3, le=1e6, optional=True),
+        Key("The same speed in revolutions per minute", "_rpm", "to", ge=0.01, le=9.5e6, optional=True),
+    ]
+    share: Annotated[float, Key("Share of the operating time", "_percent", gt=0, le=100)]
+
+
+@dataclass(frozen=True)
+class OperatingRange:
+    """Speeds (rad/s) from `idle` to `redline`, with dwells; the rest of the time is spread evenly over the range.
+
+    `margin`: share of the speed by which the judged range reaches beyond both ends.
+    """
+
+    idle: Annotated[
+        float,
+        Key("Lowest speed in operation", "_rad_s", ge=1e-3, le=1e6, optional=True),
+        Key("The same speed in revolutions per minute", "_rpm", ge=0.01, le=9.5e6, optional=True),
+    ]
+    redline: Annotated[
+        float,
+        Key("Highest speed in operation", "_rad_s", ge=1e-3, le=1e6, optional=True),
+        Key("The same speed in revolutions per minute", "_rpm", ge=0.01, le=9.5e6, optional=True),
+    ]
+    margin: Annotated[
+        float, Key("Share of the speed by which the judged range reaches beyond both ends", "_percent", ge=0, lt=100)
+    ] = 0.0
+    dwell: tuple[Dwell, ...] = field(default=())
+
+    @property
+    def first(self) -> float:
+        """Lowest speed (rad/s) that is judged."""
+        return self.idle * (1.0 - self.margin)
+
+    @property
+    def last(self) -> float:
+        """Highest speed (rad/s) that is judged."""
+        return self.redline * (1.0 + self.margin)
+
+    def is_covered(self, speeds: np.ndarray) -> bool:
+        """Whether runs at these ascending speeds (rad/s) reach over the whole judged range."""
+        return bool(len(speeds) and speeds[0] <= self.first and speeds[-1] >= self.last)
+
+    def overlap(self, begin: float, end: float) -> float:
+        """Length (rad/s) of a range of speeds inside the judged range; below 0 by its distance where it lies outside."""
+        return min(end, self.last) - max(begin, self.first)
+
+    def length(self, ranges: Iterable[SpeedRange]) -> float:
+        """Length (rad/s) of these ranges inside the judged range."""
+        return float(sum(max(0.0, self.overlap(part.begin, part.end)) for part in ranges))
+
+    def time_density(self, speeds: np.ndarray) -> np.ndarray:
+        """Density of the operating time over speed, relative to an even one, at each of these speeds (rad/s)."""
+        whole = self.last - self.first
+        density = np.full(len(speeds), 1.0 - sum(dwell.share for dwell in self.dwell))
+        for dwell in self.dwell:
+            there = (speeds >= dwell.start) & (speeds <= dwell.stop)
+            density = density + np.where(there, dwell.share * whole / (dwell.stop - dwell.start), 0.0)
+        return density
+
+    def integral(self, speeds: np.ndarray, values: np.ndarray) -> float:
+        r"""Integral (rad/s) of `values` at ascending `speeds` over the judged range, weighted by the operating time.
+
+        (last - first) \int values(speed) p(speed) d speed, with p the density of the operating time; without dwells the plain
+        integral. Between speeds the values are a straight line, and the density is constant between the ends of dwells.
+        """
+        ends = [self.first, self.last, *(end for dwell in self.dwell for end in (dwell.start, dwell.stop))]
+        inside = np.unique([speed for speed in (*speeds, *ends) if self.first <= speed <= self.last])
+        pieces = 0.5 * (np.interp(inside[1:], speeds, values) + np.interp(inside[:-1], speeds, values)) * np.diff(inside)
+        return float(np.sum(pieces * self.time_density(0.5 * (inside[1:] + inside[:-1]))))
