@@ -26,7 +26,7 @@ def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):
         for rule in rules[1:] if name == "figures" else rules:
             # `pictures` puts them into the report
             assert re.search(r"output:\s+(\*\*)?pictures\(", rule), rule
-            kind = re.search(r'caption=captioned\("(\w+)"\)|drawing\(\s*code,\s*"[\w.]+",\s*"(\w+)"', rule)
+            kind = re.search(r'caption=captioned\("(\w+)"\)|drawing\(\s*"[\w.]+",\s*"(\w+)"', rule)
             assert "draw_map" in rule or (kind[1] or kind[2]) in CAPTIONS, rule
     functions = (root / "workflow/rules/common.smk").read_text()
     assert "report(" in functions.split("def shown(")[1].split("\n\n\n")[0]

@@ -175,7 +175,7 @@ def rules(root):
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]
         steps = re.findall(r'\*\*step\("([\w.]+)"(?:\)|, \*)', block)
         steps += [shared[rule].step] if "**stage(" in block else []
-        drawn = re.findall(r'drawing\(\s*code,\s*"([\w.]+)\.\w+"', block)
+        drawn = re.findall(r'drawing\(\s*"([\w.]+)\.\w+"', block)
         needed = re.match(r"use rule (step|figure) as|(?:(?!\nfor )[\s\S])*scripts/step\.py", block) is not None
         assert len(steps) + len(drawn) == (needed and rule not in ("step", "figure")), rule
         if drawn:
@@ -195,7 +195,9 @@ def test_every_rule_of_a_step_names_one_that_is_there(rules):
 def test_a_figure_s_parameters_have_the_code_of_its_module(root):
     code = CodeHashes(root / "src", root / "workflow/scripts")
     step = "r37core.figures.steps.draw"
-    assert drawing(code, None, "figures.maps.draw_map")["code"] == code("step", step, "r37core.figures.maps") != code("step", step)
+    assert (
+        drawing(code, None, "figures.maps.draw_map")["code"] == code("step", step, "r37core.figures.maps") != code("step", step)
+    )
     names = {file.name for file in code.closure("step", step, "r37core.figures.maps")}
     assert "maps.py" in names
     assert not {"waterfall.py", "comparison.py", "response_curves.py", "blade_shapes.py"} & names

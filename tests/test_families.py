@@ -12,9 +12,11 @@ from r37core.blade import section_changes
 from r37core.blade.profile import ProfileParameters
 from r37core.config import ConfigError, command_line_document
 from r37core.config.families import design_name
+from r37core.designs.compared import Compared
 from r37core.designs.figures import draw_designs
-from r37core.designs.plan import Families, families
+from r37core.designs.plan import Families
 from r37core.designs.table import MEASURES, design_table
+from r37core.plain import to_plain
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.run_ups.plan import RunUps
@@ -75,7 +77,8 @@ def test_lean_is_scaled_apart_from_sweep(with_blades):
 
 def test_a_grid_has_every_value_with_every_other(with_blades):
     settings = with_blades(GRID)
-    assert list(families(settings)["Grid"].designs) == ["Grid_-2p5_8000", "Grid_-2p5_4500", "Grid_5_8000", "Grid_5_4500"]
+    names = ["Grid_-2p5_8000", "Grid_-2p5_4500", "Grid_5_8000", "Grid_5_4500"]
+    assert list(Families(settings).of_blades["Grid"].designs) == names
     assert settings.blades["Grid_5_4500"].material.density == 4500.0
     assert settings.blades["Grid_5_4500"].material.youngs_modulus == 180e9
     assert settings.blades["Grid_-2p5_8000"].definition.chordwise_sweep_angle == pytest.approx(np.radians(-2.5))
@@ -96,14 +99,14 @@ def test_a_table_has_one_design_a_row(with_blades):
     table = "blade,chordwise_sweep_deg,material.density_kg_m3\nForward,5,8000\nBack-1,-5,7.5e3\n"
     settings = with_blades("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])
     assert list(settings.blades) == ["Forward", "Back-1", "Ref"]
-    assert families(settings)["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
+    assert Families(settings).of_blades["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
     assert settings.blades["Back-1"].material.density == 7500.0
 
 
 def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
     settings = with_blades(SWEEP, blades=["Ref"])
-    assert families(settings) == {}
-    assert Families(settings).designs == {}
+    assert Families(settings).figures == {}
+    assert Families(settings).pairs == []
 
 
 @pytest.mark.parametrize(
@@ -193,9 +196,10 @@ def compared():
         coords={**stress.coords, "scene": ["lined", "bare"], "tip_point": ["leading_edge", "trailing_edge"]},
     )
     rms["status"][0, :, 2] = RunStatus.NOT_RUN
-    designs = {"F_1": {"sweep_percent": 1.0}, "F_2": {"sweep_percent": 2.0}}
+    variables = {"blade": {"F_1": {"sweep_percent": 1.0}, "F_2": {"sweep_percent": 2.0}}, "scene": {}}
     datasets = {"campbell": campbell, "rms": rms, "stress": stress}
-    return design_table(designs, {"F_1": 0.2, "F_2": 0.3}, datasets, interactions, ["lined", "bare"])
+    pairs = [(blade, scene) for blade in ("F_1", "F_2") for scene in ("lined", "bare")]
+    return design_table(pairs, variables, {"F_1": 0.2, "F_2": 0.3}, datasets, interactions)
 
 
 def test_designs_are_compared(compared):
@@ -215,10 +219,11 @@ def test_designs_are_compared(compared):
 
 
 def test_a_family_is_drawn(compared):
-    figure = draw_designs("F", compared, ["sweep_percent"])
+    names = (("F_1", "F_2"), ("lined", "bare"))
+    figure = draw_designs("F", compared, to_plain(Compared("blade", ("sweep_percent",), *names)))
     assert len(figure.axes) == 9
     assert list(figure.axes[0].lines[0].get_xdata()) == [1.0, 2.0]
-    figure = draw_designs("F", compared.assign(other=0.0), ["sweep_percent", "other"])
+    figure = draw_designs("F", compared.assign(other=0.0), to_plain(Compared("blade", ("sweep_percent", "other"), *names)))
     assert [label.get_text() for label in figure.axes[6].get_xticklabels()] == ["F_1", "F_2"]
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import xarray as xr
 
 from r37core.config import ConfigError
+from r37core.plain import to_plain
 
 from .run_results import RunResults
 from .stages import checked_call
@@ -221,7 +222,7 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
 
 @checked_call
 def plot_designs(results: RunResults, title: str | None = None) -> Figure:
-    """Figure of each design of a family and its robustness, over the varied key or by name.
+    """Figure of a family of designs: robustness over the varied key, a map over two, else by the designs' names.
 
     Parameters
     ----------
@@ -250,11 +251,14 @@ def plot_designs(results: RunResults, title: str | None = None) -> Figure:
         raise ConfigError("results: found none of designs; allowed: what r37.designs gives")
     with _style():
         from r37core.designs.figures import draw_designs
-        from r37core.designs.table import MEASURES
+        from r37core.designs.maps import draw_design_map
+        from r37core.designs.table import compared_in
 
         table = results.tables["designs"]
-        varied = [name for name in table if name not in ("blade", "scene", *MEASURES)]
-        return draw_designs(title or str(table["blade"][0]).split("_")[0], table, varied)
+        compared = compared_in(table)
+        draw = draw_design_map if len(compared.keys) == 2 else draw_designs
+        name = table["scene" if compared.kind == "scene" else "blade"].iloc[0]
+        return draw(title or str(name).split("_")[0], table, to_plain(compared))
 
 
 @contextmanager

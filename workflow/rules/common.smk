@@ -25,6 +25,7 @@ from r37core.product.targets import (
     simulated,
     tables,
     targets,
+    verdict_file,
 )
 
 ROOT = Path(workflow.current_basedir).parent.parent

@@ -1,6 +1,5 @@
-# Families of designs: how robust each is, beside what it is.
+# Families of designs, of blades and of scenes: how robust each is, next to what it is.
 from r37core.designs.plan import Families
-from r37core.designs.plan import families as families_of
 
 families = Families(settings)
 
@@ -10,16 +9,17 @@ use rule step as design_table with:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
-        geometry=expand(paths.nominal(paths.GEOMETRY), blade=families.designs),
+        geometry=expand(paths.nominal(paths.GEOMETRY), blade=families.densities),
     output:
         table=shown("<results>/designs.csv", PACKAGE / "designs/report.rst", "Families", "table of designs"),
     log:
         "<logs>/designs.log",
     params:
         **step("designs.steps.tabulate"),
-        designs=families.designs,
+        pairs=families.pairs,
+        variables=families.variables,
         densities=families.densities,
-        scenes=list(settings.scenes),
+        operating=operating,
 
 
 use rule figure as design_figure with:
@@ -30,6 +30,20 @@ use rule figure as design_figure with:
     log:
         "<logs>/figures/designs_{family}.log",
     wildcard_constraints:
-        family="|".join(families_of(settings)) or "none",
+        family="|".join(families.figures) or "none",
     params:
-        **drawing("designs.figures.draw_designs", "designs", blades=families.blades, varied=families.varied),
+        **drawing("designs.figures.draw_designs", "designs", compared=families.compared),
+
+
+use rule figure as design_map with:
+    input:
+        **verdict_file(sweep),
+        table=rules.design_table.output[0],
+    output:
+        **pictures("map_{family}", "Families", EVERY_SCENE, "map of {family}"),
+    log:
+        "<logs>/figures/map_{family}.log",
+    wildcard_constraints:
+        family="|".join(families.maps) or "none",
+    params:
+        **drawing("designs.maps.draw_design_map", "map", compared=families.mapped),

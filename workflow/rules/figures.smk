@@ -39,7 +39,7 @@ use rule figure as response_figure with:
     log:
         "<logs>/figures/response_{blade}.log",
     params:
-        **drawing("figures.response_curves.draw_response", "response"),
+        **drawing("figures.response_curves.draw_response", "response", scenes=sweep.drawn_scenes),
 
 
 use rule figure as response_overview with:
@@ -50,7 +50,7 @@ use rule figure as response_overview with:
     log:
         "<logs>/figures/response_overview.log",
     params:
-        **drawing("figures.response_curves.draw_response_overview", "response_overview"),
+        **drawing("figures.response_curves.draw_response_overview", "response_overview", scenes=sweep.drawn_scenes),
 
 
 use rule figure as map_figure with:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import model_validator
 from pydantic.fields import Field
 
-from r37core.results.operating_range import Dwell, OperatingRange
+from r37core.results.operating_range import OperatingDwell, OperatingRange
 
 from .declaring import declared_by, si_form
 from .section import Section, refused
@@ -23,14 +23,14 @@ def _one_of_each(section: Section, names: tuple[str, str]) -> tuple[str, str]:
     return keys[0], keys[1]
 
 
-@declared_by(Dwell)
-class DwellSection(Section):
+@declared_by(OperatingDwell)
+class OperatingDwellSection(Section):
     """A share of the operating time that is spent between two speeds."""
 
     @model_validator(mode="after")
-    def _ascends(self) -> DwellSection:
+    def _ascends(self) -> OperatingDwellSection:
         _, last_key = _one_of_each(self, ("from", "to"))
-        dwell = si_form(Dwell, self)
+        dwell = si_form(OperatingDwell, self)
         if dwell.stop <= dwell.start:
             raise refused((last_key,), f"{getattr(self, last_key):g}", "a speed above the lowest one")
         return self
@@ -40,7 +40,7 @@ class DwellSection(Section):
 class OperatingSection(Section):
     """The speeds from idle to redline."""
 
-    dwell: list[DwellSection] = Field(
+    dwell: list[OperatingDwellSection] = Field(
         default=[], description="Speeds at which more time is spent; the rest of it is spread evenly over the range"
     )
 
@@ -61,4 +61,4 @@ class OperatingSection(Section):
 
     def operating(self) -> OperatingRange:
         """The range in SI units."""
-        return si_form(OperatingRange, self, dwell=tuple(si_form(Dwell, dwell) for dwell in self.dwell))
+        return si_form(OperatingRange, self, dwell=tuple(si_form(OperatingDwell, dwell) for dwell in self.dwell))

@@ -12,6 +12,9 @@ from r37core.rounding import rounded_to
 from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
 
+MOST_SCENES = 12
+"""Scenes of which each has a line of its own."""
+
 
 def closing_lines(
     results: Path, began: float, ended: float, remarks: Iterable[str] = (), extension_lines: Iterable[str] = ()
@@ -86,7 +89,9 @@ def _ranked(file: Path) -> list[str]:
     with open(file, newline="", encoding="utf-8") as stream:
         rows = [row for row in csv.DictReader(stream) if row["length_certain_rad_s"]]
     lines = []
-    for scene in dict.fromkeys(row["scene"] for row in rows):
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    # of many scenes, as of a family, their tables say it
+    for scene in scenes if len(scenes) <= MOST_SCENES else ():
         scene_rows = [row for row in rows if row["scene"] == scene]
         best, worst = scene_rows[0], scene_rows[-1]
         names = [row["blade"] for row in scene_rows if row["rank"] == best["rank"]]
@@ -127,6 +132,8 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
     touching = zip(pairs, forces.reshape(-1, forces.shape[-1]), strict=True)
     untouched = remarks_on_contact([(f"{blade} in {scene}", force) for (blade, scene), force in touching])
     lined = [pair for pair, share in enumerate(tip_numbers.get("lined_tip_share", ())) if np.isfinite(share)]
+    if len(names[1]) > MOST_SCENES:
+        lined = []
     linings = lining_texts({pairs[pair]: {name: values[pair] for name, values in tip_numbers.items()} for pair in lined})
     return f"; {diverged} of {runs} runs diverged" if diverged else "", [*untouched, *linings]
 

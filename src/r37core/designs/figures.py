@@ -1,6 +1,7 @@
 """A family of designs: robustness and structure against what varies."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,41 +10,50 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.figures import style
+from r37core.plain import from_plain
 
+from .compared import Compared
 from .table import MEASURES, STRUCTURE
 
-_DRAWN = (*STRUCTURE, "shift_1b_rad_s", "length_certain_rad_s", "length_possible_rad_s", "largest_median_stress_pa")
+_ROBUSTNESS = ("shift_1b_rad_s", "length_certain_rad_s", "length_possible_rad_s")
+_DRAWN = {
+    "blade": (*STRUCTURE, *_ROBUSTNESS, "largest_median_stress_pa"),
+    "scene": (*_ROBUSTNESS, "exceedance_integral_rad_s", "largest_median_stress_pa", "largest_rms_m"),
+}
+"""Measures that a family of blades, or of scenes, is chosen by."""
 
 
-def draw_designs(title: str, table: pd.DataFrame, varied: Sequence[str], blades: Sequence[str] | None = None) -> Figure:
-    """What a family is chosen by, a line or points per scene: over the one key that varies, or over the designs by name.
+def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -> Figure:
+    """What a family is chosen by: over the one key that varies, or over the designs by name; a line for each of the other kind.
 
-    `blades`: those of the table that are drawn, or all.
+    `compared`: a Compared, as plain values.
     """
-    if blades is not None:
-        table = table[table["blade"].isin(blades)]
-    figure, grid = plt.subplots(3, 3, figsize=(style.PAGE, 6.4), sharex=True)
-    for axes, column in zip(grid.flat, _DRAWN, strict=True):
+    chosen = from_plain(Compared, compared)
+    table, kind, keys = chosen.rows(table), chosen.kind, chosen.keys
+    drawn = _DRAWN[kind]
+    count = len(drawn) // 3
+    figure, grid = plt.subplots(count, 3, figsize=(style.PAGE, 1.9 * count + 0.7), sharex=True)
+    for axes, column in zip(grid.flat, drawn, strict=True):
         word = MEASURES[column]
-        for scene, rows in table.groupby("scene", sort=False):
-            _draw(axes, rows.assign(**{column: word.factor * rows[column]}), column, varied, str(scene))
+        for name, rows in table.groupby(chosen.other, sort=False):
+            _draw(axes, rows.assign(**{column: word.factor * rows[column]}), column, kind, keys, str(name))
         axes.set_ylabel(f"{word.title} ({word.unit})")
     # what does not depend on the scene is the same line twice
-    figure.legend(*style.legend_entries([grid.flat[5]]), loc="outside lower center", ncols=4)
+    figure.legend(*style.legend_entries([grid.flat[-1]]), loc="outside lower center", ncols=4)
     for axes in grid[-1]:
-        if len(varied) == 1:
-            axes.set_xlabel(varied[0])
+        if len(keys) == 1:
+            axes.set_xlabel(keys[0])
         else:
             axes.tick_params(axis="x", rotation=90)
-    figure.suptitle(f"family {title}: {table['blade'].nunique()} designs over {', '.join(varied)}")
+    figure.suptitle(f"family {title}: {table[kind].nunique()} designs over {', '.join(keys)}")
     return figure
 
 
-def _draw(axes: Axes, rows: pd.DataFrame, column: str, keys: Sequence[str], label: str) -> None:
+def _draw(axes: Axes, rows: pd.DataFrame, column: str, kind: str, keys: Sequence[str], label: str) -> None:
     if len(keys) == 1:
         ordered = rows.sort_values(keys[0])
         axes.plot(ordered[keys[0]], ordered[column], "o-", markersize=4, label=label)
     else:
-        rows_of_blades = np.arange(len(rows))
-        axes.plot(rows_of_blades, rows[column], "o", markersize=4, label=label)
-        axes.set_xticks(rows_of_blades, rows["blade"])
+        places = np.arange(len(rows))
+        axes.plot(places, rows[column], "o", markersize=4, label=label)
+        axes.set_xticks(places, rows[kind])

@@ -1,18 +1,19 @@
-"""The plan of families of designs: what is compared, and where it lies."""
+"""The plan of families of designs: what is compared, what is drawn, and where it lies."""
+
+from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
+from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
-from r37core.config.families import Family
+from r37core.config.families import Designs, Family
+from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 
-
-def families(settings: Settings) -> dict[str, Family]:
-    """Families of which some designs are run."""
-    run = set(settings.blade_names)
-    return {name: family for name, family in settings.designs.families.items() if set(family.designs) & run}
+from .compared import BLADE, BOTH, KINDS, SCENE, SCENE_KEY, Compared
 
 
 @dataclass(frozen=True)
@@ -21,32 +22,107 @@ class Families:
 
     settings: Settings
 
+    @cached_property
+    def of_blades(self) -> dict[str, Family]:
+        """Families of blades of which some designs are run."""
+        return _that_run(self.settings.designs, self.settings.blade_names)
+
+    @cached_property
+    def of_scenes(self) -> dict[str, Family]:
+        """Families of scenes of which some designs are run."""
+        return _that_run(self.settings.scene_designs, self.settings.scene_names)
+
     @property
-    def designs(self) -> dict[str, dict[str, float]]:
-        """Designs that are run, with the values of what varies."""
-        return {
-            blade: dict(zip(family.keys, family.designs[blade], strict=True))
-            for family in families(self.settings).values()
-            for blade in family.designs
-            if blade in self.settings.blades
-        }
+    def variables(self) -> dict[str, dict[str, dict[str, float]]]:
+        """Kind -> design that is run -> column of designs.csv -> value of what varies."""
+        designs = {kind: {} for kind in KINDS}  # type: dict[str, dict[str, dict[str, float]]]
+        for kind, families, names in self._families:
+            for family in families.values():
+                for design in _designs(family, names):
+                    values = family.values(design).items()
+                    designs[kind][design] = {_column(kind, key): value for key, value in values}
+        return designs
+
+    @property
+    def _families(self) -> list[tuple[str, dict[str, Family], list[str]]]:
+        return [(BLADE, self.of_blades, self.settings.blade_names), (SCENE, self.of_scenes, self.settings.scene_names)]
+
+    @property
+    def pairs(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene of which one is a design."""
+        designs = self.variables
+        pairs = [(blade, scene) for blade in self.settings.blade_names for scene in self.settings.scene_names]
+        return [(blade, scene) for blade, scene in pairs if blade in designs[BLADE] or scene in designs[SCENE]]
 
     @property
     def densities(self) -> dict[str, float]:
-        """Density (kg/m3) of each of them."""
-        materials = {blade: self.settings.blades[blade].material for blade in self.designs}
-        return {blade: material.density for blade, material in materials.items() if material is not None}
+        """Density (kg/m3) of each blade among the pairs whose volume is known: of those with profiles."""
+        blades = {blade: self.settings.blades[blade] for blade, _ in self.pairs}
+        return {
+            name: blade.material.density
+            for name, blade in blades.items()
+            if blade.material is not None and isinstance(blade.definition, BladeDefinition)
+        }
 
-    def blades(self, wildcards: Any) -> list[str]:
-        """Designs of one family that are run."""
-        return [blade for blade in families(self.settings)[wildcards.family].designs if blade in self.settings.blades]
+    @cached_property
+    def figures(self) -> dict[str, Compared]:
+        """What is drawn of each family, by its name."""
+        settings = self.settings
+        figures = {}
+        for kind, families, names in self._families:
+            for name, family in families.items():
+                designs = tuple(_designs(family, names))
+                blades, scenes = (designs, self._plain_scenes) if kind == BLADE else (tuple(settings.blade_names), designs)
+                figures[name] = Compared(kind, tuple(_column(kind, key) for key in family.keys), blades, scenes)
+        return figures
 
-    def varied(self, wildcards: Any) -> list[str]:
-        """What varies in one family."""
-        return list(families(self.settings)[wildcards.family].keys)
+    @property
+    def _plain_scenes(self) -> tuple[str, ...]:
+        """Scenes of no family, or all where there are only those of families."""
+        family_of = self.settings.scene_designs.family_of
+        plain = tuple(name for name in self.settings.scene_names if name not in family_of)
+        return plain or tuple(self.settings.scene_names)
+
+    @cached_property
+    def maps(self) -> dict[str, Compared]:
+        """What is drawn as a map: families of two keys, and a family of blades with one of scenes that have one key each."""
+        figures = self.figures
+        maps = {name: compared for name, compared in figures.items() if len(compared.keys) == 2}
+        for blades in self.of_blades:
+            for scenes in self.of_scenes:
+                across, up = figures[blades], figures[scenes]
+                if len(across.keys) == len(up.keys) == 1:
+                    maps[f"{blades}__{scenes}"] = Compared(BOTH, across.keys + up.keys, across.blades, up.scenes)
+        return maps
+
+    def compared(self, wildcards: Any) -> dict[str, Any]:
+        """What one figure compares, as plain values."""
+        return to_plain(self.figures[wildcards.family])
+
+    def mapped(self, wildcards: Any) -> dict[str, Any]:
+        """What one map compares, as plain values."""
+        return to_plain(self.maps[wildcards.family])
+
+
+def _that_run(designs: Designs[Any], names: list[str]) -> dict[str, Family]:
+    return {name: family for name, family in designs.families.items() if _designs(family, names)}
+
+
+def _designs(family: Family, names: list[str]) -> list[str]:
+    return [design for design in family.designs if design in set(names)]
+
+
+def _column(kind: str, key: str) -> str:
+    return key if kind == BLADE else SCENE_KEY + key
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The table of all designs, and a figure of each family."""
-    wildcards = paths.of("family", families(sweep.settings))
-    return {"<results>/designs.csv": wildcards and [{}], **paths.pictures("designs_{family}", wildcards)}
+    """The table of all designs, a figure of each family, and maps over two keys."""
+    families = Families(sweep.settings)
+    figures, maps = paths.of("family", families.figures), paths.of("family", families.maps)
+    table: paths.Wildcards = [{}] if figures else []
+    return {
+        "<results>/designs.csv": table,
+        **paths.pictures("map_{family}", maps),
+        **paths.pictures("designs_{family}", figures),
+    }

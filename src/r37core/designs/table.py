@@ -10,9 +10,14 @@ import xarray as xr
 from r37core.results.closing import counted
 from r37core.results.datasets import response_of
 from r37core.results.glossary import RANKING, Word, word
+from r37core.results.operating import INTEGRAL, operating_measures
+from r37core.results.operating import MEASURES as OPERATING_MEASURES
+from r37core.results.operating_range import OperatingRange
 from r37core.results.ranking import RANKED_BY, ROBUSTNESS, robustness
 from r37core.results.table_file import read_table
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
+
+from .compared import BLADE, BOTH, SCENE, SCENE_KEY, Compared
 
 STRUCTURE = {
     "mass_kg": Word("mass", "of the blade", "kg"),
@@ -28,27 +33,45 @@ MEASURES = {
 }
 """Columns of designs.csv in words; those of STRUCTURE do not depend on the scene."""
 
+IN_OPERATION = {name: meaning for name in OPERATING_MEASURES if (meaning := word(name, RANKING))}
+"""More of them where there is an operating range."""
+
 
 def design_table(
-    designs: Mapping[str, Mapping[str, float]],
+    pairs: Sequence[tuple[str, str]],
+    variables: Mapping[str, Mapping[str, Mapping[str, float]]],
     masses: Mapping[str, float],
     datasets: Mapping[str, xr.Dataset],
     interactions: pd.DataFrame,
-    scenes: Sequence[str],
+    operating: OperatingRange | None = None,
 ) -> pd.DataFrame:
-    """One row for each design and scene: blade, scene, design variables, MEASURES.
+    """One row for each of the `pairs` of blade and scene: blade, scene, variables of both, measures.
 
-    `designs`: blade -> key -> value; `masses` (kg) by blade; `datasets`: campbell, rms and, if there, stress; `interactions`:
-    summary.csv. What a scene does not compute, and what does not happen (no interaction of 1B), is NaN.
+    `variables`: kind -> design -> column -> value; `masses` (kg) by blade; `datasets`: campbell, rms and, if there, stress;
+    `interactions`: summary.csv; `operating`: range for measures of its own. What a scene does not compute, and what does not
+    happen (no interaction of 1B), is NaN.
     """
     rows = []
-    for blade, variables in designs.items():
-        blade_values: dict[str, float] = {"mass_kg": masses[blade]} | _structure(datasets["campbell"].sel(blade=blade))
-        for scene in scenes:
-            scene_values = robustness(response_of(datasets, blade, scene)) | _shift(blade, scene, interactions)
-            rows.append({"blade": blade, "scene": scene, **variables, **blade_values, **scene_values})
-    keys = list(dict.fromkeys(key for variables in designs.values() for key in variables))
-    return pd.DataFrame(rows, columns=["blade", "scene", *keys, *MEASURES])
+    for blade, scene in pairs:
+        varied = {**variables["blade"].get(blade, {}), **variables["scene"].get(scene, {})}
+        structure = {"mass_kg": masses.get(blade, np.nan)} | _structure(datasets["campbell"].sel(blade=blade))
+        response = response_of(datasets, blade, scene)
+        measures = robustness(response) | (operating_measures(response, operating) if operating else {})
+        rows.append({"blade": blade, "scene": scene, **varied, **structure, **measures, **_shift(blade, scene, interactions)})
+    designs = [values for kind in variables.values() for values in kind.values()]
+    keys = list(dict.fromkeys(key for values in designs for key in values))
+    return pd.DataFrame(rows, columns=["blade", "scene", *keys, *MEASURES, *(IN_OPERATION if operating else ())])
+
+
+def compared_in(table: pd.DataFrame) -> Compared:
+    """All designs of a table, as one family or, where one key varies of blades and one of scenes, as their map."""
+    keys = [str(name) for name in table if name not in ("blade", "scene", *MEASURES, *IN_OPERATION)]
+    of_scenes = [key.startswith(SCENE_KEY) for key in keys]
+    kind = SCENE if all(of_scenes) else BLADE
+    if sum(of_scenes) == 1 and len(keys) == 2:
+        kind = BOTH
+    blades, scenes = (tuple(dict.fromkeys(table[column])) for column in ("blade", "scene"))
+    return Compared(kind, tuple(keys), blades, scenes)
 
 
 def _structure(campbell: xr.Dataset) -> dict[str, float]:
@@ -67,11 +90,21 @@ def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, floa
     return {"shift_1b_rad_s": np.nan if strongest is None else float(bending.loc[strongest, "shift_rad_s"])}
 
 
+_MOST_SCENES = 3
+"""Scenes of which a run's last line names the best design each."""
+
+
 def closing(results: Path) -> str:
-    """How many designs there are, and the one that is above yield at the fewest speeds of each scene."""
+    """How many designs there are, and the best: of each scene, or of all where there are more scenes."""
     table = read_table(results / "designs.csv")
-    text = counted(table["blade"].nunique(), "design")
-    for scene, rows in table.dropna(subset=RANKED_BY[0]).groupby("scene", sort=False):
-        best = rows.sort_values(list(RANKED_BY)).iloc[0]
-        text += f"; {scene}: {best['blade']} is above yield at the fewest speeds ({best[RANKED_BY[0]]:.0f} rad/s)"
+    in_operation = INTEGRAL in table and table[INTEGRAL].notna().any()
+    order = [INTEGRAL] if in_operation else list(RANKED_BY)
+    ranked = table.dropna(subset=order[0])
+    number = len(table) if table["scene"].nunique() > _MOST_SCENES else table["blade"].nunique()
+    text = counted(number, "design")
+    for scene, rows in ranked.groupby("scene", sort=False) if ranked["scene"].nunique() <= _MOST_SCENES else [("", ranked)]:
+        best = rows.sort_values(order).iloc[0]
+        where, name = (f"{scene}: ", best["blade"]) if scene else ("", f"{best['blade']} in {best['scene']}")
+        how = "least above yield in operation, integral" if in_operation else "above yield at the fewest speeds"
+        text += f"; {where}{name} is {how} ({best[order[0]]:.0f} rad/s)"
     return text

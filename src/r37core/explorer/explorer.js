@@ -520,18 +520,19 @@
   };
   const drawn = {};
 
-  // panels of extensions, below the others: hidden where they have nothing to show, and not named as missing
+  // panels of extensions, tables that decide first and the others below: hidden where they have nothing to show, and not named as missing
   const offered = {
-    state, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
+    state, set, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
   };
   for (const [extension, contents] of Object.entries(data.panels ?? {})) {
     for (const [name, panel] of Object.entries(panels[extension](await unpackAll(contents), offered))) {
-      const section = document.createElement("section");
+      const section = Object.assign(document.createElement("section"), { className: panel.first ? "wide" : "" });
       section.append(
         Object.assign(document.createElement("h2"), { textContent: panel.title }),
-        Object.assign(document.createElement("div"), { id: name, className: "plot" }),
+        Object.assign(document.createElement("div"), { id: name, className: panel.first ? "table" : "plot" }),
       );
-      document.getElementById("missing").before(section);
+      if (panel.first) document.querySelector("main").prepend(section);
+      else document.getElementById("missing").before(section);
       DRAWINGS[name] = [panel.draw, panel.of];
     }
   }

@@ -19,10 +19,15 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     its panels show of the input that is called like it; programs: files that draw them.
     """
     files = dict(input.items())
-    panels = {name: resolve_name(function)(read_dataset(files.pop(name))) for name, function in params.panels.items()}
+    panels = {name: resolve_name(function)(_read(files.pop(name))) for name, function in params.panels.items()}
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     file = Path(output.page)
     report_addresses = {blade: str(params.address(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
     contents = explorer_contents(datasets, interactions, params.shapes, report_addresses, ranking)
     write_page(contents | {"panels": panels}, params.title, file, page_parts(params.programs))
+
+
+def _read(file: str) -> Any:
+    """A table or a dataset."""
+    return read_table(file) if file.endswith(".csv") else read_dataset(file)

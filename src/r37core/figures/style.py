@@ -125,9 +125,10 @@ def mark_operating(figure: Figure, operating: OperatingRange) -> None:
         labels = {panel.get_xlabel() for panel in axes.get_shared_x_axes().get_siblings(axes)}
         across, upward = labels & {SPEED_LABEL, RUN_UP_LABEL}, axes.get_ylabel() == SPEED_LABEL
         limits = axes.get_xlim(), axes.get_ylim()
-        for span, line in ([(axes.axvspan, axes.axvline)] if across else []) + (
-            [(axes.axhspan, axes.axhline)] if upward else []
-        ):
+        marks: list[tuple[Any, Any]] = [(axes.axvspan, axes.axvline)] if across else []
+        if upward:
+            marks.append((axes.axhspan, axes.axhline))
+        for span, line in marks:
             for begin, end, alpha in spans:
                 span(begin, end, color=COLOURS[4], alpha=alpha, linewidth=0.0, zorder=0.0)
             for end in (operating.first, operating.last):

@@ -20,8 +20,8 @@ Targets = Callable[[Sweep], dict[str, Wildcards]]
 class Panel:
     """What an extension shows in the explorer of a run that has its dataset.
 
-    `dataset`: that one file, none in a run without it.
-    `contents`: function of the dataset, as `folder.module.function`, that gives what JSON can carry.
+    `dataset`: that one file, a dataset or a table, none in a run without it.
+    `contents`: function of what it holds, as `folder.module.function`, that gives what JSON can carry.
     `program`: file of this package that draws it (`explorer/panels.js`).
     """
 
@@ -44,6 +44,7 @@ class Extension:
     `targets`: what is made of them; part of all_blades unless `made_on_request`.
     `motions`: a dataset of more motions at a speed than that from rest (results/other_motions.py), none in a run without it; it
     stands in summary, ranking and the figures of the response.
+    `verdict`: a table of requirements and whether blades meet them, none in a run without it; maps of designs show it.
     `remarks`: what a run should say of it before it starts.
     `captions`: kind of figure -> what is seen in it, with names (blade, scene) in braces.
     `panel`: what the explorer shows of it.
@@ -61,6 +62,7 @@ class Extension:
     simulated: Targets = lambda _: {}
     targets: Targets = lambda _: {}
     motions: Targets = lambda _: {}
+    verdict: Targets = lambda _: {}
     remarks: Callable[[Settings], list[str]] = lambda _: []
     captions: Mapping[str, str] = field(default_factory=dict)
     panel: Panel | None = None

@@ -23,6 +23,9 @@ from .samples import Pair, Sample, Samples, folder_and_name, member_of, path_par
 KINDS = ("rms", "spectrum", "stress", "wear", "casing")
 """Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
 
+MOST_DRAWN = 6
+"""Designs of families of scenes in one figure of responses."""
+
 MAPS = ("spectrum", "wear", "casing")
 """Kinds that are drawn as maps over speed."""
 
@@ -110,6 +113,18 @@ class Sweep:
     def kinds(self) -> list[str]:
         """Kinds of datasets that this run ends in."""
         return [kind for kind in KINDS if self.runs_with(kind)]
+
+    @cached_property
+    def drawn_scenes(self) -> list[str]:
+        """Scenes with figures of their own: those of no family, or where there are none some of the designs."""
+        settings = self.settings
+        plain = [name for name in settings.scenes if name not in settings.scene_designs.family_of]
+        every = -(-len(settings.scenes) // MOST_DRAWN)
+        return plain or list(settings.scenes)[::every]
+
+    def drawn_runs(self, kind: str) -> list[tuple[str, str]]:
+        """Pairs of blade and scene that have this kind of result and figures of their own."""
+        return [(blade, scene) for blade, scene in self.runs_with(kind) if scene in self.drawn_scenes]
 
     def runs_with(self, kind: str) -> list[tuple[str, str]]:
         """Pairs of blade and scene that have this kind of result."""

@@ -15,6 +15,7 @@ _FOLDERS = (
     "second_motions",
     "rotors",
     "designs",
+    "requirements",
     "tolerances",
     "search",
     "estimate",

@@ -37,14 +37,14 @@ def simulated(sweep: Sweep) -> list[str]:
 
 def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
     settings = sweep.settings
-    growing = [name for name, chosen in settings.scenes.items() if chosen.scene.casing.changes_with_speed]
+    growing = [name for name in sweep.drawn_scenes if settings.scenes[name].scene.casing.changes_with_speed]
     ranked: Wildcards = [{}] if "stress" in sweep.kinds else []
     figures = {
         "campbell_{blade}": of("blade", settings.blades),
         "response_{blade}": of("blade", settings.blades),
-        **{f"{kind}_{{blade}}__{{scene}}": run_keys(sweep.runs_with(kind)) for kind in MAPS},
-        "waterfall_{blade}__{scene}": run_keys(sweep.runs_with("spectrum")),
-        "comparison_{scene}": of("scene", settings.scenes),
+        **{f"{kind}_{{blade}}__{{scene}}": run_keys(sweep.drawn_runs(kind)) for kind in MAPS},
+        "waterfall_{blade}__{scene}": run_keys(sweep.drawn_runs("spectrum")),
+        "comparison_{scene}": of("scene", sweep.drawn_scenes),
         "ranking": ranked,
         "clearance_{scene}": of("scene", growing),
     }
@@ -63,6 +63,12 @@ def motion_files(sweep: Sweep) -> dict[str, str]:
     """The dataset of more motions than that from rest, as the input `motions`; none in a run without one."""
     files = [file for extension in EXTENSIONS for file in filled(extension.motions(sweep))]
     return {"motions": files[0]} if files else {}
+
+
+def verdict_file(sweep: Sweep) -> dict[str, str]:
+    """The table of requirements, as the input `verdict`; none in a run without one."""
+    files = [file for extension in EXTENSIONS for file in filled(extension.verdict(sweep))]
+    return {"verdict": files[0]} if files else {}
 
 
 def panel_files(sweep: Sweep) -> dict[str, str]:

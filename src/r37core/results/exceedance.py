@@ -110,14 +110,15 @@ class Exceedance:
         return (self.weights @ self.shares[chosen]).T
 
     @cached_property
-    def _ranges_drawn(self) -> dict[float, list[list[SpeedRange]]]:
+    def ranges_drawn(self) -> dict[float, list[list[SpeedRange]]]:
+        """Share -> ranges above it, of each of the drawn shares."""
         return {share: [ranges_above(self.speeds, drawn, share) for drawn in self.drawn] for share in (CERTAIN, POSSIBLE)}
 
     def scatter_of_length(self, share: float) -> float:
         """Standard deviation of `length` (rad/s) by chance; NaN where there is none."""
         if not self.chance:
             return np.nan
-        return float(np.std([sum(part.length for part in ranges) for ranges in self._ranges_drawn[share]]))
+        return float(np.std([sum(part.length for part in ranges) for ranges in self.ranges_drawn[share]]))
 
     def scatter_of_border(self, share: float, of: SpeedRange, *, begins: bool) -> float:
         """How far (rad/s) chance moves the begin, or the end, of a range, in two of three cases.
@@ -129,7 +130,7 @@ class Exceedance:
         if not self.chance or border in (self.speeds[0], self.speeds[-1]):
             return np.nan
         off = []
-        for ranges in self._ranges_drawn[share]:
+        for ranges in self.ranges_drawn[share]:
             same = [part for part in ranges if part.begin <= of.end and part.end >= of.begin]
             drawn_border = (same[0].begin if begins else same[-1].end) if same else np.inf
             off.append(abs(drawn_border - border))

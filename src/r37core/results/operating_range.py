@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Dwell:
+class OperatingDwell:
     """A `share` of the operating time that the speed (rad/s) lies between `start` and `stop`."""
 
     start: Annotated[
@@ -51,7 +51,7 @@ class OperatingRange:
     margin: Annotated[
         float, Key("Share of the speed by which the judged range reaches beyond both ends", "_percent", ge=0, lt=100)
     ] = 0.0
-    dwell: tuple[Dwell, ...] = field(default=())
+    dwell: tuple[OperatingDwell, ...] = field(default=())
 
     @property
     def first(self) -> float:
@@ -84,13 +84,19 @@ class OperatingRange:
             density = density + np.where(there, dwell.share * whole / (dwell.stop - dwell.start), 0.0)
         return density
 
-    def integral(self, speeds: np.ndarray, values: np.ndarray) -> float:
+    def time_share(self, begin: float, end: float) -> float:
+        """Share of the operating time at speeds (rad/s) from `begin` to `end`, inside the judged range."""
+        return self.integral(np.array([begin, end]), np.ones(2), (begin, end)) / (self.last - self.first)
+
+    def integral(self, speeds: np.ndarray, values: np.ndarray, within: tuple[float, float] | None = None) -> float:
         r"""Integral (rad/s) of `values` at ascending `speeds` over the judged range, weighted by the operating time.
 
         (last - first) \int values(speed) p(speed) d speed, with p the density of the operating time; without dwells the plain
         integral. Between speeds the values are a straight line, and the density is constant between the ends of dwells.
+        `within`: begin and end (rad/s) of a part of the range.
         """
-        ends = [self.first, self.last, *(end for dwell in self.dwell for end in (dwell.start, dwell.stop))]
-        inside = np.unique([speed for speed in (*speeds, *ends) if self.first <= speed <= self.last])
+        begin, end = within or (self.first, self.last)
+        ends = [begin, end, *(side for dwell in self.dwell for side in (dwell.start, dwell.stop))]
+        inside = np.unique([speed for speed in (*speeds, *ends) if begin <= speed <= end])
         pieces = 0.5 * (np.interp(inside[1:], speeds, values) + np.interp(inside[:-1], speeds, values)) * np.diff(inside)
         return float(np.sum(pieces * self.time_density(0.5 * (inside[1:] + inside[:-1]))))

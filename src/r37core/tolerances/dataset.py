@@ -91,7 +91,7 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
 def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:
     """What stays of one member."""
     edge = leading_edge(response)
-    kept = [name for name in ("status", *_CURVES, "yield_stress") if name in edge]
+    kept = [name for name in ("status", *_CURVES, "yield_stress", "share_of_revolutions_above_yield", "lined") if name in edge]
     member = edge[kept].drop_vars("speed_rpm", errors="ignore")
     member = member.assign({name: ((), value, MEASURES[name].attributes) for name, value in values.items()})
     member["value"] = ("number", list(run.values), {"long_name": "value of the number, in the unit of its key"})

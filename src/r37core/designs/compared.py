@@ -1,0 +1,39 @@
+"""What one figure of designs compares."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    # the workflow imports it before it needs tables
+    import pandas as pd
+
+BLADE, SCENE = KINDS = ("blade", "scene")
+"""What a family is of, as its column in the tables is called."""
+
+BOTH = "both"
+"""Kind of designs of which blade and scene vary."""
+
+SCENE_KEY = "scene."
+"""Begin of the columns of what varies in scenes: `scene.casing.clearance_m`."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """Designs that one figure compares: over `keys`, columns of designs.csv, of these `blades` in these `scenes`.
+
+    `kind`: of the family, BLADE or SCENE; BOTH where a family of blades meets one of scenes.
+    """
+
+    kind: str
+    keys: tuple[str, ...]
+    blades: tuple[str, ...]
+    scenes: tuple[str, ...]
+
+    def rows(self, table: "pd.DataFrame") -> "pd.DataFrame":
+        """Rows of a table of these blades and scenes."""
+        return table[table["blade"].isin(self.blades) & table["scene"].isin(self.scenes)]
+
+    @property
+    def other(self) -> str:
+        """What does not vary, a line or a panel each; empty where both do."""
+        return {BLADE: SCENE, SCENE: BLADE}.get(self.kind, "")

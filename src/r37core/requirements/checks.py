@@ -1,0 +1,40 @@
+"""Checks of requirements that need more than their section."""
+
+from r37core.config import Settings, operating_range
+from r37core.rom.naming import NAMED_MODES
+
+from .plan import requirements_of
+
+
+def can_be_judged(settings: Settings) -> None:
+    """Requirements have an operating range, and their crossings are in the Campbell diagram."""
+    requirements, document = requirements_of(settings), settings.documents.config
+    if not requirements.any:
+        return
+    if operating_range(settings) is None:
+        raise document.refusal(
+            ("requirements",), "requirements without operating", "operating: with idle and redline beside them"
+        )
+    campbell = settings.config.campbell
+    modes = [*NAMED_MODES, *map(str, range(len(NAMED_MODES) + 1, campbell.modes + 1))]
+    for number, margin in enumerate(requirements.campbell_margins):
+        at = ("requirements", "campbell_margins", number)
+        if margin.mode not in modes:
+            raise document.refusal((*at, "mode"), f"'{margin.mode}'", ", ".join(modes))
+        if margin.engine_orders and max(margin.engine_orders) > campbell.highest_engine_order:
+            allowed = f"at most campbell.highest_engine_order ({campbell.highest_engine_order})"
+            raise document.refusal((*at, "engine_orders"), f"{max(margin.engine_orders)}", allowed)
+
+
+def remarks(settings: Settings) -> list[str]:
+    """Which blades and scenes are not run over the whole operating range, whose verdict is not known."""
+    operating = operating_range(settings)
+    if operating is None:
+        return []
+    ends = {pair: plan.certain for pair, plan in settings.speed_plans.items()}
+    short = [pair for pair, speeds in ends.items() if min(speeds) > operating.first or max(speeds) < operating.last]
+    if not short:
+        return []
+    named = ", ".join(f"{blade} in {scene}" for blade, scene in short[:3]) + (", ..." if len(short) > 3 else "")
+    reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
+    return [f"operating: the speeds of {named} do not reach over {reach}; what is judged there is not known"]

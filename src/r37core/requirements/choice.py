@@ -1,0 +1,50 @@
+"""Requirements: what a blade has to keep in operation."""
+
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from r37core.declared import Key
+
+
+@dataclass(frozen=True)
+class CampbellMargin:
+    """Least distance of crossings of a `mode` with engine orders from speeds in operation: dwells, else all of the range."""
+
+    mode: Annotated[str, Key("Mode, as the Campbell diagram names it: 1B, 1T, 2B, 4, ...")]
+    engine_orders: Annotated[tuple[int, ...], Key("Engine orders of the crossings", ge=1, le=1000)]
+    least: Annotated[
+        float,
+        Key("Least distance of a crossing from a dwell, without dwells from the range", "_percent", "at_least", gt=0, le=100),
+    ]
+
+
+@dataclass(frozen=True)
+class Requirements:
+    """What is required of each blade in each scene inside the operating range; None where nothing is."""
+
+    above_yield: Annotated[
+        float | None,
+        Key("Largest length of the speeds above yield in most revolutions", "_rad_s", "above_yield_at_most", ge=0, le=1e6),
+    ] = None
+    used_lining: Annotated[
+        float | None,
+        Key("Largest share of the lining's thickness that is used", "_percent", "used_lining_at_most", gt=0, le=100),
+    ] = None
+    clearance: Annotated[
+        float | None,
+        Key(
+            "Smallest clearance to the round casing, where blade and casing grow as grown",
+            "_m",
+            "clearance_at_least",
+            ge=0,
+            le=1,
+        ),
+    ] = None
+    mass: Annotated[float | None, Key("Largest mass of the blade", "_kg", "mass_at_most", gt=0, le=1e6)] = None
+    campbell_margins: tuple[CampbellMargin, ...] = field(default=())
+
+    @property
+    def any(self) -> bool:
+        """Whether there is one."""
+        numbers = (self.above_yield, self.used_lining, self.clearance, self.mass)
+        return bool(self.campbell_margins) or any(number is not None for number in numbers)

@@ -1,0 +1,237 @@
+"""Requirements judged: the value of each, its margin, where it is worst, and how certain that is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import xarray as xr
+
+from r37core.results.exceedance import CERTAIN, Exceedance, SpeedRange, exceedance_of, is_lined
+from r37core.results.operating_range import OperatingRange
+from r37core.results.other_motions import swept
+from r37core.time_integration.status import RunStatus
+
+from .choice import CampbellMargin, Requirements
+
+MEETS, FAILS, UNKNOWN = VERDICTS = ("meets", "fails", "unknown")
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """One requirement of one blade in one scene: `value` and `limit` in the `unit`; the value is NaN where it is not known.
+
+    `begin`, `end`: speeds (rad/s) where it is worst. `scatter`: standard deviation of the value by chance; `members`: share of
+    the members under tolerances that meet it; `worst_motion`: margin of the worst of all motions; NaN each where not run.
+    """
+
+    requirement: str
+    value: float
+    limit: float
+    unit: str
+    at_least: bool = False
+    begin: float = np.nan
+    end: float = np.nan
+    scatter: float = np.nan
+    members: float = np.nan
+    worst_motion: float = np.nan
+    note: str = ""
+
+    @property
+    def margin(self) -> float:
+        """Distance from the limit, in the unit, above 0 where the requirement is met."""
+        return self.value - self.limit if self.at_least else self.limit - self.value
+
+    @property
+    def verdict(self) -> str:
+        """One of VERDICTS."""
+        if np.isnan(self.margin):
+            return UNKNOWN
+        return MEETS if self.margin >= 0.0 else FAILS
+
+    @property
+    def columns(self) -> dict[str, object]:
+        """The row of verdict.csv."""
+        return {
+            "requirement": self.requirement,
+            "verdict": self.verdict,
+            "value": self.value,
+            "limit": self.limit,
+            "margin": self.margin,
+            "unit": self.unit,
+            "from_rad_s": self.begin,
+            "to_rad_s": self.end,
+            "scatter": self.scatter,
+            "share_of_members": self.members,
+            "margin_worst_motion": self.worst_motion,
+            "note": self.note,
+        }
+
+
+COLUMNS = ("blade", "scene", *Judgement("", 0.0, 0.0, "").columns)
+"""Columns of verdict.csv."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What is known of one blade in one scene. `response`: rms with stress and wear, if computed; `campbell`: of the blade.
+
+    `members`, `motions`: parts of the datasets of members under tolerances and of more motions. `clearance` (m): of a casing
+    whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); NaN each where not known.
+    """
+
+    response: xr.Dataset
+    campbell: xr.Dataset
+    operating: OperatingRange
+    members: xr.Dataset | None = None
+    motions: xr.Dataset | None = None
+    clearance: float = np.nan
+    thickness: float = np.nan
+    mass: float = np.nan
+
+    @property
+    def not_covered(self) -> str:
+        """Why nothing can be said of the operating range; empty where its speeds are run."""
+        speeds = self.response["speed"].values[self.response["status"].values != RunStatus.NOT_RUN]
+        return "" if self.operating.is_covered(speeds) else self.range_text
+
+    @property
+    def range_text(self) -> str:
+        """What runs have to cover, in words."""
+        return f"speeds are not run from {self.operating.first:.6g} to {self.operating.last:.6g} rad/s"
+
+    @property
+    def inside(self) -> xr.Dataset:
+        """The response at the speeds of the operating range."""
+        speeds = self.response["speed"].values
+        return self.response.isel(speed=(speeds >= self.operating.first) & (speeds <= self.operating.last))
+
+
+def judge(requirements: Requirements, evidence: Evidence) -> Iterator[Judgement]:
+    """Each requirement in turn."""
+    if requirements.above_yield is not None:
+        yield _above_yield(requirements.above_yield, evidence)
+    if requirements.used_lining is not None and np.isfinite(evidence.thickness):
+        yield _used_lining(requirements.used_lining, evidence)
+    if requirements.clearance is not None:
+        yield _clearance(requirements.clearance, evidence)
+    if requirements.mass is not None:
+        note = "" if np.isfinite(evidence.mass) else "its volume is not known"
+        yield Judgement("mass", evidence.mass, requirements.mass, "kg", note=note)
+    for margin in requirements.campbell_margins:
+        yield from _campbell_margins(margin, evidence)
+
+
+def _above_yield(limit: float, evidence: Evidence) -> Judgement:
+    name, unit, operating = "above_yield", "rad/s", evidence.operating
+    if "share_of_revolutions_above_yield" not in evidence.response:
+        return Judgement(name, np.nan, limit, unit, note="stress is not among the scene's results")
+    if evidence.not_covered:
+        return Judgement(name, np.nan, limit, unit, note=evidence.not_covered)
+    exceedance = exceedance_of(evidence.response)
+    inside = [part for part in exceedance.ranges(CERTAIN) if operating.overlap(part.begin, part.end) > 0.0]
+    widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
+    return Judgement(
+        name,
+        operating.length(inside),
+        limit,
+        unit,
+        begin=max(widest.begin, operating.first),
+        end=min(widest.end, operating.last),
+        scatter=_scatter(exceedance, operating),
+        members=_share_of_members(limit, evidence),
+        worst_motion=_worst_motion(limit, evidence),
+    )
+
+
+def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
+    """Standard deviation by chance of the length above yield in operation; NaN where there is none."""
+    if not exceedance.chance:
+        return np.nan
+    return float(np.std([operating.length(ranges) for ranges in exceedance.ranges_drawn[CERTAIN]]))
+
+
+def _share_of_members(limit: float, evidence: Evidence) -> float:
+    """Share of the members whose speeds above yield keep the limit; NaN without members."""
+    if evidence.members is None or "share_of_revolutions_above_yield" not in evidence.members:
+        return np.nan
+    lengths = []
+    for name in evidence.members["member"].values:
+        member = evidence.members.sel(member=name)
+        if (member["status"] != RunStatus.NOT_RUN).any():
+            member = member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN))
+            lengths.append(evidence.operating.length(exceedance_of(member).ranges(CERTAIN)))
+    return float(np.mean(np.array(lengths) <= limit)) if lengths else np.nan
+
+
+def _worst_motion(limit: float, evidence: Evidence) -> float:
+    """Margin of the length above yield by the worst motion at each speed; NaN where the sweeps do not cover the range."""
+    if evidence.motions is None or "share_of_revolutions_above_yield" not in evidence.motions:
+        return np.nan
+    pair = swept(evidence.motions)
+    speeds = pair["speed"].values
+    if not evidence.operating.is_covered(speeds):
+        return np.nan
+    diverged = pair["status"] == RunStatus.DIVERGED
+    shares = pair["share_of_revolutions_above_yield"].where(~diverged, 1.0).max("motion").values
+    return limit - evidence.operating.length(Exceedance(speeds, shares, not is_lined(pair)).ranges(CERTAIN))
+
+
+def _used_lining(limit: float, evidence: Evidence) -> Judgement:
+    name, unit = "used_lining", "%"
+    if "used_thickness" not in evidence.response:
+        return Judgement(name, np.nan, 100.0 * limit, unit, note="wear is not among the scene's results")
+    if evidence.not_covered:
+        return Judgement(name, np.nan, 100.0 * limit, unit, note=evidence.not_covered)
+    inside = evidence.inside
+    used = (inside["used_thickness"] / evidence.thickness).fillna(0.0)
+    worst = int(used.values.argmax())
+    through = bool((inside["worn_through_share"] > 0.0).any())
+    diverged = bool((inside["status"] == RunStatus.DIVERGED).any())
+    # what is worn through has used all, and would use more
+    value = np.inf if through or diverged else 100.0 * float(used[worst])
+    at = float(inside["speed"][int((inside["worn_through_share"] > 0.0).values.argmax()) if through else worst])
+    note = "worn through to the casing" if through else "a run diverged" if diverged else ""
+    return Judgement(name, value, 100.0 * limit, unit, begin=at, end=at, note=note)
+
+
+def _clearance(limit: float, evidence: Evidence) -> Judgement:
+    name, unit = "clearance", "mm"
+    if "clearance" not in evidence.response:
+        return Judgement(name, 1e3 * evidence.clearance, 1e3 * limit, unit, at_least=True)
+    if evidence.not_covered:
+        return Judgement(name, np.nan, 1e3 * limit, unit, at_least=True, note=evidence.not_covered)
+    inside = evidence.inside
+    smallest = inside["clearance"].min("contact_node")
+    at = float(inside["speed"][int(smallest.values.argmin())])
+    return Judgement(name, 1e3 * float(smallest.min()), 1e3 * limit, unit, at_least=True, begin=at, end=at)
+
+
+def _campbell_margins(margin: CampbellMargin, evidence: Evidence) -> Iterator[Judgement]:
+    crossings = evidence.campbell["crossing_speed"].sel(mode=margin.mode)
+    for order in margin.engine_orders:
+        crossing = float(crossings.sel(engine_order=order))
+        value = 100.0 * distance_from_operation(crossing, evidence.operating)
+        title, limit = f"campbell_margin {margin.mode}/{order}", 100.0 * margin.least
+        yield Judgement(title, value, limit, "%", at_least=True, begin=crossing, end=crossing)
+
+
+def distance_from_operation(crossing: float, operating: OperatingRange) -> float:
+    """Distance of a crossing (rad/s) from the nearest dwell, or without dwells from the range, as a share of its speed.
+
+    0 inside; 1 for a mode that never crosses the engine order.
+    """
+    if not np.isfinite(crossing):
+        return 1.0
+    ranges = [(dwell.start, dwell.stop) for dwell in operating.dwell] or [(operating.first, operating.last)]
+    return min(max(begin - crossing, crossing - end, 0.0) for begin, end in ranges) / crossing
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Numbers of the configuration that evidence needs: by scene, and the mass (kg) by blade, where they are known."""
+
+    clearance: Mapping[str, float] = field(default_factory=dict)
+    thickness: Mapping[str, float] = field(default_factory=dict)
+    mass: Mapping[str, float] = field(default_factory=dict)

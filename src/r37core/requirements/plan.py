@@ -1,0 +1,68 @@
+"""The plan of requirements: what is judged, by what, and where it lies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from r37core.blade.definition import BladeDefinition
+from r37core.config import Settings, operating_range
+from r37core.plain import to_plain
+from r37core.plans import paths
+from r37core.plans.sweep_plan import Sweep
+
+from .choice import Requirements
+from .section import SECTION
+
+VERDICT = "<results>/verdict.csv"
+
+
+def requirements_of(settings: Settings) -> Requirements:
+    """The requirements that config.yaml has."""
+    return settings.section(SECTION).requirements()
+
+
+@dataclass(frozen=True)
+class Judged:
+    """Plan of what is judged in a run."""
+
+    sweep: Sweep
+
+    @property
+    def requirements(self) -> dict[str, Any]:
+        """The requirements, as plain values."""
+        return to_plain(requirements_of(self.sweep.settings))
+
+    @property
+    def densities(self) -> dict[str, float]:
+        """Density (kg/m3) of each blade whose volume is known: of those with profiles."""
+        blades = self.sweep.settings.blades.items()
+        return {
+            name: blade.material.density
+            for name, blade in blades
+            if blade.material is not None and isinstance(blade.definition, BladeDefinition)
+        }
+
+    @property
+    def clearance(self) -> dict[str, float]:
+        """Clearance (m) of each scene where it is the same at every speed."""
+        casings = {name: chosen.scene.casing for name, chosen in self.sweep.settings.scenes.items()}
+        return {name: casing.clearance for name, casing in casings.items() if not casing.changes_with_speed}
+
+    @property
+    def thickness(self) -> dict[str, float]:
+        """Thickness (m) of the lining of each scene that has one."""
+        linings = {name: chosen.scene.lining for name, chosen in self.sweep.settings.scenes.items()}
+        return {name: lining.thickness for name, lining in linings.items() if lining is not None}
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The list of what lies in the operating range, and the verdict, where there are requirements."""
+    once: paths.Wildcards = [{}] if operating_range(sweep.settings) else []
+    return {**verdict(sweep), "<results>/operating.csv": once}
+
+
+def verdict(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The verdict."""
+    judged = operating_range(sweep.settings) and requirements_of(sweep.settings).any
+    return {VERDICT: [{}] if judged else []}

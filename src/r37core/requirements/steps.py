@@ -1,0 +1,45 @@
+"""The steps of requirements: what lies in the operating range, and the verdict."""
+
+from typing import Any
+
+from r37core.dataset_file import read_dataset
+from r37core.io import as_list
+from r37core.plain import from_plain
+from r37core.results.operating_range import OperatingRange
+from r37core.results.table_file import read_table, write_table
+
+from .choice import Requirements
+from .judging import Numbers
+from .table import operating_table, verdict_table
+
+
+def judge(input: Any, output: Any, params: Any) -> None:
+    """Judge each blade and scene. Output: verdict (csv).
+
+    Inputs: datasets by kind, geometry of each blade whose volume is known; if there, members and motions. Params: pairs,
+    requirements, operating, densities, clearance and thickness by scene.
+    """
+    files = dict(input.items())
+    shapes = as_list(files.pop("geometry"))
+    volumes = {blade: float(read_dataset(file)["volume"]) for blade, file in zip(params.densities, shapes, strict=True)}
+    masses = {blade: params.densities[blade] * volume for blade, volume in volumes.items()}
+    numbers = Numbers(params.clearance, params.thickness, masses)
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
+    write_table(verdict_table(_pairs(params), requirements, operating, datasets, numbers), output.verdict, digits=6)
+
+
+def list_operating(input: Any, output: Any, params: Any) -> None:
+    """List what lies in the operating range. Inputs: datasets by kind, summary. Output: table (csv).
+
+    Params: pairs, operating.
+    """
+    files = dict(input.items())
+    interactions = read_table(files.pop("summary"))
+    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    table = operating_table(_pairs(params), from_plain(OperatingRange, params.operating), datasets, interactions)
+    write_table(table, output.table, digits=6)
+
+
+def _pairs(params: Any) -> list[tuple[str, str]]:
+    return [(blade, scene) for blade, scene in params.pairs]

@@ -1,0 +1,162 @@
+"""verdict.csv and operating.csv: what each blade keeps in operation, and what lies inside the operating range."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from r37core.results.closing import counted, interaction_title
+from r37core.results.datasets import response_of
+from r37core.results.exceedance import CERTAIN, exceedance_of
+from r37core.results.operating_range import OperatingRange
+from r37core.results.table_file import read_table
+
+from .choice import Requirements
+from .judging import COLUMNS, FAILS, MEETS, UNKNOWN, Evidence, Numbers, distance_from_operation, judge
+
+CROSSING, INTERACTION, ABOVE_YIELD = "crossing", "interaction", "above_yield"
+"""Kinds of what lies in the operating range."""
+
+OPERATING_COLUMNS = (
+    "blade",
+    "scene",
+    "kind",
+    "what",
+    "from_rad_s",
+    "to_rad_s",
+    "length_rad_s",
+    "time_share",
+    "distance_percent",
+)
+"""Columns of operating.csv."""
+
+
+def verdict_table(
+    pairs: Sequence[tuple[str, str]],
+    requirements: Requirements,
+    operating: OperatingRange,
+    datasets: Mapping[str, xr.Dataset],
+    numbers: Numbers,
+) -> pd.DataFrame:
+    """A row for each requirement of each of the `pairs` of blade and scene; COLUMNS.
+
+    `datasets`: campbell, rms and, if there, stress, wear, members and motions.
+    """
+    rows = []
+    for blade, scene in pairs:
+        several = {name: _part(datasets.get(name), blade, scene) for name in ("members", "motions")}
+        evidence = Evidence(
+            response_of(datasets, blade, scene),
+            datasets["campbell"].sel(blade=blade),
+            operating,
+            **several,
+            clearance=numbers.clearance.get(scene, np.nan),
+            thickness=numbers.thickness.get(scene, np.nan),
+            mass=numbers.mass.get(blade, np.nan),
+        )
+        rows += [{"blade": blade, "scene": scene, **judgement.columns} for judgement in judge(requirements, evidence)]
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def _part(dataset: xr.Dataset | None, blade: str, scene: str) -> xr.Dataset | None:
+    """One blade in one scene; None where the dataset does not have it."""
+    if dataset is None or blade not in dataset["blade"].values or scene not in dataset["scene"].values:
+        return None
+    return dataset.sel(blade=blade, scene=scene)
+
+
+def operating_table(
+    pairs: Sequence[tuple[str, str]], operating: OperatingRange, datasets: Mapping[str, xr.Dataset], interactions: pd.DataFrame
+) -> pd.DataFrame:
+    """What lies in the operating range: crossings of each blade, interactions and speeds above yield of the `pairs`.
+
+    OPERATING_COLUMNS; `time_share`: of the operating time that is spent at these speeds. `distance_percent`: of a crossing from
+    the nearest dwell, 0 without dwells. `interactions`: summary.csv, of whose rows the peak counts.
+    """
+    rows: list[tuple[object, ...]] = []
+    for blade in dict.fromkeys(blade for blade, _ in pairs):
+        crossings = datasets["campbell"]["crossing_speed"].sel(blade=blade)
+        for mode in crossings["mode"].values:
+            for order, speed in crossings.sel(mode=mode).to_series().dropna().items():
+                if operating.first <= speed <= operating.last:
+                    distance = 100.0 * distance_from_operation(float(speed), operating)
+                    rows.append((blade, "", CROSSING, f"{mode}/{order}", speed, speed, 0.0, 0.0, distance))
+    for blade, scene in pairs:
+        of_pair = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
+        for row in of_pair.itertuples():
+            speed = float(row.peak_speed_rad_s)
+            if operating.first <= speed <= operating.last:
+                order = None if pd.isna(row.engine_order) else int(row.engine_order)
+                title = interaction_title("" if pd.isna(row.mode) else str(row.mode), order)
+                rows.append((blade, scene, INTERACTION, title, speed, speed, 0.0, 0.0, np.nan))
+        response = response_of(datasets, blade, scene)
+        if "share_of_revolutions_above_yield" not in response:
+            continue
+        for part in exceedance_of(response).ranges(CERTAIN):
+            begin, end = max(part.begin, operating.first), min(part.end, operating.last)
+            if end > begin:
+                time = operating.time_share(begin, end)
+                rows.append((blade, scene, ABOVE_YIELD, "", begin, end, end - begin, time, np.nan))
+    return pd.DataFrame(rows, columns=list(OPERATING_COLUMNS))
+
+
+def overall(verdict: pd.DataFrame) -> pd.DataFrame:
+    """One row for each blade and scene: `verdict`, the worst of its requirements, and `reason`, what fails or is not known."""
+    rows = []
+    for (blade, scene), part in verdict.groupby(["blade", "scene"], sort=False):
+        worst = next((kind for kind in (FAILS, UNKNOWN) if (part["verdict"] == kind).any()), MEETS)
+        reasons = [reason(row) for _, row in part[part["verdict"] == worst].iterrows()] if worst != MEETS else []
+        rows.append((blade, scene, worst, "; ".join(reasons)))
+    return pd.DataFrame(rows, columns=["blade", "scene", "verdict", "reason"])
+
+
+def reason(row: pd.Series) -> str:
+    """Why a requirement fails or is not known: what, by how much, where, and how certain that is."""
+    if row["verdict"] == UNKNOWN:
+        return f"{row['requirement']}: {row['note']}"
+    by = f"by {-row['margin']:.3g} {row['unit']}" if np.isfinite(row["margin"]) else str(row["note"])
+    begin, end = row["from_rad_s"], row["to_rad_s"]
+    where = "" if pd.isna(begin) else f", at {begin:.5g} rad/s" if begin == end else f", {begin:.5g} to {end:.5g} rad/s"
+    return f"{row['requirement']} {by}{where}{certainty(row)}"
+
+
+def certainty(row: pd.Series) -> str:
+    """What chance, tolerances and other motions say of a verdict; empty where they were not run."""
+    texts = []
+    if row["scatter"] > 0.0:
+        texts.append(f"scatter {row['scatter']:.2g} {row['unit']}")
+    if pd.notna(row["share_of_members"]):
+        texts.append(f"{100.0 * row['share_of_members']:.0f}% of the members meet it")
+    if pd.notna(row["margin_worst_motion"]):
+        texts.append(f"the worst motion {'meets' if row['margin_worst_motion'] >= 0.0 else 'fails'}")
+    return f" ({', '.join(texts)})" if texts else ""
+
+
+_MOST_LINES = 8
+"""Blades and scenes of which each has a line when a run ends."""
+
+
+def closing(results: Path) -> str:
+    """The verdict of each blade and scene; of many how many meet all, which, and the one that fails by the fewest."""
+    table = read_table(results / "verdict.csv")
+    judged = overall(table)
+    if len(judged) <= _MOST_LINES:
+        lines = []
+        for row in judged.itertuples():
+            uncertain = "".join(certainty(line) for _, line in _of(table, row).iterrows() if row.verdict == MEETS)
+            lines.append(f"{row.blade} in {row.scene} {row.verdict}{f': {row.reason}' if row.reason else uncertain}")
+        return "\n  ".join(["verdict", *lines])
+    good = [f"{row.blade} in {row.scene}" for row in judged.itertuples() if row.verdict == MEETS]
+    more = f" and {len(good) - _MOST_LINES} more" if len(good) > _MOST_LINES else ""
+    named = f": {', '.join(good[:_MOST_LINES])}{more}" if good else ""
+    unknown = int((judged["verdict"] == UNKNOWN).sum())
+    text = f"{len(good)} of {counted(len(judged), 'pair')} of blade and scene meet all requirements{named}"
+    return f"{text}; {unknown} are not known" if unknown else text
+
+
+def _of(table: pd.DataFrame, row: object) -> pd.DataFrame:
+    return table[(table["blade"] == row.blade) & (table["scene"] == row.scene)]  # type: ignore[attr-defined]

@@ -1,0 +1,200 @@
+"""Requirements: each judged on numbers that are known, its margin, place and certainty, and the tables of a run."""
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from r37core.config import ConfigError, command_line_document
+from r37core.product.reading import read_settings
+from r37core.requirements.checks import remarks
+from r37core.requirements.choice import CampbellMargin, Requirements
+from r37core.requirements.judging import FAILS, MEETS, UNKNOWN, Evidence, Numbers, judge
+from r37core.requirements.panel import contents
+from r37core.requirements.table import closing, operating_table, overall, verdict_table
+from r37core.results.operating_range import OperatingDwell, OperatingRange
+from r37core.results.table_file import write_table
+from r37core.time_integration.status import RunStatus
+
+SPEEDS = np.arange(1000.0, 1301.0, 10.0)
+FLOWN = OperatingRange(1050.0, 1250.0)
+
+
+def above(first, last):
+    """Shares of a motion that repeats itself, above yield at speeds from the first to the last."""
+    return ((first <= SPEEDS) & (last >= SPEEDS)).astype(float)
+
+
+def response(shares, **more):
+    content = {"share_of_revolutions_above_yield": ("speed", shares), "status": ("speed", np.zeros(len(SPEEDS), int))}
+    return xr.Dataset(content | {"lined": 1.0} | more, {"speed": SPEEDS})
+
+
+def campbell(crossing=1200.0):
+    crossings = xr.DataArray([[crossing, np.nan]], {"mode": ["1B"], "engine_order": [4, 5]}, ("mode", "engine_order"))
+    return xr.Dataset({"crossing_speed": crossings})
+
+
+def one(requirements, **evidence):
+    known = {"response": response(above(2000.0, 2000.0)), "campbell": campbell(), "operating": FLOWN} | evidence
+    (judgement,) = judge(requirements, Evidence(**known))
+    return judgement
+
+
+def test_speeds_above_yield_inside_the_range_alone():
+    """Above yield from 1015 to 1085 and from 1195 to 1235, half of the way between speeds: 35 and 40 rad/s of it inside."""
+    shares = above(1020.0, 1080.0) + above(1200.0, 1230.0)
+    judgement = one(Requirements(above_yield=60.0), response=response(shares))
+    assert judgement.value == pytest.approx(75.0)
+    assert (judgement.margin, judgement.verdict) == (pytest.approx(-15.0), FAILS)
+    assert (judgement.begin, judgement.end) == (1195.0, 1235.0)
+    assert one(Requirements(above_yield=75.1), response=response(shares)).verdict == MEETS
+    # what lies outside does not count
+    assert one(Requirements(above_yield=0.0), response=response(above(1270.0, 1290.0))).verdict == MEETS
+
+
+def test_a_run_that_diverged_is_above_yield():
+    runs = response(above(2000.0, 2000.0))
+    runs["status"][10] = RunStatus.DIVERGED
+    runs["share_of_revolutions_above_yield"][10] = np.nan
+    assert one(Requirements(above_yield=0.0), response=runs).verdict == FAILS
+
+
+def test_what_is_not_run_or_computed_is_not_known():
+    narrow = response(above(2000.0, 2000.0)).isel(speed=slice(8, None))
+    judgement = one(Requirements(above_yield=0.0), response=narrow)
+    assert (judgement.verdict, judgement.note) == (UNKNOWN, "speeds are not run from 1050 to 1250 rad/s")
+    without = response(above(2000.0, 2000.0)).drop_vars("share_of_revolutions_above_yield")
+    assert "stress is not among" in one(Requirements(above_yield=0.0), response=without).note
+    assert "wear is not among" in one(Requirements(used_lining=1.0), thickness=1e-3).note
+    assert one(Requirements(mass=0.1)).verdict == UNKNOWN
+
+
+def test_the_lining_that_is_used():
+    used, through = np.full(len(SPEEDS), 2e-4), np.zeros(len(SPEEDS))
+    used[[0, 20]] = 9e-4, 6e-4
+    runs = response(above(2000.0, 2000.0), used_thickness=("speed", used), worn_through_share=("speed", through))
+    judgement = one(Requirements(used_lining=0.7), response=runs, thickness=1e-3)
+    # 0.9 mm at 1000 rad/s is outside
+    assert (judgement.value, judgement.verdict, judgement.begin) == (pytest.approx(60.0), MEETS, 1200.0)
+    through[15] = 0.1
+    runs["worn_through_share"] = ("speed", through)
+    judgement = one(Requirements(used_lining=1.0), response=runs, thickness=1e-3)
+    assert (judgement.verdict, judgement.note, judgement.begin) == (FAILS, "worn through to the casing", 1150.0)
+    assert not list(judge(Requirements(used_lining=1.0), Evidence(runs, campbell(), FLOWN)))
+
+
+def test_clearance_and_mass():
+    judgement = one(Requirements(clearance=3e-4), clearance=2e-4)
+    assert (judgement.margin, judgement.verdict) == (pytest.approx(-0.1), FAILS)
+    room = np.tile(5e-4 - 1e-6 * (SPEEDS - 1000.0), (2, 1)).T
+    growing = response(above(2000.0, 2000.0), clearance=(("speed", "contact_node"), room))
+    judgement = one(Requirements(clearance=2.4e-4), response=growing)
+    assert (judgement.value, judgement.begin, judgement.verdict) == (pytest.approx(0.25), 1250.0, MEETS)
+    assert one(Requirements(mass=0.1), mass=0.101).verdict == FAILS
+
+
+def test_margins_of_crossings():
+    margin = CampbellMargin("1B", (4,), 0.05)
+    needs = Requirements(campbell_margins=(margin,))
+    assert one(needs).value == 0.0
+    assert one(needs, campbell=campbell(1300.0)).value == pytest.approx(100.0 * 50.0 / 1300.0)
+    assert one(needs, campbell=campbell(1320.0)).verdict == MEETS
+    # with dwells the rest of the range is passed, and does not count
+    dwell = OperatingRange(1050.0, 1250.0, dwell=(OperatingDwell(1100.0, 1110.0, 0.5),))
+    assert one(needs, operating=dwell).value == pytest.approx(100.0 * 90.0 / 1200.0)
+    # a mode that never crosses the order
+    assert one(Requirements(campbell_margins=(CampbellMargin("1B", (5,), 0.05),))).value == 100.0
+
+
+def test_certainty_by_members_and_motions():
+    shares = np.stack([above(2000.0, 2000.0), above(1100.0, 1120.0), above(2000.0, 2000.0), above(1290.0, 1300.0)])
+    of_members = {"share_of_revolutions_above_yield": (("member", "speed"), shares), "lined": 1.0}
+    members = xr.Dataset(of_members | {"status": (("member", "speed"), np.zeros(shares.shape, int))}, {"speed": SPEEDS})
+    members = members.assign_coords(member=range(4))
+    motions = members.rename(member="motion").assign(differ=("speed", np.ones(len(SPEEDS))))
+    judgement = one(Requirements(above_yield=0.0), members=members, motions=motions)
+    assert judgement.verdict == MEETS
+    assert judgement.members == 0.75
+    assert judgement.worst_motion == pytest.approx(-30.0)
+
+
+@pytest.fixture
+def judged():
+    of = {"above": above(1100.0, 1120.0), "below": above(2000.0, 2000.0)}
+    stress = xr.concat([response(shares) for shares in of.values()], "scene").assign_coords(scene=list(of))
+    datasets = {"rms": stress[["status", "lined"]].expand_dims(blade=["Ref"]), "stress": stress.expand_dims(blade=["Ref"])}
+    datasets["campbell"] = campbell().expand_dims(blade=["Ref"])
+    pairs = [("Ref", "above"), ("Ref", "below")]
+    needs = Requirements(above_yield=0.0, mass=0.1)
+    return verdict_table(pairs, needs, FLOWN, datasets, Numbers(mass={"Ref": 0.05})), datasets, pairs
+
+
+def test_the_verdict_of_a_run(judged, tmp_path):
+    verdict, _, _ = judged
+    assert verdict["requirement"].tolist() == ["above_yield", "mass"] * 2
+    assert overall(verdict)["verdict"].tolist() == ["fails", "meets"]
+    write_table(verdict, tmp_path / "verdict.csv")
+    lines = closing(tmp_path).splitlines()
+    assert lines[1].strip() == "Ref in above fails: above_yield by 30 rad/s, 1095 to 1125 rad/s"
+    assert lines[2].strip() == "Ref in below meets"
+    shown = contents(verdict)
+    assert [pair["verdict"] for pair in shown["pairs"]] == ["fails", "meets"]
+    assert shown["requirements"][0]["from_rad_s"] == 1095.0
+    assert shown["requirements"][1]["from_rad_s"] is None
+
+
+def test_what_lies_in_the_operating_range(judged):
+    _, datasets, pairs = judged
+    interactions = pd.DataFrame(
+        [("Ref", "above", "1B", 4, 1110.0), ("Ref", "above", np.nan, np.nan, 1290.0)],
+        columns=["blade", "scene", "mode", "engine_order", "peak_speed_rad_s"],
+    )
+    table = operating_table(pairs, FLOWN, datasets, interactions)
+    assert table["kind"].tolist() == ["crossing", "interaction", "above_yield"]
+    assert table["what"].tolist() == ["1B/4", "1B/4", ""]
+    assert table.iloc[2][["from_rad_s", "to_rad_s", "length_rad_s", "time_share"]].tolist() == [1095.0, 1125.0, 30.0, 0.15]
+
+
+@pytest.fixture
+def with_requirements(config_copy):
+    def read(**changes):
+        return read_settings(config_copy, command_line_document({"blades": ["Ref"], **changes}))
+
+    return read
+
+
+RANGE = {"idle_rad_s": 1100.0, "redline_rad_s": 1300.0}
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"requirements": {"mass_at_most_kg": 1.0}}, "requirements without operating"),
+        (
+            {
+                "operating": RANGE,
+                "requirements": {"campbell_margins": [{"mode": "3B", "engine_orders": [4], "at_least_percent": 5}]},
+            },
+            "'3B'; allowed: 1B, 1T, 2B, 4",
+        ),
+        (
+            {
+                "operating": RANGE,
+                "requirements": {"campbell_margins": [{"mode": "1B", "engine_orders": [99], "at_least_percent": 5}]},
+            },
+            "99; allowed: at most campbell.highest_engine_order",
+        ),
+        ({"operating": RANGE, "requirements": {"mass_at_most_kg": -1.0}}, "-1"),
+    ],
+)
+def test_requirement_refusals(with_requirements, changes, message):
+    with pytest.raises(ConfigError, match=message):
+        with_requirements(**changes)
+
+
+def test_a_range_that_is_not_run_is_remarked_on(with_requirements):
+    settings = with_requirements(operating=RANGE, speeds=[1150.0], scenes=["direct"])
+    (line,) = remarks(settings)
+    assert "Ref in direct do not reach over 1100 to 1300 rad/s" in line
+    assert not remarks(with_requirements(operating=RANGE))
