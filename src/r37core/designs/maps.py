@@ -7,6 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.figure import Figure
 
 from r37core.figures import style
@@ -23,8 +24,8 @@ def draw_design_map(
 ) -> Figure:
     """Length above yield in most revolutions over two keys, a panel for each of what does not vary.
 
-    `compared`: a Compared, as plain values; `verdict`: verdict.csv, whose requirements are lines where their margin is 0, and
-    marks on the designs that meet them.
+    `compared`: a Compared, as plain values; `verdict`: verdict.csv, whose requirements are lines between designs that meet
+    them and others, and marks on the designs that meet all.
     """
     chosen = from_plain(Compared, compared)
     column = LENGTH if LENGTH in table and table[LENGTH].notna().any() else _LENGTH
@@ -34,9 +35,9 @@ def draw_design_map(
     down = -(-len(panels) // across)
     size = (style.PAGE if across == 2 else 4.6, 3.2 * down + 0.7)
     figure, grid = plt.subplots(down, across, figsize=size, squeeze=False, sharex=True, sharey=True)
-    colours = {"cmap": "cividis", "vmin": 0.0, "vmax": max(float(rows[column].max()), 1.0)}
+    highest = max(float(rows[column].max()), 1.0)
     for axes, (name, part) in zip(grid.flat, panels, strict=False):
-        cells = axes.pcolormesh(*_cells(part, keys, column), **colours)
+        cells = _draw_cells(axes, _grid(part, keys, column, "max"), highest)
         axes.set_title(name)
         _label(axes, part, keys)
         if verdict is not None:
@@ -52,32 +53,53 @@ def draw_design_map(
     return figure
 
 
-def _cells(rows: pd.DataFrame, keys: Sequence[str], column: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Corners of cells, one unit for each value, and values; values may lie at any distance."""
-    values = rows.pivot_table(index=keys[1], columns=keys[0], values=column, aggfunc="max", dropna=False).to_numpy(float)
-    return np.arange(values.shape[1] + 1) - 0.5, np.arange(values.shape[0] + 1) - 0.5, values
+def _grid(rows: pd.DataFrame, keys: Sequence[str], column: str, together: str) -> np.ndarray:
+    """Values over the second and the first key, whatever the distance of these."""
+    return rows.pivot_table(index=keys[1], columns=keys[0], values=column, aggfunc=together, dropna=False).to_numpy(float)
+
+
+def _draw_cells(axes: Axes, values: np.ndarray, highest: float) -> QuadMesh:
+    """Cells of one unit each with their values."""
+    corners = (np.arange(count + 1) - 0.5 for count in values.shape[::-1])
+    cells = axes.pcolormesh(*corners, values, cmap="cividis", vmin=0.0, vmax=highest)
+    for (row, column), value in np.ndenumerate(values):
+        if np.isfinite(value):
+            colour = "white" if value < 0.5 * highest else "black"
+            axes.text(column, row, f"{value:.0f}", color=colour, fontsize=6, ha="center", va="center")
+    return cells
 
 
 def _label(axes: Axes, rows: pd.DataFrame, keys: Sequence[str]) -> None:
     for axis, key in zip((axes.xaxis, axes.yaxis), keys, strict=True):
-        values = np.unique(rows[key])
+        values, label = np.unique(rows[key]), key
+        if key.endswith("_m"):
+            values, label = 1e3 * values, f"{key.removesuffix('_m')} (mm)"
         axis.set_ticks(np.arange(len(values)), [f"{value:.4g}" for value in values])
-        axis.set_label_text(key)
+        axis.set_label_text(label)
     axes.grid(visible=False)
 
 
 def _draw_verdict(axes: Axes, rows: pd.DataFrame, keys: Sequence[str], verdict: pd.DataFrame) -> None:
-    """A mark on each design that meets all requirements, and a line where the margin of each requirement is 0."""
+    """A mark on each design that meets all requirements, and lines round those that meet each."""
     judged = rows[["blade", "scene", *keys]].merge(verdict, on=["blade", "scene"])
-    places = {key: np.unique(rows[key]) for key in keys}
-    meets = judged.assign(meets=judged["verdict"] == "meets").groupby(["blade", "scene", *keys])["meets"].all().reset_index()
-    good = meets[meets["meets"]]
-    if len(good):
-        at = [np.searchsorted(places[key], good[key]) for key in keys]
-        axes.plot(*at, "o", color="white", markeredgecolor="black", markersize=5, label="meets all requirements")
+    judged = judged.assign(meets=(judged["verdict"] == "meets").astype(float))
+    up, across = np.nonzero(_grid(judged, keys, "meets", "min") == 1.0)
+    if len(up):
+        axes.plot(across, up - 0.3, "o", color="white", markeredgecolor="black", markersize=5, label="meets all requirements")
     for number, (name, part) in enumerate(judged.groupby("requirement", sort=False)):
-        margin = part.pivot_table(index=keys[1], columns=keys[0], values="margin", aggfunc="min", dropna=False).to_numpy(float)
-        if min(margin.shape) > 1 and np.nanmin(margin) < 0.0 < np.nanmax(margin):
-            colour = style.COLOURS[(1 + number) % len(style.COLOURS)]
-            axes.contour(margin, levels=[0.0], colors=[colour], linewidths=1.4)
-            axes.plot([], [], color=colour, label=f"limit: {name}")
+        borders = _borders(_grid(part, keys, "meets", "min") == 1.0)
+        if borders:
+            # dashed on solid, where limits lie on each other
+            colour, dashes = style.COLOURS[(1 + number) % len(style.COLOURS)], "--" if number % 2 else "-"
+            lines = LineCollection(borders, linewidths=2.0, colors=colour, linestyles=dashes, label=f"limit: {name}")
+            axes.add_collection(lines, autolim=False)
+
+
+def _borders(inside: np.ndarray) -> list[list[tuple[float, float]]]:
+    """Sides of cells between those inside and others, as pairs of points."""
+    borders = []
+    for row, column in zip(*np.nonzero(inside[:, 1:] != inside[:, :-1]), strict=True):
+        borders.append([(column + 0.5, row - 0.5), (column + 0.5, row + 0.5)])
+    for row, column in zip(*np.nonzero(inside[1:] != inside[:-1]), strict=True):
+        borders.append([(column - 0.5, row + 0.5), (column + 0.5, row + 0.5)])
+    return borders
