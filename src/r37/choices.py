@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
 from r37core.config.blades import SHARES, Blades, blade_settings
@@ -102,6 +102,10 @@ class Choice:
                     return ConfigError(f'{error}; of one of them: **{{"{key}.{inner}": {plain_value(value)!r}}}')
         return error
 
+    def family(self, name: str, entry: Mapping[str, Any]) -> Self:
+        """A family of designs of this entry, called `name`: no blade or scene by itself. `entry`: keys of a family."""
+        return replace(self, name=name, changes={**self.changes, **entry}, base=self.base or self.name)
+
 
 @dataclass(frozen=True)
 class BladeChoice(Choice):
@@ -139,10 +143,6 @@ class BladeChoice(Choice):
                 shared = f"{key} of a copy of {original}, {has}"
                 raise ConfigError(f"name: found {shared}; allowed: the changed blade without a name")
         return {"base": original, **{key: entry[key] for key in ("contact",) if key in entry}}
-
-    def family(self, name: str, entry: Mapping[str, Any]) -> BladeChoice:
-        """A family of this blade's designs, called `name`: no blade by itself. `entry`: keys of a family, as in blades.yaml."""
-        return BladeChoice(name, {**self.changes, **entry}, self.configuration, self.base or self.name)
 
 
 @dataclass(frozen=True)
@@ -183,7 +183,8 @@ class SceneChoice(Choice):
             return False
         with contextlib.suppress(ConfigError):
             entries = read_document(Path(self.file).parent, self.file).check(Scenes).root
-            return entries[self.base or self.name].casing.cold_clearance != self.entry.casing.cold_clearance
+            original = entries.get(self.base or self.name)
+            return original is not None and original.casing.cold_clearance != self.entry.casing.cold_clearance
         return False
 
 

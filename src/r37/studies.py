@@ -7,6 +7,8 @@ from typing import Any, Unpack
 
 import pandas as pd
 
+from r37core.designs.compared import SCENE_KEY
+
 from .arguments import Speeds, mapping, plain_value, speed_keys
 from .call_settings import chosen_blade
 from .choices import BladeChoice
@@ -74,7 +76,7 @@ def designs(
     vary: Mapping[str, Any] | pd.DataFrame,
     **options: Unpack[DesignOptions],
 ) -> RunResults:
-    """Family of designs: one blade with values that vary, and how robust each design is.
+    """Families of designs: one blade, or scenes, or both, with values that vary, and how robust each design is.
 
     Parameters
     ----------
@@ -83,12 +85,15 @@ def designs(
     scenes
         Names, or the results of `r37.scene`; changed ones need a `name`.
     vary
-        Key of blades.yaml -> values, or `{"start": 0, "stop": 100, "step": 25}`, as under vary of a family. Or a DataFrame: a
-        design in each row, its name in the column `blade`, its values under their keys.
+        Key of blades.yaml -> values, or `{"start": 0, "stop": 100, "step": 25}`, as under vary of a family. Keys that begin
+        with `scene.` are of scenes.yaml, such as `scene.casing.clearance_m`: each scene becomes a family. Or a DataFrame: a
+        design of the blade in each row, its name in the column `blade`, its values under their keys.
     combine
-        "grid" for all combinations of several keys (the default), or "pairs" for the first values together, then the second.
+        "grid" for all combinations of several keys (the default), or "pairs" for the first values together, then the second;
+        of blade and of scene each. Every design of the blade meets every scene.
     name
-        Name of the family, by default `Design`. A design is called after its values: `Design_50`.
+        Name of the family, by default `Design`. A design is called after its values: `Design_50`. A scene's family is called
+        after the scene: `direct-varied_0p0003`.
     speeds, speeds_rpm, fidelity, results, config, cores, folder
         As of `r37.run`.
 
@@ -112,12 +117,20 @@ def designs(
     """
     if isinstance(vary, pd.DataFrame):
         entry: dict[str, Any] = {"designs": vary}
+        of_scene: dict[str, Any] = {}
     else:
         example = 'keys of blades.yaml and their values, as in {"sweep_percent": [50, 100]}'
-        entry = {"vary": mapping(vary, "vary", example), "combine": options.get("combine", "grid")}
-    family = chosen_blade(blade, options.get("config")).family(options.get("name", "Design"), entry)
-    keys = speed_keys(speeds, options.get("speeds_rpm"))
-    return run_of("r37.designs", [family], scenes_of_run(scenes, [family], options), keys, options)
+        varied, combine = mapping(vary, "vary", example), options.get("combine", "grid")
+        of_blade = {key: values for key, values in varied.items() if not key.startswith(SCENE_KEY)}
+        entry = {"vary": of_blade, "combine": combine} if of_blade else {}
+        inner = {key.removeprefix(SCENE_KEY): values for key, values in varied.items() if key.startswith(SCENE_KEY)}
+        of_scene = {"vary": inner, "combine": combine} if inner else {}
+    chosen = chosen_blade(blade, options.get("config"))
+    family = chosen.family(options.get("name", "Design"), entry) if entry else chosen
+    keys, several = speed_keys(speeds, options.get("speeds_rpm")), scenes_of_run(scenes, [family], options)
+    if of_scene:
+        several = [scene.family(f"{scene.name}-varied", of_scene) for scene in several]
+    return run_of("r37.designs", [family], several, keys, options)
 
 
 @checked_call
