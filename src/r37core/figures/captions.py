@@ -38,6 +38,11 @@ CAPTIONS = {
         "(right), over speed and nodal diameters. Below: mean energy of the casing over the last half of the run, and rms of "
         "all waves."
     ),
+    "fatigue": (
+        "Share of the Goodman line on blade {blade} in scene {scene} at the speed where it is largest: alternating stress over "
+        "fatigue strength, plus mean stress, with that of rotation, over ultimate strength. Each node has its largest of the "
+        "later revolutions; red dot: the largest of all. Grey: outside the region of the stress."
+    ),
     "wear": (
         "Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in scene "
         "{scene}. Dotted: crossings of 1B with engine orders; an interaction wears as many lobes as its engine order. White "

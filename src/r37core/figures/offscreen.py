@@ -33,6 +33,13 @@ def rendered(plotter: pyvista.Plotter) -> np.ndarray:
     return pixels
 
 
+def without_margins(pixels: np.ndarray) -> np.ndarray:
+    """The part of a picture, shape (height, width, 3), that is not white."""
+    drawn = np.argwhere((pixels < 255).any(axis=2))
+    (top, left), (bottom, right) = drawn.min(axis=0), drawn.max(axis=0) + 1
+    return pixels[top:bottom, left:right]
+
+
 def save_picture(plotter: pyvista.Plotter, file: Path | str) -> None:
     """Write what was drawn into a PNG and end with the plotter."""
     with atomic_write(file) as partial:

@@ -6,8 +6,10 @@ from typing import Any
 from r37core.dataset_file import read_dataset
 from r37core.io import as_list
 from r37core.results.table_file import read_table
+from r37core.rom.rom_file import read_reduced_model
 
 from .blade_shapes import draw_blade_shapes
+from .fatigue_map import draw_fatigue
 from .style import picture_figure, save
 
 
@@ -23,6 +25,16 @@ def draw(input: Any, output: Any, params: Any) -> None:
     if of:
         arguments["title"] = ", ".join(of.values())
     save(resolve_name(function)(**arguments), [output.png, output.pdf], caption)
+
+
+def fatigue(input: Any, output: Any, params: Any) -> None:
+    """Draw where a blade is nearest to the Goodman line. Inputs: mesh (vtu), rom, response. Outputs: png, pdf.
+
+    Params: title, caption.
+    """
+    nodes, response = read_reduced_model(input.rom).stress_submesh.nodes, read_dataset(input.response)
+    figure = draw_fatigue(input.mesh, nodes, response, params.title)
+    save(figure, [output.png, output.pdf], params.caption)
 
 
 def blade_shapes(input: Any, output: Any, params: Any) -> None:

@@ -43,6 +43,7 @@ def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
         "campbell_{blade}": of("blade", settings.blades),
         "response_{blade}": of("blade", settings.blades),
         **{f"{kind}_{{blade}}__{{scene}}": run_keys(sweep.runs_with(kind)) for kind in MAPS},
+        "fatigue_{blade}__{scene}": run_keys(sweep.runs_with("fatigue")),
         "waterfall_{blade}__{scene}": run_keys(sweep.runs_with("spectrum")),
         "comparison_{scene}": of("scene", settings.scenes),
         "ranking": ranked,
