@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from defaults import IntegrationChoice
 from integration_cases import DIRECT, NARROW
+from stress_cases import inner_places
 
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
@@ -119,10 +120,7 @@ def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
     """The displacement of the whole mesh at each instant, its stress tensors, their mean, and the difference from it."""
     simulation, record, numbers = a_run
     problem, region = simulation.problem, model.stress_submesh.nodes
-    # nodes all of whose elements belong to the region
-    outside = [nodes[~np.isin(nodes, region).all(axis=1)] for nodes in mesh.blocks.values()]
-    inner = np.flatnonzero(~np.isin(region, np.concatenate([nodes.ravel() for nodes in outside])))
-    places = inner[[0, len(inner) // 2, -1]]
+    places = inner_places(model, mesh)
     instants = 3 * CHOICE.snapshots_per_revolution
     states = record.blades[0].snapshots[-instants:] @ (problem.model.to_reduced @ problem.contact.state_shapes).T
     fields = whole.whole_blade

@@ -39,9 +39,10 @@ CAPTIONS = {
         "all waves."
     ),
     "fatigue": (
-        "Share of the Goodman line on blade {blade} in scene {scene} at the speed where it is largest: alternating stress over "
-        "fatigue strength, plus mean stress, with that of rotation, over ultimate strength. Each node has its largest of the "
-        "later revolutions; red dot: the largest of all. Grey: outside the region of the stress."
+        "Share of the Goodman line on blade {blade} in scene {scene}, at the speed where it is largest. It is the alternating "
+        "stress over the fatigue strength, plus the mean stress, with that of rotation, over the ultimate strength. Dots are "
+        "nodes, each with its largest share of the later revolutions. Red: largest of all; grey: outside the region of the "
+        "stress."
     ),
     "wear": (
         "Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in scene "

@@ -19,8 +19,8 @@ from .offscreen import look, new_plotter, rendered, without_margins
 from .style import PAGE
 
 _COLOUR_MAP: Final = "viridis"
-_PIXELS, _HEIGHT = (700, 700), 3.4
-_SIDES = {"from one side": (0.35, -1.0, -0.25), "from the other": (0.35, 1.0, 0.25)}
+_PIXELS, _HEIGHT = (600, 800), 3.2
+_DIRECTIONS = ((0.35, -1.0, -0.25), (0.35, 1.0, 0.25))
 
 
 def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, title: str) -> Figure:
@@ -40,15 +40,15 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
     share = strengths.share(worst["alternating_stress"].values, worst["mean_stress"].values)
     with readable(mesh):
         grid = pyvista.read(mesh)
-    shown = np.full(grid.n_points, np.nan)
-    shown[nodes] = share
-    grid.point_data["shown"] = shown
-    largest = float(share.max())
-    figure, panels = plt.subplots(1, len(_SIDES), figsize=(0.6 * PAGE, _HEIGHT), layout="constrained")
-    for axes, (side, seen_from) in zip(panels, _SIDES.items(), strict=True):
-        axes.imshow(_rendered(grid, largest, grid.points[nodes[share.argmax()]], seen_from), interpolation="none")
-        axes.set_title(side)
+    largest, surface = float(share.max()), _surface(grid, nodes, share)
+    figure, panels = plt.subplots(1, 4, figsize=(PAGE, _HEIGHT), layout="constrained")
+    for axes in panels:
         axes.set_axis_off()
+    for number, (side, seen_from) in enumerate(zip(_sides(grid), _DIRECTIONS, strict=True)):
+        for axes, at in zip(panels[2 * number :], (None, grid.points[nodes]), strict=False):
+            axes.imshow(_rendered(surface, grid.points[nodes], share, seen_from, at), interpolation="none")
+        panels[2 * number].set_title(side)
+        panels[2 * number + 1].set_title("region of the stress")
     bar = figure.colorbar(ScalarMappable(Normalize(0.0, largest), _COLOUR_MAP), ax=panels, shrink=0.8)
     bar.set_label("share of the Goodman line")
     if largest > 1.0:
@@ -61,23 +61,42 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
     return figure
 
 
-def _rendered(grid: Any, largest: float, worst: np.ndarray, seen_from: tuple[float, float, float]) -> np.ndarray:
-    """The blade coloured by "shown" up to `largest`, with a mark at its `worst` point, as pixels."""
-    surface = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
+def _sides(grid: Any) -> tuple[str, str]:
+    """Names of the sides that are seen from negative and from positive y."""
+    pressure, suction = (grid.points[grid.point_data[f"tip_{side}_edge"] > 0, 1].mean() for side in ("pressure", "suction"))
+    return ("pressure side", "suction side") if pressure < suction else ("suction side", "pressure side")
+
+
+def _surface(grid: Any, nodes: np.ndarray, share: np.ndarray) -> Any:
+    """The surface of the blade with the values "shown" at some `nodes`, NaN elsewhere."""
+    shown = np.full(grid.n_points, np.nan)
+    shown[nodes] = share
+    grid.point_data["shown"] = shown
+    return grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
+
+
+def _rendered(
+    surface: Any, points: np.ndarray, share: np.ndarray, seen_from: tuple[float, float, float], at: np.ndarray | None
+) -> np.ndarray:
+    """The blade coloured by "shown", a ring about the worst of the `points` and, in a close-up `at` some, a dot at each."""
     plotter = new_plotter(1, _PIXELS)
+    colours: dict[str, Any] = {"clim": (0.0, float(share.max())), "cmap": _COLOUR_MAP, "show_scalar_bar": False}
     plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
     plotter.add_mesh(
         surface,
         scalars="shown",
-        clim=(0.0, largest),
-        cmap=_COLOUR_MAP,
         nan_color="lightgrey",
-        ambient=0.55,
-        diffuse=0.5,
+        ambient=0.75,
+        diffuse=0.3,
         smooth_shading=True,
         split_sharp_edges=True,
-        show_scalar_bar=False,
+        **colours,
     )
-    plotter.add_mesh(pyvista.Sphere(0.008 * float(np.ptp(grid.points[:, 0])), worst), color="red")
-    look(plotter, seen_from=seen_from, zoom=1.25)
+    worst = points[[share.argmax()]]
+    plotter.add_points(worst, color="red", point_size=26 if at is not None else 14, render_points_as_spheres=True)
+    if at is not None:
+        plotter.add_points(
+            points, scalars=share, point_size=16, render_points_as_spheres=True, ambient=0.75, diffuse=0.3, **colours
+        )
+    look(plotter, seen_from=seen_from, zoom=1.15 if at is None else 1.2, at=at)
     return without_margins(rendered(plotter))

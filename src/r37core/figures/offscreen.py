@@ -19,10 +19,16 @@ def new_plotter(columns: int, size: tuple[int, int]) -> pyvista.Plotter:
     return pyvista.Plotter(shape=(1, columns), off_screen=True, window_size=list(size), border=False)
 
 
-def look(plotter: pyvista.Plotter, seen_from: tuple[float, float, float] = (0.25, -1.0, 0.9), zoom: float = 1.3) -> None:
-    """Show all of the current panel from a direction, the machine's axis upright."""
+def look(
+    plotter: pyvista.Plotter,
+    seen_from: tuple[float, float, float] = (0.25, -1.0, 0.9),
+    zoom: float = 1.3,
+    at: np.ndarray | None = None,
+) -> None:
+    """Show all of the current panel, or the points `at`, shape (points, 3), from a direction; the radius is up."""
     plotter.camera_position = [seen_from, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
-    plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy
+    bounds = None if at is None else np.stack([at.min(axis=0), at.max(axis=0)], axis=1).ravel()
+    plotter.reset_camera(bounds=bounds)  # type: ignore[call-arg]  # the wrapper hides the method from mypy
     plotter.camera.zoom(zoom)
 
 
