@@ -45,8 +45,8 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
     for axes in panels:
         axes.set_axis_off()
     for number, (side, seen_from) in enumerate(zip(_sides(grid), _DIRECTIONS, strict=True)):
-        for axes, at in zip(panels[2 * number :], (None, grid.points[nodes]), strict=False):
-            axes.imshow(_rendered(surface, grid.points[nodes], share, seen_from, at), interpolation="none")
+        for axes, close_up in zip(panels[2 * number :], (None, grid.points[nodes]), strict=False):
+            axes.imshow(_rendered(surface, grid.points[nodes], share, seen_from, close_up), interpolation="none")
         panels[2 * number].set_title(side)
         panels[2 * number + 1].set_title("region of the stress")
     bar = figure.colorbar(ScalarMappable(Normalize(0.0, largest), _COLOUR_MAP), ax=panels, shrink=0.8)
@@ -76,9 +76,9 @@ def _surface(grid: Any, nodes: np.ndarray, share: np.ndarray) -> Any:
 
 
 def _rendered(
-    surface: Any, points: np.ndarray, share: np.ndarray, seen_from: tuple[float, float, float], at: np.ndarray | None
+    surface: Any, points: np.ndarray, share: np.ndarray, seen_from: tuple[float, float, float], close_up: np.ndarray | None
 ) -> np.ndarray:
-    """The blade coloured by "shown", a ring about the worst of the `points` and, in a close-up `at` some, a dot at each."""
+    """The blade coloured by "shown", a red dot at the worst of the `points` and, in a `close_up` of them, one at each."""
     plotter = new_plotter(1, _PIXELS)
     colours: dict[str, Any] = {"clim": (0.0, float(share.max())), "cmap": _COLOUR_MAP, "show_scalar_bar": False}
     plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
@@ -93,10 +93,10 @@ def _rendered(
         **colours,
     )
     worst = points[[share.argmax()]]
-    plotter.add_points(worst, color="red", point_size=26 if at is not None else 14, render_points_as_spheres=True)
-    if at is not None:
+    plotter.add_points(worst, color="red", point_size=20 if close_up is not None else 12, render_points_as_spheres=True)
+    if close_up is not None:
         plotter.add_points(
-            points, scalars=share, point_size=16, render_points_as_spheres=True, ambient=0.75, diffuse=0.3, **colours
+            points, scalars=share, point_size=10, render_points_as_spheres=True, ambient=0.75, diffuse=0.3, **colours
         )
-    look(plotter, seen_from=seen_from, zoom=1.15 if at is None else 1.2, at=at)
+    look(plotter, seen_from=seen_from, zoom=1.15 if close_up is None else 1.2, close_up=close_up)
     return without_margins(rendered(plotter))

@@ -23,11 +23,11 @@ def look(
     plotter: pyvista.Plotter,
     seen_from: tuple[float, float, float] = (0.25, -1.0, 0.9),
     zoom: float = 1.3,
-    at: np.ndarray | None = None,
+    close_up: np.ndarray | None = None,
 ) -> None:
-    """Show all of the current panel, or the points `at`, shape (points, 3), from a direction; the radius is up."""
+    """Show all of the current panel, or the points of a `close_up`, shape (points, 3), from a direction; the radius is up."""
     plotter.camera_position = [seen_from, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
-    bounds = None if at is None else np.stack([at.min(axis=0), at.max(axis=0)], axis=1).ravel()
+    bounds = None if close_up is None else np.stack([close_up.min(axis=0), close_up.max(axis=0)], axis=1).ravel()
     plotter.reset_camera(bounds=bounds)  # type: ignore[call-arg]  # the wrapper hides the method from mypy
     plotter.camera.zoom(zoom)
 

@@ -25,7 +25,6 @@ _REVOLUTIONS = "later revolutions"
 _POSSIBLE = f"more than {POSSIBLE:.0%} of the {_REVOLUTIONS} exceed yield"
 _CERTAIN = f"more than {CERTAIN:.0%} of the {_REVOLUTIONS} exceed yield"
 _MEDIAN = f"median of the von Mises stress over the {_REVOLUTIONS}"
-_GOODMAN = "share of the Goodman line: alternating stress/fatigue strength + mean stress/ultimate strength"
 _MOST, _SOME = "above yield in most revolutions", "above yield in some revolutions"
 
 INTERACTIONS = {
@@ -85,7 +84,7 @@ INTERACTIONS = {
     "certain_length_rad_s": Word(_MOST, f"length of all speeds at which {_CERTAIN}", _SPEED),
     "median_von_mises_pa": Word("median stress", f"largest {_MEDIAN}", *_MPA),
     "high_von_mises_pa": Word("high stress", f"largest 90% quantile of the von Mises stress over the {_REVOLUTIONS}", *_MPA),
-    "largest_goodman_share": Word("Goodman share", f"largest {_GOODMAN}, over the {_REVOLUTIONS}"),
+    "largest_goodman_share": Word("Goodman share", "largest share of the Goodman line"),
     "peak_motion_m": Word("rms, both directions", "normal and tangential rms together, at the peak speed", *_MM),
     "fall_speed_rad_s": Word("falls at", "speed above the peak at which the motion falls below half of it", _SPEED),
     "note": Word("note", "reason for empty columns, and where the lining is worn through"),
@@ -112,12 +111,12 @@ RANKING = {
     "largest_goodman_share": INTERACTIONS["largest_goodman_share"],
     "length_goodman_rad_s": Word(
         "above the Goodman line in most revolutions",
-        f"length of all speeds at which more than {CERTAIN:.0%} of the {_REVOLUTIONS} have a node above the Goodman line",
+        "length of all speeds above the Goodman line in most revolutions",
         _SPEED,
     ),
     "goodman_integral_rad_s": Word(
         "integral above the Goodman line",
-        f"integral over speed of the share of {_REVOLUTIONS} with a node above the Goodman line",
+        "integral over speed of the share of revolutions above the Goodman line",
         _SPEED,
     ),
     "largest_median_stress_pa": Word("largest median stress", f"largest {_MEDIAN}", *_MPA),

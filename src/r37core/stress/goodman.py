@@ -50,7 +50,7 @@ def goodman_statistic(run: Mapping[str, np.ndarray], strengths: Strengths) -> di
     share = strengths.share(alternating, mean)
     statistic = {**asdict(strengths), **dict.fromkeys(GOODMAN, np.nan)}
     if len(share) and np.isfinite(share).all():
-        of_revolutions, worst = np.maximum.reduceat(share, np.cumsum(counts) - counts), share.argmax()
-        values = share[worst], np.median(of_revolutions), np.mean(of_revolutions > 1.0), alternating[worst], mean[worst]
+        largest, worst = np.maximum.reduceat(share, np.cumsum(counts) - counts), share.argmax()
+        values = share[worst], np.median(largest), np.mean(largest > 1.0), alternating[worst], mean[worst]
         statistic |= dict(zip(GOODMAN, values, strict=True))
     return {name: np.array(value, dtype=float) for name, value in statistic.items()}
