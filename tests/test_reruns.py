@@ -172,6 +172,12 @@ def test_editing_one_blade_runs_that_blade(project):
     [
         ("blades", "Ref: { material: { density_kg_m3: 8001.0 } }", {"simulate", "response"}, {"geometry", "mesh"}),
         ("blades", "Ref: { material: { yield_stress_pa: 1.39e+9 } }", {"response"}, STRUCTURE | {"contact_model", "simulate"}),
+        (
+            "blades",
+            "Ref: { material: { fatigue_strength_pa: 6e+8, ultimate_strength_pa: 1.5e+9 } }",
+            {"response"},
+            STRUCTURE | {"contact_model", "simulate", "stress_operator", "prepare_time_integration"},
+        ),
         ("config", "structure: { spin_softening: true }", {"reduced_model"}, {"geometry", "mesh", "abaqus_deck"}),
     ],
 )
@@ -217,6 +223,7 @@ def test_a_new_time_of_any_file_of_ours_runs_nothing(project, profile):
         # how the lining is worn
         ("src/r37core/contact/laws.py", "wear + thickness * excess", "wear + excess", "prepare_time_integration", runs(SPEEDS)),
         ("src/r37core/stress/statistic.py", "HIGH = 0.9", "HIGH = 0.8", "response", set()),
+        ("src/r37core/stress/goodman.py", "largest > 1.0", "largest > 0.9", "response", set()),
         ("workflow/scripts/simulate.py", "return None", "return 0", "simulate", runs(SPEEDS)),
         ("workflow/scripts/step.py", "return None", "return 0", "geometry", runs(SPEEDS)),
     ],

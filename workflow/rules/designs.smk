@@ -6,7 +6,7 @@ families = Families(settings)
 
 use rule step as design_table with:
     input:
-        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
+        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue")},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         geometry=expand(paths.nominal(paths.GEOMETRY), blade=families.densities),

@@ -117,6 +117,21 @@ use rule figure as clearance_figure with:
         **drawing("figures.response_curves.draw_clearance", "clearance"),
 
 
+use rule step as fatigue_figure with:
+    input:
+        mesh=paths.nominal(paths.MESH),
+        rom=sweep.reduced_model,
+        response=paths.nominal(paths.RESPONSE),
+    output:
+        **pictures("fatigue_{blade}__{scene}", "{blade}", "{scene}", "fatigue"),
+    log:
+        "<logs>/figures/fatigue_{blade}__{scene}.log",
+    params:
+        **step("figures.steps.fatigue"),
+        title="{blade}, {scene}",
+        caption=captioned("fatigue"),
+
+
 use rule step as blade_shapes_figure with:
     input:
         meshes=expand(paths.nominal(paths.MESH), blade=imported.meshed_blades),

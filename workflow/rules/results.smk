@@ -60,7 +60,7 @@ use rule step as summary with:
 
 use rule step as ranking with:
     input:
-        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
+        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue")},
         **({"members": sampling.dataset} if sampling else {}),
         **more_motions,
     output:

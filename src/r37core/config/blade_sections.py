@@ -4,6 +4,7 @@ from typing import Literal, Self
 
 from pydantic import model_validator
 
+from r37core.declared import declared_keys
 from r37core.fem.material import Material
 from r37core.rom.reduction_choice import StressSubmesh
 
@@ -19,6 +20,10 @@ CONTACT_IN_WORDS = (
 @declared_by(Material, optional=True)
 class MaterialSection(Section):
     """Isotropic material; the base gives what is left out."""
+
+
+REQUIRED_OF_MATERIAL = tuple(declared.name for declared in declared_keys(Material) if not declared.key.optional)
+"""Keys that a material has, its own or of its base."""
 
 
 class _Box(Section):

@@ -21,8 +21,9 @@ from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
 from r37core.io import TextFileError
 from r37core.rom.reduction_choice import StressSubmesh
+from r37core.stress.goodman import Strengths
 
-from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection
+from .blade_sections import CONTACT_IN_WORDS, REQUIRED_OF_MATERIAL, Contact, MaterialSection
 from .declaring import si_fields, si_form
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
@@ -135,9 +136,15 @@ class BladeSettings:
         return math.inf if self.material is None else self.material.yield_stress
 
     @property
+    def strengths(self) -> Strengths:
+        """Strengths of the Goodman line (Pa); infinite where they are not known."""
+        material = self.material
+        return Strengths() if material is None else Strengths(material.fatigue_strength, material.ultimate_strength)
+
+    @property
     def elastic(self) -> BladeSettings:
-        """Blade as if its material never yielded: a new yield stress asks for no new model."""
-        return self if self.material is None else replace(self, material=replace(self.material, yield_stress=math.inf))
+        """Blade without the strengths of its material: a new one asks for no new model."""
+        return self if self.material is None else replace(self, material=self.material.elastic)
 
 
 def all_blades(
@@ -235,10 +242,15 @@ def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Docume
     material: dict[str, float] = {}
     for link in chain:
         material |= plain(entries[link].material)
-    missing = [key for key in MaterialSection.model_fields if key not in material]
+    missing = [key for key in REQUIRED_OF_MATERIAL if key not in material]
     if missing:
         raise document.error((chain[-1], "material"), f"missing key {', '.join(missing)} (give it here or in the base)")
-    return si_form(fem_material.Material, MaterialSection(**material))
+    made = si_form(fem_material.Material, MaterialSection(**material))
+    try:
+        made.check_strengths()
+    except ValueError as error:
+        raise document.error((chain[-1], "material"), str(error)) from None
+    return made
 
 
 def _inheritance(name: str, entries: Mapping[str, Any], document: Document) -> list[str]:

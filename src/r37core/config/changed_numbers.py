@@ -68,7 +68,8 @@ def scene_numbers(entry: SceneEntry) -> dict[str, float]:
 def blade_number(blade: BladeSettings, key: str) -> float | None:
     """Nominal value of one of BLADE_KEYS in its unit, None if a blade has none; ValueError for shifts of a chordwise sweep."""
     if key.startswith(_MATERIAL):
-        return None if blade.material is None else getattr(blade.material, si_name(key.removeprefix(_MATERIAL))[0])
+        value = math.inf if blade.material is None else getattr(blade.material, si_name(key.removeprefix(_MATERIAL))[0])
+        return value if math.isfinite(value) else None
     shape = blade.definition
     if not isinstance(shape, BladeDefinition) or (key in SHARES and shape.stacking is None):
         return None
@@ -91,7 +92,12 @@ def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSe
     material = {key.removeprefix(_MATERIAL): value for key, value in changes.items() if key.startswith(_MATERIAL)}
     if material and blade.material is not None:
         numbers = plain(_checked(MaterialSection, material, _MATERIAL))
-        changed = replace(changed, material=replace(blade.material, **{si_name(key)[0]: of for key, of in numbers.items()}))
+        other = replace(blade.material, **{si_name(key)[0]: of for key, of in numbers.items()})
+        try:
+            other.check_strengths()
+        except ValueError as error:
+            raise ImpossibleValueError(_MATERIAL + next(iter(material)), str(error)) from None
+        changed = replace(changed, material=other)
     shape = {key: value for key, value in changes.items() if key in _SHAPE}
     if shape and isinstance(blade.definition, BladeDefinition):
         changed = replace(changed, definition=_changed_shape(blade.definition, shape))

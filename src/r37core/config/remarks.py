@@ -71,7 +71,7 @@ def remarks_on_speeds(settings: Settings) -> list[str]:
 
 
 def remarks_on_materials(settings: Settings) -> list[str]:
-    """Remarks on a density or a yield stress that no alloy has, and on a material of a mesh file that is not used."""
+    """Remarks on a density or a strength that no alloy has, and on a material of a mesh file that is not used."""
     blades: dict[str, list[str]] = {}
     for name, blade in settings.blades.items():
         for key, (value, (low, high)) in ({} if blade.material is None else blade.material.unusual).items():

@@ -20,7 +20,9 @@ TipLine = Literal["pressure_edge", "camber", "suction_edge"]
 OF_ONE_BLADE = ("signal", "shapes", "motion_kind")
 """Results that a scene with a rotor cannot have."""
 
-Result = Literal["spectrum", "signal", "stress", "static_stress", "wear", "energy", "casing", "shapes", "motion_kind"]
+Result = Literal[
+    "spectrum", "signal", "stress", "static_stress", "fatigue", "wear", "energy", "casing", "shapes", "motion_kind"
+]
 
 
 @declared_by(Lining)
@@ -64,8 +66,8 @@ class SceneEntry(Section):
     results: list[Result] = Field(
         default=["spectrum", "stress"],
         json_schema_extra={"uniqueItems": True},
-        description="Kept results; static_stress adds the stress of rotation, casing keeps the waves of an elastic casing, "
-        "motion_kind says whether the motion is chaotic",
+        description="Kept results; static_stress adds the stress of rotation, fatigue compares stress with the Goodman line, "
+        "casing keeps the waves of an elastic casing, motion_kind says whether the motion is chaotic",
     )
     stress_history_speeds_rad_s: list[Speed] = Field(
         default=[], description="Speeds at which the largest stress of every revolution is kept"
@@ -90,7 +92,7 @@ class SceneEntry(Section):
             raise refused(("results",), "wear", "only in a scene with a lining")
         if "casing" in self.results and not self.casing.elastic:
             raise refused(("results",), "casing", "only in a scene whose casing has a ring or ring_modes")
-        for result in ("shapes", "static_stress"):
+        for result in ("shapes", "static_stress", "fatigue"):
             if result in self.results and "stress" not in self.results:
                 raise refused(("results",), result, "only with stress among the results")
         for key in histories:

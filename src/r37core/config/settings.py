@@ -30,6 +30,9 @@ from .speed_section import UNITS, SpeedRange, SpeedRule, key_of_speeds
 
 T = TypeVar("T")
 
+_OF_MESHES = ("stress", "static_stress", "fatigue", "shapes")
+"""Results that blades of matrices do not have."""
+
 
 def results_folder(run: str | None) -> Path:
     """Folder of the results of a run with this name, or without one."""
@@ -214,8 +217,8 @@ class Settings:
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
         """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes."""
         wanted = self.scenes[scene].results
-        matrices = self.blades[blade].is_matrices
-        return tuple(result for result in wanted if not (matrices and result in ("stress", "static_stress", "shapes")))
+        without = _OF_MESHES if self.blades[blade].is_matrices else ()
+        return tuple(result for result in wanted if result not in without)
 
     def integration_choice(
         self, blade: str, scene: str, speed: float, history_speeds: Sequence[float] | None = None

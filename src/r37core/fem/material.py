@@ -1,18 +1,20 @@
 """Material of the blade."""
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
 
 from r37core.declared import Key
 
-_DENSITIES, _YIELD_STRESSES = (1000.0, 20000.0), (1e7, 5e9)
+_DENSITIES, _STRENGTHS = (1000.0, 20000.0), (1e7, 5e9)
 
 
 @dataclass(frozen=True)
 class Material:
-    """Isotropic linear elastic material. Without a yield stress it never yields."""
+    """Isotropic linear elastic material. Without a yield stress it never yields; without the other strengths it never tires."""
 
     youngs_modulus: Annotated[float, Key("Young's modulus", "_pa", ge=1e6, le=1e13)]
     density: Annotated[float, Key("Density", "_kg_m3", ge=1, le=1e5)]
@@ -20,6 +22,18 @@ class Material:
     yield_stress: Annotated[
         float, Key("Stress above which results mark a speed; the model stays linear", "_pa", ge=1, le=1e12)
     ] = float("inf")
+    fatigue_strength: Annotated[
+        float,
+        Key("Stress amplitude that it endures at zero mean, for the result fatigue", "_pa", ge=1, le=1e12, optional=True),
+    ] = float("inf")
+    ultimate_strength: Annotated[
+        float, Key("Tensile strength, for the result fatigue", "_pa", ge=1, le=1e12, optional=True)
+    ] = float("inf")
+
+    @property
+    def elastic(self) -> Material:
+        """The material without its strengths: none of them changes what is computed of a linear blade."""
+        return replace(self, yield_stress=float("inf"), fatigue_strength=float("inf"), ultimate_strength=float("inf"))
 
     @property
     def lame_constants(self) -> tuple[float, float]:
@@ -30,12 +44,29 @@ class Material:
     @property
     def unusual(self) -> dict[str, tuple[float, tuple[float, float]]]:
         """Key -> value and usual range, in the key's unit, of what lies outside that of alloys and composites."""
-        numbers = {"density_kg_m3": (self.density, _DENSITIES), "yield_stress_pa": (self.yield_stress, _YIELD_STRESSES)}
+        numbers = {"density_kg_m3": (self.density, _DENSITIES)}
+        for key in ("yield_stress", "fatigue_strength", "ultimate_strength"):
+            numbers[f"{key}_pa"] = (getattr(self, key), _STRENGTHS)
         return {
             key: (value, usual)
             for key, (value, usual) in numbers.items()
             if np.isfinite(value) and not usual[0] <= value <= usual[1]
         }
+
+    def check_strengths(self) -> None:
+        """Raise ValueError for one strength of the Goodman line without the other, and for amplitudes that break the blade."""
+        known = {
+            key: getattr(self, key.removesuffix("_pa"))
+            for key in ("fatigue_strength_pa", "ultimate_strength_pa")
+            if np.isfinite(getattr(self, key.removesuffix("_pa")))
+        }
+        if len(known) == 1:
+            raise ValueError(f"{min(known)} alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both or neither")
+        if known and not self.fatigue_strength < self.ultimate_strength:
+            raise ValueError(
+                f"fatigue_strength_pa: found {self.fatigue_strength:g}; allowed: less than ultimate_strength_pa "
+                f"({self.ultimate_strength:g})"
+            )
 
     def check_units(self) -> None:
         """Raise ValueError for a stiffness and density that no solid has in SI units: N, mm and t mixed with m and kg."""

@@ -38,6 +38,12 @@ CAPTIONS = {
         "(right), over speed and nodal diameters. Below: mean energy of the casing over the last half of the run, and rms of "
         "all waves."
     ),
+    "fatigue": (
+        "Share of the Goodman line on blade {blade} in scene {scene}, at the speed where it is largest. It is the alternating "
+        "stress over the fatigue strength, plus the mean stress, with that of rotation, over the ultimate strength. Dots are "
+        "nodes, each with its largest share of the later revolutions. Red: largest of all; grey: outside the region of the "
+        "stress."
+    ),
     "wear": (
         "Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in scene "
         "{scene}. Dotted: crossings of 1B with engine orders; an interaction wears as many lobes as its engine order. White "

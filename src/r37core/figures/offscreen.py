@@ -19,10 +19,16 @@ def new_plotter(columns: int, size: tuple[int, int]) -> pyvista.Plotter:
     return pyvista.Plotter(shape=(1, columns), off_screen=True, window_size=list(size), border=False)
 
 
-def look(plotter: pyvista.Plotter, seen_from: tuple[float, float, float] = (0.25, -1.0, 0.9), zoom: float = 1.3) -> None:
-    """Show all of the current panel from a direction, the machine's axis upright."""
+def look(
+    plotter: pyvista.Plotter,
+    seen_from: tuple[float, float, float] = (0.25, -1.0, 0.9),
+    zoom: float = 1.3,
+    close_up: np.ndarray | None = None,
+) -> None:
+    """Show all of the current panel, or the points of a `close_up`, shape (points, 3), from a direction; the radius is up."""
     plotter.camera_position = [seen_from, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]
-    plotter.reset_camera()  # type: ignore[call-arg]  # the wrapper hides the method from mypy
+    bounds = None if close_up is None else np.stack([close_up.min(axis=0), close_up.max(axis=0)], axis=1).ravel()
+    plotter.reset_camera(bounds=bounds)  # type: ignore[call-arg]  # the wrapper hides the method from mypy
     plotter.camera.zoom(zoom)
 
 
@@ -31,6 +37,13 @@ def rendered(plotter: pyvista.Plotter) -> np.ndarray:
     pixels = np.asarray(plotter.screenshot(return_img=True))
     plotter.close()
     return pixels
+
+
+def without_margins(pixels: np.ndarray) -> np.ndarray:
+    """The part of a picture, shape (height, width, 3), that is not white."""
+    drawn = np.argwhere((pixels < 255).any(axis=2))
+    (top, left), (bottom, right) = drawn.min(axis=0), drawn.max(axis=0) + 1
+    return pixels[top:bottom, left:right]
 
 
 def save_picture(plotter: pyvista.Plotter, file: Path | str) -> None:

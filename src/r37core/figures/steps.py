@@ -8,8 +8,10 @@ from r37core.io import as_list
 from r37core.plain import from_plain
 from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table
+from r37core.rom.rom_file import read_reduced_model
 
 from .blade_shapes import draw_blade_shapes
+from .fatigue_map import draw_fatigue
 from .style import mark_operating, picture_figure, save
 
 
@@ -29,6 +31,16 @@ def draw(input: Any, output: Any, params: Any) -> None:
     if operating:
         mark_operating(figure, from_plain(OperatingRange, operating))
     save(figure, [output.png, output.pdf], caption)
+
+
+def fatigue(input: Any, output: Any, params: Any) -> None:
+    """Draw where a blade is nearest to the Goodman line. Inputs: mesh (vtu), rom, response. Outputs: png, pdf.
+
+    Params: title, caption.
+    """
+    nodes, response = read_reduced_model(input.rom).stress_submesh.nodes, read_dataset(input.response)
+    figure = draw_fatigue(input.mesh, nodes, response, params.title)
+    save(figure, [output.png, output.pdf], params.caption)
 
 
 def blade_shapes(input: Any, output: Any, params: Any) -> None:

@@ -6,7 +6,6 @@ import hashlib
 import json
 from collections import UserDict
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import cache
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -90,7 +89,7 @@ def shape_hash(settings: Settings, blade: str) -> str:
 def structure_hash(settings: Settings, blade: str) -> str:
     """Short hash of all that a blade's structural results depend on."""
     material = settings.blades[blade].material
-    elastic = material and replace(material, yield_stress=0.0)
+    elastic = material and material.elastic
     mesh, choice = settings.fidelity.mesh.model_dump(exclude_none=True), settings.reduction_choice(blade)
     return _short_hash(shape_hash(settings, blade), elastic, mesh, choice)
 

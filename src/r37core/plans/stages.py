@@ -72,7 +72,8 @@ def sweep_stages(sweep: Sweep, made: Provenance) -> dict[str, Stage]:
     prepared = {"scene": simulations.plain_scene, "speed": highest, "choice": simulations.choice_of_scene}
     refined = {"plan": rounds.refined_plan, "choice": rounds.refinement_choice, "yields": rounds.yields_of_round}
     speeds = {"speeds": sweep.speeds, "stress_history_speeds": sweep.stress_history_speeds}
-    joined = {**speeds, "yield_stress": sweep.yield_stress, "provenance": made.sweep}
+    limits = {"yield_stress": sweep.yield_stress, "strengths": sweep.strengths}
+    joined = {**speeds, **limits, "provenance": made.sweep}
     return {
         "prepare_time_integration": Stage("time_integration.speed_job.prepare", prepared),
         "refine": Stage("adaptive.steps.refine", refined),

@@ -48,7 +48,7 @@ class Structure:
         return to_plain(self._samples.blade(wildcards).material)
 
     def elastic(self, wildcards: Any) -> dict[str, float]:
-        """Material of a blade with a mesh, as if it never yielded."""
+        """Material of a blade with a mesh, without its strengths."""
         return to_plain(self._samples.blade(wildcards).elastic.material)
 
     def kept(self, wildcards: Any) -> bool:

@@ -20,7 +20,7 @@ from r37core.time_integration.speed_run import OF_RUNS
 from . import paths
 from .samples import Pair, Sample, Samples, folder_and_name, member_of, path_part
 
-KINDS = ("rms", "spectrum", "stress", "wear", "casing")
+KINDS = ("rms", "spectrum", "stress", "fatigue", "wear", "casing")
 """Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
 
 MOST_DRAWN = 6
@@ -60,6 +60,10 @@ class Sweep:
         """The stress of a blade per motion, for a scene whose stress is wanted."""
         return [self._model_file(wildcards, paths.STRESS_OPERATOR)] if "stress" in self.results(wildcards) else []
 
+    def reduced_model(self, wildcards: Any) -> str:
+        """The reduced model of a blade, with the contact nodes of a scene."""
+        return self._model_file(wildcards, paths.REDUCED_MODEL)
+
     def _model_file(self, wildcards: Any, pattern: str) -> str:
         tip_line = self.settings.scenes[wildcards.scene].tip_line
         return paths.fill(pattern, member=self.samples.member(wildcards).model, blade=wildcards.blade, tip_line=tip_line)
@@ -85,6 +89,10 @@ class Sweep:
     def yield_stress(self, wildcards: Any) -> float:
         """Yield stress of a blade (Pa)."""
         return self.samples.member(wildcards).blade.yield_stress
+
+    def strengths(self, wildcards: Any) -> dict[str, float]:
+        """Strengths of a blade's Goodman line (Pa), as plain values."""
+        return to_plain(self.samples.member(wildcards).blade.strengths)
 
     def speed_plan(self, wildcards: Any) -> SpeedPlan:
         """Speeds of one blade and scene."""

@@ -43,6 +43,7 @@ def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
         "campbell_{blade}": of("blade", settings.blades),
         "response_{blade}": of("blade", settings.blades),
         **{f"{kind}_{{blade}}__{{scene}}": run_keys(sweep.drawn_runs(kind)) for kind in MAPS},
+        "fatigue_{blade}__{scene}": run_keys(sweep.drawn_runs("fatigue")),
         "waterfall_{blade}__{scene}": run_keys(sweep.drawn_runs("spectrum")),
         "comparison_{scene}": of("scene", sweep.drawn_scenes),
         "ranking": ranked,

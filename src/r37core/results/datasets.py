@@ -1,4 +1,4 @@
-"""rms.nc, spectrum.nc, stress.nc, wear.nc, casing.nc: the responses of all blades and scenes, joined slab by slab."""
+"""rms.nc, spectrum.nc, stress.nc, fatigue.nc, wear.nc, casing.nc: all responses of a sweep, joined slab by slab."""
 
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Where over speed a blade exceeds yield, from the share of a run's revolutions that does.
+"""Where over speed a blade exceeds yield or the Goodman line, from the share of a run's revolutions that does.
 
 In direct contact one revolution's largest stress scatters by a tenth on most blades, from revolution to revolution and from
 speed to speed, so that a speed is above yield or below it by chance. The share of a hundred revolutions, smoothed over
@@ -138,9 +138,9 @@ class Exceedance:
         return scatter if np.isfinite(scatter) else np.nan
 
 
-def exceedance_of(response: xr.Dataset) -> Exceedance:
-    """Exceedance of a response with its stress; a run that diverged is above yield in all revolutions."""
-    share = response["share_of_revolutions_above_yield"].where(response["status"] != RunStatus.DIVERGED, 1.0).dropna("speed")
+def exceedance_of(response: xr.Dataset, share_of_revolutions: str = "share_of_revolutions_above_yield") -> Exceedance:
+    """Exceedance of a response by a share of its revolutions; a run that diverged is above in all revolutions."""
+    share = response[share_of_revolutions].where(response["status"] != RunStatus.DIVERGED, 1.0).dropna("speed")
     return Exceedance(share["speed"].values, share.values, not is_lined(response))
 
 

@@ -84,6 +84,7 @@ INTERACTIONS = {
     "certain_length_rad_s": Word(_MOST, f"length of all speeds at which {_CERTAIN}", _SPEED),
     "median_von_mises_pa": Word("median stress", f"largest {_MEDIAN}", *_MPA),
     "high_von_mises_pa": Word("high stress", f"largest 90% quantile of the von Mises stress over the {_REVOLUTIONS}", *_MPA),
+    "largest_goodman_share": Word("Goodman share", "largest share of the Goodman line"),
     "peak_motion_m": Word("rms, both directions", "normal and tangential rms together, at the peak speed", *_MM),
     "fall_speed_rad_s": Word("falls at", "speed above the peak at which the motion falls below half of it", _SPEED),
     "note": Word("note", "reason for empty columns, and where the lining is worn through"),
@@ -106,6 +107,17 @@ RANKING = {
     "length_lasting_rad_s": Word(f"{_MOST}, lasting", "the same where the motion lasts or grows at the end", _SPEED),
     "exceedance_integral_rad_s": Word(
         "integral above yield", f"integral over speed of the share of {_REVOLUTIONS} that exceed yield", _SPEED
+    ),
+    "largest_goodman_share": INTERACTIONS["largest_goodman_share"],
+    "length_goodman_rad_s": Word(
+        "above the Goodman line in most revolutions",
+        "length of all speeds above the Goodman line in most revolutions",
+        _SPEED,
+    ),
+    "goodman_integral_rad_s": Word(
+        "integral above the Goodman line",
+        "integral over speed of the share of revolutions above the Goodman line",
+        _SPEED,
     ),
     "largest_median_stress_pa": Word("largest median stress", f"largest {_MEDIAN}", *_MPA),
     "first_certain_rad_s": Word(f"first speed {_MOST}", f"lowest speed at which {_CERTAIN}", _SPEED),

@@ -71,6 +71,7 @@ class AllRevolutions:
     certain_length_rad_s: float = np.nan
     median_von_mises_pa: float = np.nan
     high_von_mises_pa: float = np.nan
+    largest_goodman_share: float = np.nan
 
 
 @dataclass(frozen=True)
@@ -161,6 +162,7 @@ def interaction_row(
         "stress_region": str(reach["stress_region"].item()) if "stress_region" in reach else "",
         "median_von_mises_pa": _largest(reach, "max_von_mises_median"),
         "high_von_mises_pa": _largest(reach, "max_von_mises_high"),
+        "largest_goodman_share": _largest(reach, "goodman_share"),
         "peak_motion_m": float(np.hypot(normal, tangential)),
         **more,
     }

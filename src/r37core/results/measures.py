@@ -122,6 +122,11 @@ def largest_stress(response: xr.Dataset) -> tuple[float, float]:
     return float(series[index]), float(series["speed"][index])
 
 
+def has_strengths(response: xr.Dataset) -> bool:
+    """Whether the response has shares of the Goodman line: fatigue of a blade whose material has strengths."""
+    return "goodman_share" in response and bool(np.isfinite(response["fatigue_strength"]))
+
+
 def lasts(response: xr.Dataset) -> xr.DataArray:
     """Whether the motion lasts or grows at the end of each run, or the run diverged, over the speeds."""
     return ~response["motion_at_end"].isin([MotionAtEnd.QUIET, MotionAtEnd.CUT_FREE])

@@ -12,7 +12,7 @@ from r37core.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of
-from .measures import drop_after, lasts, motion, peak_of, speeds_above_yield
+from .measures import drop_after, has_strengths, lasts, motion, peak_of, speeds_above_yield
 from .operating import INTEGRAL, RANK
 from .ranges import ENDS
 from .table_file import read_table
@@ -29,6 +29,9 @@ ROBUSTNESS = (
     "length_lasting_rad_s",
     "exceedance_integral_rad_s",
     "exceedance_integral_scatter_rad_s",
+    "largest_goodman_share",
+    "length_goodman_rad_s",
+    "goodman_integral_rad_s",
     "largest_median_stress_pa",
     "first_certain_rad_s",
     "first_possible_rad_s",
@@ -87,6 +90,11 @@ def robustness(response: xr.Dataset, *, chance_scatter: bool = True) -> dict[str
             measures["length_lasting_rad_s"] = _length_lasting(response)
         measures["widest_range_rad_s"] = max((above.length for above in exceedance.ranges(CERTAIN)), default=0.0)
         measures["largest_median_stress_pa"] = float(response["max_von_mises_median"].max())
+    if has_strengths(response):
+        exceedance = exceedance_of(response, "share_of_revolutions_above_goodman")
+        measures["largest_goodman_share"] = float(response["goodman_share"].max())
+        measures["length_goodman_rad_s"] = exceedance.length(CERTAIN)
+        measures["goodman_integral_rad_s"] = exceedance.integral
     return measures
 
 

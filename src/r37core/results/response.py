@@ -7,6 +7,7 @@ import netCDF4
 import numpy as np
 
 from r37core.dataset_file import new_netcdf
+from r37core.stress.goodman import UNKNOWN, Strengths, goodman_statistic
 from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
@@ -26,19 +27,20 @@ def write_response(
     *,
     stress_history_speeds: Sequence[float],
     yield_stress: float,
+    strengths: Strengths = UNKNOWN,
     provenance: Mapping[str, object],
 ) -> None:
     """Reduce the files of the `speeds` (rad/s, ascending), in the same order, to one file; _BLOCK are in memory at a time.
 
-    Speeds in `stress_history_speeds`, which have recorded it, keep the largest stress of every revolution. `yield_stress`: of
-    the blade's material (Pa). Raises InputFileError for a file that cannot be read.
+    Speeds in `stress_history_speeds`, which have recorded it, keep the largest stress of every revolution. `yield_stress` (Pa)
+    and `strengths`: of the blade's material. Raises InputFileError for a file that cannot be read.
     """
     history_speeds = [speed for speed in speeds if speed in stress_history_speeds]
     with new_netcdf(file, provenance) as dataset:
         runs = list(zip(speeds, files, strict=True))
         for first in range(0, len(runs), _BLOCK):
             block = slice(first, first + _BLOCK)
-            rows = {speed: _row(read_speed(file), yield_stress) for speed, file in runs[block]}
+            rows = {speed: _row(read_speed(file), yield_stress, strengths) for speed, file in runs[block]}
             values = next(iter(rows.values()))
             if first == 0:
                 _create(dataset, speeds, values, history_speeds)
@@ -51,7 +53,7 @@ def write_response(
                 dataset["first_yield_revolution"][number] = first_yield(history, yield_stress)
 
 
-def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
+def _row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Strengths) -> dict[str, np.ndarray]:
     """The variables of one speed, and the coordinates that they need."""
     values = {**run, "casing_cone_angle": run["cone_angle"]}
     for kind in ("rms", "peak"):
@@ -74,6 +76,9 @@ def _row(run: Mapping[str, np.ndarray], yield_stress: float) -> dict[str, np.nda
         values |= stress_statistic(_in_statistic(run), yield_stress)
         # histories of all revolutions are in single precision
         values["max_von_mises_ever"] = np.maximum(values["max_von_mises_ever"], run["max_von_mises"])
+    if "alternating_stress" in run:
+        values |= goodman_statistic(run, strengths)
+        values["stress_node"] = np.arange(1, len(run["alternating_stress"]) + 1)
     return values
 
 

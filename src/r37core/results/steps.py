@@ -9,6 +9,7 @@ from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
 from r37core.io import as_list, write_json
 from r37core.plain import from_plain
 from r37core.rom.rom_file import read_reduced_model
+from r37core.stress.goodman import Strengths
 
 from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
@@ -46,7 +47,7 @@ def campbell_of_all(input: Any, output: Any, params: Any) -> None:
 def response(input: Any, output: Any, params: Any) -> None:
     """Reduce the speeds of a blade and scene. Inputs: speeds. Output: response (nc).
 
-    Params: speeds, stress_history_speeds, yield_stress, provenance.
+    Params: speeds, stress_history_speeds, yield_stress, strengths, provenance.
     """
     write_response(
         as_list(input.speeds),
@@ -54,6 +55,7 @@ def response(input: Any, output: Any, params: Any) -> None:
         output.response,
         stress_history_speeds=params.stress_history_speeds,
         yield_stress=params.yield_stress,
+        strengths=from_plain(Strengths, params.strengths),
         provenance=params.provenance,
     )
 

@@ -63,6 +63,25 @@ _STRESS = {
     "share_of_revolutions_above_yield": Variable((), "1", "share of the later revolutions whose largest stress exceeds yield"),
 }
 
+_GOODMAN = {
+    "goodman_share": Variable((), "1", "share of the Goodman line: largest of all nodes and later revolutions"),
+    "goodman_share_median": Variable((), "1", "largest share of the Goodman line in each of the later revolutions: median"),
+    "share_of_revolutions_above_goodman": Variable(
+        (), "1", "share of the later revolutions with a node above the Goodman line"
+    ),
+    "goodman_alternating_stress": Variable((), "Pa", "alternating stress where the share of the Goodman line is largest"),
+    "goodman_mean_stress": Variable((), "Pa", "mean stress there, 0 in compression"),
+}
+
+_OF_NODES = {
+    "alternating_stress": Variable(
+        ("stress_node",), "Pa", "largest von Mises stress of the stress less its mean over the later revolutions", "f4"
+    ),
+    "mean_stress": Variable(
+        ("stress_node",), "Pa", "sum of the normal stresses of vibration and rotation, mean over the later revolutions", "f4"
+    ),
+}
+
 _WEAR = {
     "wear": Variable(("angle",), "m", "wear of the lining, largest over the rings, at the end", "f4"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
@@ -87,7 +106,7 @@ _WAVES = {
     "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the later revolutions", "f4"),
 }
 
-VARIABLES = _STATUS | _MOTION | OF_KIND | _GIVEN_MOTION | _SPECTRUM | _STRESS | _WEAR | _WAVES
+VARIABLES = _STATUS | _MOTION | OF_KIND | _GIVEN_MOTION | _SPECTRUM | _STRESS | _GOODMAN | _OF_NODES | _WEAR | _WAVES
 """Variables over the speeds of a response."""
 
 OF_LINING = {
@@ -108,12 +127,18 @@ OF_STRESS = {
     "static_stress": Variable((), "1", "1 where max_von_mises has the stress of rotation, 0: vibration alone", "f4"),
 }
 
+OF_FATIGUE = {
+    "fatigue_strength": Variable((), "Pa", "stress amplitude that the blade's material endures at zero mean"),
+    "ultimate_strength": Variable((), "Pa", "tensile strength of the blade's material"),
+}
+
 OF_ALL_SPEEDS = {
     "casing_cone_angle": Variable((), "rad", "half angle of the casing's cone, negative where it narrows downstream"),
     "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "f4"),
     **OF_LINING,
     **OF_CASING,
     **OF_STRESS,
+    **OF_FATIGUE,
 }
 """Variables of a response that are the same at every speed."""
 
@@ -132,6 +157,7 @@ AXES = {
     "angle": Variable(("angle",), "rad", "start of the sector round the casing"),
     "lobes": Variable(("lobes",), "1", "number of lobes"),
     "contact_node": Variable(("contact_node",), "1", "number of the contact node, from the leading edge on"),
+    "stress_node": Variable(("stress_node",), "1", "number of the node in the region of the stress"),
     "casing_mode": Variable(("casing_mode",), "1", "number of the casing's mode"),
     "casing_order": Variable(
         ("casing_order",), "1", "frequency over speed, not turning; positive with the rotor, negative against it"
@@ -144,9 +170,11 @@ DATASETS = {
     "rms": ("lined", *OF_LINING, "casing_cone_angle", *_MOTION, *OF_KIND),
     "spectrum": tuple(_SPECTRUM),
     "stress": ("lined", *_STRESS, *OF_STRESS, *HISTORIES),
+    "fatigue": ("lined", *_GOODMAN, *OF_FATIGUE),
     "wear": tuple(_WEAR),
     "casing": (*OF_CASING, *_WAVES),
 }
-"""Dataset -> its variables, where a response has them; each also carries those of FLAGS."""
+"""Dataset -> its variables, where a response has them; each also carries those of FLAGS. Nodes differ from blade to blade: what
+they have stays in the response."""
 
 FLAGS = tuple(_STATUS)

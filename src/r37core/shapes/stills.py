@@ -15,7 +15,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from r37core.figures import style
-from r37core.figures.offscreen import look, new_plotter, rendered
+from r37core.figures.offscreen import look, new_plotter, rendered, without_margins
 from r37core.io import read_json, readable
 
 from . import INDEX
@@ -88,14 +88,7 @@ def _rendered(grid: Any, moved: str, factor: float, largest: float) -> np.ndarra
         show_scalar_bar=False,
     )
     look(plotter, seen_from=(0.35, -1.0, -0.25), zoom=1.25)
-    return _without_margins(rendered(plotter))
-
-
-def _without_margins(pixels: np.ndarray) -> np.ndarray:
-    """The part of a picture that is not white."""
-    drawn = np.argwhere((pixels < 255).any(axis=2))
-    (top, left), (bottom, right) = drawn.min(axis=0), drawn.max(axis=0) + 1
-    return pixels[top:bottom, left:right]
+    return without_margins(rendered(plotter))
 
 
 def _words(title: str) -> str:

@@ -39,6 +39,11 @@ class StressOperator:
         parts = (0.5 * root * (xx - yy), zz - 0.5 * (xx + yy), root * xy, root * yz, root * zx)
         return np.stack(parts).astype(np.float32)
 
+    @cached_property
+    def trace(self) -> np.ndarray:
+        """Sum of the normal stresses (Pa) per coordinate, shape (nodes, coordinates + shapes)."""
+        return self.operator[:3].sum(axis=0)
+
     def have_rotation(self, coordinates: np.ndarray) -> bool:
         """True where the coordinates, shape (instants, coordinates), have the amplitudes of rotation's shapes."""
         return coordinates.shape[1] > self.coordinates

@@ -8,6 +8,7 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperator
 
+from .fatigue_numbers import fatigue_numbers
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .kept_numbers import (
@@ -31,7 +32,7 @@ from .settling import motion_at_end, revolution_rms, wear_of
 from .simulate import DIRECTIONS, LEADING_EDGE, TIP_POINTS
 from .state import SimulationState
 
-OF_RUNS = ("spectrum", "stress", "static_stress", "wear", "energy", "casing", "motion_kind")
+OF_RUNS = ("spectrum", "stress", "static_stress", "fatigue", "wear", "energy", "casing", "motion_kind")
 """Results of a scene that its simulations give; others are made of them later."""
 
 
@@ -58,12 +59,12 @@ def run_speed(
     `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
     of rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa),
     the largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
-    them. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of the run. With a rotor:
-    the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and energies; the spectrum of the
-    leading blade, the snapshots of the one with the largest stress; and numbers of each blade, see rotor_numbers and
-    stress_of_blades. `status` is that of the rotor: all blades end when one diverges, whose snapshots are kept then. With
-    `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the energies
-    `initial_energy` (J).
+    them; with fatigue: see fatigue_numbers. `casing_...`: see casing_waves. A diverged run has NaN where a number would need
+    the rest of the run. With a rotor: the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and
+    energies; the spectrum of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade,
+    see rotor_numbers and stress_of_blades. `status` is that of the rotor: all blades end when one diverges, whose snapshots are
+    kept then. With `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the
+    energies `initial_energy` (J).
     Raises what Problem raises, and InitialMotionError.
     """
     simulation = BladesSimulation(model, speed, scene, choice)
@@ -133,7 +134,7 @@ def numbers_of_run(
     if "spectrum" in results:
         numbers |= spectrum(half[leader][:, 0, KEPT].T, len(half[leader]) // per_revolution, spectrum_highest_order)
     if "stress" in results:
-        numbers |= _stress(simulation, record, stress, "static_stress" in results)
+        numbers |= _stress(simulation, record, stress, results)
     if "wear" in results:
         assert scene.lining is not None
         wear = np.max([state.wear for state in states if state.wear is not None], axis=0)
@@ -175,10 +176,11 @@ def ending_numbers(
 
 
 def _stress(
-    simulation: BladesSimulation, record: BladesRecord, stress: StressOperator | None, static_stress: bool
+    simulation: BladesSimulation, record: BladesRecord, stress: StressOperator | None, results: Sequence[str]
 ) -> dict[str, np.ndarray]:
-    """Numbers of the blade with the largest stress (snapshot_numbers), the largest history, and those of a rotor."""
+    """Numbers of the blade with the largest stress (snapshot_numbers), the largest history, fatigue, and those of a rotor."""
     shown, history, rotor = record.first_diverged or 0, None, simulation.rotor
+    static_stress = "static_stress" in results
     if stress is not None:
         factors = rotor.frequency_factors if rotor else (1.0,)
         history = stress_histories(simulation.problems, record.blades, factors, stress, static_stress)
@@ -186,6 +188,8 @@ def _stress(
             shown = int(np.nan_to_num(history[:, -1]).argmax())
     # a blade that another one ends may have no snapshots: of a diverged run they are of the one that diverged
     numbers = snapshot_numbers(simulation.problems[shown], record.blades[shown], stress, static_stress)
-    if history is None:
+    if stress is None or history is None:
         return numbers
+    if "fatigue" in results:
+        numbers |= fatigue_numbers(simulation.problems, record, stress, shown)
     return numbers | {"revolution_von_mises": history.max(axis=0)} | (stress_of_blades(history) if rotor else {})

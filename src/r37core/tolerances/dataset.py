@@ -35,6 +35,7 @@ MEASURES = {
     "length_possible": Variable((), "rad s-1", "length of the speeds above yield in some revolutions"),
     "diverged_runs": Variable((), "1", "runs that diverged"),
     "largest_median_stress": Variable((), "Pa", "largest over all speeds of the median over the revolutions"),
+    "largest_goodman_share": Variable((), "1", "largest share of the Goodman line over all speeds"),
 }
 """What is read off each member over all its speeds; all but the first need the stress."""
 
@@ -85,6 +86,7 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
         measures |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
         ranked = robustness(response, chance_scatter=False)
         measures |= {measure: ranked[column] for column, measure in MEASURES_RANKED_BY.items()}
+        measures["largest_goodman_share"] = ranked["largest_goodman_share"]
     return measures
 
 

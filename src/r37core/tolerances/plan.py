@@ -21,7 +21,7 @@ DATASET, TABLE = "<results>/tolerances.nc", "<results>/tolerances.csv"
 RESPONSE_OF_MEMBER = paths.RESPONSE.replace("{member}", path_part(FOLDER, "{member}"))
 _FIRST_ROUND = paths.ROUND.replace("{member}", path_part(FOLDER)).replace("{round}", "0")
 
-_KEPT = ("spectrum", "stress", "static_stress")
+_KEPT = ("spectrum", "stress", "static_stress", "fatigue")
 """Results of a scene that its members have, too: what ranges are read off."""
 
 

@@ -1,0 +1,44 @@
+"""Fatigue of a run at one speed: what its file keeps, so that a share of any strengths is read off without another run."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from r37core.rom.rotation import rotation_amplitudes
+from r37core.stress.cycles import StressCycles, largest_cycles, stress_cycles
+from r37core.stress.operator import StressOperator
+
+from .problem import Problem
+from .rotor_simulation import BladesRecord
+
+
+def fatigue_numbers(
+    problems: Sequence[Problem], record: BladesRecord, stress: StressOperator, shown: int
+) -> dict[str, np.ndarray]:
+    """Alternating and mean stress (Pa) over the revolutions of the statistic; rotation is always in the mean.
+
+    `alternating_stress` and `mean_stress`, shape (nodes,): of the blade number `shown`, the former the largest of all
+    revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), and `cycle_counts`, shape (revolutions,): those of all
+    blades, see LargestCycles. A diverged run has NaN and no pairs.
+    """
+    if record.first_diverged is not None:
+        nothing = np.full(stress.operator.shape[1], np.nan, dtype=np.float32)
+        cycles = StressCycles(np.empty((0, 0), dtype=np.float32), np.empty(0, dtype=np.float32))
+        node_numbers = {"alternating_stress": nothing, "mean_stress": nothing}
+    else:
+        blades = [_cycles(problem, part.snapshots, stress) for problem, part in zip(problems, record.blades, strict=True)]
+        node_numbers = {"alternating_stress": blades[shown].alternating.max(axis=0), "mean_stress": blades[shown].mean}
+        alternating, mean = ([getattr(blade, name) for blade in blades] for name in ("alternating", "mean"))
+        cycles = StressCycles(np.concatenate(alternating, axis=1), np.concatenate(mean))
+    largest = largest_cycles(cycles)
+    pairs = {"cycle_alternating": largest.alternating, "cycle_mean": largest.mean, "cycle_counts": largest.counts}
+    return node_numbers | pairs
+
+
+def _cycles(problem: Problem, snapshots: np.ndarray, stress: StressOperator) -> StressCycles:
+    """Stress of one blade in the revolutions of the statistic, the last of its snapshots."""
+    choice, model = problem.choice, problem.model
+    states = snapshots[-choice.revolutions_in_statistic * choice.snapshots_per_revolution :]
+    shapes = model.to_reduced @ problem.contact.state_shapes
+    rotation = rotation_amplitudes(model.rotation_stiffening, problem.speed)
+    return stress_cycles(stress, states, shapes, rotation, choice.snapshots_per_revolution)

@@ -1,0 +1,222 @@
+"""Fatigue: alternating and mean stress of a run's revolutions, and their share of the Goodman line."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from defaults import IntegrationChoice
+from integration_cases import DIRECT, NARROW
+from stress_cases import inner_places
+
+from r37core.config import ConfigError
+from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
+from r37core.contact.scene import Rotor
+from r37core.fem.stress import nodal_stress
+from r37core.rom.rotation import rotation_amplitudes
+from r37core.stress.cycles import StressCycles, largest_cycles, stress_cycles
+from r37core.stress.goodman import Strengths, goodman_statistic
+from r37core.stress.operator import StressOperator, von_mises
+from r37core.stress.recovery import stress_operator
+from r37core.time_integration.rotor_simulation import BladesSimulation
+from r37core.time_integration.speed_run import numbers_of_run, run_speed
+
+XX, YY, ZZ, XY = range(4)
+PER_REVOLUTION, REVOLUTIONS = 48, 5
+PHASE = 2.0 * np.pi * np.arange(PER_REVOLUTION * REVOLUTIONS) / PER_REVOLUTION
+KEPT = {"spectrum_highest_order": 5, "wear_angles": 60}
+CHOICE = IntegrationChoice(8e-7, 6, 62, integrator="exact_modal", snapshots_per_revolution=31, snapshot_revolutions=6)
+
+
+def cycles_of(components, states):
+    """Cycles of one node whose stress components (number -> row) answer the states with unit stress."""
+    operator = np.zeros((6, 1, states.shape[1]))
+    for component, row in components.items():
+        operator[component, 0] = row
+    cycles = stress_cycles(
+        StressOperator(operator, states.shape[1], ""), states, np.eye(states.shape[1]), np.empty(0), PER_REVOLUTION
+    )
+    assert cycles.alternating.shape == (REVOLUTIONS, 1)
+    return cycles
+
+
+def test_a_uniaxial_cycle_is_the_textbook_s():
+    """Amplitude over fatigue strength and mean over ultimate strength, of a sine about a mean."""
+    cycles = cycles_of({XX: [1.0]}, (120.0 + 300.0 * np.sin(PHASE))[:, None])
+    np.testing.assert_allclose(cycles.alternating, 300.0, rtol=1e-6)
+    np.testing.assert_allclose(cycles.mean, 120.0, rtol=1e-6)
+    share = Strengths(500.0, 1000.0).share(cycles.alternating[0], cycles.mean)
+    np.testing.assert_allclose(share, 300.0 / 500.0 + 120.0 / 1000.0, rtol=1e-6)
+
+
+def test_a_stress_that_stays_is_a_mean_alone():
+    cycles = cycles_of({XX: [1.0], YY: [0.5], XY: [2.0]}, np.full((len(PHASE), 1), 80.0))
+    np.testing.assert_allclose(cycles.alternating, 0.0, atol=1e-4)
+    np.testing.assert_allclose(cycles.mean, 120.0, rtol=1e-6)
+
+
+@pytest.mark.parametrize(("yy", "alternating"), [(-1.0, np.sqrt(3.0)), (1.0, 1.0), (0.0, 1.0)])
+def test_components_keep_their_signs(yy, alternating):
+    """Two normal stresses in antiphase are a shear of twice their von Mises stress' third; in phase they are one."""
+    cycles = cycles_of({XX: [1.0], YY: [yy]}, np.sin(PHASE)[:, None])
+    np.testing.assert_allclose(cycles.alternating, alternating, rtol=1e-6)
+
+
+def test_components_out_of_phase_have_the_largest_of_their_path():
+    """Bending and twice its shear a quarter of a cycle later: |s|^2 = sin^2 + 3 (2 cos)^2."""
+    cycles = cycles_of({XX: [1.0, 0.0], XY: [0.0, 2.0]}, np.stack([np.sin(PHASE), np.cos(PHASE)], axis=1))
+    np.testing.assert_allclose(cycles.alternating, np.sqrt(12.0), rtol=1e-6)
+
+
+def test_an_asymmetric_wave_counts_more_than_half_of_its_range():
+    """Of a wave that is at 1 for an eighth of the time and at 0 else: the mean is 1/8, the farthest from it 7/8."""
+    wave = (np.arange(len(PHASE)) % 8 == 0).astype(float)
+    np.testing.assert_allclose(cycles_of({XX: [1.0]}, wave[:, None]).alternating, 7.0 / 8.0, rtol=1e-6)
+
+
+def test_compression_does_not_help():
+    strengths = Strengths(500.0, 1000.0)
+    assert strengths.share(np.array(100.0), np.array(-400.0)) == pytest.approx(0.2)
+    assert np.isnan(Strengths().share(np.array([100.0]), np.array([0.0]))).all()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_few_pairs_say_what_all_nodes_say(seed):
+    """Of each revolution and for any strengths; compression among the means, and nodes of the same stress."""
+    random = np.random.default_rng(seed)
+    alternating = random.gamma(3.0, 1e8, (30, 500)).astype(np.float32)
+    mean = random.normal(5e7, 1e8, 500).astype(np.float32)
+    alternating[:, 20:40], mean[20:40] = alternating[:, :20], mean[:20]
+    largest = largest_cycles(StressCycles(alternating, mean))
+    assert largest.counts.sum() == len(largest.mean) == len(largest.alternating) < 0.03 * alternating.size
+    starts = np.cumsum(largest.counts) - largest.counts
+    for fatigue in (1e7, 1e8, 4e8, 1e10):
+        for ultimate in (2e7, 9e8, 1e11):
+            strengths = Strengths(fatigue, ultimate)
+            shares = np.maximum.reduceat(strengths.share(largest.alternating, largest.mean), starts)
+            np.testing.assert_array_equal(shares, strengths.share(alternating, mean).max(axis=1))
+
+
+def test_numbers_of_known_revolutions():
+    """Shares 0.5 and 0.4 in the first revolution, 1.2 in the second, 0.9 in the third."""
+    run = {"cycle_alternating": np.array([4.0, 2.0, 11.0, 6.0]), "cycle_mean": np.array([2.0, 4.0, 2.0, 6.0])}
+    found = goodman_statistic({**run, "cycle_counts": np.array([2, 1, 1])}, Strengths(10.0, 20.0))
+    wanted = {"goodman_share": 1.2, "goodman_share_median": 0.9, "share_of_revolutions_above_goodman": 1 / 3}
+    wanted |= {"goodman_alternating_stress": 11.0, "goodman_mean_stress": 2.0, "fatigue_strength": 10.0}
+    assert found == {name: pytest.approx(value) for name, value in (wanted | {"ultimate_strength": 20.0}).items()}
+
+
+@pytest.fixture(scope="module")
+def a_run(contact, model, steel):
+    """The simulation of a run, its record, and the numbers kept of it."""
+    simulation = BladesSimulation(contact, 1340.0, DIRECT, CHOICE)
+    states = simulation.start()
+    record = simulation.run(states)
+    stress = stress_operator(model, steel)
+    numbers = numbers_of_run(simulation, states, record, ("stress", "fatigue"), 0.0, stress=stress, **KEPT)
+    return simulation, record, numbers
+
+
+def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
+    """The displacement of the whole mesh at each instant, its stress tensors, their mean, and the difference from it."""
+    simulation, record, numbers = a_run
+    problem, region = simulation.problem, model.stress_submesh.nodes
+    places = inner_places(model, mesh)
+    instants = 3 * CHOICE.snapshots_per_revolution
+    states = record.blades[0].snapshots[-instants:] @ (problem.model.to_reduced @ problem.contact.state_shapes).T
+    fields = whole.whole_blade
+    order = np.argsort(fields.nodes)
+    amplitudes = rotation_amplitudes(whole.rotation_stiffening, 1340.0)
+    displacement = (
+        np.einsum("nxj,tj->nxt", fields.basis[order], states) + (fields.rotation_shapes[order] @ amplitudes)[..., None]
+    )
+    tensors = nodal_stress(mesh.blocks, mesh.points, displacement, steel)[:, region[places]]
+    mean = tensors.mean(axis=2, keepdims=True)
+    alternating = von_mises(tensors - mean).max(axis=1)
+    assert alternating.min() > 1e7
+    np.testing.assert_allclose(numbers["alternating_stress"][places], alternating, rtol=1e-5)
+    np.testing.assert_allclose(numbers["mean_stress"][places], mean[:3, :, 0].sum(axis=0), rtol=1e-4, atol=1e3)
+    # the statistic has half of the six revolutions
+    assert len(numbers["cycle_counts"]) == 3
+
+
+def test_the_pairs_of_a_run_are_those_of_its_nodes(a_run):
+    """The largest share of all revolutions is that of the nodes' largest alternating stress: their mean is one of all."""
+    *_, numbers = a_run
+    strengths = Strengths(3e8, 5e8)
+    nodes = strengths.share(numbers["alternating_stress"], numbers["mean_stress"])
+    assert goodman_statistic(numbers, strengths)["goodman_share"] == nodes.max() > 0.1
+
+
+def test_rotation_is_in_the_mean_whatever_the_scene_asks_for(a_run, contact, model, steel):
+    *_, numbers = a_run
+    kept = run_speed(
+        contact, 1340.0, DIRECT, CHOICE, ("stress", "static_stress", "fatigue"), stress=stress_operator(model, steel), **KEPT
+    )
+    for name in ("mean_stress", "alternating_stress", "cycle_mean", "cycle_alternating", "cycle_counts"):
+        np.testing.assert_array_equal(kept[name], numbers[name])
+    assert kept["max_von_mises"] != numbers["max_von_mises"]
+
+
+def test_a_diverged_run_has_no_shares(contact, model, steel):
+    scene = replace(DIRECT, divergence_limit=2e-4)
+    kept = run_speed(contact, 1340.0, scene, CHOICE, ("stress", "fatigue"), stress=stress_operator(model, steel), **KEPT)
+    assert kept["status"] == 1 and np.isnan(kept["alternating_stress"]).all() and len(kept["cycle_mean"]) == 0
+    found = goodman_statistic(kept, Strengths(3e8, 5e8))
+    assert np.isnan(found["goodman_share"]) and np.isnan(found["share_of_revolutions_above_goodman"])
+
+
+def test_a_rotor_has_the_largest_of_its_blades(contact, model, steel):
+    """Two blades, each on a lining of its own, are two single ones: in each revolution the larger share counts."""
+    choice, stress = replace(CHOICE, revolutions=4, snapshot_revolutions=4), stress_operator(model, steel)
+    angles, factors, longer = (0.0, np.pi), (1.0, 1.03), (0.0, 1e-4)
+
+    def shares(places):
+        chosen = ([values[place] for place in places] for values in ((1, 2), angles, factors, longer))
+        scene = replace(NARROW, rotor=Rotor(*map(tuple, chosen), shared_lining=False))
+        run = run_speed(contact, 1340.0, scene, choice, ("stress", "fatigue"), stress=stress, **KEPT)
+        share = Strengths(3e8, 5e8).share(run["cycle_alternating"], run["cycle_mean"])
+        return np.maximum.reduceat(share, np.cumsum(run["cycle_counts"]) - run["cycle_counts"])
+
+    alone = [shares([place]) for place in range(2)]
+    np.testing.assert_allclose(shares([0, 1]), np.maximum(*alone), rtol=1e-6)
+    assert np.abs(alone[0] - alone[1]).min() > 0.01 * alone[0].max()
+
+
+@pytest.mark.parametrize(
+    ("keys", "refused"),
+    [
+        ("fatigue_strength_pa: 4e+8", "fatigue_strength_pa alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both"),
+        ("ultimate_strength_pa: 9e+8", "ultimate_strength_pa alone"),
+        ("fatigue_strength_pa: 9e+8, ultimate_strength_pa: 9e+8", r"fatigue_strength_pa: found 9e\+08; allowed: less than ult"),
+    ],
+)
+def test_strengths_that_make_no_line_are_refused(with_blades, keys, refused):
+    with pytest.raises(ConfigError, match=rf"blades\.yaml:\d+: Mine\.material: .*{refused}"):
+        with_blades(f"Mine: {{ base: Ref, material: {{ {keys} }} }}", blades=["Mine"]).blades  # noqa: B018
+
+
+def test_strengths_vary_and_change_no_model(with_blades):
+    family = "vary: { material.fatigue_strength_pa: [3e+8, 4e+8] }"
+    settings = with_blades(
+        f"Mine: {{ base: Ref, material: {{ fatigue_strength_pa: 2e+8, ultimate_strength_pa: 9e+8 }}, {family} }}",
+        blades=["Mine", "Ref"],
+    )
+    *designs, ref = settings.blades.values()
+    assert [blade.strengths for blade in designs] == [Strengths(3e8, 9e8), Strengths(4e8, 9e8)]
+    assert ref.strengths == Strengths() and ref.material.unusual == {}
+    assert len({blade.elastic.material for blade in (*designs, ref)}) == 1
+    key = "material.fatigue_strength_pa"
+    assert blade_number(designs[0], key) == 3e8 and blade_number(ref, key) is None
+    assert changed_blade(designs[0], {key: 5e8}).strengths == Strengths(5e8, 9e8)
+    with pytest.raises(ImpossibleValueError, match="less than ultimate_strength_pa"):
+        changed_blade(designs[0], {key: 1e9})
+
+
+def test_fatigue_needs_stress(config_copy):
+    from overlays import overlay
+
+    from r37core.product.reading import read_settings
+
+    overlay(config_copy, "scenes.yaml", "direct: { results: [spectrum, fatigue] }")
+    with pytest.raises(ConfigError, match=r"direct\.results: found fatigue; allowed: only with stress"):
+        read_settings(config_copy).scenes  # noqa: B018
