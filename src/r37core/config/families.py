@@ -160,7 +160,7 @@ def _check_varies(key: str, family: str, design: str, document: Document) -> Non
         return
     hint = did_you_mean(key, VARIED)
     if first in SceneEntry.model_fields:
-        hint = " (a number of a scene varies under tolerances.of_scenes, or as several scenes)"
+        hint = f" (a number of a scene varies under tolerances.of_scenes, in a search as scene.{key}, or as several scenes)"
     allowed = f"{', '.join(VARIED)}{hint}"
     raise document.error((family,), f"design {design}: found unknown key {single_line(key)}; allowed keys: {allowed}")
 
