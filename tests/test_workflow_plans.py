@@ -280,7 +280,11 @@ def test_targets_are_what_the_configuration_asks_for(config_copy):
     assert {"rms.nc", "stress.nc", "spectrum.nc", "shapes/Ref.html", "figures/shapes_Ref__direct.png"} <= without
     assert {"figures/response_Ref.png", "figures/waterfall_Ref__direct.pdf", "figures/comparison_direct.pdf"} <= without
     assert not [file for file in without if "wear" in file or "design" in file or "signals" in file or "L50" in file]
-    figures = {f"figures/{kind}_Ref__direct.{suffix}" for kind in ("orders", "spectrogram") for suffix in ("png", "pdf")}
+    figures = {
+        f"figures/{kind}_Ref__direct.{suffix}"
+        for kind in ("orders", "spectrogram", "contact_force")
+        for suffix in ("png", "pdf")
+    }
     assert asked(signals={"speeds_rad_s": [900]}) - without == {"signals.nc", "Ref/direct/signals.nc", *figures}
 
 

@@ -94,7 +94,7 @@ class SearchDesigns:
         return design_entry(self.entry.blade, self.start, blade_values(values), name, self.settings.designs.document)
 
     def scene_changes(self, scene: str, values: Mapping[str, float]) -> dict[str, float]:
-        """Those of the values of variables that are of numbers which a scene has, by dotted keys of its entry."""
+        """Values of the variables that a scene has, of all `values` of variables, by dotted keys of its entry."""
         return {key: value for key, value in scene_values(values).items() if key in self.scene_numbers[scene]}
 
     def blade(self, name: str, values: Sequence[float] | None) -> BladeSettings:

@@ -33,12 +33,12 @@ def scene_key(key: str) -> str | None:
 
 
 def blade_values(values: Mapping[str, float]) -> dict[str, float]:
-    """Those of the values of variables that are of the blade, by dotted keys of its entry."""
+    """Values of the blade's variables, of all `values` of variables, by dotted keys of its entry."""
     return {key: value for key, value in values.items() if scene_key(key) is None}
 
 
 def scene_values(values: Mapping[str, float]) -> dict[str, float]:
-    """Those of the values of variables that are of scenes, by dotted keys of their entries."""
+    """Values of the variables of scenes, of all `values` of variables, by dotted keys of their entries."""
     return {scene: value for key, value in values.items() if (scene := scene_key(key)) is not None}
 
 
