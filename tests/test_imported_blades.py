@@ -7,17 +7,21 @@ import numpy as np
 import pytest
 import yaml
 from defaults import Where
+from overlays import overlay
 
 from r37core.cases.plan import Cases, shape_of_model
 from r37core.config import ConfigError
 from r37core.exchange.orientation import OURS
-from r37core.exports.extension import Exports, targets
+from r37core.exports.extension import Exports
+from r37core.exports.extension import targets as exported_targets
 from r37core.plain import to_plain
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
 from r37core.plans.structure_plan import Imported, Structure
 from r37core.plans.sweep_plan import Datasets, Simulations, Sweep
 from r37core.product.reading import read_settings
+from r37core.product.targets import targets
+from r37core.signals.extension import Signals
 from r37core.stability import plan as stability
 from r37core.tradeoff import plan as tradeoff
 
@@ -50,6 +54,37 @@ def settings_with(config_copy):
         return read_settings(config_copy)
 
     return read
+
+
+@pytest.mark.parametrize(
+    ("entry", "config", "signals", "modes"),
+    [
+        (MESH, {}, ["Fan"], ["Fan"]),
+        (MATRICES, {}, ["Fan"], []),
+        (MESH, {"shapes: { modes: 6 }": "shapes: { imported: false }\nsignals: { imported: false }"}, [], []),
+        (MESH, {"shapes: { modes: 6 }": "signals: { speeds_rad_s: [900] }"}, ["Ref", "Fan"], ["Fan"]),
+        (MESH, {"shapes: { modes: 6 }": "signals: { blades: [Ref] }"}, [], ["Fan"]),
+    ],
+)
+def test_a_blade_of_another_program_has_modes_and_signals_at_its_interactions(settings_with, entry, config, signals, modes):
+    """The benchmark's own have none by default."""
+    sweep = Sweep(settings_with(entry, config=config, blades=("Ref", "Fan")))
+    wanted = targets(sweep)
+    runs = [{"blade": blade, "scene": scene} for blade in signals for scene in ("abradable", "direct")]
+    for pattern in ("<results>/{blade}/{scene}/signals.nc", "<results>/figures/contact_force_{blade}__{scene}.png"):
+        assert wanted[pattern] == runs
+    for pattern in ("<results>/shapes/{blade}/modes", "<results>/figures/shapes_{blade}.png"):
+        assert wanted[pattern] == [{"blade": blade} for blade in modes]
+    recorded = Signals(Imported(sweep.settings), sweep)
+    if not config:
+        inputs = recorded.inputs(SimpleNamespace(blade="Fan", scene="direct", member=""))
+        assert recorded.speeds == [] and inputs["response"] == "<results>/Fan/direct/response.nc"
+
+
+def test_runs_that_end_as_they_have_settled_have_no_signals_by_default(settings_with, config_copy):
+    overlay(config_copy, "scenes.yaml", "abradable: { until: settled }")
+    wanted = targets(Sweep(settings_with(MESH)))
+    assert wanted["<results>/{blade}/{scene}/signals.nc"] == [{"blade": "Fan", "scene": "direct"}]
 
 
 @pytest.mark.parametrize(
@@ -208,7 +243,7 @@ def test_plan_of_exports(three):
     imported, sweep = three
     config = sweep.settings.config.model_copy(update={"speeds": [900.0, 950.5]})
     exports = Exports(imported, replace(sweep, settings=replace(sweep.settings, config=config)))
-    files = {file.removeprefix("<results>/exports/") for file in filled(targets(exports.sweep))}
+    files = {file.removeprefix("<results>/exports/") for file in filled(exported_targets(exports.sweep))}
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")

@@ -71,7 +71,10 @@ def folder(config_copy):
         ("{ variables: { stagger_deg.tip: [-300, 1] } }", "search.variables.stagger_deg.tip: .*at least -90, at most 90"),
         ("{ variables: { stagger_deg: [-1, 1] } }", "variables.stagger_deg.tip: found stagger_deg.tip beside stagger_deg"),
         ("{ variables: { chordwise_sweep_deg: [-1, 1] } }", "chordwise_sweep_deg: .*at most one of"),
-        ("{ objectives: { other: { measure: speed } } }", "objectives.other.measure: found 'speed'; allowed: one of length_"),
+        (
+            "{ objectives: { other: { measure: speed } } }",
+            "objectives.other.measure: found 'speed'; allowed: one of exceedance_",
+        ),
         ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
         ("{ objectives: { other: { measure: frequency_hz, mode: 1b } } }", "other.mode: found 1b; allowed: .*, 1B, 1T, 2B, 4"),
         ("{ objectives: { other: { measure: mass_kg, mode: 1B } } }", "other.mode: found mode with mass_kg; .*left out"),
@@ -114,7 +117,7 @@ def test_all_designs_may_be_of_the_first_round(folder):
     search = Search(Sweep(settings), str, str)
     assert [search.number_of_designs(SimpleNamespace(round=number)) for number in (0, 1)] == [5, 0]
     assert search.last_round(None).endswith("round_1.json")
-    assert choice_of(settings).objectives == {"lined": Quantity("length_certain_rad_s", ("abradable",))}
+    assert choice_of(settings).objectives == {"lined": Quantity("exceedance_integral_rad_s", ("abradable",))}
 
 
 def vary(folder, variables):

@@ -86,14 +86,36 @@ def test_designs_that_cannot_be_built_are_results(config, caplog):
         results.best_values()
 
 
+@pytest.mark.slow
+def test_a_design_of_a_scene_is_that_scene(config):
+    """The best design and a sweep in its scene give the same to the last bit, and another number than the start."""
+    lined = {"lined": {"measure": "largest_rms_m", "scenes": ["abradable"]}}
+    variables = {"scene.lining.thickness_m": [2e-5, 2e-4]}
+    asked = {"objectives": lined, "designs": 3, "first": 2, "batch": 1, "config": config}
+    results = r37.search("Ref", "abradable", SPEEDS, variables=variables, **asked)
+    assert results.best_values() == {}
+    scene = r37.scene("abradable", name="thin", config=config, **results.best_scene_values())
+    search = results["search"]
+    value = float(search["objective_value"].values[search["order"].values == 1].item())
+    assert robustness(r37.sweep("Ref", scene, SPEEDS, config=config))["largest_rms_m"] == value
+    assert value != pytest.approx(search["objective_value"].sel(design="start").item(), rel=1e-3)
+    assert not (results.folder / "search/best/blades.yaml").exists()
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"variables": ["stagger_deg"]}, r"variables: found \['stagger_deg'\]; allowed: dotted keys of blades.yaml and their"),
+        (
+            {"variables": ["stagger_deg"]},
+            r"variables: found \['stagger_deg'\]; allowed: dotted keys of blades.yaml, or scene.KEY",
+        ),
         ({"objectives": "lined"}, "objectives: found 'lined'; allowed: names and what is read off, as in"),
         ({"constraints": 3}, "constraints: found 3; allowed: names and what is kept"),
         ({"tolerances": 5}, "tolerances: found 5; allowed: of_scenes, of_blades and members"),
-        ({"variables": {"casing.clearance_m": [1, 2]}}, "unknown key casing.clearance_m; .* under tolerances.of_scenes"),
+        (
+            {"variables": {"casing.clearance_m": [1, 2]}},
+            "unknown key casing.clearance_m; .* in a search as scene.casing.clearance_m",
+        ),
         ({"variables": {"stagger_deg.tip": [2, -2]}}, "r37.search: search.variables.stagger_deg.tip: found .*a lower and a h"),
         ({"objectives": {"lined": {"scenes": ["direct"]}}}, "r37.search: search.objectives.lined.scenes: found 'direct'"),
         ({"designs": 1, "first": 1}, "r37.search: search.designs: found 1; allowed"),

@@ -62,7 +62,7 @@ def test_all_designs_are_joined_and_the_best_written(tmp_path, monkeypatch):
     monkeypatch.setattr(steps, "write_step", lambda shape, file: file.write_text(shape))
     entries = {"Ref": {"density": 1.0}, "Free": {"base": "Ref", "sweep_lean": [{"sweep_cm": 0.0}, {"sweep_cm": 0.0}]}}
     shapes = [f"search/{name}/Free/geometry.nc" for name in last.tried]
-    steps.best(Named(dataset=dataset, shapes=shapes), Named(folder=best), Named(entries=entries, number=2))
+    steps.best(Named(dataset=dataset, shapes=shapes), Named(folder=best), Named(entries=entries, scenes={}, number=2))
     assert {file.name for file in best.iterdir()} == {"blades.yaml", "Free_best1.step", "Free_best2.step"}
     for name, place in ((first, 1), (second, 2)):
         assert (best / f"Free_best{place}.step").read_text() == f"search/{name}/Free/geometry.nc"

@@ -11,7 +11,7 @@ from box_mesh import box_mesh
 from browser import opened
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
-from r37core.exchange.fields import WorstInstant, displacement_of, mode_shapes
+from r37core.exchange.fields import WorstInstant, displacement_of, mode_shapes, stress_of
 from r37core.explorer import write_page
 from r37core.figures.style import save
 from r37core.io import read_json, write_json
@@ -19,6 +19,7 @@ from r37core.shapes import INDEX, PARTS, shapes_contents
 from r37core.shapes.gltf import MovingSurface, write_glb
 from r37core.shapes.moving import LARGEST_SHOWN, _skin, write_mode_shapes, write_worst_shapes
 from r37core.shapes.stills import draw_shapes
+from r37core.stress.operator import von_mises
 from r37core.stress.recovery import stress_operator
 
 
@@ -98,13 +99,18 @@ def test_a_file_has_what_was_written_and_another_program_moves_it_the_same_way(s
         assert nearest(expected, points_at(tmp_path / "one.glb", surface.times[step])) < 1e-5
 
 
-def test_modes_swing(whole, mesh, tmp_path):
-    write_mode_shapes(mesh, whole, 4, tmp_path)
+def test_modes_swing(whole, mesh, steel, tmp_path):
+    write_mode_shapes(mesh, whole, steel, 4, tmp_path)
     entries = read_json(tmp_path / INDEX)
     assert [entry["shape"] for entry in entries] == ["mode_1B", "mode_1T", "mode_2B", "mode_4"]
     assert entries[0]["title"].endswith("Hz at rest")
     modes = mode_shapes(whole, 0.0, 4)
     assert pyvista.read(tmp_path / "modes_0.vtu").point_data["mode 1B"].shape == modes.displacement[0].shape
+    # the stress of each mode is that of the vibration in its shape alone
+    coordinates = whole.modes(0.0, 8)[1].T
+    for number, name in enumerate(modes.names):
+        stress = pyvista.read(tmp_path / "modes_0.vtu").point_data[f"von Mises stress of mode {name}"]
+        np.testing.assert_allclose(stress, von_mises(stress_of(mesh, whole, steel, WorstInstant(0.0, coordinates, number))[1]))
     size = np.linalg.norm(modes.displacement[1], axis=1)
     height = np.ptp(np.hypot(*mesh.points[:, :2].T))
     swung = mesh.points + modes.displacement[1] * (LARGEST_SHOWN * height / size.max())
@@ -166,7 +172,7 @@ def test_the_skin_is_closed(element):
 @pytest.fixture
 def folders(whole, mesh, steel, instant, tmp_path):
     folders = {"": tmp_path / "Ref/modes", "abradable": tmp_path / "Ref/stress_abradable"}
-    write_mode_shapes(mesh, whole, 3, folders[""])
+    write_mode_shapes(mesh, whole, steel, 3, folders[""])
     instants, titles = {900.0: instant, 1150.5: instant}, {900.0: "1B/7, abradable", 1150.5: "1B/5, abradable"}
     write_worst_shapes(mesh, whole, steel, instants, titles, folders["abradable"])
     return folders

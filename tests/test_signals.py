@@ -18,7 +18,7 @@ from r37core.figures.style import save
 from r37core.io import InputFileError
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.signals.dataset import gather_signals, signals_dataset
-from r37core.signals.figures import draw_orders, draw_spectrograms
+from r37core.signals.figures import draw_contact_forces, draw_orders, draw_spectrograms
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
 from r37core.signals.record import Record, record_signals, revolutions_of
@@ -187,6 +187,7 @@ def test_a_free_oscillation_is_recorded(monkeypatch):
     wave = 1e-4 * np.cos(10.0 * 2.0 * np.pi * record.turn)
     np.testing.assert_allclose(record.normal, np.outer(wave, [1.0, 3.0]), atol=2e-7)
     np.testing.assert_allclose(record.tangential, np.outer(wave, [0.5, 2.0]), atol=2e-7)
+    assert not record.contact_force.any()
     gauge = 7.0 * model.to_reduced.sum() * wave
     np.testing.assert_allclose(record.strain[:, 0], gauge, atol=2e-3 * np.abs(gauge).max())
     assert record.status is RunStatus.COMPLETED
@@ -215,6 +216,27 @@ def test_a_record_is_the_run_of_the_sweep(contact, scene, model):
     assert bare.strain.shape == (4 * 62, 0)
 
 
+def test_the_contact_force_of_a_record_is_that_of_the_run(contact, scene, model):
+    """Its last number is that of the state; in each revolution it presses where the motion has closed the gap."""
+    choice = IntegrationChoice(4e-7, 4, 62, "exact_modal")
+    record = record_signals(contact, 1200.0, scene, choice, np.empty((0, model.size)), 4)
+    simulation = Simulation(contact, 1200.0, scene, choice)
+    state, last = simulation.start(), []
+    for _ in range(4 * 62):
+        simulation.advance_samples(state, 1)
+        last.append(-state.contact_force[0].sum())
+    np.testing.assert_allclose(record.contact_force, last, rtol=1e-9, atol=1e-9)
+    assert record.contact_force.min() == 0.0 < record.contact_force.max()
+    # the casing's own gaps, node by node and step by step
+    casing = simulation.problem.casing
+    steps = simulation.problem.grid.steps_per_sample * np.array([1, 40, 133, 248])
+    nowhere = np.zeros((3, len(casing.tip.theta)))
+    gaps = [casing.gaps(casing.clearance, nowhere, int(step), 0.0)[0][0] for step in steps]
+    np.testing.assert_allclose(record.clearance[[0, 39, 132, 247]], gaps, rtol=1e-9)
+    published = record_signals(contact, 1200.0, scene, IntegrationChoice(1e-7, 2, 62), np.empty((0, model.size)), 2)
+    assert np.isnan(published.contact_force).all() and np.isfinite(published.clearance).all()
+
+
 def test_a_divergence_ends_the_record(contact, scene):
     close = replace(scene, divergence_limit=2e-5)
     record = record_signals(contact, 1200.0, close, IntegrationChoice(4e-7, 4, 62), np.empty((0, 0)), 4)
@@ -233,8 +255,9 @@ def record_of(turns, last=None, gauges=1):
     turn = np.arange(1, turns * 50 + 1) / 50
     wave = 1e-3 * np.sin(2.0 * np.pi * 4.0 * turn)
     kept = slice(-(last or turns) * 50, None)
+    force, clearance = 100.0 * np.floor(turn)[kept], 1e-4 + wave[kept]
     return Record(turn[kept], np.outer(wave, [1, 2])[kept], np.outer(wave, [0.5, 1])[kept],
-                  np.outer(wave, np.ones(gauges))[kept], RunStatus.COMPLETED)  # fmt: skip
+                  np.outer(wave, np.ones(gauges))[kept], force, clearance, RunStatus.COMPLETED)  # fmt: skip
 
 
 @pytest.fixture
@@ -252,10 +275,12 @@ def test_dataset_of_a_scene(dataset):
     when = 900.5 * run["arrival_time"] / (2.0 * np.pi)
     told = 1e-3 * np.sin(2.0 * np.pi * 4.0 * when)
     np.testing.assert_allclose(run["arrival_displacement"][1:-1], told[1:-1], atol=1e-6)
-    assert {variable.attrs["units"] for variable in dataset.data_vars.values()} == {"m", "1", "s"}
+    assert {variable.attrs["units"] for variable in dataset.data_vars.values()} == {"m", "1", "s", "N", "degree"}
+    # the rotor turns towards negative theta; the leading edge begins at 0
+    np.testing.assert_allclose(run["casing_angle"][[0, 24, 49]], [352.8, 180.0, 0.0], atol=1e-3)
     # what was not asked for is left out
     bare = signals_dataset({1000.0: record_of(3, gauges=0)}, {}, {}, [], TIP)
-    assert set(bare.data_vars) == {"normal", "tangential", "status"}
+    assert set(bare.data_vars) == {"normal", "tangential", "contact_force", "clearance", "casing_angle", "status"}
     assert dict(signals_dataset({}, {}, {"root": PLACE}, [10.0], TIP).sizes) == {"speed": 0}
 
 
@@ -296,6 +321,15 @@ def test_signals_are_drawn(dataset, tmp_path):
     assert line.get_label() == "4"
     np.testing.assert_allclose(line.get_ydata(), 1.0, rtol=1e-3)
     assert "1B/5\n1200 rad/s, 11459 rpm" in orders.axes[0].get_ylabel()
+    forces = draw_contact_forces(dataset, "Ref, abradable")
+    upper, _, beside, _ = forces.axes
+    (line,) = upper.get_lines()
+    np.testing.assert_allclose(line.get_ydata(), [1200.0, *[1100.0 + 100.0] * 48, 1100.0], atol=101.0)
+    assert np.all(np.diff(line.get_xdata()) > 0.0) and beside.get_ylabel() == "mm"
+    assert "1B/5\n1200 rad/s, 11459 rpm" in upper.get_ylabel()
+    lost = dataset.assign(contact_force=np.nan * dataset["contact_force"])
+    assert draw_contact_forces(lost, "Ref").axes[0].texts
     nothing = signals_dataset({}, {}, {}, [], TIP)
-    for figure in (spectrograms, orders, draw_orders(nothing, "Ref, direct"), draw_spectrograms(nothing, "Ref, direct")):
+    empty = [draw(nothing, "Ref, direct") for draw in (draw_orders, draw_spectrograms, draw_contact_forces)]
+    for figure in (spectrograms, orders, forces, *empty):
         save(figure, tmp_path / "one.png")

@@ -134,10 +134,16 @@ def test_a_member_is_run_like_the_nominal_blade(with_members):
     assert sweep.nominal_stamp(of(**vars(REF), member="")) == []
 
 
+def with_scene(settings, name, entry):
+    """The settings with another entry of a scene."""
+    designs = settings.scene_designs
+    return replace(settings, scene_designs=replace(designs, entries=designs.entries | {name: entry}))
+
+
 def test_members_keep_no_history_of_the_stress(with_members):
     settings = with_members[0].settings
     history = settings.scene_designs.entries["abradable"].model_copy(update={"stress_history_speeds_rad_s": [900.0]})
-    settings = replace(settings, scene_entries=settings.scene_designs.entries | {"abradable": history})
+    settings = with_scene(settings, "abradable", history)
     sweep = Sweep(settings, None, {"tolerances": Tolerances(settings).samples})
     places = [of(**vars(REF), member=member, speed="900") for member in ("", "tolerances/0/")]
     kept = [json.loads(Simulations(sweep).task(place))["choice"]["snapshot_revolutions"] for place in places]
@@ -193,7 +199,7 @@ def test_models_of_a_scene_and_without_stress_no_basis(chosen):
     assert sweep.stress_operator(L50) == ["<results>/L50/stress_pressure_edge.npz"]
     assert Structure(chosen).reduction(of(blade="Ref", tip_line="camber"))["boundary"]["tip_line"] == "camber"
     plain = chosen.scene_designs.entries["direct"].model_copy(update={"results": ["spectrum"]})
-    sweep = Sweep(replace(chosen, scene_entries=chosen.scene_designs.entries | {"direct": plain}))
+    sweep = Sweep(with_scene(chosen, "direct", plain))
     assert sweep.stress_operator(L50) == []
     assert Datasets(sweep).runs(of(kind="stress")) == [("Ref", "abradable"), ("L50", "abradable")]
 
@@ -280,7 +286,11 @@ def test_targets_are_what_the_configuration_asks_for(config_copy):
     assert {"rms.nc", "stress.nc", "spectrum.nc", "shapes/Ref.html", "figures/shapes_Ref__direct.png"} <= without
     assert {"figures/response_Ref.png", "figures/waterfall_Ref__direct.pdf", "figures/comparison_direct.pdf"} <= without
     assert not [file for file in without if "wear" in file or "design" in file or "signals" in file or "L50" in file]
-    figures = {f"figures/{kind}_Ref__direct.{suffix}" for kind in ("orders", "spectrogram") for suffix in ("png", "pdf")}
+    figures = {
+        f"figures/{kind}_Ref__direct.{suffix}"
+        for kind in ("orders", "spectrogram", "contact_force")
+        for suffix in ("png", "pdf")
+    }
     assert asked(signals={"speeds_rad_s": [900]}) - without == {"signals.nc", "Ref/direct/signals.nc", *figures}
 
 

@@ -15,6 +15,7 @@ from r37core.dataset_file import lazy_dataset, read_dataset
 from r37core.io import InputFileError
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
+from r37core.search.problem import blade_values, scene_values
 
 from .stages import checked_call
 
@@ -95,10 +96,20 @@ class RunResults(FilesByName[xr.Dataset]):
         return read_dataset(self.folder / blade / scene / "rotor.nc")
 
     def best_values(self) -> dict[str, float]:
-        """Variables of the best design of a search, as in `r37.blade("Ref", name="Better", **results.best_values())`.
+        """Variables of the best blade of a search, as in `r37.blade("Ref", name="Better", **results.best_values())`.
 
         Raises KeyError for results without a search, ValueError where no design keeps all constraints.
         """
+        return blade_values(self._best())
+
+    def best_scene_values(self) -> dict[str, float]:
+        """Variables of scenes of the best design of a search, for `r37.scene`, as `best_values` has those of its blade.
+
+        Raises KeyError and ValueError as `best_values` does.
+        """
+        return scene_values(self._best())
+
+    def _best(self) -> dict[str, float]:
         search = self["search"]
         best = search["value"].values[search["order"].values == 1]
         if not len(best):

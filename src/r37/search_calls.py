@@ -14,7 +14,7 @@ from .run_results import RunResults
 from .runs import Scenes, SweepOptions, blades_of, named_run
 from .stages import checked_call
 
-_BOUNDS = 'dotted keys of blades.yaml and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
+_BOUNDS = 'dotted keys of blades.yaml, or scene.KEY of scenes.yaml, and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
 _MAPPINGS = {
     "objectives": 'names and what is read off, as in {"lined": {"scenes": ["abradable"]}}',
     "constraints": 'names and what is kept, as in {"mass": {"measure": "mass_kg", "at_most_percent": 100}}',
@@ -54,10 +54,11 @@ def search(
     scenes
         Names, or the results of `r37.scene`; changed ones need a `name`. Objectives and constraints name those that count.
     variables
-        Dotted key of blades.yaml -> lowest and highest value, as in `{"stagger_deg.tip": [-3, 3], "sweep_percent": [0, 100]}`.
+        Dotted key of blades.yaml -> lowest and highest value, as in `{"stagger_deg.tip": [-3, 3], "sweep_percent": [0, 100]}`;
+        with `scene.` before it a key of scenes.yaml, as in `{"scene.lining.thickness_m": [0.001, 0.005]}`.
     objectives
-        Name -> a number to minimise: `{"lined": {"scenes": ["abradable"]}}` for the length of speed above yield, or another
-        `measure`; with a `quantile` under tolerances.
+        Name -> a number to minimise: `{"lined": {"scenes": ["abradable"]}}` for the integral over speed of the share of
+        revolutions above yield, or another `measure`; with a `quantile` under tolerances.
     constraints
         Name -> a limit: `{"first": {"measure": "frequency_hz", "mode": "1B", "at_least_percent": 98}}`.
     designs
@@ -81,7 +82,8 @@ def search(
     -------
     RunResults
         The dataset and the table search: every design and the start. Its method `best_values` has the values of the best
-        design, for `r37.blade`; entries and STEP files of the best are in `folder / "search/best"`.
+        design, for `r37.blade`, and `best_scene_values` those for `r37.scene`; entries of the best are in
+        `folder / "search/best"`, with STEP files of blades.
 
     Raises
     ------

@@ -1,13 +1,23 @@
-# A search for a better blade (docs/better_blade.md).
-module search:
-    snakefile:
-        "../../Snakefile"
-    config:
-        # fewer designs than the overlay
-        run("search", "search", search={"designs": 20, "first": 8, "best": 4})
+# Searches for a better blade, by surrogates and by plain sampling, each with three seeds (docs/better_blade.md).
+SEARCHES = {
+    f"search{'' if (method, seed) == ('surrogate', 1) else f'_{method}_{seed}'}": {"method": method, "seed": seed}
+    for method in ("surrogate", "quasi_random")
+    for seed in (1, 2, 3)
+}
+SEARCHED = [f"results/runs/{name}/search.nc" for name in SEARCHES]
 
+for searched, changes in SEARCHES.items():
 
-use rule * from search as search_*
+    module:
+        name: searched
+        snakefile:
+            "../../Snakefile"
+        config:
+            run(searched, "search", search=changes)
+
+    rules_of_search = f"{searched}_"
+
+    use rule * from searched as rules_of_search*
 
 
 use rule evidence as better_blade_designs with:

@@ -28,6 +28,8 @@ use rule evidence as your_blade_pictures with:
     output:
         campbell="docs/your_blade_campbell.png",
         response="docs/your_blade_response.png",
+        shapes="docs/your_blade_shapes.png",
+        contact_force="docs/your_blade_contact_force.png",
     log:
         "logs/validation/your_blade_pictures.log",
     threads: workflow.cores

@@ -112,6 +112,8 @@ use rule step as search_best with:
     params:
         **step("search.steps.best"),
         entries=search.entries,
+        scenes=search.scene_entries,
+        varied_in_scenes=search.varied_in_scenes,
         number=lambda wildcards: search.designs.entry.best,
 
 

@@ -16,6 +16,7 @@ use rule step as mode_shapes with:
     params:
         **step("shapes.steps.modes"),
         modes=shown_shapes.modes,
+        material=structure.elastic,
 
 
 use rule step as worst_shapes with:

@@ -48,6 +48,17 @@ use rule figure as spectrogram_figure with:
         **drawing("signals.figures.draw_spectrograms", "spectrogram"),
 
 
+use rule figure as contact_force_figure with:
+    input:
+        signals=rules.signals_of_run.output[0],
+    output:
+        **pictures("contact_force_{blade}__{scene}", "{blade}", "{scene}", "contact force"),
+    log:
+        "<logs>/figures/contact_force_{blade}__{scene}.log",
+    params:
+        **drawing("signals.figures.draw_contact_forces", "contact_force"),
+
+
 use rule figure as orders_figure with:
     input:
         signals=rules.signals_of_run.output[0],

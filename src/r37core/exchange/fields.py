@@ -63,21 +63,37 @@ def mode_shapes(model: ReducedModel, speed: float, count: int) -> ModeShapes:
     return ModeShapes(names, frequencies[order] / (2.0 * np.pi), displacement)
 
 
-def write_modes(mesh: BladeMesh, model: ReducedModel, speeds: Sequence[float], count: int, target: Target) -> None:
+def write_modes(
+    mesh: BladeMesh, model: ReducedModel, speeds: Sequence[float], count: int, target: Target, material: Material | None = None
+) -> None:
     """Write modes_<speed> for each speed (rad/s) and modes.pvd: displacement of `count` modes, mass-normalised (kg^-1/2).
 
-    Fields are named by the mode; .vtu files have the frequency (Hz) of each in the field data. The model must recover the
-    whole blade.
+    With a `material` the von Mises stress of each (Pa kg^-1/2), too. Fields are named by the mode; .vtu files have the
+    frequency (Hz) of each in the field data. The model must recover the whole blade.
     """
     shown = target.orientation.mesh_to_file(mesh)
     files = {}
     for speed in speeds:
         modes = mode_shapes(model, speed, count)
         fields = {f"mode {name}": u @ target.orientation.rows for name, u in zip(modes.names, modes.displacement, strict=True)}
+        if material is not None:
+            fields |= dict(zip(map(modal_stress, modes.names), _von_mises_of(mesh, modes, material), strict=True))
         notes = {f"frequency of mode {name} (Hz)": f for name, f in zip(modes.names, modes.frequencies, strict=True)}
         files[speed] = f"modes_{exact_text(speed)}"
         _write_fields(shown, fields, notes, files[speed], target)
     _write_collection(files, "modes", target)
+
+
+def modal_stress(mode: str) -> str:
+    """Name of the field of a mode's von Mises stress."""
+    return f"von Mises stress of mode {mode}"
+
+
+def _von_mises_of(mesh: BladeMesh, modes: ModeShapes, material: Material) -> np.ndarray:
+    """Von Mises stress (Pa kg^-1/2) of each mode, shape (modes, nodes)."""
+    displacement = np.moveaxis(modes.displacement, 0, 2)
+    stress = nodal_stress(mesh.blocks, mesh.points, displacement, material)
+    return np.array([von_mises(stress[:, :, number]) for number in range(stress.shape[2])])
 
 
 def worst_instants(

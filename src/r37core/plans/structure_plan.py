@@ -91,6 +91,11 @@ class Imported:
         return self.given_by(BladeDefinition, MeshSource)
 
     @property
+    def blades(self) -> list[str]:
+        """Blades of other programs, by a mesh or by matrices."""
+        return self.given_by(MeshSource, MatricesSource)
+
+    @property
     def profiles(self) -> str:
         """Pattern of the blades given by profiles, for a rule's wildcard."""
         return _pattern(self.given_by(BladeDefinition))

@@ -5,15 +5,16 @@ from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
 from r37core.config import ConfigError, Settings
 from r37core.config.blades import SHARES, BladeEntry
-from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, blade_number, scene_numbers
+from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, blade_number, changed_scene
 from r37core.config.document import Document
-from r37core.config.messages import single_line
+from r37core.config.messages import did_you_mean, single_line
 from r37core.rom.naming import NAMED_MODES
 from r37core.yaml_file import KeyPath
 
 from .designs import SearchDesigns
 from .gaussian_processes import SearchPackageMissing, library
 from .plan import designs_of, is_asked
+from .problem import scene_key
 from .section import SECTION
 
 
@@ -29,6 +30,8 @@ def search_can_be_run(settings: Settings) -> None:
         raise document.refusal(("search", "blade"), f"'{entry.blade}', an imported blade", "a blade with profiles")
     _scenes_are_run(settings)
     for key, bounds in entry.variables.items():
+        if scene_key(key) is not None:
+            _is_of_scenes(designs, document, key)
         for value in bounds:
             _has_values(designs, document, ("search", "variables", key), {key: value})
     # keys that exclude each other do so at any value
@@ -46,7 +49,12 @@ def search_can_be_run(settings: Settings) -> None:
 
 
 def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, values: dict[str, float]) -> None:
-    """ConfigError, at `path`, where the entry cannot have these values of some variables."""
+    """ConfigError, at `path`, where the entry or a scene cannot have these values of some variables."""
+    try:
+        for scene in designs.scenes:
+            changed_scene(designs.settings.scene_designs.entries[scene], designs.scene_changes(scene, values))
+    except ImpossibleValueError as error:
+        raise document.error(path, f"scene '{scene}': {error}") from None
     try:
         design = designs.varied_entry("of the search", values)
         start = designs.blade("of the search", None).definition
@@ -54,6 +62,19 @@ def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, value
             check_sweep(stacking_rows([row.model_dump() for row in design.sweep_lean]), start.profiles)
     except (ConfigError, BladeShapeError) as error:
         raise document.error(path, str(error)) from None
+
+
+def _is_of_scenes(designs: SearchDesigns, document: Document, key: str) -> None:
+    """ConfigError for a variable of scenes that no scene of the search has, or of which they have different values."""
+    path, values = ("search", "variables", key), designs.values_in_scenes(key)
+    if not values:
+        known = dict.fromkeys(f"scene.{each}" for numbers in designs.scene_numbers.values() for each in numbers)
+        scenes = ", ".join(designs.scenes)
+        hint = did_you_mean(key, known)
+        raise document.refusal(path, f"{single_line(key)}, which none of the scenes {scenes} has", f"{', '.join(known)}{hint}")
+    if len(set(values.values())) > 1:
+        different = ", ".join(f"{value:g} in '{scene}'" for scene, value in values.items())
+        raise document.refusal(path, f"{key} with {different}", "scenes of the search that start at the same value")
 
 
 def _scenes_are_run(settings: Settings) -> None:
@@ -85,7 +106,7 @@ def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None
     if tolerances is None:
         return
     path = ("search", "tolerances")
-    known = {key for scene in designs.scenes for key in scene_numbers(settings.scene_designs.entries[scene])}
+    known = {key for numbers in designs.scene_numbers.values() for key in numbers}
     for where, allowed in (("of_blades", BLADE_KEYS), ("of_scenes", sorted(known))):
         for key in getattr(tolerances, where):
             if key not in allowed:

@@ -17,7 +17,18 @@ from r37core.units import shown_unit
 from r37core.yaml_file import yaml_text
 
 from .plan import BEST, DATASET
-from .problem import START, UNKNOWN, Design, Evaluated, SearchChoice, best_first, not_dominated, number
+from .problem import (
+    START,
+    UNKNOWN,
+    Design,
+    Evaluated,
+    SearchChoice,
+    best_first,
+    blade_values,
+    not_dominated,
+    number,
+    scene_values,
+)
 from .rounds import SearchRound
 from .surrogate import sensitivity, slices
 
@@ -131,7 +142,7 @@ def search_table(search: xr.Dataset) -> pd.DataFrame:
     return table
 
 
-_HEADER = """\
+_BLADES_HEADER = """\
 # The best designs of a search: entries to paste into your blades.yaml, or a file of its own with the blades they start from. To
 # run them at another level, with tolerances or in other scenes:
 #   snakemake all_blades --configfile config/config.yaml --config blades_file={file} blades='[{names}]' \\
@@ -144,8 +155,8 @@ def entries_of(search: xr.Dataset, designs: Sequence[str], start: str, entries: 
     made: dict[str, Any] = {}
     for place, design in enumerate(designs, 1):
         content = dict(entries[start])
-        for key, value in zip(search["variable"].values, search["value"].sel(design=design).values, strict=True):
-            content = changed_content(content, str(key).split("."), float(value))
+        for key, value in blade_values(_values(search, design)).items():
+            content = changed_content(content, key.split("."), value)
         made[f"{start}_best{place}"] = content
     return made
 
@@ -154,12 +165,52 @@ def write_entries(
     search: xr.Dataset, made: Mapping[str, Any], designs: Sequence[str], entries: Mapping[str, Any], file: Path | str
 ) -> None:
     """Write the entries of the `designs` as YAML, each with what it gave, after those that they start at."""
-    parts = [_HEADER.format(file=file, names=", ".join([list(entries)[-1], *made])), yaml_text(dict(entries))]
+    parts = [_BLADES_HEADER.format(file=file, names=", ".join([list(entries)[-1], *made])), yaml_text(dict(entries))]
     for (name, content), design in zip(made.items(), designs, strict=True):
-        parts.append(
-            f"# {design}: {_objectives(search, design)}; the start: {_objectives(search, START)}\n{yaml_text({name: content})}"
-        )
+        parts.append(f"{_gave(search, design)}{yaml_text({name: content})}")
     write_text("\n".join(parts), file)
+
+
+_SCENES_HEADER = """\
+# The scenes of a search and of its best designs, as a file of their own. To run one of these:
+#   snakemake all_blades --configfile config/config.yaml --config scenes_file={file} scenes='[{names}]' \\
+#     fidelity=standard run='{{name: best}}'
+"""
+
+
+def write_scenes(
+    search: xr.Dataset,
+    designs: Sequence[str],
+    entries: Mapping[str, Any],
+    varied: Mapping[str, Sequence[str]],
+    file: Path | str,
+) -> None:
+    """Write the scenes of the `designs`, the best first, as YAML (name_best1, name_best2, ...) after those that they start at.
+
+    `entries`: of the scenes of the search; `varied`: scene -> variables of the search that it has. One without is the start's.
+    """
+    parts, names = [yaml_text(dict(entries))], list(entries)
+    for place, design in enumerate(designs, 1):
+        values, made = _values(search, design), {}
+        for scene, keys in varied.items():
+            content = dict(entries[scene])
+            for key, value in scene_values({key: values[key] for key in keys}).items():
+                content = changed_content(content, key.split("."), value)
+            if keys:
+                made[f"{scene}_best{place}"] = content
+        names += made
+        parts.append(f"{_gave(search, design)}{yaml_text(made)}")
+    write_text("\n".join([_SCENES_HEADER.format(file=file, names=", ".join(names)), *parts]), file)
+
+
+def _values(search: xr.Dataset, design: str) -> dict[str, float]:
+    values = search["value"].sel(design=design).values
+    return {str(key): float(value) for key, value in zip(search["variable"].values, values, strict=True)}
+
+
+def _gave(search: xr.Dataset, design: str) -> str:
+    """A comment: objectives of a design and of the start."""
+    return f"# {design}: {_objectives(search, design)}; the start: {_objectives(search, START)}\n"
 
 
 def _objectives(search: xr.Dataset, design: str) -> str:
@@ -178,7 +229,7 @@ def closing(results: Path) -> str:
         return text
     (name,) = best["design"].values
     numbers = ", ".join(_against(best.isel(design=0), start, objective) for objective in search["objective"].values)
-    return f"{text}; the best, {name}: {numbers}; entries and STEP files in {results / BEST.removeprefix('<results>/')}"
+    return f"{text}; the best, {name}: {numbers}; entries in {results / BEST.removeprefix('<results>/')}"
 
 
 def _against(best: xr.Dataset, start: xr.Dataset, objective: str) -> str:

@@ -1,4 +1,4 @@
-"""Designs of a search: the blade that it starts at, with other values of some keys."""
+"""Designs of a search: the blade that it starts at and its scenes, with other values of some keys."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from r37core.config.section_laws import SECTION_KEYS
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, path_part
 
-from .problem import SearchVariable
+from .problem import START, SearchVariable, blade_values, scene_key, scene_values
 from .section import SECTION, SearchSection
 
 FOLDER = SECTION.name
@@ -63,16 +63,44 @@ class SearchDesigns:
     @property
     def start_values(self) -> list[float | None]:
         """Values of the variables that the start has; None where neither its entry says nor a key that is left out."""
-        return [start_value(self.start, key) for key in self.entry.variables]
+        return [self._start_value(key) for key in self.entry.variables]
+
+    def _start_value(self, key: str) -> float | None:
+        if scene_key(key) is None:
+            return start_value(self.start, key)
+        # all scenes that have it agree
+        return next(iter(self.values_in_scenes(key).values()))
+
+    def values_in_scenes(self, key: str) -> dict[str, float]:
+        """Scene -> its value of a variable of scenes, of all scenes of the search that have this number."""
+        return {scene: numbers[named] for scene, numbers in self.scene_numbers.items() if (named := scene_key(key)) in numbers}
+
+    @cached_property
+    def scene_numbers(self) -> dict[str, dict[str, float]]:
+        """Numbers of each scene of the search by dotted keys."""
+        return {scene: scene_numbers(self.settings.scene_designs.entries[scene]) for scene in self.scenes}
+
+    @property
+    def blade_varies(self) -> bool:
+        """Whether a variable is of the blade."""
+        return bool(blade_values(dict.fromkeys(self.entry.variables, 0.0)))
+
+    def model_part(self, name: str) -> str:
+        """The part `member` of the paths of a design's model: the nominal one where its blade is the start's."""
+        return NOMINAL if name == START or not self.blade_varies else member_part(name)
 
     def varied_entry(self, name: str, values: Mapping[str, float]) -> BladeEntry:
         """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
-        return design_entry(self.entry.blade, self.start, values, name, self.settings.designs.document)
+        return design_entry(self.entry.blade, self.start, blade_values(values), name, self.settings.designs.document)
+
+    def scene_changes(self, scene: str, values: Mapping[str, float]) -> dict[str, float]:
+        """Values of the variables that a scene has, of all `values` of variables, by dotted keys of its entry."""
+        return {key: value for key, value in scene_values(values).items() if key in self.scene_numbers[scene]}
 
     def blade(self, name: str, values: Sequence[float] | None) -> BladeSettings:
         """A design as a blade, the start without `values`. Raises ConfigError where its shape is impossible."""
         blade, designs = self.entry.blade, self.settings.designs
-        if values is None:
+        if values is None or not self.blade_varies:
             return self.settings.blades[blade]
         changed = self.varied_entry(name, dict(zip(self.entry.variables, values, strict=True)))
         # the name is that of the start, by which tables of sweep and lean know it
@@ -84,12 +112,14 @@ class SearchDesigns:
         Raises ConfigError and ImpossibleValueError where one of them is impossible.
         """
         blade = self.blade(name, values)
-        return {(self.entry.blade, scene): self._sample(name, blade, scene) for scene in self.scenes}
+        named = {} if values is None else dict(zip(self.entry.variables, values, strict=True))
+        changes = {scene: self.scene_changes(scene, named) for scene in self.scenes}
+        return {(self.entry.blade, scene): self._sample(name, blade, scene, of) for scene, of in changes.items()}
 
-    def _sample(self, name: str, blade: BladeSettings, scene: str) -> Sample:
-        settings, own = self.settings, member_part(name)
-        chosen = settings.scenes[scene].scene
-        members = {NOMINAL: Member(blade, chosen, own), **self._members(name, blade, scene)}
+    def _sample(self, name: str, blade: BladeSettings, scene: str, changes: Mapping[str, float]) -> Sample:
+        settings, own = self.settings, self.model_part(name)
+        chosen = changed_scene(settings.scene_designs.entries[scene], changes)
+        members = {NOMINAL: Member(blade, chosen, own), **self._members(name, blade, scene, changes)}
         return Sample(
             members=members,
             deciding=list(members),
@@ -98,22 +128,22 @@ class SearchDesigns:
             campbell=own,
         )
 
-    def _members(self, name: str, blade: BladeSettings, scene: str) -> dict[str, Member]:
+    def _members(self, name: str, blade: BladeSettings, scene: str, scene_changes: Mapping[str, float]) -> dict[str, Member]:
         """Members under tolerances, with a model of their own where the blade is another one."""
         tolerances, scene_entry = self.entry.tolerances, self.settings.scene_designs.entries[scene]
         if tolerances is None:
             return {}
-        scene_values, spreads = scene_numbers(scene_entry), tolerances.spreads
-        nominal = [blade_number(blade, key) if where == "of_blades" else scene_values.get(key) for where, key in spreads]
+        numbers, spreads = {**self.scene_numbers[scene], **scene_changes}, tolerances.spreads
+        nominal = [blade_number(blade, key) if where == "of_blades" else numbers.get(key) for where, key in spreads]
         points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
         members = {}
         for member in filter(is_of_sample, points):
-            changes: dict[str, dict[str, float]] = {"of_blades": {}, "of_scenes": {}}
+            changes: dict[str, dict[str, float]] = {"of_blades": {}, "of_scenes": dict(scene_changes)}
             for (where, key), value in zip(spreads, drawn(spreads.values(), nominal, points[member]), strict=True):
                 if value is not None:
                     changes[where][key] = value
             other = changed_blade(blade, changes["of_blades"])
-            own = path_part(f"{FOLDER}/{name}", NOMINAL if other.elastic == blade.elastic else member)
+            own = self.model_part(name) if other.elastic == blade.elastic else path_part(f"{FOLDER}/{name}", member)
             members[member] = Member(other, changed_scene(scene_entry, changes["of_scenes"]), own)
         return members
 

@@ -28,7 +28,7 @@ SHAPE = "<results>/search/{design}/shape.json"
 MEASURES = "<results>/search/{design}/measures.json"
 DATASET, TABLE = "<results>/search.nc", "<results>/search.csv"
 BEST = "<results>/search/best"
-"""Folder of the best designs' entries and STEP files."""
+"""Folder of the best designs' entries, of blades with STEP files and of scenes."""
 
 DESIGN_NAME = rf"{START}|d\d{{4}}"
 
@@ -91,11 +91,13 @@ class Search:
         return [paths.fill(SHAPE, design=name) for name in round_of(self.round_file(int(wildcards.round))).new]
 
     def shape(self, wildcards: Any) -> dict[str, Any]:
-        """Definition of a design's shape, or why there is none, as plain values."""
+        """Definition of a design's shape, none where it is the start's, and why there is none; as plain values."""
         try:
             samples = self._samples(wildcards.design)
         except (ConfigError, ImpossibleValueError) as error:
             return {"definition": None, "refused": str(error)}
+        if not self.designs.blade_varies:
+            return {"definition": None, "refused": None}
         (blade, *_) = (member.blade for sample in samples.values() for member in sample.members.values())
         return {"definition": to_plain(blade.definition), "refused": None}
 
@@ -106,7 +108,8 @@ class Search:
     def measured(self, wildcards: Any) -> dict[str, Any]:
         """What a design, or the start, is judged by."""
         own, blade = member_part(wildcards.design), self.designs.entry.blade
-        of = {"member": own, "blade": blade, "tip_line": self.sweep.settings.structure.boundary.tip_line}
+        model, tip_line = self.designs.model_part(wildcards.design), self.sweep.settings.structure.boundary.tip_line
+        of = {"member": model, "blade": blade, "tip_line": tip_line}
         return {
             "geometry": paths.fill(paths.GEOMETRY, **of),
             "campbell": paths.fill(paths.CAMPBELL, **of),
@@ -143,13 +146,20 @@ class Search:
         return paths.fill(ROUND, round=len(self.rounds))
 
     def shapes_of_all(self, wildcards: Any) -> list[str]:
-        """The shape of every design that could be built."""
+        """The shape of every design that could be built; none where all have that of the start."""
         blade = self.designs.entry.blade
+        if not self.designs.blade_varies:
+            return []
         names = (name for number in self.rounds for name in self._built(number))
         return [paths.fill(paths.GEOMETRY, member=member_part(name), blade=blade) for name in names]
 
     def entries(self, wildcards: Any) -> dict[str, Any]:
-        """Entries of blades.yaml that the designs start at, as plain values: bases first, the start with its table last."""
+        """Entries of blades.yaml that the designs start at, as plain values: bases first, the start with its table last.
+
+        None where no variable is of the blade.
+        """
+        if not self.designs.blade_varies:
+            return {}
         entries, chain = self.sweep.settings.designs.entries, [self.designs.entry.blade]
         while (base := getattr(entries[chain[0]], "base", None)) is not None:
             chain.insert(0, base)
@@ -157,6 +167,21 @@ class Search:
         if (table := plain[chain[-1]].pop("stacking_table", None)) is not None:
             plain[chain[-1]]["sweep_lean"] = stacking_table_rows(self.sweep.settings.root / table, chain[-1])
         return plain
+
+    def scene_entries(self, wildcards: Any) -> dict[str, Any]:
+        """Entries of scenes.yaml that the designs start at, as plain values; none where no variable is of scenes."""
+        if not any(self.varied_in_scenes(wildcards).values()):
+            return {}
+        entries = self.sweep.settings.scene_designs.entries
+        return {scene: entries[scene].model_dump(exclude_none=True, exclude_unset=True) for scene in self.designs.scenes}
+
+    def varied_in_scenes(self, wildcards: Any) -> dict[str, list[str]]:
+        """Scene -> variables that are of numbers which it has."""
+        designs = self.designs
+        return {
+            scene: [key for key in designs.entry.variables if scene in designs.values_in_scenes(key)]
+            for scene in designs.scenes
+        }
 
 
 def choice_of(settings: Settings) -> SearchChoice:

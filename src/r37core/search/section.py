@@ -28,7 +28,7 @@ class QuantitySection(Section):
     """A number of a design."""
 
     measure: Literal[tuple(MEASURES)] = Field(  # type: ignore[valid-type]
-        default="length_certain_rad_s",
+        default="exceedance_integral_rad_s",
         description="Number of a design: " + "; ".join(f"{name}, {words}" for name, words in MEASURES.items()),
     )
     scenes: Names | LeftOut = Field(default=None, description="Scenes of a contact measure; the worst counts")
@@ -97,11 +97,12 @@ class SearchTolerances(Spreads):
 
 
 class SearchSection(Section):
-    """A search for better designs of one blade, in rounds: each asks for some more, by what all before them gave."""
+    """A search for better designs of one blade and its scenes, in rounds: each asks for more by what all before them gave."""
 
     blade: Name = Field(description="Blade of the run at which the search starts")
     variables: Annotated[dict[str, Bounds], Field(min_length=1)] = Field(
-        description="Lowest and highest value of numeric keys of the entry, such as stagger_deg.tip: [-3, 3]"
+        description="Lowest and highest value of numeric keys of the entry, such as stagger_deg.tip: [-3, 3], and of the "
+        "scenes that have the number, such as scene.lining.thickness_m: [0.001, 0.005]"
     )
     objectives: ByName[ObjectiveSection] = Field(description="Numbers to minimise, by name; several give a Pareto front")
     constraints: Annotated[dict[Name, ConstraintSection], AfterValidator(check_names)] = Field(

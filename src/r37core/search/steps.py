@@ -20,7 +20,7 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.stress.operator import read_stress_operator
 
-from .dataset import entries_of, search_dataset, search_table, write_entries
+from .dataset import entries_of, search_dataset, search_table, write_entries, write_scenes
 from .problem import SearchChoice
 from .quantity import DesignStructure, Quantity, contact_value, static_stress, structure_value
 from .rounds import first_round, progress, read_round, round_after, tried_after, write_round
@@ -51,7 +51,7 @@ def shape(input: Any, output: Any, params: Any) -> None:
     from r37core.mesh.generate import generate_mesh
 
     refused, level = params.shape["refused"], params.mesh
-    if refused is None:
+    if refused is None and params.shape["definition"] is not None:
         try:
             blade = from_plain(BladeDefinition, params.shape["definition"]).build(round_edges=params.edges == "round")
             mesh = generate_mesh(blade, level["nodes"], level["layers"], level["tip_elements"])
@@ -109,13 +109,20 @@ def join(input: Any, output: Any, params: Any) -> None:
 
 
 def best(input: Any, output: Any, params: Any) -> None:
-    """Write the best designs as entries and STEP. Inputs: dataset, shapes (all). Params: entries, number. Output: folder."""
+    """Write the best designs. Inputs: dataset, shapes (of designs with a blade of their own). Output: folder.
+
+    Params: number; entries, of the start and its bases, where its blade varies; scenes, entries where they vary, and
+    varied_in_scenes, by which variables.
+    """
     search, folder = read_dataset(input.dataset), Path(output.folder)
     ordered = search.isel(design=np.flatnonzero(search["order"].values > 0)).sortby("order")
     designs = ordered["design"].values[: params.number].tolist()
-    made = entries_of(search, designs, list(params.entries)[-1], params.entries)
     folder.mkdir(parents=True)
-    write_entries(search, made, designs, params.entries, folder / "blades.yaml")
-    files = {Path(file).parent.parent.name: file for file in as_list(input.shapes)}
-    for name, design in zip(made, designs, strict=True):
-        write_step(read_geometry(files[design]), folder / f"{name}.step")
+    if params.scenes:
+        write_scenes(search, designs, params.scenes, params.varied_in_scenes, folder / "scenes.yaml")
+    if params.entries:
+        made = entries_of(search, designs, list(params.entries)[-1], params.entries)
+        write_entries(search, made, designs, params.entries, folder / "blades.yaml")
+        files = {Path(file).parent.parent.name: file for file in as_list(input.shapes)}
+        for name, design in zip(made, designs, strict=True):
+            write_step(read_geometry(files[design]), folder / f"{name}.step")

@@ -6,8 +6,10 @@ from typing import Any
 from pydantic import Field
 
 from r37core.config.section import ExtensionSection, Section
+from r37core.exchange.importing.source import MeshSource
 from r37core.plans import paths
 from r37core.plans.extension import Extension
+from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 
 
@@ -15,6 +17,7 @@ class ShapeSection(Section):
     """Modes and worst instants as files that move."""
 
     modes: int = Field(default=6, ge=1, le=30, description="Number of modes of each blade, at rest")
+    imported: bool = Field(default=True, description="Modes of imported meshes also without a scene that asks for shapes")
 
 
 SECTION = ExtensionSection("shapes", ShapeSection, ShapeSection())
@@ -39,6 +42,13 @@ class Shapes:
         """Pairs of blade and scene with shapes."""
         return self.sweep.runs_with("shapes")
 
+    @property
+    def blades(self) -> list[str]:
+        """Blades with modes: those of the runs, and meshes of other programs."""
+        meshes = Imported(self.sweep.settings).given_by(MeshSource) if self.sweep.settings.section(SECTION).imported else []
+        wanted = {*meshes, *(blade for blade, _ in self.runs)}
+        return [blade for blade in self.sweep.settings.blades if blade in wanted]
+
     def scenes(self, wildcards: Any) -> list[str]:
         """Scenes of a blade with shapes."""
         return [scene for blade, scene in self.runs if blade == wildcards.blade]
@@ -50,8 +60,7 @@ class Shapes:
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Folders of shapes, the page of each blade, and the figures."""
-    runs = paths.run_keys(Shapes(sweep).runs)
-    blades = paths.of("blade", dict.fromkeys(run["blade"] for run in runs))
+    runs, blades = paths.run_keys(Shapes(sweep).runs), paths.of("blade", Shapes(sweep).blades)
     return {
         MODE_SHAPES: blades,
         WORST_SHAPES: runs,
@@ -63,8 +72,9 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 _CAPTIONS = {
     "mode_shapes": (
-        "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline). The "
-        "colour is the displacement as a share of its largest. The page of the blade's shapes moves them."
+        "The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black outline). Colours "
+        "above: displacement as a share of its largest; below: von Mises stress for 1 mm of it. The page of the blade's shapes "
+        "moves them."
     ),
     "worst_shapes": (
         "Blade {blade} in scene {scene} at the worst instant of each interaction, displaced as the title says (black "

@@ -27,15 +27,16 @@ LARGEST_SHOWN = 0.1
 _MODE_SECONDS, _REVOLUTION_SECONDS, _MODE_STEPS = 2.0, 6.0, 32
 _MOST_TARGETS = 8  # what every viewer can morph at once
 _LEFT_OUT = 0.01  # of the motion
-_SHOWN = 0.99  # of the nodes: the few at contact and clamping have stresses that grow with every finer mesh
+SHOWN = 0.99  # of the nodes: the few at contact and clamping have stresses that grow with every finer mesh
 
 
-def write_mode_shapes(mesh: BladeMesh, model: ReducedModel, count: int, folder: Path) -> None:
+def write_mode_shapes(mesh: BladeMesh, model: ReducedModel, material: Material, count: int, folder: Path) -> None:
     """Write the `count` lowest modes at rest: modes_0.vtu with modes.pvd, and mode_<name>.glb, which swings.
 
-    Colours are the displacement as a share of its largest. The model must recover the whole blade.
+    Colours are the displacement as a share of its largest; modes_0.vtu has the stress of each mode, too. The model must
+    recover the whole blade.
     """
-    write_modes(mesh, model, [0.0], count, Target(folder))
+    write_modes(mesh, model, [0.0], count, Target(folder), material)
     (nodes, triangles), modes = _skin(mesh), mode_shapes(model, 0.0, count)
     times = np.linspace(0.0, _MODE_SECONDS, _MODE_STEPS + 1)
     swing = np.sin(2.0 * np.pi * times / _MODE_SECONDS)[:, None]
@@ -69,7 +70,7 @@ def write_worst_shapes(
     """Write the worst instant at each speed (rad/s): stress_<speed>.vtu with stress.pvd, and stress_<speed>.glb.
 
     The .glb moves as the blade did in its last revolution; its colours are the von Mises stress (Pa) of the worst instant, up
-    to the largest one of the submesh, or to what _SHOWN of the nodes stay below if that is more. `titles` of the interactions
+    to the largest one of the submesh, or to what SHOWN of the nodes stay below if that is more. `titles` of the interactions
     at the speeds. The model must recover the whole blade.
     """
     write_stress(mesh, model, material, instants, Target(folder))
@@ -84,7 +85,7 @@ def write_worst_shapes(
         times = np.linspace(0.0, _REVOLUTION_SECONDS, len(weights))
         name = f"stress_{exact_text(speed)}"
         outside = ", above yield: outside the linear model" if instant.largest > material.yield_stress else ""
-        largest = max(instant.largest, float(np.quantile(stress, _SHOWN)))
+        largest = max(instant.largest, float(np.quantile(stress, SHOWN)))
         about = {
             "shape": name,
             "title": f"{titles[speed]} at {speed:g} rad/s ({RPM * speed:.0f} rpm): largest von Mises stress of the submesh "

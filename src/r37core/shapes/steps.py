@@ -22,8 +22,9 @@ from .stills import draw_shapes
 
 
 def modes(input: Any, output: Any, params: Any) -> None:
-    """Write modes that move. Inputs: mesh (vtu), model. Params: modes. Output: folder."""
-    write_mode_shapes(read_vtu(input.mesh), read_reduced_model(input.model), params.modes, Path(output.folder))
+    """Write modes that move. Inputs: mesh (vtu), model. Params: modes, material. Output: folder."""
+    mesh, model, material = read_vtu(input.mesh), read_reduced_model(input.model), from_plain(Material, params.material)
+    write_mode_shapes(mesh, model, material, params.modes, Path(output.folder))
 
 
 def worst(input: Any, output: Any, params: Any) -> None:

@@ -1,10 +1,10 @@
 """Stills of shapes: modes, and the worst instants of interactions, rendered off screen, with letters and colour bars beside."""
 
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import ceil
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,14 +14,15 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
+from r37core.exchange.fields import modal_stress
 from r37core.figures import style
 from r37core.figures.offscreen import look, new_plotter, rendered, without_margins
 from r37core.io import read_json, readable
 
 from . import INDEX
-from .moving import COLOUR_MAP, LARGEST_SHOWN
+from .moving import COLOUR_MAP, LARGEST_SHOWN, SHOWN
 
-_COLUMNS, _PANEL_HEIGHT = 5, 2.9
+_COLUMNS, _PANEL_HEIGHT = 6, 2.9
 _PIXELS = (600, 900)
 _LETTERS = 29
 """Letters of a line that fits a panel."""
@@ -30,37 +31,73 @@ _LETTERS = 29
 def draw_shapes(folder: Path) -> Figure:
     """Draw all shapes of a folder that `moving` has written, each with the outline of its undeformed blade.
 
-    Modes: coloured by the displacement as a share of its largest; worst instants: by the von Mises stress (MPa), each on a
-    scale of its own. A folder without shapes gives a picture that says so.
+    Modes twice, coloured by the displacement as a share of its largest, and below by the von Mises stress for 1 mm of it; worst
+    instants by the von Mises stress (MPa). Each stress has a scale of its own. A folder without shapes gives a picture that
+    says so.
     """
     entries: Sequence[Mapping[str, Any]] = read_json(folder / INDEX)
-    rows = max(1, ceil(len(entries) / _COLUMNS))
-    columns = max(1, ceil(len(entries) / rows))
+    views = (_displacement, _modal_stress) if entries and _is_mode(entries[0]) else (_stress,)
+    blocks = max(1, ceil(len(entries) / _COLUMNS))
+    rows, columns = blocks * len(views), max(1, ceil(len(entries) / blocks))
     size = (style.PAGE * columns / _COLUMNS, rows * _PANEL_HEIGHT)
     figure, grid = plt.subplots(rows, columns, figsize=size if entries else (4.0, 1.5), squeeze=False)
     for axes in grid.flat:
         axes.set_axis_off()
-    for axes, entry in zip(grid.flat, entries, strict=False):
-        _draw(axes, folder, entry)
+    for number, entry in enumerate(entries):
+        block, column = divmod(number, columns)
+        shape = _read(folder, entry)
+        for row, view in enumerate(views):
+            _draw(grid[len(views) * block + row, column], shape, entry, view)
     if not entries:
         grid[0, 0].text(0.5, 0.5, "no interaction that ran to its end", ha="center", va="center")
     return figure
 
 
-def _draw(axes: Axes, folder: Path, entry: Mapping[str, Any]) -> None:
-    name = str(entry["shape"])
-    is_mode = name.startswith("mode_")
-    file = folder / ("modes_0.vtu" if is_mode else f"{name}.vtu")
+def _is_mode(entry: Mapping[str, Any]) -> bool:
+    return str(entry["shape"]).startswith("mode_")
+
+
+def _read(folder: Path, entry: Mapping[str, Any]) -> Any:
+    """The mesh with fields, of modes those of all of them."""
+    file = folder / ("modes_0.vtu" if _is_mode(entry) else f"{entry['shape']}.vtu")
     with readable(file):
-        grid = pyvista.read(file)
-    moved = f"mode {name.removeprefix('mode_')}" if is_mode else "displacement"
+        return pyvista.read(file)
+
+
+class _View(NamedTuple):
+    """What is shown of a shape: colours, their label and largest value, and the field that moves it, times a factor."""
+
+    values: np.ndarray
+    label: str
+    largest: float
+    moved: str
+    factor: float
+
+
+def _displacement(grid: Any, entry: Mapping[str, Any]) -> _View:
+    moved = f"mode {_mode(entry)}"
     size = np.linalg.norm(grid.point_data[moved], axis=1)
-    if is_mode:
-        values, label, largest = size / size.max(), "share of the largest", 1.0
-        factor = LARGEST_SHOWN * float(np.ptp(np.hypot(*grid.points[:, :2].T))) / float(size.max())
-    else:
-        values, label = 1e-6 * grid.point_data["von Mises stress"], "von Mises stress (MPa)"
-        largest, factor = 1e-6 * entry["largest_shown"], float(entry["magnification"])
+    factor = LARGEST_SHOWN * float(np.ptp(np.hypot(*grid.points[:, :2].T))) / float(size.max())
+    return _View(size / size.max(), "share of the largest", 1.0, moved, factor)
+
+
+def _modal_stress(grid: Any, entry: Mapping[str, Any]) -> _View:
+    view, largest = _displacement(grid, entry), np.linalg.norm(grid.point_data[f"mode {_mode(entry)}"], axis=1).max()
+    values = 1e-6 * grid.point_data[modal_stress(_mode(entry))] / (1e3 * largest)
+    return view._replace(values=values, label="von Mises (MPa/mm)", largest=float(np.quantile(values, SHOWN)))
+
+
+def _stress(grid: Any, entry: Mapping[str, Any]) -> _View:
+    values, largest = 1e-6 * grid.point_data["von Mises stress"], 1e-6 * entry["largest_shown"]
+    return _View(values, "von Mises stress (MPa)", largest, "displacement", float(entry["magnification"]))
+
+
+def _mode(entry: Mapping[str, Any]) -> str:
+    return str(entry["shape"]).removeprefix("mode_")
+
+
+def _draw(axes: Axes, grid: Any, entry: Mapping[str, Any], view: Callable[[Any, Mapping[str, Any]], _View]) -> None:
+    values, label, largest, moved, factor = view(grid, entry)
     grid.point_data["shown"] = values
     axes.imshow(_rendered(grid, moved, factor, largest), interpolation="none")
     axes.set_title(_words(str(entry["title"])), fontsize=6)

@@ -21,6 +21,9 @@ VARIABLES = {
     "normal": Variable(("tip_point", "turn"), "m", "displacement along the casing's normal", "f4"),
     "tangential": Variable(("tip_point", "turn"), "m", "tangential displacement, towards growing theta", "f4"),
     "strain": Variable(("gauge", "turn"), "1", "strain of the vibration along the gauge's grid", "f4"),
+    "contact_force": Variable(("turn",), "N", "normal force on the tip, of all contact nodes; NaN without exact_modal", "f4"),
+    "clearance": Variable(("turn",), "m", "from the undeformed leading edge to casing or unworn lining", "f4"),
+    "casing_angle": Variable(("turn",), "degree", "of the undeformed leading edge, towards growing theta", "f4"),
     "gauge_place": Variable(("gauge", "axis"), "m", "where the gauge is, in the blade's frame"),
     "arrival_time": Variable(("tip_point", "probe", "revolution"), "s", "time at which the tip passes the probe"),
     "arrival_displacement": Variable(
@@ -59,8 +62,11 @@ def signals_dataset(
     first = records[speeds[0]]
     numbers = np.array(revolutions_of(first))
     arrivals = [_arrivals(record, speed, np.radians(probes), numbers, tip) for speed, record in records.items()]
-    signals = {name: [getattr(record, name).T for record in records.values()] for name in ("normal", "tangential", "strain")}
+    kept = ("normal", "tangential", "strain", "contact_force", "clearance")
+    signals = {name: [getattr(record, name).T for record in records.values()] for name in kept}
+    x, y, _ = tip.points[0]
     values = signals | {
+        "casing_angle": [np.degrees(np.arctan2(y, x) - 2.0 * np.pi * first.turn) % 360.0] * len(speeds),
         "gauge_place": [np.array(list(gauges.values())).reshape(-1, 3)] * len(speeds),
         "arrival_time": [times for times, _ in arrivals],
         "arrival_displacement": [displacements for _, displacements in arrivals],

@@ -41,8 +41,11 @@ class GaugeEntry(Section):
 
 
 class SignalSection(Section):
-    """Kept signals; none without speeds."""
+    """Kept signals; without speeds those of imported blades alone."""
 
+    imported: bool = Field(
+        default=True, description="Signals of imported blades at the speeds of interactions, where no speeds are named"
+    )
     blades: AllOrNames = Field(default="all", description="Blades with signals")
     speeds_rad_s: SignalSpeeds | LeftOut = Field(
         default=None, description="Speeds with signals; interactions: the peak speeds in summary.csv; each other speed is a run"
@@ -71,7 +74,7 @@ class SignalSection(Section):
         return "speeds_rad_s" if self.speeds_rpm is None else "speeds_rpm"
 
     def speeds(self) -> list[float] | Literal["interactions"] | None:
-        """Speeds (rad/s), ascending, or the word for those of interactions; None where no signals are asked for."""
+        """Speeds (rad/s), ascending, or the word for those of interactions; None where none are named."""
         speeds = si_fields(self).get("speeds")
         return sorted(speeds) if speeds else "interactions" if self.speeds_rad_s else None
 
@@ -94,10 +97,11 @@ class Signals:
 
     @property
     def runs(self) -> list[tuple[str, str]]:
-        """Pairs of blade and scene with signals; none without speeds."""
+        """Pairs of blade and scene with signals; without speeds those of imported blades whose runs have a fixed length."""
+        pairs, scenes = self.sweep.runs_with("signal"), self.sweep.settings.scenes
         if self._section.speeds() is None:
-            return []
-        pairs = self.sweep.runs_with("signal")
+            blades = self.imported.blades if self._section.imported else []
+            pairs = [(blade, scene) for blade, scene in pairs if blade in blades and not scenes[scene].until_settled]
         return [(blade, scene) for blade, scene in pairs if self._section.blades == "all" or blade in self._section.blades]
 
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
@@ -116,7 +120,7 @@ class Signals:
         if self.gauges(wildcards):
             files |= {"mesh": paths.fill(paths.MESH, blade=blade)}
             files |= {"whole": paths.fill(paths.WHOLE_BLADE_MODEL, blade=blade, tip_line=tip_line)}
-        if self._section.speeds() == "interactions":
+        if not self.speeds:
             files |= {"campbell": paths.fill(paths.CAMPBELL, blade=blade)}
             files |= {"response": paths.fill(paths.RESPONSE, blade=blade, scene=scene)}
         return files
@@ -153,6 +157,7 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
         "<results>/signals.nc": runs and [{}],
         **paths.pictures("spectrogram_{blade}__{scene}", runs),
         **paths.pictures("orders_{blade}__{scene}", runs),
+        **paths.pictures("contact_force_{blade}__{scene}", runs),
     }
 
 
@@ -191,6 +196,10 @@ _CAPTIONS = {
     "orders": (
         "Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions since the "
         "start, at each speed. Beside them, where there are probes: the leading edge's displacement that tip timing tells."
+    ),
+    "contact_force": (
+        "Blade {blade} in scene {scene}: normal force on the tip, all contact nodes together, over the casing angle of its "
+        "leading edge, at each speed. Grey: clearance of the undeformed leading edge, which lobes make smaller."
     ),
 }
 """Kind of figure -> what is seen in it."""

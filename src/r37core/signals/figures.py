@@ -1,4 +1,4 @@
-"""Time signals over engine order: spectrograms, and tracks of single orders beside what tip timing tells."""
+"""Time signals: spectrograms, tracks of single orders beside what tip timing tells, contact force over the casing's angle."""
 
 from typing import Any
 
@@ -72,6 +72,51 @@ def draw_orders(signals: xr.Dataset, title: str) -> Figure:
             _draw_timing(panels[row, -1], signals.sel(speed=speed), first=row == 0)
     _label(signals, panels, None)
     return figure
+
+
+def draw_contact_forces(signals: xr.Dataset, title: str) -> Figure:
+    """Normal force on the tip over the casing angle of its leading edge, at every speed (rows) of one blade and scene.
+
+    The last revolution as a line, the range of all in the last half of the run as a band, and the clearance.
+    """
+    if not signals.sizes["speed"]:
+        return _nothing(title)
+    rows, per_revolution = signals.sizes["speed"], _per_revolution(signals)
+    figure, panels = plt.subplots(rows, 1, figsize=(style.PAGE, 1.5 * rows + 0.9), sharex=True, squeeze=False)
+    figure.suptitle(f"contact force: {title}")
+    for axes, speed in zip(panels[:, 0], signals["speed"].values, strict=True):
+        _draw_contact_force(axes, signals.sel(speed=speed), per_revolution)
+    _label(signals, panels, None)
+    panels[-1, 0].set_xlabel("casing angle of the leading edge (degrees); the blade moves to the left")
+    figure.legend(*style.legend_entries([*panels[:, 0], *figure.axes]), loc="outside lower center", ncols=3)
+    return figure
+
+
+def _draw_contact_force(axes: Axes, run: xr.Dataset, per_revolution: int) -> None:
+    """One speed: force in N on the left, clearance in mm on the right."""
+    force = run["contact_force"].values.reshape(-1, per_revolution)
+    angle, clearance = (run[name].values[-per_revolution:] for name in ("casing_angle", "clearance"))
+    order = np.argsort(angle)
+    beside = axes.twinx()
+    beside.fill_between(angle[order], 1e3 * clearance[order], color="0.75", alpha=0.5, linewidth=0.0, label="clearance (mm)")
+    beside.axhline(0.0, color="0.6", linewidth=0.6)
+    beside.set_ylabel("mm", fontsize=8)
+    beside.grid(False)
+    axes.set_zorder(beside.get_zorder() + 1)
+    axes.patch.set_visible(False)
+    axes.set_ylabel("N")
+    axes.set_xlim(0.0, 360.0)
+    axes.set_xticks(range(0, 361, 45))
+    known = force[np.isfinite(force).all(axis=1)]
+    if not len(known):
+        style.say(axes, "no contact force: a run that diverged, or an integrator other than exact_modal")
+        return
+    late = known[len(known) // 2 :]
+    look: dict[str, Any] = {"color": style.COLOURS[4], "alpha": 0.4, "linewidth": 0.0}
+    lowest, highest = (edge(late, axis=0)[order] for edge in (np.min, np.max))
+    axes.fill_between(angle[order], lowest, highest, label="range of the last half of the run", **look)
+    axes.plot(angle[order], known[-1][order], color=style.COLOURS[0], linewidth=1.0, label="last revolution (N)")
+    axes.set_ylim(bottom=0.0)
 
 
 def _draw_timing(axes: Axes, run: xr.Dataset, first: bool) -> None:

@@ -1,4 +1,4 @@
-"""The time signals of one run: both ends of the tip and strain gauges, at every sample."""
+"""The time signals of one run: both ends of the tip, its contact force and strain gauges, at every sample."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -17,13 +17,17 @@ class Record:
     """Signals of one run at one speed, NaN from a divergence on.
 
     `turn`, shape (samples,): time in revolutions since the start; `normal` and `tangential` displacement (m), shape (samples,
-    2), of TIP_POINTS; `strain`, shape (samples, gauges); `status`.
+    2), of TIP_POINTS; `strain`, shape (samples, gauges); `contact_force` (N), shape (samples,): normal force on all contact
+    nodes together, NaN without forces at t_n (IntegrationChoice.second_order); `clearance` (m), shape (samples,): from the
+    undeformed leading edge to casing or unworn lining, without a flexible casing's motion; `status`.
     """
 
     turn: np.ndarray
     normal: np.ndarray
     tangential: np.ndarray
     strain: np.ndarray
+    contact_force: np.ndarray
+    clearance: np.ndarray
     status: RunStatus
 
 
@@ -36,30 +40,47 @@ def record_signals(
     beyond the stability limit.
     """
     per_revolution = choice.samples_per_revolution
-    snapshots = per_revolution if len(gauge_rows) else 0
-    choice = replace(choice, snapshots_per_revolution=snapshots, snapshot_revolutions=choice.revolutions)
+    choice = replace(choice, snapshots_per_revolution=per_revolution, snapshot_revolutions=choice.revolutions)
     simulation = Simulation(model, speed, scene, choice)
     # rows of what the states are kept in
     shapes = simulation.problem.contact.state_shapes
     rows = gauge_rows @ model.to_reduced @ shapes if len(gauge_rows) else np.empty((0, shapes.shape[1]))
     state, status = simulation.start(), RunStatus.COMPLETED
     tip = np.full((choice.revolutions * per_revolution, len(TIP_POINTS), len(DIRECTIONS)), np.nan)
-    strain = np.full((len(tip), len(rows)), np.nan)
+    strain, contact_force = np.full((len(tip), len(rows)), np.nan), np.full(len(tip), np.nan)
     # one revolution after another: the states of all would be a hundred times as many numbers as the signals
     for revolution in range(choice.revolutions):
         record = simulation.advance(state, 1)
         good = len(record.samples) - (1 if record.diverged else 0)
         reached = slice(revolution * per_revolution, revolution * per_revolution + good)
         tip[reached] = record.samples[:good].reshape(-1, *tip.shape[1:])
-        if len(rows):
-            strain[reached] = record.snapshots[:good] @ rows.T
+        strain[reached] = record.snapshots[:good] @ rows.T
+        if choice.second_order:
+            contact_force[reached] = _normal_force(simulation, record.snapshots[:good])
         if record.diverged:
             status = RunStatus.DIVERGED
             break
     recorded = slice(-min(last, choice.revolutions) * per_revolution, None)
     turn = np.arange(1, len(tip) + 1) / per_revolution
+    turn = turn[recorded]
     normal, tangential = (tip[recorded, :, DIRECTIONS.index(name)] for name in ("normal", "tangential"))
-    return Record(turn[recorded], normal, tangential, strain[recorded], status)
+    clearance = _clearance(simulation, turn)
+    return Record(turn, normal, tangential, strain[recorded], contact_force[recorded], clearance, status)
+
+
+def _normal_force(simulation: Simulation, snapshots: np.ndarray) -> np.ndarray:
+    """Normal force (N) on all contact nodes together, shape (snapshots,): the last numbers of a snapshot are forces."""
+    nodes = len(simulation.problem.casing.tip.theta)
+    forces = snapshots[:, -3 * nodes :].reshape(len(snapshots), 3, nodes)
+    return -forces[:, 0].sum(axis=1)
+
+
+def _clearance(simulation: Simulation, turn: np.ndarray) -> np.ndarray:
+    """Distance (m) of the undeformed leading edge from the casing at times in revolutions, shape (samples,)."""
+    casing = simulation.problem.casing
+    angles = casing.tip.theta[0] - 2.0 * np.pi * turn
+    times = turn * 2.0 * np.pi / casing.grid.speed
+    return casing.clearance[0] - casing.scene.casing.lobe(angles, times, casing.rise_time)
 
 
 def revolutions_of(record: Record) -> Sequence[int]:
