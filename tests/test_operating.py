@@ -8,8 +8,8 @@ from pydantic import ValidationError
 
 from r37core.config.operating_section import OperatingSection
 from r37core.figures import style
-from r37core.results.operating import MEASURES, operating_measures
-from r37core.results.operating_range import OperatingDwell, OperatingRange
+from r37core.results.operating import operating_measures
+from r37core.results.operating_range import MEASURES, OperatingDwell, OperatingRange
 from r37core.results.ranking import ROBUSTNESS, ranking_table
 from r37core.units import RPM
 

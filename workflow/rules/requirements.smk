@@ -6,7 +6,7 @@ judged = Judged(sweep)
 
 use rule step as verdict with:
     input:
-        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "wear")},
+        **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue", "wear")},
         **({"members": sampling.dataset} if sampling else {}),
         **more_motions,
         campbell=rules.campbell_of_all.output[0],

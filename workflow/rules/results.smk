@@ -104,5 +104,6 @@ use rule step as explorer with:
         **step("explorer.steps.explorer", *panel_modules(sweep)),
         **shown_by_extensions,
         title=f"r37 {settings.config.run.name or ''}".strip(),
+        operating=operating,
         shapes=sweep.runs_with("shapes"),
         parts=parts_hash(page_parts(shown_by_extensions["programs"])),

@@ -82,6 +82,7 @@ use rule step as search_measures with:
         scenes=search.responses_of_scenes,
         density=search.density,
         highest_speed=settings.structure.maximum_speed_rad_s,
+        operating=operating,
 
 
 use rule step as search_dataset with:

@@ -2,9 +2,9 @@
 
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
-from r37core.plans.extension import Extension
+from r37core.plans.extension import Extension, Panel
 
-from .plan import Families, targets
+from .plan import Families, tables_of_maps, targets
 
 
 def families_have_shapes(settings: Settings) -> None:
@@ -40,4 +40,5 @@ EXTENSION = Extension(
         ),
     },
     closing="designs.table.closing",
+    panel=Panel(tables_of_maps, "designs.panel.contents", "designs/panel.js"),
 )

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from r37core.figures import style
 from r37core.plain import from_plain
-from r37core.results.operating import LENGTH
+from r37core.results.operating_range import LENGTH
 
 from .compared import Compared
 
@@ -28,7 +28,7 @@ def draw_design_map(
     them and others, and marks on the designs that meet all.
     """
     chosen = from_plain(Compared, compared)
-    column = LENGTH if LENGTH in table and table[LENGTH].notna().any() else _LENGTH
+    column = length_column(table)
     rows, keys = chosen.rows(table), chosen.keys
     panels = [(str(name), part) for name, part in rows.groupby(chosen.other, sort=False)] if chosen.other else [(title, rows)]
     across = min(len(panels), 2)
@@ -51,6 +51,11 @@ def draw_design_map(
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
     figure.suptitle(f"family {title.replace('__', ' x ')}")
     return figure
+
+
+def length_column(table: pd.DataFrame) -> str:
+    """Column of the length above yield in most revolutions: in operation, where it is known there."""
+    return LENGTH if LENGTH in table and table[LENGTH].notna().any() else _LENGTH
 
 
 def _grid(rows: pd.DataFrame, keys: Sequence[str], column: str, together: str) -> np.ndarray:

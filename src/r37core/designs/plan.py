@@ -116,6 +116,11 @@ def _column(kind: str, key: str) -> str:
     return key if kind == BLADE else SCENE_KEY + key
 
 
+def tables_of_maps(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The table of designs, in a run with a map of them."""
+    return {"<results>/designs.csv": [{}] if Families(sweep.settings).maps else []}
+
+
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The table of all designs, a figure of each family, and maps over two keys."""
     families = Families(sweep.settings)

@@ -10,9 +10,8 @@ import xarray as xr
 from r37core.results.closing import counted
 from r37core.results.datasets import response_of
 from r37core.results.glossary import RANKING, Word, word
-from r37core.results.operating import INTEGRAL, operating_measures
-from r37core.results.operating import MEASURES as OPERATING_MEASURES
-from r37core.results.operating_range import OperatingRange
+from r37core.results.operating_range import INTEGRAL, OperatingRange
+from r37core.results.operating_range import MEASURES as OPERATING_MEASURES
 from r37core.results.ranking import RANKED_BY, ROBUSTNESS, robustness
 from r37core.results.table_file import read_table
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
@@ -56,7 +55,7 @@ def design_table(
         varied = {**variables["blade"].get(blade, {}), **variables["scene"].get(scene, {})}
         structure = {"mass_kg": masses.get(blade, np.nan)} | _structure(datasets["campbell"].sel(blade=blade))
         response = response_of(datasets, blade, scene)
-        measures = robustness(response) | (operating_measures(response, operating) if operating else {})
+        measures = robustness(response, operating=operating)
         rows.append({"blade": blade, "scene": scene, **varied, **structure, **measures, **_shift(blade, scene, interactions)})
     designs = [values for kind in variables.values() for values in kind.values()]
     keys = list(dict.fromkeys(key for values in designs for key in values))

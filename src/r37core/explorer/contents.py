@@ -12,6 +12,7 @@ import xarray as xr
 from r37core.results import glossary
 from r37core.results.closing import interaction_title
 from r37core.results.glossary import Word
+from r37core.results.operating_range import OperatingRange
 from r37core.results.ranges import as_ranges_bear
 from r37core.results.ranking import as_scatter_bears
 from r37core.results.variables import VARIABLES
@@ -48,12 +49,13 @@ def explorer_contents(
     shapes: Iterable[Sequence[str]] = (),
     shapes_in_report: Mapping[str, str] | None = None,
     ranking: pd.DataFrame | None = None,
+    operating: OperatingRange | None = None,
 ) -> dict[str, object]:
     """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress, wear and members.
 
     `shapes`: pairs of blade and scene whose interactions are shown in shapes/<blade>.html beside the page;
     `shapes_in_report`: where that is in the archive of the report, by blade. `ranking`: the blades of each scene compared,
-    as ranking.csv has them.
+    as ranking.csv has them. `operating`: speeds that are shaded.
     Curves have every speed; maps are thinned, each cell the largest value of what it stands for.
     """
     rms, campbell = datasets["rms"], datasets["campbell"]
@@ -71,6 +73,7 @@ def explorer_contents(
         "wear": _wear(datasets["wear"], rms) if "wear" in datasets else None,
         **interaction_table(as_ranges_bear(interactions)),
         **ranking_rows(ranking),
+        "operating": [operating.first, operating.last] if operating else None,
         "shapes": [list(pair) for pair in shapes],
         "shapes_in_report": dict(shapes_in_report or {}),
         **({"sample": _sample(datasets["members"])} if "members" in datasets else {}),

@@ -105,12 +105,21 @@
     return `${where}${quantityText(value, curve.unit)}<br>${STATUS[number]}${yieldText(curve, blade, scene, at)}`;
   }
 
+  // the speeds in operation, shaded
+  const operatingRange = () => (data.operating ? [{
+    type: "rect", yref: "paper", x0: data.operating[0] * factor(), x1: data.operating[1] * factor(), y0: 0, y1: 1, line: { width: 0 },
+    fillcolor: theme.colour("bars-light"), opacity: 0.2, layer: "below",
+  }] : []);
+
   function layout(x, y, more = {}) {
     const cursor = state.speed * factor();
     return {
       ...theme.layout(), margin: { l: 60, r: 15, t: 10, b: 45 }, hovermode: "closest", dragmode: DRAG, xaxis: x, yaxis: y, showlegend: true,
       legend: { orientation: "h", y: 1.02, yanchor: "bottom", font: { size: 11 } }, uirevision: state.unit,
-      shapes: [{ type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: theme.colour("muted"), width: 1, dash: "dot" }}],
+      shapes: [
+        { type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: theme.colour("muted"), width: 1, dash: "dot" }},
+        ...(x.title.text.startsWith("speed (") ? operatingRange() : []),
+      ],
       ...more,
     };
   }

@@ -5,6 +5,8 @@ from pkgutil import resolve_name
 from typing import Any
 
 from r37core.dataset_file import read_dataset
+from r37core.plain import from_plain
+from r37core.results.operating_range import OperatingRange
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
@@ -15,8 +17,8 @@ from .contents import explorer_contents
 def explorer(input: Any, output: Any, params: Any) -> None:
     """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
 
-    Params: title, shapes, address (of a file in the report); panels: extension -> function that gives what
-    its panels show of the input that is called like it; programs: files that draw them.
+    Params: title, shapes, operating (the range, or None), address (of a file in the report); panels: extension -> function that
+    gives what its panels show of the input that is called like it; programs: files that draw them.
     """
     files = dict(input.items())
     panels = {name: resolve_name(function)(_read(files.pop(name))) for name, function in params.panels.items()}
@@ -24,7 +26,8 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     file = Path(output.page)
     report_addresses = {blade: str(params.address(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
-    contents = explorer_contents(datasets, interactions, params.shapes, report_addresses, ranking)
+    operating = params.operating and from_plain(OperatingRange, params.operating)
+    contents = explorer_contents(datasets, interactions, params.shapes, report_addresses, ranking, operating)
     write_page(contents | {"panels": panels}, params.title, file, page_parts(params.programs))
 
 

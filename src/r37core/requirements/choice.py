@@ -26,6 +26,9 @@ class Requirements:
         float | None,
         Key("Largest length of the speeds above yield in most revolutions", "_rad_s", "above_yield_at_most", ge=0, le=1e6),
     ] = None
+    goodman_share: Annotated[
+        float | None, Key("Largest share of the Goodman line", name="goodman_share_at_most", gt=0, le=1e6)
+    ] = None
     used_lining: Annotated[
         float | None,
         Key("Largest share of the lining's thickness that is used", "_percent", "used_lining_at_most", gt=0, le=100),
@@ -46,5 +49,5 @@ class Requirements:
     @property
     def any(self) -> bool:
         """Whether there is one."""
-        numbers = (self.above_yield, self.used_lining, self.clearance, self.mass)
+        numbers = (self.above_yield, self.goodman_share, self.used_lining, self.clearance, self.mass)
         return bool(self.campbell_margins) or any(number is not None for number in numbers)

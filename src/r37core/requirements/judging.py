@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.results.exceedance import CERTAIN, Exceedance, SpeedRange, exceedance_of, is_lined
+from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
 from r37core.results.other_motions import swept
 from r37core.time_integration.status import RunStatus
@@ -112,6 +113,8 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[Judgement]
     """Each requirement in turn."""
     if requirements.above_yield is not None:
         yield _above_yield(requirements.above_yield, evidence)
+    if requirements.goodman_share is not None:
+        yield _goodman_share(requirements.goodman_share, evidence)
     if requirements.used_lining is not None and np.isfinite(evidence.thickness):
         yield _used_lining(requirements.used_lining, evidence)
     if requirements.clearance is not None:
@@ -143,6 +146,21 @@ def _above_yield(limit: float, evidence: Evidence) -> Judgement:
         members=_share_of_members(limit, evidence),
         worst_motion=_worst_motion(limit, evidence),
     )
+
+
+def _goodman_share(limit: float, evidence: Evidence) -> Judgement:
+    name, inside = "goodman_share", evidence.inside
+    if "goodman_share" not in evidence.response:
+        return Judgement(name, np.nan, limit, "", note="fatigue is not among the scene's results")
+    if not has_strengths(evidence.response):
+        return Judgement(name, np.nan, limit, "", note="the material has no strengths")
+    if evidence.not_covered:
+        return Judgement(name, np.nan, limit, "", note=evidence.not_covered)
+    share = inside["goodman_share"].where(inside["status"] != RunStatus.DIVERGED, np.inf).fillna(0.0)
+    worst = int(share.values.argmax())
+    at = float(inside["speed"][worst])
+    note = "a run diverged" if np.isinf(share[worst]) else ""
+    return Judgement(name, float(share[worst]), limit, "", begin=at, end=at, note=note)
 
 
 def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:

@@ -88,20 +88,26 @@ def operating_table(
     for blade, scene in pairs:
         of_pair = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
         for row in of_pair.itertuples():
-            speed = float(row.peak_speed_rad_s)
-            if operating.first <= speed <= operating.last:
+            # where some revolutions are above yield, or else at the peak alone
+            ends = (getattr(row, "possible_from_rad_s", np.nan), getattr(row, "possible_to_rad_s", np.nan))
+            begin, end = 2 * (float(row.peak_speed_rad_s),) if pd.isna(ends[0]) else ends
+            if operating.overlap(begin, end) >= 0.0:
                 order = None if pd.isna(row.engine_order) else int(row.engine_order)
                 title = interaction_title("" if pd.isna(row.mode) else str(row.mode), order)
-                rows.append((blade, scene, INTERACTION, title, speed, speed, 0.0, 0.0, np.nan))
+                rows.append((blade, scene, INTERACTION, title, *_inside(begin, end, operating), np.nan))
         response = response_of(datasets, blade, scene)
         if "share_of_revolutions_above_yield" not in response:
             continue
         for part in exceedance_of(response).ranges(CERTAIN):
-            begin, end = max(part.begin, operating.first), min(part.end, operating.last)
-            if end > begin:
-                time = operating.time_share(begin, end)
-                rows.append((blade, scene, ABOVE_YIELD, "", begin, end, end - begin, time, np.nan))
+            if operating.overlap(part.begin, part.end) > 0.0:
+                rows.append((blade, scene, ABOVE_YIELD, "", *_inside(part.begin, part.end, operating), np.nan))
     return pd.DataFrame(rows, columns=list(OPERATING_COLUMNS))
+
+
+def _inside(begin: float, end: float, operating: OperatingRange) -> tuple[float, float, float, float]:
+    """Begin, end and length (rad/s) of the part of a range that lies in operation, and its share of the operating time."""
+    begin, end = max(begin, operating.first), min(end, operating.last)
+    return begin, end, end - begin, operating.time_share(begin, end) if end > begin else 0.0
 
 
 def overall(verdict: pd.DataFrame) -> pd.DataFrame:

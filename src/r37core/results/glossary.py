@@ -143,6 +143,9 @@ RANKING = {
     "exceedance_integral_operating_rad_s": Word(
         "integral above yield, in operation", "the integral over the operating range, weighted by its dwells", _SPEED
     ),
+    "goodman_integral_operating_rad_s": Word(
+        "integral above Goodman, in operation", "the same of the share of revolutions above the Goodman line", _SPEED
+    ),
     "rank_operating": Word("rank in operation", "place by this integral"),
 }
 """Columns of ranking.csv, a line for each blade and scene."""

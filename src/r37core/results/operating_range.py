@@ -14,6 +14,18 @@ if TYPE_CHECKING:
     from .exceedance import SpeedRange
 
 
+MEASURES = LENGTH, INTEGRAL, SCATTER, GOODMAN = (
+    "length_certain_operating_rad_s",
+    "exceedance_integral_operating_rad_s",
+    "exceedance_integral_operating_scatter_rad_s",
+    "goodman_integral_operating_rad_s",
+)
+"""What is read off a response inside the operating range; in words: glossary.RANKING."""
+
+RANK = "rank_operating"
+"""Column of ranking.csv: place by the integral inside the operating range."""
+
+
 @dataclass(frozen=True)
 class OperatingDwell:
     """A `share` of the operating time that the speed (rad/s) lies between `start` and `stop`."""

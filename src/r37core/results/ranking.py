@@ -13,7 +13,8 @@ from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of
 from .measures import drop_after, has_strengths, lasts, motion, peak_of, speeds_above_yield
-from .operating import INTEGRAL, RANK
+from .operating import operating_measures
+from .operating_range import INTEGRAL, RANK, OperatingRange
 from .ranges import ENDS
 from .table_file import read_table
 
@@ -58,13 +59,17 @@ _STEP = 1.0
 """What lengths (rad/s) are told apart by where nothing scatters: the distance of the closest speeds."""
 
 
-def robustness(response: xr.Dataset, *, chance_scatter: bool = True) -> dict[str, float]:
+def robustness(
+    response: xr.Dataset, *, chance_scatter: bool = True, operating: OperatingRange | None = None
+) -> dict[str, float]:
     """ROBUSTNESS of one blade in one scene; NaN for what is not computed, and for a first speed that there is not.
 
-    `chance_scatter`: whether chance is drawn, which takes longer than all else and which members have no use for.
+    `chance_scatter`: whether chance is drawn, which takes longer than all else and which members have no use for. `operating`:
+    range whose operating_measures are among them.
     """
     response = response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
-    measures = dict.fromkeys(ROBUSTNESS, np.nan)
+    inside = operating_measures(response, operating, chance_scatter=chance_scatter) if operating else {}
+    measures = dict.fromkeys(ROBUSTNESS, np.nan) | inside
     if not response.sizes["speed"]:
         return measures
     ended = response["status"].values == RunStatus.COMPLETED
@@ -121,10 +126,10 @@ def ranking_table(
 ) -> pd.DataFrame:
     """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
 
-    `measures`: blade and scene -> its `robustness` and, with an operating range, `operating_measures`, which have a rank of
-    their own; `members`: the same of each member of a sample, by name, for their
-    ranges (`_low`, `_high`: ranges.ENDS) and the chance to be better than each other blade: the share of the
-    members that both blades have, which have the same values of the scene's numbers, in which it is; equal ones count half.
+    `measures`: blade and scene -> its `robustness`, whose measures in operation have a rank of their own; `members`: the same
+    of each member of a sample, by name, for their ranges (`_low`, `_high`: ranges.ENDS) and the chance to be better than each
+    other blade: the share of the members that both blades have, which have the same values of the scene's numbers, in which it
+    is; equal ones count half.
     """
     table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in measures.items()])
     keys = table[list(RANKED_BY)].fillna(np.inf).apply(tuple, axis=1)

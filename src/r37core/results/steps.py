@@ -15,7 +15,6 @@ from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
-from .operating import operating_measures
 from .operating_range import OperatingRange
 from .other_motions import ranking_with_motions, summary_with_motions
 from .ranges import ranged_summary, read_ranges
@@ -98,9 +97,8 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
     motions = datasets.pop("motions", None)
     operating = params.operating and from_plain(OperatingRange, params.operating)
-    measures = {}
-    for blade, scene in params.runs:
-        response = response_of(datasets, blade, scene)
-        measures[blade, scene] = robustness(response) | (operating_measures(response, operating) if operating else {})
+    measures = {
+        (blade, scene): robustness(response_of(datasets, blade, scene), operating=operating) for blade, scene in params.runs
+    }
     table = ranking_table(measures, members)
     write_table(table if motions is None else ranking_with_motions(table, motions), output.table, digits=6)

@@ -1,9 +1,11 @@
 """What the section of a search alone cannot check."""
 
+import numpy as np
+
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
-from r37core.config import ConfigError, Settings
+from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.blades import SHARES, BladeEntry
 from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, blade_number, changed_scene
 from r37core.config.document import Document
@@ -13,8 +15,9 @@ from r37core.yaml_file import KeyPath
 
 from .designs import SearchDesigns
 from .gaussian_processes import SearchPackageMissing, library
-from .plan import designs_of, is_asked
+from .plan import choice_of, designs_of, is_asked
 from .problem import scene_key
+from .quantity import IN_OPERATION
 from .section import SECTION
 
 
@@ -41,11 +44,27 @@ def search_can_be_run(settings: Settings) -> None:
         if key in entry.variables and isinstance(table, BladeDefinition) and table.stacking is None:
             without = f"{key} of '{entry.blade}', which has no table of sweep and lean"
             raise document.refusal(("search", "variables", key), without, "a blade with one, or other variables")
+    _operation_is_known(settings)
     _tolerances_are_possible(settings, designs)
     try:
         library()
     except SearchPackageMissing as error:
         raise document.error(("search",), str(error)) from None
+
+
+def _operation_is_known(settings: Settings) -> None:
+    """ConfigError for a measure in operation without an operating range, or where speeds do not reach over it."""
+    choice, operating = choice_of(settings), operating_range(settings)
+    named = [name for name, quantity in choice.quantities.items() if quantity.measure in IN_OPERATION]
+    document = settings.documents.config
+    if not named:
+        return
+    if operating is None:
+        raise document.refusal(("search",), f"{named[0]}, a measure in operation", "a section operating, or another measure")
+    for (_, scene), plan in settings.speed_plans.items():
+        if not operating.is_covered(np.array(sorted(plan.certain))):
+            reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
+            raise document.refusal(("operating",), f"{reach}, which the speeds of {scene} do not reach over", "speeds that do")
 
 
 def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, values: dict[str, float]) -> None:

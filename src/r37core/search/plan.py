@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.blade.profile_tables import stacking_table_rows
-from r37core.config import ConfigError, Settings
+from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.config.speed_choice import most_runs
 from r37core.io import read_json
@@ -187,12 +187,12 @@ class Search:
 def choice_of(settings: Settings) -> SearchChoice:
     """What the section of config.yaml asks for."""
     designs = designs_of(settings)
-    entry = designs.entry
+    entry, in_operation = designs.entry, operating_range(settings) is not None
     constraints = {
-        name: Constraint(each.quantity(), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
+        name: Constraint(each.quantity(in_operation), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
         for name, each in entry.constraints.items()
     }
-    objectives = {name: each.quantity() for name, each in entry.objectives.items()}
+    objectives = {name: each.quantity(in_operation) for name, each in entry.objectives.items()}
     return SearchChoice(designs.variables, objectives, constraints, entry.method, entry.seed)
 
 

@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 
 CONTACT_MEASURES = {
     "exceedance_integral_rad_s": "integral over speed of the share of revolutions above yield",
+    "exceedance_integral_operating_rad_s": "the same over the operating range, weighted by its dwells",
+    "goodman_integral_rad_s": "integral over speed of the share of revolutions above the Goodman line",
+    "goodman_integral_operating_rad_s": "the same over the operating range, weighted by its dwells",
+    "length_certain_operating_rad_s": "length of the speeds in operation where half of the revolutions are above yield",
+    "largest_goodman_share": "largest share of the Goodman line",
     "length_certain_rad_s": "length of all speeds where half of the revolutions are above yield",
     "length_possible_rad_s": "the same where one in twenty is",
     "widest_range_rad_s": "widest of these ranges",
@@ -48,7 +53,10 @@ NEEDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 """Measure -> keys that have to stand beside it, and those that may."""
 
-OF_ENDED_RUNS = ("largest_median_stress_pa", "largest_rms_m")
+IN_OPERATION = tuple(name for name in CONTACT_MEASURES if "operating" in name)
+"""Measures that need an operating range."""
+
+OF_ENDED_RUNS = ("largest_median_stress_pa", "largest_rms_m", "largest_goodman_share")
 """Measures in which a run that diverged has no number: with one they are infinite, so that divergence is never better."""
 
 _RESAMPLES, _SEED = 200, 0

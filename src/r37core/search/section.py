@@ -6,6 +6,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
 from r37core.config.spread import MemberCount, Spreads
+from r37core.results.operating_range import INTEGRAL
 
 from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
 
@@ -48,10 +49,11 @@ class QuantitySection(Section):
             raise refused((strange[0],), f"{strange[0]} with {self.measure}", "the key left out")
         return self
 
-    def quantity(self) -> Quantity:
-        """The quantity that is computed."""
+    def quantity(self, in_operation: bool) -> Quantity:
+        """The quantity that is computed; without a measure that over the operating range, where there is one."""
+        measure = INTEGRAL if in_operation and "measure" not in self.model_fields_set else self.measure
         scenes, quantile = tuple(self.scenes or ()), getattr(self, "quantile", None)
-        return Quantity(self.measure, scenes, self.mode, self.engine_order, self.speed_rad_s, quantile)
+        return Quantity(measure, scenes, self.mode, self.engine_order, self.speed_rad_s, quantile)
 
 
 class ObjectiveSection(QuantitySection):

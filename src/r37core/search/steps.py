@@ -14,6 +14,7 @@ from r37core.exchange.step_file import write_step
 from r37core.io import as_list, read_json, write_json
 from r37core.kept import content_digest
 from r37core.plain import from_plain
+from r37core.results.operating_range import OperatingRange
 from r37core.results.ranking import robustness
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model
@@ -74,8 +75,10 @@ def built(input: Any, output: Any, params: Any) -> None:
 def measure(input: Any, output: Any, params: Any) -> None:
     """What a design is judged by. Inputs: geometry, campbell, contact, stress, responses. Output: measures (json).
 
-    Params: quantities, scenes (how many of the responses are of each, the nominal one first), density, highest_speed.
+    Params: quantities, scenes (how many of the responses are of each, the nominal one first), density, highest_speed,
+    operating (the range, or None).
     """
+    operating = params.operating and from_plain(OperatingRange, params.operating)
     quantities = from_plain(dict[str, Quantity], params.quantities)
     speeds = {quantity.speed or params.highest_speed for quantity in quantities.values()}
     stiffening = read_contact_model(input.contact).rotation_stiffening
@@ -88,8 +91,9 @@ def measure(input: Any, output: Any, params: Any) -> None:
     files = iter(as_list(input.responses))
     nominal, members = {}, {}
     for scene, number in params.scenes.items():
-        nominal[scene] = robustness(read_dataset(next(files)))
-        members[scene] = [robustness(read_dataset(file), chance_scatter=False) for file in islice(files, number - 1)]
+        nominal[scene] = robustness(read_dataset(next(files)), operating=operating)
+        several = map(read_dataset, islice(files, number - 1))
+        members[scene] = [robustness(member, chance_scatter=False, operating=operating) for member in several]
     values = {
         name: contact_value(quantity, nominal, members)
         if quantity.needs_contact
