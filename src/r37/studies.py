@@ -117,19 +117,19 @@ def designs(
     """
     if isinstance(vary, pd.DataFrame):
         entry: dict[str, Any] = {"designs": vary}
-        of_scene: dict[str, Any] = {}
+        scene_entry: dict[str, Any] = {}
     else:
         example = 'keys of blades.yaml and their values, as in {"sweep_percent": [50, 100]}'
         varied, combine = mapping(vary, "vary", example), options.get("combine", "grid")
-        of_blade = {key: values for key, values in varied.items() if not key.startswith(SCENE_KEY)}
-        entry = {"vary": of_blade, "combine": combine} if of_blade else {}
+        blade_keys = {key: values for key, values in varied.items() if not key.startswith(SCENE_KEY)}
+        entry = {"vary": blade_keys, "combine": combine} if blade_keys else {}
         inner = {key.removeprefix(SCENE_KEY): values for key, values in varied.items() if key.startswith(SCENE_KEY)}
-        of_scene = {"vary": inner, "combine": combine} if inner else {}
+        scene_entry = {"vary": inner, "combine": combine} if inner else {}
     chosen = chosen_blade(blade, options.get("config"))
     family = chosen.family(options.get("name", "Design"), entry) if entry else chosen
     keys, several = speed_keys(speeds, options.get("speeds_rpm")), scenes_of_run(scenes, [family], options)
-    if of_scene:
-        several = [scene.family(f"{scene.name}-varied", of_scene) for scene in several]
+    if scene_entry:
+        several = [scene.family(f"{scene.name}-varied", scene_entry) for scene in several]
     return run_of("r37.designs", [family], several, keys, options)
 
 

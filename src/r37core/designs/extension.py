@@ -9,7 +9,7 @@ from .plan import Families, tables_of_maps, targets
 
 def families_have_shapes(settings: Settings) -> None:
     """No family is of an imported blade: what is compared of designs needs their shape."""
-    for name, family in Families(settings).of_blades.items():
+    for name, family in Families(settings).blade_families.items():
         members = [settings.blades[design] for design in family.designs if design in settings.blades]
         if any(not isinstance(blade.definition, BladeDefinition) for blade in members):
             raise settings.documents.blades.refusal(

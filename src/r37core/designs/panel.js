@@ -1,12 +1,12 @@
 // designs over two numbers that vary: length above yield in most revolutions, of the chosen blade or scene; a click chooses a design
-panels.designs = ({ keys, cells, values, by }, page) => {
+panels.designs = ({ keys, cells, values, axis: of }, page) => {
   const { state, digits, axis, layout, draw } = page;
   const distinct = (place, rows) => [...new Set(rows.map((row) => row[place]))].sort((one, other) => one - other);
   const text = (value) => digits(value, 4);
 
   function map() {
     const rows = cells.map((cell, at) => [...cell, values.values[at]])
-      .filter(([blade, scene]) => by === "" || (by === "blade" ? blade === state.blade : scene === state.scene));
+      .filter(([blade, scene]) => of === "" || (of === "blade" ? blade === state.blade : scene === state.scene));
     if (!rows.length) return draw("designs", [], null);
     const [across, up] = [distinct(2, rows), distinct(3, rows)];
     const cellAt = (x, y) => rows.find((row) => row[2] === x && row[3] === y);

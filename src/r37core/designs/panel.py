@@ -17,8 +17,9 @@ def contents(table: pd.DataFrame) -> dict[str, object]:
     """
     compared = compared_in(table)
     if len(compared.keys) != 2:
-        return {"keys": list(compared.keys), "cells": [], "values": packed(np.empty(0)), "by": ""}
+        return {"keys": list(compared.keys), "cells": [], "values": packed(np.empty(0)), "axis": ""}
     rows = table.dropna(subset=list(compared.keys))
     cells = rows[["blade", "scene", *compared.keys]].to_numpy().tolist()
-    by = "" if compared.kind == BOTH else "blade" if compared.kind == SCENE else "scene"
-    return {"keys": list(compared.keys), "cells": cells, "values": packed(rows[length_column(table)].to_numpy(float)), "by": by}
+    panel_axis = "" if compared.kind == BOTH else "blade" if compared.kind == SCENE else "scene"
+    lengths = packed(rows[length_column(table)].to_numpy(float))
+    return {"keys": list(compared.keys), "cells": cells, "values": lengths, "axis": panel_axis}

@@ -23,12 +23,12 @@ class Families:
     settings: Settings
 
     @cached_property
-    def of_blades(self) -> dict[str, Family]:
+    def blade_families(self) -> dict[str, Family]:
         """Families of blades of which some designs are run."""
         return _that_run(self.settings.designs, self.settings.blade_names)
 
     @cached_property
-    def of_scenes(self) -> dict[str, Family]:
+    def scene_families(self) -> dict[str, Family]:
         """Families of scenes of which some designs are run."""
         return _that_run(self.settings.scene_designs, self.settings.scene_names)
 
@@ -45,7 +45,10 @@ class Families:
 
     @property
     def _families(self) -> list[tuple[str, dict[str, Family], list[str]]]:
-        return [(BLADE, self.of_blades, self.settings.blade_names), (SCENE, self.of_scenes, self.settings.scene_names)]
+        return [
+            (BLADE, self.blade_families, self.settings.blade_names),
+            (SCENE, self.scene_families, self.settings.scene_names),
+        ]
 
     @property
     def pairs(self) -> list[tuple[str, str]]:
@@ -88,8 +91,8 @@ class Families:
         """What is drawn as a map: families of two keys, and a family of blades with one of scenes that have one key each."""
         figures = self.figures
         maps = {name: compared for name, compared in figures.items() if len(compared.keys) == 2}
-        for blades in self.of_blades:
-            for scenes in self.of_scenes:
+        for blades in self.blade_families:
+            for scenes in self.scene_families:
                 across, up = figures[blades], figures[scenes]
                 if len(across.keys) == len(up.keys) == 1:
                     maps[f"{blades}__{scenes}"] = Compared(BOTH, across.keys + up.keys, across.blades, up.scenes)

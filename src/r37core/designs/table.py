@@ -65,9 +65,9 @@ def design_table(
 def compared_in(table: pd.DataFrame) -> Compared:
     """All designs of a table, as one family or, where one key varies of blades and one of scenes, as their map."""
     keys = [str(name) for name in table if name not in ("blade", "scene", *MEASURES, *IN_OPERATION)]
-    of_scenes = [key.startswith(SCENE_KEY) for key in keys]
-    kind = SCENE if all(of_scenes) else BLADE
-    if sum(of_scenes) == 1 and len(keys) == 2:
+    scene_keys = [key.startswith(SCENE_KEY) for key in keys]
+    kind = SCENE if all(scene_keys) else BLADE
+    if sum(scene_keys) == 1 and len(keys) == 2:
         kind = BOTH
     blades, scenes = (tuple(dict.fromkeys(table[column])) for column in ("blade", "scene"))
     return Compared(kind, tuple(keys), blades, scenes)
@@ -96,14 +96,14 @@ _MOST_SCENES = 3
 def closing(results: Path) -> str:
     """How many designs there are, and the best: of each scene, or of all where there are more scenes."""
     table = read_table(results / "designs.csv")
-    in_operation = INTEGRAL in table and table[INTEGRAL].notna().any()
-    order = [INTEGRAL] if in_operation else list(RANKED_BY)
+    flown = INTEGRAL in table and table[INTEGRAL].notna().any()
+    order = [INTEGRAL] if flown else list(RANKED_BY)
     ranked = table.dropna(subset=order[0])
     number = len(table) if table["scene"].nunique() > _MOST_SCENES else table["blade"].nunique()
     text = counted(number, "design")
     for scene, rows in ranked.groupby("scene", sort=False) if ranked["scene"].nunique() <= _MOST_SCENES else [("", ranked)]:
         best = rows.sort_values(order).iloc[0]
         where, name = (f"{scene}: ", best["blade"]) if scene else ("", f"{best['blade']} in {best['scene']}")
-        how = "least above yield in operation, integral" if in_operation else "above yield at the fewest speeds"
+        how = "least above yield in operation, integral" if flown else "above yield at the fewest speeds"
         text += f"; {where}{name} is {how} ({best[order[0]]:.0f} rad/s)"
     return text

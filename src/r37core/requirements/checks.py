@@ -18,12 +18,12 @@ def can_be_judged(settings: Settings) -> None:
     campbell = settings.config.campbell
     modes = [*NAMED_MODES, *map(str, range(len(NAMED_MODES) + 1, campbell.modes + 1))]
     for number, margin in enumerate(requirements.campbell_margins):
-        at = ("requirements", "campbell_margins", number)
+        place = ("requirements", "campbell_margins", number)
         if margin.mode not in modes:
-            raise document.refusal((*at, "mode"), f"'{margin.mode}'", ", ".join(modes))
+            raise document.refusal((*place, "mode"), f"'{margin.mode}'", ", ".join(modes))
         if margin.engine_orders and max(margin.engine_orders) > campbell.highest_engine_order:
             allowed = f"at most campbell.highest_engine_order ({campbell.highest_engine_order})"
-            raise document.refusal((*at, "engine_orders"), f"{max(margin.engine_orders)}", allowed)
+            raise document.refusal((*place, "engine_orders"), f"{max(margin.engine_orders)}", allowed)
 
 
 def remarks(settings: Settings) -> list[str]:

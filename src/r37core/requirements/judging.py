@@ -31,7 +31,7 @@ class Judgement:
     value: float
     limit: float
     unit: str
-    at_least: bool = False
+    is_lower_limit: bool = False
     begin: float = np.nan
     end: float = np.nan
     scatter: float = np.nan
@@ -42,7 +42,7 @@ class Judgement:
     @property
     def margin(self) -> float:
         """Distance from the limit, in the unit, above 0 where the requirement is met."""
-        return self.value - self.limit if self.at_least else self.limit - self.value
+        return self.value - self.limit if self.is_lower_limit else self.limit - self.value
 
     @property
     def verdict(self) -> str:
@@ -158,9 +158,9 @@ def _goodman_share(limit: float, evidence: Evidence) -> Judgement:
         return Judgement(name, np.nan, limit, "", note=evidence.not_covered)
     share = inside["goodman_share"].where(inside["status"] != RunStatus.DIVERGED, np.inf).fillna(0.0)
     worst = int(share.values.argmax())
-    at = float(inside["speed"][worst])
+    speed = float(inside["speed"][worst])
     note = "a run diverged" if np.isinf(share[worst]) else ""
-    return Judgement(name, float(share[worst]), limit, "", begin=at, end=at, note=note)
+    return Judgement(name, float(share[worst]), limit, "", begin=speed, end=speed, note=note)
 
 
 def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
@@ -209,21 +209,21 @@ def _used_lining(limit: float, evidence: Evidence) -> Judgement:
     diverged = bool((inside["status"] == RunStatus.DIVERGED).any())
     # what is worn through has used all, and would use more
     value = np.inf if through or diverged else 100.0 * float(used[worst])
-    at = float(inside["speed"][int((inside["worn_through_share"] > 0.0).values.argmax()) if through else worst])
+    speed = float(inside["speed"][int((inside["worn_through_share"] > 0.0).values.argmax()) if through else worst])
     note = "worn through to the casing" if through else "a run diverged" if diverged else ""
-    return Judgement(name, value, 100.0 * limit, unit, begin=at, end=at, note=note)
+    return Judgement(name, value, 100.0 * limit, unit, begin=speed, end=speed, note=note)
 
 
 def _clearance(limit: float, evidence: Evidence) -> Judgement:
     name, unit = "clearance", "mm"
     if "clearance" not in evidence.response:
-        return Judgement(name, 1e3 * evidence.clearance, 1e3 * limit, unit, at_least=True)
+        return Judgement(name, 1e3 * evidence.clearance, 1e3 * limit, unit, is_lower_limit=True)
     if evidence.not_covered:
-        return Judgement(name, np.nan, 1e3 * limit, unit, at_least=True, note=evidence.not_covered)
+        return Judgement(name, np.nan, 1e3 * limit, unit, is_lower_limit=True, note=evidence.not_covered)
     inside = evidence.inside
     smallest = inside["clearance"].min("contact_node")
-    at = float(inside["speed"][int(smallest.values.argmin())])
-    return Judgement(name, 1e3 * float(smallest.min()), 1e3 * limit, unit, at_least=True, begin=at, end=at)
+    speed = float(inside["speed"][int(smallest.values.argmin())])
+    return Judgement(name, 1e3 * float(smallest.min()), 1e3 * limit, unit, is_lower_limit=True, begin=speed, end=speed)
 
 
 def _campbell_margins(margin: CampbellMargin, evidence: Evidence) -> Iterator[Judgement]:
@@ -232,7 +232,7 @@ def _campbell_margins(margin: CampbellMargin, evidence: Evidence) -> Iterator[Ju
         crossing = float(crossings.sel(engine_order=order))
         value = 100.0 * distance_from_operation(crossing, evidence.operating)
         title, limit = f"campbell_margin {margin.mode}/{order}", 100.0 * margin.least
-        yield Judgement(title, value, limit, "%", at_least=True, begin=crossing, end=crossing)
+        yield Judgement(title, value, limit, "%", is_lower_limit=True, begin=crossing, end=crossing)
 
 
 def distance_from_operation(crossing: float, operating: OperatingRange) -> float:

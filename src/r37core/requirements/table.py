@@ -86,8 +86,8 @@ def operating_table(
                     distance = 100.0 * distance_from_operation(float(speed), operating)
                     rows.append((blade, "", CROSSING, f"{mode}/{order}", speed, speed, 0.0, 0.0, distance))
     for blade, scene in pairs:
-        of_pair = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
-        for row in of_pair.itertuples():
+        peaks = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
+        for row in peaks.itertuples():
             # where some revolutions are above yield, or else at the peak alone
             ends = (getattr(row, "possible_from_rad_s", np.nan), getattr(row, "possible_to_rad_s", np.nan))
             begin, end = 2 * (float(row.peak_speed_rad_s),) if pd.isna(ends[0]) else ends
@@ -124,10 +124,10 @@ def reason(row: pd.Series) -> str:
     """Why a requirement fails or is not known: what, by how much, where, and how certain that is."""
     if row["verdict"] == UNKNOWN:
         return f"{row['requirement']}: {row['note']}"
-    by = f"by {-row['margin']:.3g} {row['unit']}" if np.isfinite(row["margin"]) else str(row["note"])
+    excess = f"by {-row['margin']:.3g} {row['unit']}" if np.isfinite(row["margin"]) else str(row["note"])
     begin, end = row["from_rad_s"], row["to_rad_s"]
     where = "" if pd.isna(begin) else f", at {begin:.5g} rad/s" if begin == end else f", {begin:.5g} to {end:.5g} rad/s"
-    return f"{row['requirement']} {by}{where}{certainty(row)}"
+    return f"{row['requirement']} {excess}{where}{certainty(row)}"
 
 
 def certainty(row: pd.Series) -> str:
@@ -153,7 +153,7 @@ def closing(results: Path) -> str:
     if len(judged) <= _MOST_LINES:
         lines = []
         for row in judged.itertuples():
-            uncertain = "".join(certainty(line) for _, line in _of(table, row).iterrows() if row.verdict == MEETS)
+            uncertain = "".join(certainty(line) for _, line in _rows(table, row).iterrows() if row.verdict == MEETS)
             lines.append(f"{row.blade} in {row.scene} {row.verdict}{f': {row.reason}' if row.reason else uncertain}")
         return "\n  ".join(["verdict", *lines])
     good = [f"{row.blade} in {row.scene}" for row in judged.itertuples() if row.verdict == MEETS]
@@ -164,5 +164,5 @@ def closing(results: Path) -> str:
     return f"{text}; {unknown} are not known" if unknown else text
 
 
-def _of(table: pd.DataFrame, row: object) -> pd.DataFrame:
+def _rows(table: pd.DataFrame, row: object) -> pd.DataFrame:
     return table[(table["blade"] == row.blade) & (table["scene"] == row.scene)]  # type: ignore[attr-defined]

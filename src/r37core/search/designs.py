@@ -114,7 +114,7 @@ class SearchDesigns:
         blade = self.blade(name, values)
         named = {} if values is None else dict(zip(self.entry.variables, values, strict=True))
         changes = {scene: self.scene_changes(scene, named) for scene in self.scenes}
-        return {(self.entry.blade, scene): self._sample(name, blade, scene, of) for scene, of in changes.items()}
+        return {(self.entry.blade, scene): self._sample(name, blade, scene, changed) for scene, changed in changes.items()}
 
     def _sample(self, name: str, blade: BladeSettings, scene: str, changes: Mapping[str, float]) -> Sample:
         settings, own = self.settings, self.model_part(name)

@@ -187,12 +187,12 @@ class Search:
 def choice_of(settings: Settings) -> SearchChoice:
     """What the section of config.yaml asks for."""
     designs = designs_of(settings)
-    entry, in_operation = designs.entry, operating_range(settings) is not None
+    entry, is_flown = designs.entry, operating_range(settings) is not None
     constraints = {
-        name: Constraint(each.quantity(in_operation), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
+        name: Constraint(each.quantity(is_flown), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
         for name, each in entry.constraints.items()
     }
-    objectives = {name: each.quantity(in_operation) for name, each in entry.objectives.items()}
+    objectives = {name: each.quantity(is_flown) for name, each in entry.objectives.items()}
     return SearchChoice(designs.variables, objectives, constraints, entry.method, entry.seed)
 
 

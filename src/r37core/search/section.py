@@ -49,9 +49,9 @@ class QuantitySection(Section):
             raise refused((strange[0],), f"{strange[0]} with {self.measure}", "the key left out")
         return self
 
-    def quantity(self, in_operation: bool) -> Quantity:
+    def quantity(self, is_flown: bool) -> Quantity:
         """The quantity that is computed; without a measure that over the operating range, where there is one."""
-        measure = INTEGRAL if in_operation and "measure" not in self.model_fields_set else self.measure
+        measure = INTEGRAL if is_flown and "measure" not in self.model_fields_set else self.measure
         scenes, quantile = tuple(self.scenes or ()), getattr(self, "quantile", None)
         return Quantity(measure, scenes, self.mode, self.engine_order, self.speed_rad_s, quantile)
 
