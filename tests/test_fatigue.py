@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from defaults import IntegrationChoice
@@ -11,13 +12,20 @@ from stress_cases import inner_places
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
 from r37core.contact.scene import Rotor
+from r37core.dataset_file import read_dataset
 from r37core.fem.stress import nodal_stress
+from r37core.figures.fatigue_map import draw_fatigue
+from r37core.mesh.mesh_files import write_vtu
+from r37core.results.datasets import write_sweep_dataset
+from r37core.results.ranking import robustness
+from r37core.results.response import write_response
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.cycles import StressCycles, largest_cycles, stress_cycles
 from r37core.stress.goodman import Strengths, goodman_statistic
 from r37core.stress.operator import StressOperator, von_mises
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.rotor_simulation import BladesSimulation
+from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import numbers_of_run, run_speed
 
 XX, YY, ZZ, XY = range(4)
@@ -180,6 +188,82 @@ def test_a_rotor_has_the_largest_of_its_blades(contact, model, steel):
     alone = [shares([place]) for place in range(2)]
     np.testing.assert_allclose(shares([0, 1]), np.maximum(*alone), rtol=1e-6)
     assert np.abs(alone[0] - alone[1]).min() > 0.01 * alone[0].max()
+
+
+SPEEDS = [1000.0, 1340.0, 1700.0]
+
+
+@pytest.fixture(scope="module")
+def swept(contact, model, steel, tmp_path_factory):
+    """Files of three speeds in direct contact, of which the last one diverges."""
+    folder, stress = tmp_path_factory.mktemp("fatigue"), stress_operator(model, steel)
+    files = [folder / f"{speed:g}.npz" for speed in SPEEDS]
+    for speed, file in zip(SPEEDS, files, strict=True):
+        scene = replace(DIRECT, divergence_limit=1e-7) if speed == SPEEDS[-1] else DIRECT
+        write_speed(run_speed(contact, speed, scene, CHOICE, ("stress", "fatigue"), stress=stress, **KEPT), file, {})
+    return folder, files
+
+
+@pytest.fixture(scope="module")
+def responses(swept):
+    """Responses of the same files with strengths and without, by blade and scene."""
+    folder, files = swept
+    made = {}
+    for blade, strengths in {"Strong": Strengths(3e8, 5e8), "Unknown": Strengths()}.items():
+        made[blade, "direct"] = folder / f"{blade}.nc"
+        limits = {"yield_stress": 1e9, "strengths": strengths}
+        write_response(files, SPEEDS, made[blade, "direct"], stress_history_speeds=(), **limits, provenance={})
+    return made
+
+
+def test_a_response_has_the_shares_of_its_speeds(swept, responses):
+    response = read_dataset(responses["Strong", "direct"])
+    for number, file in enumerate(swept[1]):
+        found = goodman_statistic(read_speed(file), Strengths(3e8, 5e8))
+        assert len(found) == 7
+        for name, value in found.items():
+            np.testing.assert_array_equal(response[name].values[number] if response[name].ndim else response[name], value)
+    assert response["goodman_share"].notnull().values.tolist() == [True, True, False]
+    of_nodes = Strengths(3e8, 5e8).share(response["alternating_stress"].values, response["mean_stress"].values)
+    np.testing.assert_array_equal(of_nodes.max(axis=1), response["goodman_share"])
+    unknown = read_dataset(responses["Unknown", "direct"])
+    assert unknown["goodman_share"].isnull().all() and unknown["share_of_revolutions_above_goodman"].isnull().all()
+    assert np.isinf(unknown["fatigue_strength"])
+
+
+def test_the_dataset_holds_blades_with_strengths_and_without(responses, tmp_path):
+    write_sweep_dataset("fatigue", responses, tmp_path / "fatigue.nc", {})
+    joined = read_dataset(tmp_path / "fatigue.nc")
+    shares = joined["goodman_share"].sel(scene="direct").notnull()
+    assert shares.sel(blade="Strong").values.tolist() == [True, True, False] and not shares.sel(blade="Unknown").any()
+    assert not {"alternating_stress", "stress_node"} & set(joined.variables)
+
+
+def test_lengths_above_the_line(responses):
+    """Of straight lines between the speeds; a diverged run is above in all revolutions."""
+    response = read_dataset(responses["Strong", "direct"])
+    shares = ("speed", [0.0, 1.0, np.nan])
+    measures = robustness(response.assign(share_of_revolutions_above_goodman=shares, lined=1.0))
+    assert measures["length_goodman_rad_s"] == pytest.approx(170.0 + 360.0)
+    assert measures["goodman_integral_rad_s"] == pytest.approx(170.0 + 360.0)
+    assert measures["largest_goodman_share"] == response["goodman_share"].max()
+    unknown = robustness(read_dataset(responses["Unknown", "direct"]))
+    assert all(np.isnan(unknown[name]) for name in unknown if "goodman" in name) and unknown["length_certain_rad_s"] >= 0.0
+
+
+def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):
+    write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
+    region = model.stress_submesh.nodes
+    figures = [draw_fatigue(tmp_path / "mesh.vtu", region, read_dataset(file), blade) for (blade, _), file in responses.items()]
+    worst = read_dataset(responses["Strong", "direct"])["goodman_share"]
+    title = f"Strong at {float(worst.idxmax()):g} rad/s: largest share {float(worst.max()):.3g}"
+    assert figures[0].get_suptitle().startswith(title)
+    pixels = figures[0].axes[1].images[0].get_array()
+    # the colours of the map, and the red dot of the worst node on one of both sides
+    assert np.any(np.ptp(pixels.astype(int), axis=2) > 60)
+    assert figures[1].axes[0].texts[0].get_text() == "Unknown: no strengths in blades.yaml"
+    for figure in figures:
+        plt.close(figure)
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,8 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
         return figure
     worst = response.isel(speed=int(response["goodman_share"].argmax("speed")))
     strengths = Strengths(float(worst["fatigue_strength"]), float(worst["ultimate_strength"]))
-    share = strengths.share(worst["alternating_stress"].values, worst["mean_stress"].values)
+    alternating, mean = (worst[f"{kind}_stress"].values for kind in ("alternating", "mean"))
+    share = strengths.share(alternating, mean)
     with readable(mesh):
         grid = pyvista.read(mesh)
     largest, surface = float(share.max()), _surface(grid, nodes, share)
@@ -53,10 +54,10 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
     bar.set_label("share of the Goodman line")
     if largest > 1.0:
         bar.ax.axhline(1.0, color="white")
-    speed, stresses = float(worst["speed"]), [1e-6 * float(worst[f"goodman_{kind}_stress"]) for kind in ("alternating", "mean")]
+    node = share.argmax()
     figure.suptitle(
-        f"{title} at {speed:g} rad/s: largest share {largest:.3g}\n"
-        f"alternating stress {stresses[0]:.0f} MPa, mean stress {stresses[1]:.0f} MPa"
+        f"{title} at {float(worst['speed']):g} rad/s: largest share {largest:.3g}\n"
+        f"alternating stress {1e-6 * alternating[node]:.0f} MPa, mean stress {1e-6 * mean[node]:.0f} MPa"
     )
     return figure
 

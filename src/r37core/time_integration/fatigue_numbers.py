@@ -17,8 +17,8 @@ def fatigue_numbers(
 ) -> dict[str, np.ndarray]:
     """Alternating and mean stress (Pa) over the revolutions of the statistic; rotation is always in the mean.
 
-    `alternating_stress` and `mean_stress`, shape (nodes,): of the blade number `shown`, the former the largest of all
-    revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), and `cycle_counts`, shape (revolutions,): those of all
+    `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, the former the largest of
+    all revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), and `cycle_counts`, shape (revolutions,): those of all
     blades, see LargestCycles. A diverged run has NaN and no pairs.
     """
     if record.first_diverged is not None:
