@@ -17,7 +17,7 @@ from .designs import SearchDesigns
 from .gaussian_processes import SearchPackageMissing, library
 from .plan import choice_of, designs_of, is_asked
 from .problem import scene_key
-from .quantity import IN_OPERATION
+from .quantity import FATIGUE_MEASURES, IN_OPERATION
 from .section import SECTION
 
 
@@ -107,9 +107,10 @@ def _scenes_are_run(settings: Settings) -> None:
                 if scene not in settings.scene_names:
                     allowed = f"scenes that are run ({', '.join(settings.scene_names)})"
                     raise document.refusal((*path, "scenes"), f"'{scene}'", allowed)
-                if "stress" not in settings.results_of(entry.blade, scene):
-                    allowed = "scenes with stress among their results"
-                    raise document.refusal((*path, "scenes"), f"'{scene}', without stress", allowed)
+                needed = "fatigue" if quantity.measure in FATIGUE_MEASURES else "stress"
+                if needed not in settings.results_of(entry.blade, scene):
+                    allowed = f"scenes with {needed} among their results"
+                    raise document.refusal((*path, "scenes"), f"'{scene}', without {needed}", allowed)
             if quantity.mode is not None and quantity.mode not in modes:
                 allowed = f"one of the Campbell diagram, {', '.join(modes)} (campbell.modes)"
                 raise document.refusal((*path, "mode"), single_line(quantity.mode), allowed)

@@ -19,7 +19,7 @@ from .section import SECTION, SearchSection
 FOLDER = SECTION.name
 """Folder of the designs' files: the extension's name."""
 
-_KEPT = ("stress", "static_stress")
+_KEPT = ("stress", "static_stress", "fatigue")
 """Results of a scene that designs have, too: what they are judged by."""
 
 

@@ -53,6 +53,9 @@ NEEDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 """Measure -> keys that have to stand beside it, and those that may."""
 
+FATIGUE_MEASURES = tuple(name for name in CONTACT_MEASURES if "goodman" in name)
+"""Measures that need fatigue among a scene's results."""
+
 IN_OPERATION = tuple(name for name in CONTACT_MEASURES if "operating" in name)
 """Measures that need an operating range."""
 
