@@ -104,7 +104,7 @@ def test_a_design_is_measured_by_its_structure_and_by_all_its_runs(tmp_path, mon
         "flap": Quantity("frequency_hz", mode="1B", speed=500.0),
     }
     inputs = {name: files[name] for name in ("geometry", "campbell")} | {"responses": [files[name] for name in lengths]}
-    params = {"quantities": to_plain(quantities), "scenes": {"a": 3, "b": 1}, "density": 8000.0, "highest_speed": 1000.0}
+    params = {"quantities": to_plain(quantities), "scenes": {"a": 3, "b": 1}, "density": 8000.0, "highest_speed": 1000.0, "operating": None}
     steps.measure(Named(**inputs, contact="", stress=""), Named(measures=tmp_path / "measures.json"), Named(**params))
     measured = read_json(tmp_path / "measures.json")
     assert measured.pop("high") == [8.0, pytest.approx(math.sqrt(3.0), abs=0.2)]

@@ -183,7 +183,8 @@ def _check_varies(key: str, family: str, entry: Any, design: str, document: Docu
     hint = did_you_mean(key, known)
     for model, kind in _KINDS.items():
         if first in model.model_fields and not isinstance(entry, model):
-            hint = f" (a number of a {kind} varies in {kind}s.yaml)"
+            search = f", in a search as scene.{key}" if model is SceneEntry else ""
+            hint = f" (a number of a {kind} varies in {kind}s.yaml{search})"
     raise document.error(
         (family,), f"design {design}: found unknown key {single_line(key)}; allowed keys: {', '.join(known)}{hint}"
     )

@@ -14,7 +14,7 @@ class CampbellMargin:
     engine_orders: Annotated[tuple[int, ...], Key("Engine orders of the crossings", ge=1, le=1000)]
     least: Annotated[
         float,
-        Key("Least distance of a crossing from a dwell, without dwells from the range", "_percent", "at_least", gt=0, le=100),
+        Key("Least distance of a crossing from a dwell, without dwells from the range", "_percent", "at_least", ge=1e-6, le=100),
     ]
 
 
@@ -27,11 +27,11 @@ class Requirements:
         Key("Largest length of the speeds above yield in most revolutions", "_rad_s", "above_yield_at_most", ge=0, le=1e6),
     ] = None
     goodman_share: Annotated[
-        float | None, Key("Largest share of the Goodman line", name="goodman_share_at_most", gt=0, le=1e6)
+        float | None, Key("Largest share of the Goodman line", name="goodman_share_at_most", ge=1e-6, le=1e6)
     ] = None
     used_lining: Annotated[
         float | None,
-        Key("Largest share of the lining's thickness that is used", "_percent", "used_lining_at_most", gt=0, le=100),
+        Key("Largest share of the lining's thickness that is used", "_percent", "used_lining_at_most", ge=1e-6, le=100),
     ] = None
     clearance: Annotated[
         float | None,
@@ -43,7 +43,7 @@ class Requirements:
             le=1,
         ),
     ] = None
-    mass: Annotated[float | None, Key("Largest mass of the blade", "_kg", "mass_at_most", gt=0, le=1e6)] = None
+    mass: Annotated[float | None, Key("Largest mass of the blade", "_kg", "mass_at_most", ge=1e-9, le=1e6)] = None
     campbell_margins: tuple[CampbellMargin, ...] = field(default=())
 
     @property

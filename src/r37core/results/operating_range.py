@@ -40,7 +40,7 @@ class OperatingDwell:
         Key("Highest speed of the dwell", "_rad_s", "to", ge=1e-3, le=1e6, optional=True),
         Key("The same speed in revolutions per minute", "_rpm", "to", ge=0.01, le=9.5e6, optional=True),
     ]
-    share: Annotated[float, Key("Share of the operating time", "_percent", gt=0, le=100)]
+    share: Annotated[float, Key("Share of the operating time", "_percent", ge=1e-6, le=100)]
 
 
 @dataclass(frozen=True)

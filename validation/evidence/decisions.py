@@ -1,0 +1,58 @@
+"""What an engineer decides: limits of clearance over linings, and fatigue of a blade that stays below yield."""
+
+from __future__ import annotations
+
+import shutil
+from typing import Any
+
+import pandas as pd
+
+from r37core.dataset_file import read_dataset
+from r37core.results.table_file import read_table
+
+from .pages import write_table
+
+CLEARANCE, THICKNESS = "scene.casing.clearance_m", "scene.lining.thickness_m"
+FINE_THICKNESS = 0.003
+"""Thickness of the lining (m) of the finer grid."""
+
+
+def limits(input: Any, output: Any, params: Any) -> None:
+    """Clearances from which a blade meets all requirements, by lining. Inputs: coarse, fine (designs and verdict), picture.
+
+    Outputs: table, picture.
+    """
+    coarse, fine = (_judged(*map(read_table, files)) for files in (input.coarse, input.fine))
+    rows = []
+    for (blade, thickness), part in coarse.groupby(["blade", THICKNESS], sort=False):
+        finer = fine[fine["blade"] == blade] if thickness == FINE_THICKNESS else fine[:0]
+        rows.append([blade, f"{1e3 * thickness:g}", limit_text(part), limit_text(finer) if len(finer) else ""])
+    head = ["blade", "lining (mm)", "meets from, steps of 0.1 mm", "meets from, steps of 0.01 mm"]
+    write_table(head, rows, output.table)
+    shutil.copyfile(input.picture, output.picture)
+
+
+def _judged(designs: pd.DataFrame, verdict: pd.DataFrame) -> pd.DataFrame:
+    """Designs by ascending clearance, and whether they meet all requirements."""
+    meets = verdict.assign(meets=verdict["verdict"] == "meets").groupby(["blade", "scene"], sort=False)["meets"].all()
+    return designs.merge(meets.reset_index(), on=["blade", "scene"]).sort_values(CLEARANCE, kind="stable")
+
+
+def limit_text(part: pd.DataFrame) -> str:
+    """Smallest clearance (mm) from which on every one meets the requirements; none where the largest does not."""
+    meets = part["meets"].tolist()
+    if not meets[-1]:
+        return "none"
+    first = len(meets) - next((number for number, kept in enumerate(reversed(meets)) if not kept), len(meets))
+    return f"{1e3 * part[CLEARANCE].iloc[first]:.2f}"
+
+
+def fatigue(input: Any, output: Any, params: Any) -> None:
+    """Largest stress against yield and the Goodman line. Inputs: stress, ranking, picture. Outputs: table, picture."""
+    stress, row = read_dataset(input.stress), read_table(input.ranking).iloc[0]
+    largest = float((stress["max_von_mises_ever"] / stress["yield_stress"]).max())
+    cells = ["Ref", f"{largest:.2f}", f"{row['largest_goodman_share']:.2f}", f"{row['length_goodman_rad_s']:.0f}"]
+    write_table(
+        ["blade", "largest stress / yield", "largest Goodman share", "length above the line (rad/s)"], [cells], output.table
+    )
+    shutil.copyfile(input.picture, output.picture)

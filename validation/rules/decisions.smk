@@ -1,0 +1,76 @@
+# What an engineer decides: clearance and lining (docs/clearance_and_lining.md), fatigue below yield (docs/safe_blade.md).
+DECIDED = ["Ref", "S100", "CS50"]
+
+
+module decide:
+    snakefile:
+        "../../Snakefile"
+    config:
+        run("decide", "decide", blades=DECIDED)
+
+
+use rule * from decide as decide_*
+
+
+# the same at clearances 0.01 mm apart, with one lining
+module decide_fine:
+    snakefile:
+        "../../Snakefile"
+    config:
+        run("decide_fine", "decide", blades=DECIDED[1:], scenes=["Fine"], scenes_file="validation/decisions.yaml")
+
+
+use rule * from decide_fine as decide_fine_*
+
+
+module fatigue_below_yield:
+    snakefile:
+        "../../Snakefile"
+    config:
+        run(
+            "fatigue_below_yield",
+            blades_file="validation/strengths.yaml",
+            blades=["Ref"],
+            scenes=["Low"],
+            scenes_file="validation/decisions.yaml",
+            speeds=[{"start": 1000, "stop": 1800, "step": 10}],
+        )
+
+
+use rule * from fatigue_below_yield as fatigue_below_yield_*
+
+
+use rule evidence as clearance_and_lining with:
+    input:
+        unpack(
+            behind_engine(
+                coarse=["results/runs/decide/designs.csv", "results/runs/decide/verdict.csv"],
+                fine=["results/runs/decide_fine/designs.csv", "results/runs/decide_fine/verdict.csv"],
+                picture="results/runs/decide/figures/map_Room.png",
+            )
+        ),
+    output:
+        table=f"{TABLES}/clearance_and_lining.csv",
+        picture="docs/clearance_and_lining.png",
+    log:
+        "logs/validation/clearance_and_lining.log",
+    params:
+        **evidence("decisions.limits"),
+
+
+use rule evidence as fatigue_below_yield with:
+    input:
+        unpack(
+            behind_engine(
+                stress="results/runs/fatigue_below_yield/stress.nc",
+                ranking="results/runs/fatigue_below_yield/ranking.csv",
+                picture="results/runs/fatigue_below_yield/figures/fatigue_Ref__Low.png",
+            )
+        ),
+    output:
+        table=f"{TABLES}/fatigue_below_yield.csv",
+        picture="docs/fatigue.png",
+    log:
+        "logs/validation/fatigue_below_yield.log",
+    params:
+        **evidence("decisions.fatigue"),
