@@ -20,6 +20,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import beside
 from r37core.product.reading import read_settings
 from r37core.rom.reduction_choice import StressSubmesh
+from r37core.search import rounds
 from r37core.search.dataset import entries_of, search_dataset, search_table, write_entries
 from r37core.search.plan import Search, choice_of, designs_of, is_asked
 from r37core.search.problem import Constraint, Design, SearchChoice, SearchVariable
@@ -150,9 +151,9 @@ VARIABLES = (SearchVariable("stagger_deg.tip", -3.0, 3.0), SearchVariable("sweep
 START = {"lined": (40.0, 1.0), "mass": (2.0, 0.0)}
 
 
-def choice(method="quasi_random", seed=0):
+def choice(method="quasi_random", seed=0, start=(0.0, None)):
     constraints = {"mass": Constraint(Quantity("mass_kg"), None, None, 95.0, 110.0)}
-    return SearchChoice(VARIABLES, {"lined": Quantity("length_certain_rad_s", ("s",))}, constraints, method, seed)
+    return SearchChoice(VARIABLES, {"lined": Quantity("length_certain_rad_s", ("s",))}, constraints, method, seed, start)
 
 
 def gave(values):
@@ -184,6 +185,18 @@ def test_rounds_spend_the_budget_in_batches_and_the_same_seed_gives_the_same(met
         assert [design.values for design in tried.values()] == first_designs(VARIABLES, 7, 0)
     # a larger budget changes no design that is there
     assert list(searched(choice(method), (3, 2, 2, 1, 0))[-1].tried.items())[:7] == list(tried.items())
+
+
+def test_proposals_know_the_start(monkeypatch):
+    """Where its values are known; it is measured anyway."""
+    known = []
+    monkeypatch.setattr(rounds, "propose", lambda variables, evaluated, batch, seed: known.append(evaluated) or [])
+    searched(choice("surrogate"), (3, 2))
+    searched(choice("surrogate", start=(0.5, 0.0)), (3, 2))
+    without, (start, *others) = known
+    assert [each.name for each in without] == [each.name for each in others] == ["d0000", "d0001", "d0002"]
+    assert (start.name, start.values, start.objectives, start.scatters) == ("start", (0.5, 0.0), (40.0,), (1.0,))
+    assert start.margins == pytest.approx((0.1, 0.2))
 
 
 def test_margins_are_of_the_start_in_percent():
@@ -325,7 +338,7 @@ def test_a_best_design_is_the_blade_that_its_entry_gives(folder, start):
 
 def test_a_design_without_a_number_is_neither_feasible_nor_among_the_best():
     last = searched(choice())[-1]
-    search = search_dataset(last, choice(), [0.0, 0.0])
+    search = search_dataset(last, choice())
     table = search_table(search).set_index("design")
     assert list(table.index) == ["start", *last.tried]
     assert table.loc["start", ["round", "lined", "mass"]].tolist() == [-1, 40.0, 2.0]
@@ -353,14 +366,14 @@ def test_of_two_objectives_designs_that_none_beats_come_first_by_their_shares_of
     wanted = replace(choice(), objectives={**choice().objectives, "mass": Quantity("mass_kg")}, constraints={})
     gave = [{"lined": (length, 0.0), "mass": (mass, 0.0)} for length, mass in zip(lengths, (2.2, 1.2, 0.3, 1.25), strict=True)]
     tried = {f"d{n:04d}": Design((0.5 * n, 0.2 * n), 0, None, of) for n, of in enumerate(gave)}
-    search = search_dataset(SearchRound({}, tried, {"lined": (start, 0.0), "mass": (2.0, 0.0)}), wanted, [0.0, 0.0])
+    search = search_dataset(SearchRound({}, tried, {"lined": (start, 0.0), "mass": (2.0, 0.0)}), wanted)
     assert np.argsort(search["order"].values[1:]).tolist() == order
 
 
 def test_a_search_of_which_nothing_is_feasible_has_a_table():
     heavy = Design((1.0, 0.5), 0, None, {"lined": (1.0, 0.0), "mass": (9.0, 0.0)})
     designs = {"d0000": Design((0.0, 0.0), 0, "crossed", {}), "d0001": heavy}
-    search = search_dataset(SearchRound({}, designs, START), choice(), [None, 0.0])
+    search = search_dataset(SearchRound({}, designs, START), choice())
     assert search["order"].values.tolist() == [0, 0, 0] and "slice_mean" not in search
     assert search_table(search)["feasible"].tolist() == [1, 0, 0]
     json.dumps(search_table(search).to_dict("list"))

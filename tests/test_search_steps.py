@@ -49,10 +49,10 @@ def test_all_designs_are_joined_and_the_best_written(tmp_path, monkeypatch):
     last = searched(choice())[-1]
     write_round(last, tmp_path / "round_3.json")
     dataset, table, best = (tmp_path / name for name in ("search.nc", "search.csv", "best"))
-    params = Named(choice=to_plain(choice()), start=[0.0, None], fidelity="draft")
+    params = Named(choice=to_plain(choice()), fidelity="draft")
     steps.join(Named(round=tmp_path / "round_3.json"), Named(dataset=dataset, table=table), params)
     search = read_dataset(dataset)
-    xr.testing.assert_equal(search, search_dataset(last, choice(), [0.0, None]))
+    xr.testing.assert_equal(search, search_dataset(last, choice()))
     assert search.attrs["fidelity"] == "draft" and len(search.attrs["input_hash"]) > 8
     rows = pd.read_csv(table, index_col="design")
     assert list(rows.index) == ["start", *last.tried] and rows.loc["d0001", "refused"] == "crossed"
@@ -104,7 +104,13 @@ def test_a_design_is_measured_by_its_structure_and_by_all_its_runs(tmp_path, mon
         "flap": Quantity("frequency_hz", mode="1B", speed=500.0),
     }
     inputs = {name: files[name] for name in ("geometry", "campbell")} | {"responses": [files[name] for name in lengths]}
-    params = {"quantities": to_plain(quantities), "scenes": {"a": 3, "b": 1}, "density": 8000.0, "highest_speed": 1000.0, "operating": None}
+    params = {
+        "quantities": to_plain(quantities),
+        "scenes": {"a": 3, "b": 1},
+        "density": 8000.0,
+        "highest_speed": 1000.0,
+        "operating": None,
+    }
     steps.measure(Named(**inputs, contact="", stress=""), Named(measures=tmp_path / "measures.json"), Named(**params))
     measured = read_json(tmp_path / "measures.json")
     assert measured.pop("high") == [8.0, pytest.approx(math.sqrt(3.0), abs=0.2)]

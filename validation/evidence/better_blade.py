@@ -1,83 +1,173 @@
-"""A search for a better blade: its start, its best designs and what its objectives depend on."""
+"""Searches for a better blade: what each gives, all their designs, and checks of the best one."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
 
+import matplotlib.pyplot as plt
 import numpy as np
+import pandas as pd
 import xarray as xr
+from matplotlib.axes import Axes
 
 from r37core.dataset_file import read_dataset
-from r37core.results.exceedance import exceedance_of
+from r37core.figures import style
+from r37core.results.other_motions import REST, swept
+from r37core.results.ranges import ENDS
+from r37core.results.ranking import robustness
 from r37core.search.problem import START
+from r37core.time_integration.status import RunStatus
 
 from .pages import write_table
 from .which_blade import length_text
 
-BEST = 4
-OBJECTIVES = {"lined": ("material_abradable", "lining"), "direct": ("direct", "bare casing")}
+BLADE, BARE = "Free", "bare"
+"""Blade that the searches start at, and their constraint of the bare casing."""
+
+SCENES = {"material_abradable": "lining", "direct": "bare casing"}
+"""Scene -> its name on the page."""
+
+INTEGRAL = "exceedance_integral"
+
+
+def searches(input: Any, output: Any, params: Any) -> None:
+    """The start and the best design of each search. Input: searches. Params: searches, file -> its name. Output: table."""
+    rows = []
+    for file, words in zip(input.searches, params.searches.values(), strict=True):
+        search = read_dataset(file)
+        if not rows:
+            rows.append([f"none: {BLADE}", "", *_design(search, START, Path(file).parent)])
+        feasible = (
+            f"{int(search['feasible'].sum()) - int(search['feasible'].sel(design=START))} of {search.sizes['design'] - 1}"
+        )
+        name = best_of(search)
+        rows.append([words, feasible, *(_design(search, name, Path(file).parent) if name else [""] * len(rows[0][2:]))])
+    keys = [str(key) for key in search["variable"].values]
+    head = ["search", "keep all constraints", "lining (rad/s)", "bare casing (rad/s)", *keys, "mass (%)", "1B (%)"]
+    write_table(head, rows, output.table)
+
+
+def best_of(search: xr.Dataset) -> str | None:
+    """Name of the best design; None where none keeps all constraints."""
+    best = search["design"].values[search["order"].values == 1]
+    return str(best[0]) if len(best) else None
+
+
+def _design(search: xr.Dataset, name: str, folder: Path) -> list[str]:
+    """Integrals in both scenes, values of the variables, and mass and frequency in percent of the start's."""
+    of_design = search.sel(design=name)
+    cells = [integral_text(folder / "search" / name / BLADE / scene / "response.nc") for scene in SCENES]
+    cells += [f"{float(value):.3g}" for value in of_design["value"]]
+    relative = 100.0 * of_design["constraint_value"] / search["constraint_value"].sel(design=START)
+    return [*cells, *(f"{float(relative.sel(constraint=constraint)):.1f}" for constraint in ("mass", "first_bending"))]
+
+
+def integral_text(file: Path) -> str:
+    """Integral of the share of revolutions above yield (rad/s) of a response, with its scatter by chance."""
+    measures = robustness(read_dataset(file))
+    return length_text(measures[f"{INTEGRAL}_rad_s"], measures[f"{INTEGRAL}_scatter_rad_s"])
 
 
 def designs(input: Any, output: Any, params: Any) -> None:
-    """The start and the best designs, and what they vary. Input: search. Output: best, variables, all."""
-    search = read_dataset(input.search)
-    keys = [str(key) for key in search["variable"].values]
-    names, folder = best_of(search), Path(input.search).parent
-    head = ["design", *(f"{words}{what}" for _, words in OBJECTIVES.values() for what in (" (rad/s)", ": integral (rad/s)"))]
-    rows = [_measures(search, name, folder) for name in names]
-    write_table([*head, "1B (Hz)", "static stress (MPa)"], rows, output.best)
-    write_table(["design", *keys], [[named(search, name), *_values(search, name)] for name in names], output.variables)
-    everything = [
-        [str(name), *_values(search, name), *_objectives(search, name), "yes" if search["feasible"].sel(design=name) else "no"]
-        for name in search["design"].values
-    ]
-    write_table(["design", *keys, *search["objective"].values, "keeps the constraints"], everything, output.all)
+    """All designs of all searches. Input: searches. Params: searches, file -> its name. Outputs: table, picture."""
+    parts = []
+    for file, words in zip(input.searches, params.searches.values(), strict=True):
+        search = read_dataset(file)
+        part = pd.DataFrame({"search": words, "design": search["design"].values})
+        part["lined"] = search["objective_value"].sel(objective="lined").values
+        for name in search["constraint"].values:
+            part[str(name)] = search["constraint_value"].sel(constraint=name).values
+        for key in search["variable"].values:
+            part[str(key)] = search["value"].sel(variable=key).values
+        part["keeps"] = _keeps_others(search)
+        parts.append(part)
+    table = pd.concat(parts, ignore_index=True)
+    rows = table.map(lambda cell: f"{cell:.4g}" if isinstance(cell, float) else str(cell))
+    write_table([*table.columns[:-1], "keeps all but bare"], rows.values.tolist(), output.table)
+    _picture(table, output.picture)
 
 
-def best_of(search: xr.Dataset) -> list[str]:
-    """Names of the start and of the best designs, in order."""
-    order = search["order"].values
-    places = np.argsort(np.where(order > 0, order, len(order) + 1), kind="stable")[: min(BEST, np.count_nonzero(order))]
-    return [START, *(str(name) for name in search["design"].values[places])]
+def _keeps_others(search: xr.Dataset) -> np.ndarray:
+    """Whether each design keeps all constraints but that of the bare casing, which is an axis of the picture."""
+    others = search.sel(constraint=[name for name in search["constraint"].values if name != BARE])
+    inside = (others["constraint_value"] >= others["constraint_lowest"]) & (
+        others["constraint_value"] <= others["constraint_highest"]
+    )
+    return inside.all("constraint").values
 
 
-def named(search: xr.Dataset, name: str) -> str:
-    """The design as the product writes it into its entries."""
-    return "Free" if name == START else f"Free_best{int(search['order'].sel(design=name))}"
+def _picture(table: pd.DataFrame, file: Path | str) -> None:
+    figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 3.4))
+    start = table[table["design"] == START].iloc[0]
+    tried = table[table["design"] != START]
+    for axes in panels:
+        _draw_designs(axes, tried, start)
+        axes.set_xlabel("lining (rad/s)")
+    panels[0].set_ylabel("bare casing (rad/s)")
+    near = tried[tried["keeps"] & (tried["lined"] <= start["lined"]) & (tried[BARE] <= start[BARE])]
+    lowest = near["lined"].min() if len(near) else start["lined"]
+    panels[1].set_xlim(lowest - 60.0, start["lined"] + 60.0)
+    panels[1].set_ylim(-4.0, 2.5 * start[BARE])
+    panels[1].set_title("near the start", fontsize=8)
+    figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
+    figure.savefig(file)
+    plt.close(figure)
 
 
-def _values(search: xr.Dataset, name: str) -> list[str]:
-    return [f"{float(value):.3g}" for value in search["value"].sel(design=name)]
+def _draw_designs(axes: Axes, tried: pd.DataFrame, start: pd.Series) -> None:
+    """Designs by both integrals; filled where they keep the other constraints; those in the box are better in both."""
+    for number, (words, part) in enumerate(tried.groupby(tried["search"].str.split(",").str[0], sort=False)):
+        for keeps, kept in part.groupby("keeps"):
+            fill = style.COLOURS[number] if keeps else "none"
+            look = {"marker": "o", "s": 14, "edgecolors": style.COLOURS[number], "facecolors": fill, "linewidths": 0.7}
+            label = words if keeps else f"{words}, breaks another constraint"
+            axes.scatter(kept["lined"], kept[BARE], label=label, **look)
+    axes.plot(start["lined"], start[BARE], "s", color="0.15", markersize=5, label=BLADE, zorder=5)
+    axes.axvline(start["lined"], color="0.6", linewidth=0.8, linestyle="--")
+    axes.axhline(start[BARE], color="0.6", linewidth=0.8, linestyle="--")
 
 
-def _objectives(search: xr.Dataset, name: str) -> list[str]:
-    of = search.sel(design=name)
-    pairs = zip(of["objective_value"].values, of["objective_scatter"].values, strict=True)
-    return ["" if np.isnan(value) else length_text(value, scatter) for value, scatter in pairs]
+def checks(input: Any, output: Any, params: Any) -> None:
+    """The start and the best design at another level. Inputs: motions, rotors. Params: folder, blades. Output: table.
 
-
-def _measures(search: xr.Dataset, name: str, folder: Path) -> list[str]:
-    cells = [named(search, name)]
-    of_design = folder / "search" / name / "Free"
-    for text, (scene, _) in zip(_objectives(search, name), OBJECTIVES.values(), strict=True):
-        cells += [text, f"{integral(read_dataset(of_design / scene / 'response.nc')):.0f}"]
-    first_bending, static = search["constraint_value"].sel(design=name).values
-    return [*cells, f"{first_bending:.0f}", f"{1e-6 * static:.0f}"]
-
-
-def integral(response: xr.Dataset) -> float:
-    """Share of the revolutions above yield, integrated over speed (rad/s)."""
-    exceedance = exceedance_of(response)
-    return float(np.trapezoid(exceedance.shares, exceedance.speeds))
-
-
-def depends(input: Any, output: Any, params: Any) -> None:
-    """Total index of each variable for each objective, and how well the surrogate predicts. Input: search."""
-    search = read_dataset(input.search)
+    Integrals of the nominal run, of all members, of the worst of all motions at each speed, and of a rotor's blades.
+    """
+    motions, folder = read_dataset(input.motions), Path(params.folder)
     rows = []
-    for objective, (_, words) in OBJECTIVES.items():
-        of = search.sel(objective=objective)
-        indices = [f"{float(index):.2f}" for index in of["sensitivity_total"]]
-        rows.append([words, *indices, f"{float(of['surrogate_q2']):.2f}"])
-    write_table(["objective", *(str(key) for key in search["variable"].values), "predicted share"], rows, output.table)
+    for scene, words in SCENES.items():
+        members = {blade: _members(folder, blade, scene) for blade in params.blades}
+        better = sum(members[params.blades[1]][name] < value for name, value in members[params.blades[0]].items())
+        for blade, values in members.items():
+            row = [words, blade, integral_text(folder / blade / scene / "response.nc"), _range(values)]
+            row += [f"{better} of {len(values)}" if blade == params.blades[1] else ""]
+            rows.append([*row, *_motions(motions.sel(blade=blade, scene=scene))])
+    for blade, file in zip(params.blades, input.rotors, strict=True):
+        rows.append(["rotor", blade, f"{_rotor(read_dataset(file)):.0f}", *[""] * 4])
+    head = ["scene", "blade", "nominal (rad/s)", "members (rad/s)", "better member by member", "from rest (rad/s)"]
+    write_table([*head, "worst motion (rad/s)"], rows, output.table)
+
+
+def _members(folder: Path, blade: str, scene: str) -> dict[str, float]:
+    """Member -> its integral (rad/s)."""
+    files = sorted(folder.glob(f"tolerances/*/{blade}/{scene}/response.nc"))
+    return {file.parents[2].name: robustness(read_dataset(file), chance_scatter=False)[f"{INTEGRAL}_rad_s"] for file in files}
+
+
+def _range(values: dict[str, float]) -> str:
+    low, high = np.quantile(list(values.values()), [ENDS["low"], ENDS["high"]], method="inverted_cdf")
+    return f"{low:.0f} to {high:.0f}"
+
+
+def _motions(pair: xr.Dataset) -> list[str]:
+    """Integrals (rad/s) of the motion from rest and of the worst of all motions, on the speeds of the sweeps."""
+    pair = swept(pair)
+    shares = pair["share_of_revolutions_above_yield"].where(pair["status"] != RunStatus.DIVERGED, 1.0)
+    several = shares.sel(motion=REST), shares.max("motion")
+    return [f"{float(share.integrate('speed')):.0f}" for share in several]
+
+
+def _rotor(rotor: xr.Dataset) -> float:
+    """Share of the blades above yield in the last revolution, integrated over speed (rad/s); all where the run diverged."""
+    shares = rotor["blades_above_yield"].where(rotor["status"] != RunStatus.DIVERGED, 1.0)
+    return float(shares.integrate("speed"))

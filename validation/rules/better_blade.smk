@@ -1,10 +1,14 @@
 # Searches for a better blade, by surrogates and by plain sampling, each with three seeds (docs/better_blade.md).
+METHODS = {"surrogate": "surrogate", "quasi_random": "plain sampling"}
 SEARCHES = {
     f"search{'' if (method, seed) == ('surrogate', 1) else f'_{method}_{seed}'}": {"method": method, "seed": seed}
-    for method in ("surrogate", "quasi_random")
+    for method in METHODS
     for seed in (1, 2, 3)
 }
-SEARCHED = [f"results/runs/{name}/search.nc" for name in SEARCHES]
+SEARCHED = {
+    f"results/runs/{name}/search.nc": f"{METHODS[changes['method']]}, seed {changes['seed']}"
+    for name, changes in SEARCHES.items()
+}
 
 for searched, changes in SEARCHES.items():
 
@@ -20,26 +24,82 @@ for searched, changes in SEARCHES.items():
     use rule * from searched as rules_of_search*
 
 
+# the best design beside its start, at another level; as a rotor at the level of the searches
+module checked_best:
+    snakefile:
+        "../../Snakefile"
+    config:
+        run(
+            "search_best",
+            "search_best",
+            blades_file="validation/better_blades.yaml",
+            blades=["Free", "Better"],
+            scenes=["material_abradable", "direct"],
+        )
+
+
+use rule * from checked_best as checked_best_*
+
+
+module checked_rotor:
+    snakefile:
+        "../../Snakefile"
+    config:
+        overlay(
+            ROOT,
+            blades_file="validation/better_blades.yaml",
+            blades=["Free", "Better"],
+            scenes=["rotor_abradable"],
+            fidelity="draft",
+            speeds=[{"start": 750, "stop": 2000, "step": 20}],
+            run={"name": "search_rotor", "engine": "validation/engine_numbers.json"},
+        )
+
+
+use rule * from checked_rotor as checked_rotor_*
+
+
+use rule evidence as better_blade_searches with:
+    input:
+        # the responses of the designs lie beside them
+        unpack(behind_engine(searches=list(SEARCHED))),
+    output:
+        table=f"{TABLES}/better_blade.csv",
+    log:
+        "logs/validation/better_blade_searches.log",
+    params:
+        **evidence("better_blade.searches"),
+        searches=SEARCHED,
+
+
 use rule evidence as better_blade_designs with:
     input:
-        # the responses of the designs lie beside it
-        unpack(behind_engine(search="results/runs/search/search.nc")),
+        unpack(behind_engine(searches=list(SEARCHED))),
     output:
-        best=f"{TABLES}/better_blade.csv",
-        variables=f"{TABLES}/better_blade_variables.csv",
-        all=f"{TABLES}/better_blade_designs.csv",
+        table=f"{TABLES}/better_blade_designs.csv",
+        picture="docs/search_designs.png",
     log:
         "logs/validation/better_blade_designs.log",
     params:
         **evidence("better_blade.designs"),
+        searches=SEARCHED,
 
 
-use rule evidence as better_blade_depends with:
+use rule evidence as better_blade_checks with:
     input:
-        unpack(behind_engine(search="results/runs/search/search.nc")),
+        # the responses of the members lie beside these
+        unpack(
+            behind_engine(
+                members="results/runs/search_best/tolerances.nc",
+                motions="results/runs/search_best/second_motions.nc",
+                rotors=[f"results/runs/search_rotor/{blade}/rotor_abradable/rotor.nc" for blade in ("Free", "Better")],
+            )
+        ),
     output:
-        table=f"{TABLES}/better_blade_depends.csv",
+        table=f"{TABLES}/better_blade_checks.csv",
     log:
-        "logs/validation/better_blade_depends.log",
+        "logs/validation/better_blade_checks.log",
     params:
-        **evidence("better_blade.depends"),
+        **evidence("better_blade.checks"),
+        folder="results/runs/search_best",
+        blades=["Free", "Better"],

@@ -81,15 +81,70 @@ def test_a_coefficient_has_its_place_or_a_dash():
     assert tolerances._coefficient(tolerances.Sample(number[:, None], (-1.0) ** number).ranking, 0) == "-"
 
 
-def test_best_designs_come_in_their_order():
-    names = ["start", "a", "b", "c"]
-    search = xr.Dataset({"order": ("design", [0, 2, 0, 1])}, {"design": names})
-    assert better_blade.best_of(search) == ["start", "c", "a"]
-    assert [better_blade.named(search, name) for name in ("start", "c")] == ["Free", "Free_best1"]
+@pytest.fixture
+def searched(tmp_path):
+    """A search of three designs, of which the second is best and the last breaks the constraint of the mass."""
+    names, constraints = ["start", "d0000", "d0001", "d0002"], ["bare", "mass", "first_bending"]
+    content = {
+        "order": ("design", [0, 2, 1, 0]),
+        "feasible": ("design", [1, 1, 1, 0]),
+        "value": (("design", "variable"), [[100.0], [101.0], [104.567], [110.0]]),
+        "objective_value": (("design", "objective"), [[11.0], [9.0], [5.0], [2.0]]),
+        "constraint_value": (("design", "constraint"), [[6.0, 2.0, 800.0], [5, 2, 800], [4, 2.05, 820], [1, 3, 850]]),
+        "constraint_lowest": ("constraint", [-np.inf, -np.inf, 700.0]),
+        "constraint_highest": ("constraint", [6.0, 2.1, 900.0]),
+    }
+    labels = {"design": names, "variable": ["thickness_percent.hub"], "objective": ["lined"], "constraint": constraints}
+    file = tmp_path / "one/search.nc"
+    for name, width in zip(names, (10, 8, 4, 1), strict=True):
+        for scene, lined in (("material_abradable", 1.0), ("direct", 0.0)):
+            folder = file.parent / "search" / name / "Free" / scene
+            folder.mkdir(parents=True)
+            content_of = response((841, 841 + width), lined=lined)
+            content_of["max_von_mises_ever"] = content_of["max_von_mises_median"] = content_of[
+                "share_of_revolutions_above_yield"
+            ]
+            content_of["rms_tangential"] = content_of["rms_normal"]
+            content_of = content_of.assign_coords(tip_point=["leading_edge", "trailing_edge"])
+            content_of.assign(yield_stress=0.5).to_netcdf(folder / "response.nc")
+    xr.Dataset(content, labels).to_netcdf(file)
+    return SimpleNamespace(searches=[str(file)]), SimpleNamespace(searches={str(file): "surrogate, seed 1"})
 
 
-def test_integral_of_the_share():
-    assert better_blade.integral(response((841, 851))) == pytest.approx(11.0)
+def test_a_search_is_its_best_design_next_to_the_start(searched, tmp_path):
+    inputs, params = searched
+    better_blade.searches(inputs, SimpleNamespace(table=tmp_path / "table.csv"), params)
+    head, start, best = read_table(tmp_path / "table.csv")
+    assert head[4:] == ["thickness_percent.hub", "mass (%)", "1B (%)"]
+    assert start[:3] == ["none: Free", "", "11"] and start[4:] == ["100", "100.0", "100.0"]
+    assert best[:3] == ["surrogate, seed 1", "2 of 3", "5"] and best[4:] == ["105", "102.5", "102.5"]
+    # in a bare casing with its scatter
+    assert best[3].startswith("5 ± ")
+    search = xr.open_dataset(inputs.searches[0])
+    assert better_blade.best_of(search) == "d0001"
+    assert better_blade.best_of(search.assign(order=0 * search["order"])) is None
+
+
+def test_designs_that_break_another_constraint_are_marked(searched, tmp_path):
+    inputs, params = searched
+    output = SimpleNamespace(table=tmp_path / "table.csv", picture=tmp_path / "picture.png")
+    better_blade.designs(inputs, output, params)
+    head, *rows = read_table(output.table)
+    assert head[:4] == ["search", "design", "lined", "bare"] and head[-1] == "keeps all but bare"
+    assert [row[-1] for row in rows] == ["True", "True", "True", "False"]
+    assert output.picture.stat().st_size > 10_000
+
+
+def test_the_worst_motion_counts_and_a_divergence_is_above_yield():
+    """The second motion is above yield at one speed more, and diverges at the last."""
+    shares = [[0.0, 1.0, 1.0, 0.0], [0.0, 1.0, 1.0, np.nan]]
+    over = ("motion", "speed")
+    pair = xr.Dataset(
+        {"share_of_revolutions_above_yield": (over, shares), "status": (over, [[0, 0, 0, 0], [0, 0, 0, 1]]),
+         "differ": ("speed", [0.0, 0.0, 0.0, 1.0])},
+        {"motion": ["rest", "up"], "speed": [10.0, 20.0, 30.0, 40.0]},
+    )  # fmt: skip
+    assert better_blade._motions(pair) == ["20", "25"]
 
 
 def test_correlation_over_designs(tmp_path):

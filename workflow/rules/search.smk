@@ -98,7 +98,6 @@ use rule step as search_dataset with:
         choice=search.choice,
         # another number of rounds, whose files may all be there
         budget=search.budget,
-        start=lambda wildcards: search.designs.start_values,
         fidelity=settings.fidelity_name,
 
 

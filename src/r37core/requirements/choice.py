@@ -14,7 +14,9 @@ class CampbellMargin:
     engine_orders: Annotated[tuple[int, ...], Key("Engine orders of the crossings", ge=1, le=1000)]
     least: Annotated[
         float,
-        Key("Least distance of a crossing from a dwell, without dwells from the range", "_percent", "at_least", ge=1e-6, le=100),
+        Key(
+            "Least distance of a crossing from a dwell, without dwells from the range", "_percent", "at_least", ge=1e-6, le=100
+        ),
     ]
 
 

@@ -36,10 +36,9 @@ POINTS = 41
 """Number of points of a slice."""
 
 
-def search_dataset(last: SearchRound, choice: SearchChoice, start_values: Sequence[float | None]) -> xr.Dataset:
-    """All designs of a search, the start first, from its last round; `start_values`: of the variables, None where unknown."""
-    start = Design(tuple(number(value) for value in start_values), -1, None, last.start)
-    designs = {START: start, **last.tried}
+def search_dataset(last: SearchRound, choice: SearchChoice) -> xr.Dataset:
+    """All designs of a search, the start first, from its last round."""
+    designs = {START: choice.start_design(last.start), **last.tried}
     evaluated = {name: design.evaluated(name, choice, last.start) for name, design in designs.items()}
     known = [each for each in evaluated.values() if not np.isnan(each.values).any()]
     tried = [each for each in evaluated.values() if each.name != START]

@@ -193,7 +193,8 @@ def choice_of(settings: Settings) -> SearchChoice:
         for name, each in entry.constraints.items()
     }
     objectives = {name: each.quantity(is_flown) for name, each in entry.objectives.items()}
-    return SearchChoice(designs.variables, objectives, constraints, entry.method, entry.seed)
+    start = tuple(designs.start_values)
+    return SearchChoice(designs.variables, objectives, constraints, entry.method, entry.seed, start)
 
 
 def designs_of(settings: Settings) -> SearchDesigns:

@@ -150,7 +150,8 @@ class Constraint:
 class SearchChoice:
     """Variables, objectives and constraints by name, and how designs are proposed; see SearchSection.
 
-    How many are proposed is not part of it, so that more of them make none of those before anew.
+    `start`: values of the variables that the start has, None where unknown. How many designs are proposed is not part of it, so
+    that more of them make none of those before anew.
     """
 
     variables: tuple[SearchVariable, ...]
@@ -158,6 +159,11 @@ class SearchChoice:
     constraints: Mapping[str, Constraint]
     method: str
     seed: int
+    start: tuple[float | None, ...]
+
+    def start_design(self, quantities: Mapping[str, Value]) -> "Design":
+        """The start, with its `quantities`."""
+        return Design(tuple(map(number, self.start)), -1, None, quantities)
 
     @property
     def quantities(self) -> dict[str, Quantity]:

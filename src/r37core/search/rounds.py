@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import isfinite
 from pathlib import Path
 
 from r37core.io import read_json, readable, write_json
 from r37core.plain import from_plain, to_plain
 from r37core.results.closing import counted
 
-from .problem import QUASI_RANDOM, Design, SearchChoice, Value, best_first, not_dominated
+from .problem import QUASI_RANDOM, START, Design, SearchChoice, Value, best_first, not_dominated
 from .proposal import first_designs, propose
 
 
@@ -35,13 +36,16 @@ def tried_after(
 
 
 def round_after(tried: Mapping[str, Design], start: Mapping[str, Value], count: int, choice: SearchChoice) -> SearchRound:
-    """The round of `count` designs that what was `tried` asks for."""
+    """The round of `count` designs that what was `tried`, and the start's quantities, ask for."""
     if not count:
         return SearchRound({}, tried, start)
     if choice.method == QUASI_RANDOM:
         new = first_designs(choice.variables, len(tried) + count, choice.seed)[len(tried) :]
     else:
-        evaluated = [design.evaluated(name, choice, start) for name, design in tried.items()]
+        known = {START: choice.start_design(start), **tried}
+        evaluated = [design.evaluated(name, choice, start) for name, design in known.items()]
+        # a start at values that are not known tells nothing of those between
+        evaluated = [each for each in evaluated if all(map(isfinite, each.values))]
         new = propose(choice.variables, evaluated, count, choice.seed)
     return SearchRound(_named(new, len(tried)), tried, start)
 

@@ -105,9 +105,9 @@ def measure(input: Any, output: Any, params: Any) -> None:
 
 
 def join(input: Any, output: Any, params: Any) -> None:
-    """Join all designs. Input: round, the last. Params: choice, start, fidelity. Outputs: dataset (nc), table (csv)."""
+    """Join all designs. Input: round, the last. Params: choice, fidelity. Outputs: dataset (nc), table (csv)."""
     made = {"fidelity": params.fidelity, "input_hash": content_digest(input.round)[:32]}
-    dataset = search_dataset(read_round(input.round), from_plain(SearchChoice, params.choice), params.start)
+    dataset = search_dataset(read_round(input.round), from_plain(SearchChoice, params.choice))
     write_dataset(dataset, output.dataset, made)
     write_table(search_table(dataset), output.table, digits=6)
 
