@@ -85,7 +85,7 @@ def test_a_design_is_measured_by_its_structure_and_by_all_its_runs(tmp_path, mon
     for name, length in lengths.items():
         write_dataset(xr.Dataset({"length": length}), files[name])
 
-    def robustness(response, chance_scatter=True):
+    def robustness(response, chance_scatter=True, operating=None):
         scatter = {"length_certain_scatter_rad_s": 0.5} if chance_scatter else {}
         return {"length_certain_rad_s": float(response["length"]), **scatter}
 
