@@ -139,7 +139,7 @@ def test_the_verdict_of_a_run(judged, tmp_path):
     assert lines[1].strip() == "Ref in above fails: above_yield by 30 rad/s, 1095 to 1125 rad/s"
     assert lines[2].strip() == "Ref in below meets"
     shown = contents(verdict)
-    assert [pair["verdict"] for pair in shown["pairs"]] == ["fails", "meets"]
+    assert [pair["verdict"] for pair in shown["pairs"]] == ["meets", "fails"]
     assert shown["requirements"][0]["from_rad_s"] == 1095.0
     assert shown["requirements"][1]["from_rad_s"] is None
 

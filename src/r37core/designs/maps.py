@@ -31,21 +31,22 @@ def draw_design_map(
     column = length_column(table)
     rows, keys = chosen.rows(table), chosen.keys
     panels = [(str(name), part) for name, part in rows.groupby(chosen.other, sort=False)] if chosen.other else [(title, rows)]
-    across = min(len(panels), 2)
+    across = min(len(panels), 3)
     down = -(-len(panels) // across)
-    size = (style.PAGE if across == 2 else 4.6, 3.2 * down + 0.7)
+    size = (4.6 if across == 1 else style.PAGE, (2.7 if across == 3 else 3.2) * down + 0.7)
     figure, grid = plt.subplots(down, across, figsize=size, squeeze=False, sharex=True, sharey=True)
     highest = max(float(rows[column].max()), 1.0)
     for axes, (name, part) in zip(grid.flat, panels, strict=False):
         cells = _draw_cells(axes, _grid(part, keys, column, "max"), highest)
         axes.set_title(name)
         _label(axes, part, keys)
+        axes.label_outer()
         if verdict is not None:
             _draw_verdict(axes, part, keys, verdict)
     for axes in list(grid.flat)[len(panels) :]:
         axes.set_axis_off()
     inside = " in operation" if column == LENGTH else ""
-    figure.colorbar(cells, ax=grid, label=f"above yield in most revolutions{inside} (rad/s)")
+    figure.colorbar(cells, ax=grid, label=f"length above yield{inside} (rad/s)")
     handles, labels = style.legend_entries(grid.flat)
     if handles:
         figure.legend(handles, labels, loc="outside lower center", ncols=2)

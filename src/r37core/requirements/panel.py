@@ -2,11 +2,12 @@
 
 import pandas as pd
 
+from .judging import VERDICTS
 from .table import certainty, overall
 
 
 def contents(verdict: pd.DataFrame) -> dict[str, object]:
-    """`pairs`: blade, scene, verdict and reason of each; `requirements`: the rows of verdict.csv that a page shows."""
+    """`pairs`: blade, scene, verdict and reason of each, those that meet all first; `requirements`: the rows of verdict.csv that a page shows."""
     shown = verdict.astype(object).where(verdict.notna(), None)
     rows = [
         {
@@ -15,7 +16,8 @@ def contents(verdict: pd.DataFrame) -> dict[str, object]:
         }
         for (_, row), (_, full) in zip(shown.iterrows(), verdict.iterrows(), strict=True)
     ]
-    return {"pairs": overall(verdict).to_dict("records"), "requirements": rows}
+    pairs = sorted(overall(verdict).to_dict("records"), key=lambda pair: VERDICTS.index(pair["verdict"]))
+    return {"pairs": pairs, "requirements": rows}
 
 
 def _numbers(row: pd.Series, full: pd.Series) -> dict[str, object]:
