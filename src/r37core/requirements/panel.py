@@ -7,7 +7,7 @@ from .table import certainty, overall
 
 
 def contents(verdict: pd.DataFrame) -> dict[str, object]:
-    """`pairs`: blade, scene, verdict and reason of each, those that meet all first; `requirements`: the rows of verdict.csv that a page shows."""
+    """`pairs`: blade, scene, verdict and reason of each, those that meet all first; `requirements`: rows of verdict.csv."""
     shown = verdict.astype(object).where(verdict.notna(), None)
     rows = [
         {
