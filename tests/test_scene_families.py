@@ -3,6 +3,10 @@
 import numpy as np
 import pandas as pd
 import pytest
+from overlays import overlay
+from plans_of_snakemake import planned_outputs
+from stubbed_runs import copy_stubbed
+from workflow_runs import snakemake
 
 from r37core.config import ConfigError, command_line_document
 from r37core.designs.compared import Compared
@@ -159,3 +163,16 @@ def test_a_map_has_values_in_place_and_the_line_of_a_requirement():
     assert sorted(segment.tolist() for segment in limit.get_segments()) == [[[0.5, 0.5], [0.5, 1.5]], [[0.5, 0.5], [1.5, 0.5]]]
     assert [text.get_text() for text in axes.texts] == ["40", "20", "30", "0"]
     assert axes.get_xlabel() == "scene.casing.clearance (mm)"
+
+
+@pytest.mark.slow
+def test_one_more_value_runs_its_own_simulations(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    overlay(tmp_path, "config.yaml", "blades: [Ref]\nscenes: [Lobes]\nspeeds: [1000, 1100]")
+    overlay(tmp_path, "scenes.yaml", LOBES)
+    snakemake(tmp_path, "all_blades", "--cores", "2")
+    overlay(tmp_path, "scenes.yaml", LOBES.replace("[2, 3]", "[2, 3, 5]"))
+    jobs = planned_outputs(tmp_path)
+    assert jobs["simulate"] == {f"Ref/Lobes_5/speed_{speed}.npz" for speed in (1000, 1100)}
+    assert jobs["design_table"] == {"designs.csv"}
+    assert jobs["design_figure"] == {"figures/designs_Lobes.png"}
