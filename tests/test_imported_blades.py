@@ -81,6 +81,13 @@ def test_a_blade_of_another_program_has_modes_and_signals_at_its_interactions(se
         assert recorded.speeds == [] and inputs["response"] == "<results>/Fan/direct/response.nc"
 
 
+def test_a_mesh_with_strengths_has_fatigue_where_stress_is_wanted(settings_with):
+    strengths = {"fatigue_strength_pa": 3e8, "ultimate_strength_pa": 1e9}
+    settings = settings_with(MESH | {"material": MESH["material"] | strengths}, {"Plain": MESH}, blades=("Fan", "Plain"))
+    assert "fatigue" in settings.results_of("Fan", "abradable")
+    assert "fatigue" not in settings.results_of("Plain", "abradable")
+
+
 def test_runs_that_end_as_they_have_settled_have_no_signals_by_default(settings_with, config_copy):
     overlay(config_copy, "scenes.yaml", "abradable: { until: settled }")
     wanted = targets(Sweep(settings_with(MESH)))

@@ -215,10 +215,15 @@ class Settings:
         return self.structure.boundary.contact or self.blades[blade].contact
 
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
-        """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes."""
-        wanted = self.scenes[scene].results
-        without = _OF_MESHES if self.blades[blade].is_matrices else ()
-        return tuple(result for result in wanted if result not in without)
+        """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes.
+
+        An imported mesh with strengths has fatigue wherever stress is wanted.
+        """
+        wanted, chosen = self.scenes[scene].results, self.blades[blade]
+        if chosen.is_matrices:
+            return tuple(result for result in wanted if result not in _OF_MESHES)
+        assumed = not chosen.has_profiles and chosen.strengths.are_known and "stress" in wanted and "fatigue" not in wanted
+        return (*wanted, "fatigue") if assumed else wanted
 
     def integration_choice(
         self, blade: str, scene: str, speed: float, history_speeds: Sequence[float] | None = None

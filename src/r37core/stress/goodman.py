@@ -26,12 +26,17 @@ class Strengths:
     fatigue_strength: float = inf
     ultimate_strength: float = inf
 
+    @property
+    def are_known(self) -> bool:
+        """Whether a material has them."""
+        return isfinite(self.fatigue_strength)
+
     def share(self, alternating: np.ndarray, mean: np.ndarray) -> np.ndarray:
         """Share of the Goodman line, 1 on it: alternating/S_f + mean/S_u of stresses (Pa); NaN without strengths.
 
         A mean in compression counts as 0.
         """
-        if not isfinite(self.fatigue_strength):
+        if not self.are_known:
             return np.full(np.shape(alternating), np.nan)
         tension = np.maximum(np.asarray(mean, dtype=float), 0.0)
         return np.asarray(alternating, dtype=float) / self.fatigue_strength + tension / self.ultimate_strength
