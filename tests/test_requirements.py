@@ -11,7 +11,7 @@ from r37core.requirements.checks import remarks
 from r37core.requirements.choice import CampbellMargin, Requirements
 from r37core.requirements.judging import FAILS, MEETS, UNKNOWN, Evidence, Numbers, judge
 from r37core.requirements.panel import contents
-from r37core.requirements.table import closing, operating_table, overall, verdict_table
+from r37core.requirements.table import closing, operating_table, overall, reason, verdict_table
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.results.table_file import write_table
 from r37core.time_integration.status import RunStatus
@@ -82,6 +82,21 @@ def test_the_lining_that_is_used():
     judgement = one(Requirements(used_lining=1.0), response=runs, thickness=1e-3)
     assert (judgement.verdict, judgement.note, judgement.begin) == (FAILS, "worn through to the casing", 1150.0)
     assert not list(judge(Requirements(used_lining=1.0), Evidence(runs, campbell(), FLOWN)))
+
+
+def test_the_goodman_share():
+    share = np.full(len(SPEEDS), 0.2)
+    share[[2, 12]] = 3.0, 0.7
+    runs = response(above(2000.0, 2000.0), goodman_share=("speed", share), fatigue_strength=6e8)
+    judgement = one(Requirements(goodman_share=0.5), response=runs)
+    # 3 at 1020 rad/s is outside
+    assert (judgement.value, judgement.begin, judgement.verdict) == (0.7, 1120.0, FAILS)
+    assert reason(pd.Series(judgement.columns)) == "goodman_share by 0.2, at 1120 rad/s"
+    runs["status"][15] = RunStatus.DIVERGED
+    assert one(Requirements(goodman_share=5.0), response=runs).note == "a run diverged"
+    runs["fatigue_strength"] = np.inf
+    assert "no strengths" in one(Requirements(goodman_share=0.5), response=runs).note
+    assert "fatigue is not among" in one(Requirements(goodman_share=0.5)).note
 
 
 def test_clearance_and_mass():

@@ -151,16 +151,16 @@ def _above_yield(limit: float, evidence: Evidence) -> Judgement:
 def _goodman_share(limit: float, evidence: Evidence) -> Judgement:
     name, inside = "goodman_share", evidence.inside
     if "goodman_share" not in evidence.response:
-        return Judgement(name, np.nan, limit, "", note="fatigue is not among the scene's results")
+        return Judgement(name, np.nan, limit, "1", note="fatigue is not among the scene's results")
     if not has_strengths(evidence.response):
-        return Judgement(name, np.nan, limit, "", note="the material has no strengths")
+        return Judgement(name, np.nan, limit, "1", note="the material has no strengths")
     if evidence.not_covered:
-        return Judgement(name, np.nan, limit, "", note=evidence.not_covered)
+        return Judgement(name, np.nan, limit, "1", note=evidence.not_covered)
     share = inside["goodman_share"].where(inside["status"] != RunStatus.DIVERGED, np.inf).fillna(0.0)
     worst = int(share.values.argmax())
     speed = float(inside["speed"][worst])
     note = "a run diverged" if np.isinf(share[worst]) else ""
-    return Judgement(name, float(share[worst]), limit, "", begin=speed, end=speed, note=note)
+    return Judgement(name, float(share[worst]), limit, "1", begin=speed, end=speed, note=note)
 
 
 def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:

@@ -5,7 +5,7 @@ panels.requirements = ({ pairs, requirements }, page) => {
   const heads = (table, titles) => table.createTHead().insertRow().append(
     ...titles.map((text) => Object.assign(document.createElement("th"), { scope: "col", textContent: text })),
   );
-  const number = (value, unit) => (value === null ? "" : `${digits(value, 3)} ${unit}`);
+  const number = (value, unit) => (value === null ? "" : `${digits(value, 3)} ${unit === "1" ? "" : unit}`);
   const where = ({ from_rad_s: from, to_rad_s: to }) => {
     if (from === null) return "";
     return from === to ? speedText(from) : `${speedText(from)} to ${speedText(to)}`;

@@ -124,17 +124,22 @@ def reason(row: pd.Series) -> str:
     """Why a requirement fails or is not known: what, by how much, where, and how certain that is."""
     if row["verdict"] == UNKNOWN:
         return f"{row['requirement']}: {row['note']}"
-    excess = f"by {-row['margin']:.3g} {row['unit']}" if np.isfinite(row["margin"]) else str(row["note"])
+    excess = f"by {-row['margin']:.3g}{_unit(row)}" if np.isfinite(row["margin"]) else str(row["note"])
     begin, end = row["from_rad_s"], row["to_rad_s"]
     where = "" if pd.isna(begin) else f", at {begin:.5g} rad/s" if begin == end else f", {begin:.5g} to {end:.5g} rad/s"
     return f"{row['requirement']} {excess}{where}{certainty(row)}"
+
+
+def _unit(row: pd.Series) -> str:
+    """The unit after a number; of a share none."""
+    return "" if row["unit"] == "1" else f" {row['unit']}"
 
 
 def certainty(row: pd.Series) -> str:
     """What chance, tolerances and other motions say of a verdict; empty where they were not run."""
     texts = []
     if row["scatter"] > 0.0:
-        texts.append(f"scatter {row['scatter']:.2g} {row['unit']}")
+        texts.append(f"scatter {row['scatter']:.2g}{_unit(row)}")
     if pd.notna(row["share_of_members"]):
         texts.append(f"{100.0 * row['share_of_members']:.0f}% of the members meet it")
     if pd.notna(row["margin_worst_motion"]):
