@@ -8,7 +8,7 @@ from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Name
 from r37core.config.spread import MemberCount, Spreads
 from r37core.results.operating_range import INTEGRAL
 
-from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, Quantity
+from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, STRUCTURE_MEASURES, Quantity
 
 COLUMNS = ("design", "round", "feasible", "not_dominated", "order", "refused")
 """Columns of search.csv next to those of variables, objectives and constraints."""
@@ -30,7 +30,8 @@ class QuantitySection(Section):
 
     measure: Literal[tuple(MEASURES)] = Field(  # type: ignore[valid-type]
         default="exceedance_integral_rad_s",
-        description="Number of a design: " + "; ".join(f"{name}, {words}" for name, words in MEASURES.items()),
+        description="Number of a design: of contact a column of ranking.csv; "
+        + "; ".join(f"{name}, {words}" for name, words in STRUCTURE_MEASURES.items()),
     )
     scenes: Names | LeftOut = Field(default=None, description="Scenes of a contact measure; the worst counts")
     mode: str | LeftOut = Field(default=None, description="Mode of a modal measure, such as 1B")
