@@ -8,9 +8,12 @@ from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
 from workflow_runs import snakemake
 
+import r37
+from r37 import studies
 from r37core.config import ConfigError, command_line_document
 from r37core.designs.compared import Compared
 from r37core.designs.maps import draw_design_map
+from r37core.designs.panel import contents
 from r37core.designs.plan import Families, targets
 from r37core.designs.table import compared_in
 from r37core.plain import to_plain
@@ -176,3 +179,25 @@ def test_one_more_value_runs_its_own_simulations(root, tmp_path):
     assert jobs["simulate"] == {f"Ref/Lobes_5/speed_{speed}.npz" for speed in (1000, 1100)}
     assert jobs["design_table"] == {"designs.csv"}
     assert jobs["design_figure"] == {"figures/designs_Lobes.png"}
+
+
+def test_the_explorer_has_the_map():
+    shown = contents(table_of([40.0, 30.0, 20.0, 0.0]))
+    assert (shown["keys"], shown["axis"]) == (list(KEYS), "blade")
+    assert shown["cells"][3] == ["Ref", "Room_3", 6e-4, 0.002]
+    assert shown["values"]["shape"] == [4]
+    assert contents(table_of([1.0] * 4).drop(columns=KEYS[1]))["cells"] == []
+
+
+def test_designs_of_scenes_from_python(monkeypatch):
+    """Each scene is a family of its own; without keys of the blade that is as it is."""
+    asked = []
+    monkeypatch.setattr(studies, "run_of", lambda caller, blades, scenes, keys, options: asked.append((blades, scenes)))
+    r37.designs("Ref", ["abradable", "direct"], [1150], vary={"scene.casing.clearance_m": [3e-4, 4e-4]})
+    r37.designs("S100", "direct", [1150], vary={"scene.damping_ratio": [0.001], "sweep_percent": [50, 100]})
+    ((blades, scenes), (families, others)) = asked
+    assert [blade.name for blade in blades] == ["Ref"]
+    assert [scene.name for scene in scenes] == ["abradable-varied", "direct-varied"]
+    assert scenes[1].changes["vary"] == {"casing.clearance_m": [3e-4, 4e-4]}
+    assert (families[0].name, families[0].changes["vary"]) == ("Design", {"sweep_percent": [50, 100]})
+    assert others[0].base == "direct"
