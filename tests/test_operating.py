@@ -95,7 +95,8 @@ def test_operating_refusals(changes, message):
 def test_axes_of_speed_alone_are_shaded_and_keep_their_limits():
     figure, (above, below, other) = plt.subplots(3, 1)
     above.sharex(below)
-    below.set(xlabel=style.SPEED_LABEL, xlim=(1100.0, 1200.0))
+    below.plot([1100.0, 1200.0], [0.0, 1.0])
+    below.set_xlabel(style.SPEED_LABEL)
     before = {axes: (axes.get_xlim(), len(axes.patches)) for axes in (above, below, other)}
     style.mark_operating(figure, OperatingRange(1000.0, 1150.0))
     assert [axes.get_xlim() for axes in before] == [limits for limits, _ in before.values()]

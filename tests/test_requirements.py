@@ -50,7 +50,10 @@ def test_speeds_above_yield_inside_the_range_alone():
     assert (judgement.begin, judgement.end) == (1195.0, 1235.0)
     assert one(Requirements(above_yield=75.1), response=response(shares)).verdict == MEETS
     # what lies outside does not count
-    assert one(Requirements(above_yield=0.0), response=response(above(1270.0, 1290.0))).verdict == MEETS
+    outside = one(Requirements(above_yield=0.0), response=response(above(1270.0, 1290.0)))
+    assert outside.verdict == MEETS and np.isnan(outside.begin)
+    across = one(Requirements(above_yield=0.0), response=response(above(1020.0, 1080.0)))
+    assert (across.begin, across.end) == (1050.0, 1085.0)
 
 
 def test_a_run_that_diverged_is_above_yield():
