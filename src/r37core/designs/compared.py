@@ -37,3 +37,8 @@ class Compared:
     def other(self) -> str:
         """What does not vary, a line or a panel each; empty where both do."""
         return {BLADE: SCENE, SCENE: BLADE}.get(self.kind, "")
+
+
+def axis_of_key(key: str) -> tuple[str, float]:
+    """Label of the axis of a key, and what a unit there is in the key's, inverted: lengths in mm."""
+    return (f"{key.removesuffix('_m')} (mm)", 1e3) if key.endswith("_m") else (key, 1.0)

@@ -1,6 +1,7 @@
 """A family of designs: robustness and structure against what varies."""
 
 from collections.abc import Mapping, Sequence
+from textwrap import fill
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -12,7 +13,7 @@ from matplotlib.figure import Figure
 from r37core.figures import style
 from r37core.plain import from_plain
 
-from .compared import Compared
+from .compared import Compared, axis_of_key
 from .table import MEASURES, STRUCTURE
 
 _ROBUSTNESS = ("shift_1b_rad_s", "length_certain_rad_s", "length_possible_rad_s")
@@ -21,6 +22,9 @@ _DRAWN = {
     "scene": (*_ROBUSTNESS, "exceedance_integral_rad_s", "largest_median_stress_pa", "largest_rms_m"),
 }
 """Measures that a family of blades, or of scenes, is chosen by."""
+
+_LABEL_WIDTH = 22
+"""Letters in a line of an axis label."""
 
 
 def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -> Figure:
@@ -32,19 +36,19 @@ def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -
     table, kind, keys = chosen.rows(table), chosen.kind, chosen.keys
     drawn = _DRAWN[kind]
     count = len(drawn) // 3
-    figure, grid = plt.subplots(count, 3, figsize=(style.PAGE, 1.9 * count + 0.7), sharex=True)
+    figure, grid = plt.subplots(count, 3, figsize=(style.PAGE, 2.1 * count + (0.9 if len(keys) > 1 else 0.1)), sharex=True)
     for axes, column in zip(grid.flat, drawn, strict=True):
         word = MEASURES[column]
         for name, rows in table.groupby(chosen.other, sort=False):
             _draw(axes, rows.assign(**{column: word.factor * rows[column]}), column, kind, keys, str(name))
-        axes.set_ylabel(f"{word.title} ({word.unit})")
+        axes.set_ylabel(f"{fill(word.title, _LABEL_WIDTH)}\n({word.unit})")
     # what does not depend on the scene is the same line twice
     figure.legend(*style.legend_entries([grid.flat[-1]]), loc="outside lower center", ncols=4)
     for axes in grid[-1]:
         if len(keys) == 1:
-            axes.set_xlabel(keys[0])
+            axes.set_xlabel(axis_of_key(keys[0])[0])
         else:
-            axes.tick_params(axis="x", rotation=90)
+            axes.tick_params(axis="x", rotation=90, labelsize=6)
     figure.suptitle(f"family {title}: {table[kind].nunique()} designs over {', '.join(keys)}")
     return figure
 
@@ -52,7 +56,7 @@ def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -
 def _draw(axes: Axes, rows: pd.DataFrame, column: str, kind: str, keys: Sequence[str], label: str) -> None:
     if len(keys) == 1:
         ordered = rows.sort_values(keys[0])
-        axes.plot(ordered[keys[0]], ordered[column], "o-", markersize=4, label=label)
+        axes.plot(axis_of_key(keys[0])[1] * ordered[keys[0]], ordered[column], "o-", markersize=4, label=label)
     else:
         places = np.arange(len(rows))
         axes.plot(places, rows[column], "o", markersize=4, label=label)

@@ -14,7 +14,7 @@ from r37core.figures import style
 from r37core.plain import from_plain
 from r37core.results.operating_range import LENGTH
 
-from .compared import Compared
+from .compared import Compared, axis_of_key
 
 _LENGTH = "length_certain_rad_s"
 
@@ -77,9 +77,8 @@ def _draw_cells(axes: Axes, values: np.ndarray, highest: float) -> QuadMesh:
 
 def _label(axes: Axes, rows: pd.DataFrame, keys: Sequence[str]) -> None:
     for axis, key in zip((axes.xaxis, axes.yaxis), keys, strict=True):
-        values, label = np.unique(rows[key]), key
-        if key.endswith("_m"):
-            values, label = 1e3 * values, f"{key.removesuffix('_m')} (mm)"
+        label, factor = axis_of_key(key)
+        values = factor * np.unique(rows[key])
         axis.set_ticks(np.arange(len(values)), [f"{value:.4g}" for value in values])
         axis.set_label_text(label)
     axes.grid(visible=False)
