@@ -271,6 +271,10 @@ def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):
     [
         ("fatigue_strength_pa: 4e+8", "fatigue_strength_pa alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both"),
         ("ultimate_strength_pa: 9e+8", "ultimate_strength_pa alone"),
+        (
+            "fatigue_strength_pa: 3e+8, ultimate_strength_pa: 9e+8",
+            r"yield_stress_pa: found 1\.38e\+09; allowed: 3e\+08 to 9e\+08",
+        ),
         ("fatigue_strength_pa: 9e+8, ultimate_strength_pa: 9e+8", r"fatigue_strength_pa: found 9e\+08; allowed: less than ult"),
     ],
 )
@@ -282,18 +286,18 @@ def test_strengths_that_make_no_line_are_refused(with_blades, keys, refused):
 def test_strengths_vary_and_change_no_model(with_blades):
     family = "vary: { material.fatigue_strength_pa: [3e+8, 4e+8] }"
     settings = with_blades(
-        f"Mine: {{ base: Ref, material: {{ fatigue_strength_pa: 2e+8, ultimate_strength_pa: 9e+8 }}, {family} }}",
+        f"Mine: {{ base: Ref, material: {{ fatigue_strength_pa: 2e+8, ultimate_strength_pa: 1.6e+9 }}, {family} }}",
         blades=["Mine", "Ref"],
     )
     *designs, ref = settings.blades.values()
-    assert [blade.strengths for blade in designs] == [Strengths(3e8, 9e8), Strengths(4e8, 9e8)]
+    assert [blade.strengths for blade in designs] == [Strengths(3e8, 1.6e9), Strengths(4e8, 1.6e9)]
     assert ref.strengths == Strengths() and ref.material.unusual == {}
     assert len({blade.elastic.material for blade in (*designs, ref)}) == 1
     key = "material.fatigue_strength_pa"
     assert blade_number(designs[0], key) == 3e8 and blade_number(ref, key) is None
-    assert changed_blade(designs[0], {key: 5e8}).strengths == Strengths(5e8, 9e8)
+    assert changed_blade(designs[0], {key: 5e8}).strengths == Strengths(5e8, 1.6e9)
     with pytest.raises(ImpossibleValueError, match="less than ultimate_strength_pa"):
-        changed_blade(designs[0], {key: 1e9})
+        changed_blade(designs[0], {key: 1.7e9})
 
 
 def test_fatigue_needs_stress(config_copy):

@@ -22,7 +22,10 @@ _FOLDER = "config"
 
 _SPEEDS = ("speeds", "speeds_rpm", "speeds_for")
 
-_OF_A_RUN = ("run", *_SPEEDS, *(extension.name for extension in EXTENSIONS))
+_JUDGING = "requirements"
+"""Extension whose section judges results of any call, as `interactions` of the pipeline does."""
+
+_OF_A_RUN = ("run", *_SPEEDS, *(extension.name for extension in EXTENSIONS if extension.name != _JUDGING))
 """Sections of config.yaml that say what a run of the workflow makes, and nothing of a single simulation."""
 
 _READER = replace(READER, checks=tuple(check for check in READER.checks if check is not history_speeds_are_run))

@@ -24,6 +24,8 @@ class DesignOptions(SweepOptions, total=False):
 
     combine: str
     name: str
+    operating: Mapping[str, Any]
+    requirements: Mapping[str, Any]
 
 
 class ToleranceOptions(SweepOptions, total=False):
@@ -94,6 +96,8 @@ def designs(
     name
         Name of the family, by default `Design`. A design is called after its values: `Design_50`. A scene's family is called
         after the scene: `direct-varied_0p0003`.
+    operating, requirements
+        Sections of config.yaml, as of `r37.run`: with both there is `tables["verdict"]`.
     speeds, speeds_rpm, fidelity, results, config, cores, folder
         As of `r37.run`.
 
@@ -127,7 +131,8 @@ def designs(
         scene_entry = {"vary": inner, "combine": combine} if inner else {}
     chosen = chosen_blade(blade, options.get("config"))
     family = chosen.family(options.get("name", "Design"), entry) if entry else chosen
-    keys, several = speed_keys(speeds, options.get("speeds_rpm")), scenes_of_run(scenes, [family], options)
+    sections = {key: plain_value(section) for key, section in options.items() if key in ("operating", "requirements")}
+    keys, several = {**speed_keys(speeds, options.get("speeds_rpm")), **sections}, scenes_of_run(scenes, [family], options)
     if scene_entry:
         several = [scene.family(f"{scene.name}-varied", scene_entry) for scene in several]
     return run_of("r37.designs", [family], several, keys, options)

@@ -10,7 +10,7 @@ use rule step as verdict with:
         **({"members": sampling.dataset} if sampling else {}),
         **more_motions,
         campbell=rules.campbell_of_all.output[0],
-        geometry=expand(paths.nominal(paths.GEOMETRY), blade=judged.densities),
+        volumes=judged.volumes,
     output:
         verdict=shown(VERDICT, PACKAGE / "requirements/report.rst", TOGETHER, "verdict"),
     log:

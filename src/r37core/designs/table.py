@@ -10,7 +10,7 @@ import xarray as xr
 from r37core.results.closing import counted
 from r37core.results.datasets import response_of
 from r37core.results.glossary import RANKING, Word, word
-from r37core.results.operating_range import INTEGRAL, OperatingRange
+from r37core.results.operating_range import INTEGRAL, LENGTH, OperatingRange
 from r37core.results.operating_range import MEASURES as OPERATING_MEASURES
 from r37core.results.ranking import RANKED_BY, ROBUSTNESS, robustness
 from r37core.results.table_file import read_table
@@ -89,21 +89,17 @@ def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, floa
     return {"shift_1b_rad_s": np.nan if strongest is None else float(bending.loc[strongest, "shift_rad_s"])}
 
 
-_MOST_SCENES = 3
-"""Scenes of which a run's last line names the best design each."""
-
-
 def closing(results: Path) -> str:
-    """How many designs there are, and the best: of each scene, or of all where there are more scenes."""
+    """How many designs there are, and the best: of each scene, or of all where scenes vary."""
     table = read_table(results / "designs.csv")
-    flown = INTEGRAL in table and table[INTEGRAL].notna().any()
-    order = [INTEGRAL] if flown else list(RANKED_BY)
+    flown = LENGTH in table and table[LENGTH].notna().any()
+    order = [LENGTH, INTEGRAL, "largest_median_stress_pa"] if flown else list(RANKED_BY)
+    scenes_vary = any(str(name).startswith(SCENE_KEY) for name in table)
+    text = counted(len(table) if scenes_vary else table["blade"].nunique(), "design")
     ranked = table.dropna(subset=order[0])
-    number = len(table) if table["scene"].nunique() > _MOST_SCENES else table["blade"].nunique()
-    text = counted(number, "design")
-    for scene, rows in ranked.groupby("scene", sort=False) if ranked["scene"].nunique() <= _MOST_SCENES else [("", ranked)]:
-        best = rows.sort_values(order).iloc[0]
+    for scene, rows in [("", ranked)] if scenes_vary and len(ranked) else ranked.groupby("scene", sort=False):
+        best = rows.sort_values(order, kind="stable").iloc[0]
         where, name = (f"{scene}: ", best["blade"]) if scene else ("", f"{best['blade']} in {best['scene']}")
-        how = "least above yield in operation, integral" if flown else "above yield at the fewest speeds"
-        text += f"; {where}{name} is {how} ({best[order[0]]:.0f} rad/s)"
+        inside = " in operation" if flown else ""
+        text += f"; {where}{name} is above yield at the fewest speeds{inside} ({best[order[0]]:.0f} rad/s)"
     return text

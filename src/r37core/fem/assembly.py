@@ -91,6 +91,15 @@ def assemble_mass(pattern: NodePattern, blocks: Blocks, points: np.ndarray, dens
     return mass
 
 
+def mesh_volume(blocks: Blocks, points: np.ndarray) -> float:
+    """Volume (m3) of a mesh with nodes at `points`, by the quadrature of the mass."""
+    volume = 0.0
+    for _, element, coordinates in typed_blocks(blocks, points):
+        rule_points, rule_weights = element.mass_rule
+        volume += float(np.sum(np.linalg.det(element.jacobian(coordinates, rule_points)) * rule_weights))
+    return volume
+
+
 def block_matrix(pattern_indptr: np.ndarray, pattern_indices: np.ndarray, blocks: np.ndarray) -> sp.csr_array:
     """Sparse matrix over all degrees of freedom (3 per node, x y z) from 3 x 3 blocks, shape (pairs, 3, 3)."""
     size = 3 * (len(pattern_indptr) - 1)

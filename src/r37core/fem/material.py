@@ -67,6 +67,10 @@ class Material:
                 f"fatigue_strength_pa: found {self.fatigue_strength:g}; allowed: less than ultimate_strength_pa "
                 f"({self.ultimate_strength:g})"
             )
+        low, high = self.fatigue_strength, self.ultimate_strength
+        if known and np.isfinite(self.yield_stress) and not low <= self.yield_stress <= high:
+            between = f"{low:g} to {high:g}, from fatigue_strength_pa to ultimate_strength_pa"
+            raise ValueError(f"yield_stress_pa: found {self.yield_stress:g}; allowed: {between}")
 
     def check_units(self) -> None:
         """Raise ValueError for a stiffness and density that no solid has in SI units: N, mm and t mixed with m and kg."""

@@ -123,14 +123,15 @@ def mark_operating(figure: Figure, operating: OperatingRange) -> None:
     spans = [(operating.first, operating.last, 0.12), *((dwell.start, dwell.stop, 0.2) for dwell in operating.dwell)]
     for axes in figure.axes:
         labels = {panel.get_xlabel() for panel in axes.get_shared_x_axes().get_siblings(axes)}
-        across, upward = labels & {SPEED_LABEL, RUN_UP_LABEL}, axes.get_ylabel() == SPEED_LABEL
+        across = labels & {SPEED_LABEL, RUN_UP_LABEL}
+        upward = SPEED_LABEL in {panel.get_ylabel() for panel in axes.get_shared_y_axes().get_siblings(axes)}
         limits = axes.get_xlim(), axes.get_ylim()
         marks: list[tuple[Any, Any]] = [(axes.axvspan, axes.axvline)] if across else []
         if upward:
             marks.append((axes.axhspan, axes.axhline))
         for span, line in marks:
             for begin, end, alpha in spans:
-                span(begin, end, color=COLOURS[4], alpha=alpha, linewidth=0.0, zorder=0.0)
+                span(begin, end, color=COLOURS[4], alpha=alpha, linewidth=0.0, zorder=-0.5)
             for end in (operating.first, operating.last):
                 line(end, color=COLOURS[4], linewidth=0.9, linestyle="-.")
         axes.set(xlim=limits[0], ylim=limits[1])

@@ -127,8 +127,9 @@ class Sweep:
         """Scenes with figures of their own: those of no family, or where there are none some of the designs."""
         settings = self.settings
         plain = [name for name in settings.scenes if name not in settings.scene_designs.family_of]
-        every = -(-len(settings.scenes) // MOST_DRAWN)
-        return plain or list(settings.scenes)[::every]
+        designs = list(settings.scenes)
+        count = min(MOST_DRAWN, len(designs))
+        return plain or [designs[round(place * (len(designs) - 1) / max(count - 1, 1))] for place in range(count)]
 
     def drawn_runs(self, kind: str) -> list[tuple[str, str]]:
         """Pairs of blade and scene that have this kind of result and figures of their own."""

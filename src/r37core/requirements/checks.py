@@ -21,7 +21,9 @@ def can_be_judged(settings: Settings) -> None:
         place = ("requirements", "campbell_margins", number)
         if margin.mode not in modes:
             raise document.refusal((*place, "mode"), f"'{margin.mode}'", ", ".join(modes))
-        if margin.engine_orders and max(margin.engine_orders) > campbell.highest_engine_order:
+        if not margin.engine_orders:
+            raise document.refusal((*place, "engine_orders"), "none", "one or more engine orders")
+        if max(margin.engine_orders) > campbell.highest_engine_order:
             allowed = f"at most campbell.highest_engine_order ({campbell.highest_engine_order})"
             raise document.refusal((*place, "engine_orders"), f"{max(margin.engine_orders)}", allowed)
 

@@ -12,6 +12,7 @@ from r37core.results.exceedance import CERTAIN, Exceedance, SpeedRange, exceedan
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
 from r37core.results.other_motions import swept
+from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import CampbellMargin, Requirements
@@ -20,11 +21,20 @@ MEETS, FAILS, UNKNOWN = VERDICTS = ("meets", "fails", "unknown")
 
 
 @dataclass(frozen=True)
+class JudgedMembers:
+    """JudgedMembers under tolerances: their `number`, and the `share` of them that meets a requirement; NaN without any."""
+
+    number: float = np.nan
+    share: float = np.nan
+
+
+@dataclass(frozen=True)
 class Judgement:
     """One requirement of one blade in one scene: `value` and `limit` in the `unit`; the value is NaN where it is not known.
 
-    `begin`, `end`: speeds (rad/s) where it is worst. `scatter`: standard deviation of the value by chance; `members`: share of
-    the members under tolerances that meet it; `worst_motion`: margin of the worst of all motions; NaN each where not run.
+    `begin`, `end`: speeds (rad/s) where it is worst. `scatter`: standard deviation of the value by chance; `members`: how
+    many there are under tolerances, and the share that meets it; `worst_motion`: margin of the worst of all motions; NaN each
+    where not run.
     """
 
     requirement: str
@@ -35,7 +45,7 @@ class Judgement:
     begin: float = np.nan
     end: float = np.nan
     scatter: float = np.nan
-    members: float = np.nan
+    members: JudgedMembers = JudgedMembers()
     worst_motion: float = np.nan
     note: str = ""
 
@@ -64,7 +74,8 @@ class Judgement:
             "from_rad_s": self.begin,
             "to_rad_s": self.end,
             "scatter": self.scatter,
-            "share_of_members": self.members,
+            "members": self.members.number,
+            "share_of_members": self.members.share,
             "margin_worst_motion": self.worst_motion,
             "note": self.note,
         }
@@ -120,7 +131,7 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[Judgement]
     if requirements.clearance is not None:
         yield _clearance(requirements.clearance, evidence)
     if requirements.mass is not None:
-        note = "" if np.isfinite(evidence.mass) else "its volume is not known"
+        note = "" if np.isfinite(evidence.mass) else "matrices do not say it"
         yield Judgement("mass", evidence.mass, requirements.mass, "kg", note=note)
     for margin in requirements.campbell_margins:
         yield from _campbell_margins(margin, evidence)
@@ -143,9 +154,15 @@ def _above_yield(limit: float, evidence: Evidence) -> Judgement:
         begin=max(widest.begin, operating.first),
         end=min(widest.end, operating.last),
         scatter=_scatter(exceedance, operating),
-        members=_share_of_members(limit, evidence),
         worst_motion=_worst_motion(limit, evidence),
+        note="" if _has_rotation(evidence.response) else "stress of vibration alone",
+        members=_members(limit, evidence),
     )
+
+
+def _has_rotation(response: xr.Dataset) -> bool:
+    """Whether the stress of rotation is in that of the response."""
+    return "static_stress" in response and bool(response["static_stress"] > 0.0)
 
 
 def _goodman_share(limit: float, evidence: Evidence) -> Judgement:
@@ -167,20 +184,22 @@ def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
     """Standard deviation by chance of the length above yield in operation; NaN where there is none."""
     if not exceedance.chance:
         return np.nan
-    return float(np.std([operating.length(ranges) for ranges in exceedance.ranges_drawn[CERTAIN]]))
+    scatter = np.std([operating.length(ranges) for ranges in exceedance.ranges_drawn[CERTAIN]])
+    # of equal lengths what rounding leaves
+    return float(scatter.round(9))
 
 
-def _share_of_members(limit: float, evidence: Evidence) -> float:
-    """Share of the members whose speeds above yield keep the limit; NaN without members."""
+def _members(limit: float, evidence: Evidence) -> JudgedMembers:
+    """JudgedMembers whose speeds above yield keep the limit."""
     if evidence.members is None or "share_of_revolutions_above_yield" not in evidence.members:
-        return np.nan
+        return JudgedMembers()
     lengths = []
     for name in evidence.members["member"].values:
         member = evidence.members.sel(member=name)
         if (member["status"] != RunStatus.NOT_RUN).any():
             member = member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN))
             lengths.append(evidence.operating.length(exceedance_of(member).ranges(CERTAIN)))
-    return float(np.mean(np.array(lengths) <= limit)) if lengths else np.nan
+    return JudgedMembers(float(len(lengths)), float(np.mean(np.array(lengths) <= limit))) if lengths else JudgedMembers()
 
 
 def _worst_motion(limit: float, evidence: Evidence) -> float:
@@ -211,6 +230,10 @@ def _used_lining(limit: float, evidence: Evidence) -> Judgement:
     value = np.inf if through or diverged else 100.0 * float(used[worst])
     speed = float(inside["speed"][int((inside["worn_through_share"] > 0.0).values.argmax()) if through else worst])
     note = "worn through to the casing" if through else "a run diverged" if diverged else ""
+    if not note and "motion_at_end" in inside and inside["motion_at_end"][worst] == MotionAtEnd.GROWING:
+        note = "wear still grows at the end: a lower bound"
+    if value == 0.0:
+        speed = np.nan
     return Judgement(name, value, 100.0 * limit, unit, begin=speed, end=speed, note=note)
 
 

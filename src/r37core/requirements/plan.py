@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings, operating_range
 from r37core.plain import to_plain
 from r37core.plans import paths
@@ -34,14 +33,17 @@ class Judged:
         return to_plain(requirements_of(self.sweep.settings))
 
     @property
+    def volumes(self) -> list[str]:
+        """Files that say the volume of each blade in `densities`: its geometry, or the mesh of another program."""
+        blades = self.sweep.settings.blades
+        patterns = {name: paths.GEOMETRY if blades[name].has_profiles else paths.MESH for name in self.densities}
+        return [paths.fill(pattern, blade=name) for name, pattern in patterns.items()]
+
+    @property
     def densities(self) -> dict[str, float]:
-        """Density (kg/m3) of each blade whose volume is known: of those with profiles."""
+        """Density (kg/m3) of each blade whose volume is known: of all but those given by matrices."""
         blades = self.sweep.settings.blades.items()
-        return {
-            name: blade.material.density
-            for name, blade in blades
-            if blade.material is not None and isinstance(blade.definition, BladeDefinition)
-        }
+        return {name: blade.material.density for name, blade in blades if blade.material is not None and not blade.is_matrices}
 
     @property
     def clearance(self) -> dict[str, float]:

@@ -3,7 +3,9 @@
 from typing import Any
 
 from r37core.dataset_file import read_dataset
+from r37core.fem.assembly import mesh_volume
 from r37core.io import as_list
+from r37core.mesh.mesh_files import read_vtu
 from r37core.plain import from_plain
 from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table, write_table
@@ -16,17 +18,24 @@ from .table import operating_table, verdict_table
 def judge(input: Any, output: Any, params: Any) -> None:
     """Judge each blade and scene. Output: verdict (csv).
 
-    Inputs: datasets by kind, geometry of each blade whose volume is known; if there, members and motions. Params: pairs,
-    requirements, operating, densities, clearance and thickness by scene.
+    Inputs: datasets by kind, volumes (geometry or mesh of each blade with a density); if there, members and motions. Params:
+    pairs, requirements, operating, densities, clearance and thickness by scene.
     """
     files = dict(input.items())
-    shapes = as_list(files.pop("geometry"))
-    volumes = {blade: float(read_dataset(file)["volume"]) for blade, file in zip(params.densities, shapes, strict=True)}
-    masses = {blade: params.densities[blade] * volume for blade, volume in volumes.items()}
+    shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)
+    masses = {blade: density * _volume(file) for (blade, density), file in shapes}
     numbers = Numbers(params.clearance, params.thickness, masses)
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
     write_table(verdict_table(_pairs(params), requirements, operating, datasets, numbers), output.verdict, digits=6)
+
+
+def _volume(file: str) -> float:
+    """Volume (m3) of a blade, by its geometry or its mesh."""
+    if file.endswith(".nc"):
+        return float(read_dataset(file)["volume"])
+    mesh = read_vtu(file)
+    return mesh_volume(mesh.blocks, mesh.points)
 
 
 def list_operating(input: Any, output: Any, params: Any) -> None:

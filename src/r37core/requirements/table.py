@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.io import read_json
 from r37core.results.closing import counted, interaction_title
 from r37core.results.datasets import response_of
 from r37core.results.exceedance import CERTAIN, exceedance_of
@@ -127,7 +128,21 @@ def reason(row: pd.Series) -> str:
     excess = f"by {-row['margin']:.3g}{_unit(row)}" if np.isfinite(row["margin"]) else str(row["note"])
     begin, end = row["from_rad_s"], row["to_rad_s"]
     where = "" if pd.isna(begin) else f", at {begin:.5g} rad/s" if begin == end else f", {begin:.5g} to {end:.5g} rad/s"
+    if begin < end and end - begin < 0.99 * row["value"]:
+        where = f", the widest range{where[1:]}"
     return f"{row['requirement']} {excess}{where}{certainty(row)}"
+
+
+def certainty(row: pd.Series) -> str:
+    """What chance, tolerances and other motions say of a verdict, and what its number leaves out; or an empty text."""
+    texts = [str(row["note"])] if pd.notna(row["note"]) and row["note"] and np.isfinite(row["margin"]) else []
+    if row["scatter"] > 0.0:
+        texts.append(f"scatter {row['scatter']:.2g}{_unit(row)}")
+    if pd.notna(row["share_of_members"]):
+        texts.append(f"{100.0 * row['share_of_members']:.0f}% of {row['members']:.0f} members meet it")
+    if pd.notna(row["margin_worst_motion"]):
+        texts.append(f"the worst motion {'meets' if row['margin_worst_motion'] >= 0.0 else 'fails'}")
+    return f" ({', '.join(texts)})" if texts else ""
 
 
 def _unit(row: pd.Series) -> str:
@@ -135,31 +150,22 @@ def _unit(row: pd.Series) -> str:
     return "" if row["unit"] == "1" else f" {row['unit']}"
 
 
-def certainty(row: pd.Series) -> str:
-    """What chance, tolerances and other motions say of a verdict; empty where they were not run."""
-    texts = []
-    if row["scatter"] > 0.0:
-        texts.append(f"scatter {row['scatter']:.2g}{_unit(row)}")
-    if pd.notna(row["share_of_members"]):
-        texts.append(f"{100.0 * row['share_of_members']:.0f}% of the members meet it")
-    if pd.notna(row["margin_worst_motion"]):
-        texts.append(f"the worst motion {'meets' if row['margin_worst_motion'] >= 0.0 else 'fails'}")
-    return f" ({', '.join(texts)})" if texts else ""
-
-
 _MOST_LINES = 8
 """Blades and scenes of which each has a line when a run ends."""
 
 
 def closing(results: Path) -> str:
-    """The verdict of each blade and scene; of many how many meet all, which, and the one that fails by the fewest."""
+    """The verdict of each blade and scene; of many how many meet all, and which; without a verdict what lies in operation."""
+    if not _is_judged(results):
+        return counted(len(read_table(results / "operating.csv")), "line") + " on what lies in operation"
     table = read_table(results / "verdict.csv")
     judged = overall(table)
     if len(judged) <= _MOST_LINES:
         lines = []
         for row in judged.itertuples():
-            uncertain = "".join(certainty(line) for _, line in _rows(table, row).iterrows() if row.verdict == MEETS)
-            lines.append(f"{row.blade} in {row.scene} {row.verdict}{f': {row.reason}' if row.reason else uncertain}")
+            sure = [f"{line['requirement']}{certainty(line)}" for _, line in _rows(table, row).iterrows() if certainty(line)]
+            text = row.reason if row.reason else ", ".join(sure)
+            lines.append(f"{row.blade} in {row.scene} {row.verdict}{f': {text}' if text else ''}")
         return "\n  ".join(["verdict", *lines])
     good = [f"{row.blade} in {row.scene}" for row in judged.itertuples() if row.verdict == MEETS]
     more = f" and {len(good) - _MOST_LINES} more" if len(good) > _MOST_LINES else ""
@@ -167,6 +173,12 @@ def closing(results: Path) -> str:
     unknown = int((judged["verdict"] == UNKNOWN).sum())
     text = f"{len(good)} of {counted(len(judged), 'pair')} of blade and scene meet all requirements{named}"
     return f"{text}; {unknown} are not known" if unknown else text
+
+
+def _is_judged(results: Path) -> bool:
+    """Whether the last run had requirements: the verdict of one before it says nothing of this."""
+    requirements = read_json(results / "configuration.json")["config"].get("requirements", {})
+    return any(value not in (None, []) for value in requirements.values())
 
 
 def _rows(table: pd.DataFrame, row: object) -> pd.DataFrame:
