@@ -113,7 +113,7 @@ def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
     ("text", "message"),
     [
         (GRID.replace("[8000, 4500]", "[8000]") + "  combine: pairs\n", r"yaml:\d+: Grid\.vary: found chordwise_sweep_deg 2"),
-        (GRID.replace("5]", "70]"), r"Grid\.chordwise_sweep_deg: design Grid_70_8000: found 70\.0; allowed: .*than 60"),
+        (GRID.replace("5]", "70]"), r"Grid\.chordwise_sweep_deg: design Grid_70_8000: found 70; allowed: .*than 60"),
         (GRID.replace("chordwise_sweep_deg", "chordwise"), r"design Grid_-2p5_8000: found unknown key chordwise; allowed"),
         (GRID.replace("chordwise_sweep_deg", "sweep"), r"found unknown key sweep; .* \(did you mean sweep_percent\?\)"),
         (
@@ -199,11 +199,12 @@ def compared():
     variables = {"blade": {"F_1": {"sweep_percent": 1.0}, "F_2": {"sweep_percent": 2.0}}, "scene": {}}
     datasets = {"campbell": campbell, "rms": rms, "stress": stress}
     pairs = [(blade, scene) for blade in ("F_1", "F_2") for scene in ("lined", "bare")]
-    return design_table(pairs, variables, {"F_1": 0.2, "F_2": 0.3}, datasets, interactions)
+    families = {"blade": {"F_1": "F", "F_2": "F"}, "scene": {}}
+    return design_table(pairs, variables, families, {"F_1": 0.2, "F_2": 0.3}, datasets, interactions)
 
 
 def test_designs_are_compared(compared):
-    assert list(compared.columns) == ["blade", "scene", "sweep_percent", *MEASURES]
+    assert list(compared.columns) == ["blade", "scene", "family", "sweep_percent", *MEASURES]
     rows = compared.set_index(["blade", "scene"])
     one = rows.loc["F_1", "lined"]
     assert (one["mass_kg"], one["frequency_1b_hz"], one["frequency_1t_hz"]) == (0.2, 800.0, 2500.0)

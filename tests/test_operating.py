@@ -23,8 +23,17 @@ def test_the_integral_inside_is_that_of_straight_lines():
     """A triangle from 1000 over 1100 to 1200 rad/s, of which the range has the part from 1050 to 1150: 75 of 100 rad/s."""
     speeds, shares = np.array([900.0, 1000.0, 1100.0, 1200.0, 1300.0]), np.array([0.0, 0.0, 1.0, 0.0, 0.0])
     assert OperatingRange(1050.0, 1150.0).integral(speeds, shares) == pytest.approx(75.0)
-    # 5% more on both ends: from 997.5 to 1207.5
-    assert OperatingRange(1050.0, 1150.0, 0.05).integral(speeds, shares) == pytest.approx(100.0)
+    # a margin is judged, but no time is spent there
+    assert OperatingRange(1050.0, 1150.0, 0.05).integral(speeds, shares) == pytest.approx(75.0)
+    assert OperatingRange(1000.0, 1500.0, 0.1).time_share(1500.0, 1650.0) == 0.0
+
+
+def test_a_margin_that_is_rounded_is_covered():
+    for redline in np.arange(500.0, 2001.0, 10.0):
+        for percent in (1, 2, 3, 5, 10):
+            whole = OperatingRange(400.0, redline, percent / 100.0)
+            assert whole.is_covered(np.array([1.0, round(redline * (100 + percent)) / 100.0]))
+    assert not OperatingRange(400.0, 500.0).is_covered(np.array([1.0, 499.9]))
 
 
 def test_dwells_weigh_and_the_rest_is_even():
@@ -81,7 +90,7 @@ def test_both_units_give_the_same_range():
     [
         ({"idle_rpm": 9000.0}, "idle_rad_s and idle_rpm"),
         ({"redline_rad_s": 900.0}, "a speed above idle"),
-        ({"dwell": [{"from_rad_s": 900.0, "to_rad_s": 1100.0, "share_percent": 5.0}]}, "between 1000 and 1500 rad/s"),
+        ({"dwell": [{"from_rad_s": 900.0, "to_rad_s": 1100.0, "share_percent": 5.0}]}, "idle and redline, 1000 and 1500 rad/s"),
         ({"dwell": [{"from_rad_s": 1200.0, "to_rad_s": 1100.0, "share_percent": 5.0}]}, "above the lowest one"),
         ({"dwell": [{"from_rad_s": 1100.0, "to_rad_s": 1200.0, "share_percent": 60.0}] * 2}, "at most 100 percent"),
         ({"dwell": [{"to_rad_s": 1200.0, "share_percent": 60.0}]}, "from_rad_s or from_rpm"),

@@ -57,6 +57,17 @@ def test_a_whole_number_stays_one(with_scenes):
     assert [chosen.scene.casing.lobes for chosen in settings.scenes.values()] == [2, 3]
 
 
+def test_a_whole_number_that_the_scene_does_not_write(with_scenes):
+    settings = with_scenes(f"Long: {{ {CASING}, vary: {{ revolutions: [20, 40] }} }}", scenes=["Long"], blades=["Ref"])
+    assert [chosen.revolutions for chosen in settings.scenes.values()] == [20, 40]
+
+
+def test_ranges_of_small_numbers_keep_their_values(with_scenes):
+    vary = "vary: { lining.bar_area_m2: { start: 2.4e-9, stop: 3.6e-9, step: 4.0e-10 } }"
+    settings = with_scenes(f"Bars:\n  {CASING}\n  {LINING}\n  {vary}\n", scenes=["Bars"], blades=["Ref"])
+    assert list(settings.scene_designs.families["Bars"].designs.values()) == [(2.4e-9,), (2.8e-9,), (3.2e-9,), (3.6e-9,)]
+
+
 def test_a_table_of_scenes(with_scenes):
     table = "scene,casing.clearance_m,damping_ratio\nTight,3e-4,0.001\nWide,8e-4,0.002\n"
     settings = with_scenes(f"Room: {{ {CASING}, designs: config/rooms.csv }}", table, scenes=["Room"], blades=["Ref"])
@@ -85,6 +96,7 @@ def test_sections_name_families_of_scenes(with_scenes):
         (ROOM.replace("casing.clearance_m: [3.0e-4", "casing.clearance_m: [-3.0e-4"), r"Room.*-0\.0003"),
         (ROOM.replace("lining.thickness_m: [", "sweep_percent: ["), r"found unknown key sweep_percent; .*blades\.yaml"),
         (ROOM + "  designs: config/rooms.csv\n", "both vary and designs"),
+        (ROOM + f"room_0P0003_0p001: {{ {CASING} }}\n", "differ in more than capitals"),
         (ROOM + f"Room_0p0003_0p001: {{ {CASING} }}\n", "not named like another scene"),
     ],
 )
@@ -135,16 +147,8 @@ KEYS = ("scene.casing.clearance_m", "scene.lining.thickness_m")
 def table_of(lengths):
     """Lengths above yield over two clearances and two thicknesses, of one blade."""
     places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
-    rows = [
-        {
-            "blade": "Ref",
-            "scene": f"Room_{number}",
-            "scene.casing.clearance_m": clearance,
-            "scene.lining.thickness_m": thickness,
-        }
-        for number, (clearance, thickness) in enumerate(places)
-    ]
-    return pd.DataFrame(rows).assign(length_certain_rad_s=lengths)
+    rows = [("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)]
+    return pd.DataFrame(rows, columns=["blade", "scene", "family", *KEYS]).assign(length_certain_rad_s=lengths)
 
 
 def test_a_map_has_values_in_place_and_the_line_of_a_requirement():
@@ -152,7 +156,7 @@ def test_a_map_has_values_in_place_and_the_line_of_a_requirement():
     verdict = table[["blade", "scene"]].assign(
         requirement="above_yield", verdict=["fails", "fails", "fails", "meets"], margin=[-30.0, -20.0, -10.0, 10.0]
     )
-    compared = compared_in(table)
+    (compared,) = compared_in(table).values()
     assert compared == Compared(
         "scene", ("scene.casing.clearance_m", "scene.lining.thickness_m"), ("Ref",), tuple(table["scene"])
     )
@@ -162,7 +166,7 @@ def test_a_map_has_values_in_place_and_the_line_of_a_requirement():
     marks = [line for line in axes.lines if line.get_label() == "meets all requirements"]
     assert (list(marks[0].get_xdata()), list(marks[0].get_ydata())) == ([1], [0.7])
     (limit,) = [collection for collection in axes.collections[1:] if collection.get_label() == "limit: above_yield"]
-    # round the one cell that meets it
+    # round the design that meets it
     assert sorted(segment.tolist() for segment in limit.get_segments()) == [[[0.5, 0.5], [0.5, 1.5]], [[0.5, 0.5], [1.5, 0.5]]]
     assert [text.get_text() for text in axes.texts] == ["40", "20", "30", "0"]
     assert axes.get_xlabel() == "scene.casing.clearance (mm)"
@@ -181,12 +185,29 @@ def test_one_more_value_runs_its_own_simulations(root, tmp_path):
     assert jobs["design_figure"] == {"figures/designs_Lobes.png"}
 
 
-def test_the_explorer_has_the_map():
-    shown = contents(table_of([40.0, 30.0, 20.0, 0.0]))
-    assert (shown["keys"], shown["axis"]) == (list(KEYS), "blade")
-    assert shown["cells"][3] == ["Ref", "Room_3", 6e-4, 0.002]
-    assert shown["values"]["shape"] == [4]
-    assert contents(table_of([1.0] * 4).drop(columns=KEYS[1]))["cells"] == []
+def test_a_limit_goes_round_designs_and_not_round_holes():
+    table = table_of([40.0, 30.0, 20.0, 0.0]).iloc[[0, 3]]
+    verdict = table[["blade", "scene"]].assign(requirement="mass", verdict="meets", margin=1.0)
+    (compared,) = compared_in(table).values()
+    axes = draw_design_map("Room", table, to_plain(compared), verdict).axes[0]
+    assert not [collection for collection in axes.collections if str(collection.get_label()).startswith("limit")]
+
+
+def test_each_family_has_a_map_in_the_explorer():
+    """Two families of the same keys, and one of a single key."""
+    one = table_of([40.0, 30.0, 20.0, 0.0])
+    other = one.assign(family="Other", scene=[f"Other_{number}" for number in range(4)], length_certain_rad_s=7.0)
+    single = one.drop(columns=KEYS[1]).assign(family="Single")
+    shown = contents(pd.concat([one, other, single]))
+    assert [(family["family"], family["keys"], family["other"]) for family in shown] == [
+        ("Room", list(KEYS), "blade"),
+        ("Other", list(KEYS), "blade"),
+    ]
+    assert shown[1]["cells"][3] == ["Ref", "Other_3", 6e-4, 0.002]
+    assert shown[1]["values"]["shape"] == [4]
+    families = compared_in(pd.concat([one, other, single]))
+    assert families["Single"].keys == KEYS[:1]
+    assert families["Other"].scenes == tuple(other["scene"])
 
 
 def test_designs_of_scenes_from_python(monkeypatch):

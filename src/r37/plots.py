@@ -221,15 +221,17 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
 
 
 @checked_call
-def plot_designs(results: RunResults, title: str | None = None) -> Figure:
+def plot_designs(results: RunResults, title: str | None = None, *, family: str | None = None) -> Figure:
     """Figure of a family of designs: robustness over the varied key, a map over two, else by the designs' names.
 
     Parameters
     ----------
     results
-        The result of `r37.designs`, or the results of a run with one family.
+        The result of `r37.designs`, or the results of a run with families.
     title
         Title in place of the family's name.
+    family
+        Family in place of the first one, as the column `family` of `tables["designs"]` has it.
 
     Returns
     -------
@@ -239,7 +241,7 @@ def plot_designs(results: RunResults, title: str | None = None) -> Figure:
     Raises
     ------
     ConfigError
-        For results without designs.
+        For results without designs, and for a family that they do not have.
 
     Examples
     --------
@@ -255,10 +257,13 @@ def plot_designs(results: RunResults, title: str | None = None) -> Figure:
         from r37core.designs.table import compared_in
 
         table = results.tables["designs"]
-        compared = compared_in(table)
+        families = compared_in(table)
+        name = next(iter(families)) if family is None else family
+        if name not in families:
+            raise ConfigError(f"family: found {name!r}; allowed: {', '.join(families)}")
+        compared = families[name]
         draw = draw_design_map if len(compared.keys) == 2 else draw_designs
-        name = table["scene" if compared.kind == "scene" else "blade"].iloc[0]
-        return draw(title or str(name).split("_")[0], table, to_plain(compared))
+        return draw(title or name, table, to_plain(compared))
 
 
 @contextmanager

@@ -18,6 +18,7 @@ use rule step as design_table with:
         **step("designs.steps.tabulate"),
         pairs=families.pairs,
         variables=families.variables,
+        families=families.names,
         densities=families.densities,
         operating=operating,
 

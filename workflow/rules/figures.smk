@@ -103,7 +103,7 @@ use rule figure as ranking_figure with:
     log:
         "<logs>/figures/ranking.log",
     params:
-        **drawing("figures.comparison.draw_ranking", "ranking"),
+        **drawing("figures.comparison.draw_ranking", "ranking", scenes=sweep.drawn_scenes),
 
 
 use rule figure as clearance_figure with:

@@ -108,6 +108,10 @@ def expanded_families(entries: Mapping[str, E], root: Path, document: Document) 
                 check_name(design)
         except PydanticCustomError as error:
             raise document.error((name,), str(error)) from None
+    try:
+        check_names(made)
+    except PydanticCustomError as error:
+        raise document.error((list(made)[-1],), str(error)) from None
     return Designs(made, families, replace(document, locations=locations))
 
 
@@ -128,7 +132,10 @@ def _family(name: str, entry: Any, root: Path, document: Document) -> Family:
     else:
         rows = list(product(*values.values()))
     _check_size(rows, name, "vary", document)
-    return Family(tuple(values), {design_name(name, row): tuple(row) for row in rows})
+    designs = {design_name(name, row): tuple(row) for row in rows}
+    if len(designs) < len(rows):
+        raise document.refusal((name, "vary"), "the same values twice", "designs that differ")
+    return Family(tuple(values), designs)
 
 
 def _check_size(designs: Sized, family: str, key: str, document: Document) -> None:
@@ -202,16 +209,13 @@ def numbers_of(content: Mapping[str, Any], path: str = "") -> dict[str, float]:
 
 
 def changed_content(content: dict[str, Any], path: Sequence[str], value: Any) -> dict[str, Any]:
-    """A copy of the content with one value set; sections that are not there are made, rows of a list are not.
-
-    A whole number stays one where there is one.
-    """
+    """A copy of the content with one value set; sections that are not there are made, rows of a list are not."""
     changed = copy.deepcopy(content)
     inner: Any = changed
     for step in path[:-1]:
         inner = inner[int(step)] if isinstance(inner, list) else inner.setdefault(step, {})
     if isinstance(inner, list):
         raise TypeError
-    counts = type(inner.get(path[-1])) is int and isinstance(value, float) and value.is_integer()
-    inner[path[-1]] = int(value) if counts else value
+    # for keys that count; others take one, too
+    inner[path[-1]] = int(value) if isinstance(value, float) and value.is_integer() else value
     return changed

@@ -49,10 +49,10 @@ class OperatingSection(Section):
         _, last_key = _one_of_each(self, ("idle", "redline"))
         operating = self.operating()
         if operating.redline <= operating.idle:
-            raise refused((last_key,), f"{getattr(self, last_key):g}", "a speed above idle")
+            raise refused((last_key,), f"{getattr(self, last_key):g}", f"a speed above idle ({operating.idle:.6g} rad/s)")
         for number, dwell in enumerate(operating.dwell):
-            if dwell.start < operating.first or dwell.stop > operating.last:
-                between = f"between {operating.first:.6g} and {operating.last:.6g} rad/s, the operating range with its margin"
+            if dwell.start < operating.idle or dwell.stop > operating.redline:
+                between = f"between idle and redline, {operating.idle:.6g} and {operating.redline:.6g} rad/s"
                 raise refused(("dwell", number), f"{dwell.start:.6g} to {dwell.stop:.6g} rad/s", between)
         total = sum(dwell.share for dwell in operating.dwell)
         if total > 1.0 + 1e-9:

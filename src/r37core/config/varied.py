@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
-
-from r37core.speeds import spaced
 
 from .section import FileName, LeftOut, Section, Unique, left_out, refused
 
@@ -32,8 +31,9 @@ class Variation(Section):
         return self
 
     def values(self) -> list[float]:
-        """All values of the range."""
-        return spaced(self.start, self.stop, self.step)
+        """All values of the range, with twelve digits: what rounding leaves of a sum is no other value."""
+        count = math.floor((self.stop - self.start) / self.step + 1e-9) + 1
+        return [float(f"{self.start + number * self.step:.12g}") for number in range(count)]
 
 
 Varied = Annotated[

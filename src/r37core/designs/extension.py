@@ -19,8 +19,9 @@ def families_have_shapes(settings: Settings) -> None:
 
 def families_differ_in_name(settings: Settings) -> None:
     """No family of scenes is called like one of blades: figures have their names."""
+    taken = {name.lower() for name in settings.designs.families}
     for name in settings.scene_designs.families:
-        if name in settings.designs.families:
+        if name.lower() in taken:
             raise settings.documents.scenes.refusal((name,), f"'{name}', which is a family of blades, too", "another name")
 
 

@@ -92,7 +92,7 @@ def _draw_verdict(axes: Axes, rows: pd.DataFrame, keys: Sequence[str], verdict: 
     if len(up):
         axes.plot(across, up - 0.3, "o", color="white", markeredgecolor="black", markersize=5, label="meets all requirements")
     for number, (name, part) in enumerate(judged.groupby("requirement", sort=False)):
-        borders = _borders(_grid(part, keys, "meets", "min") == 1.0)
+        borders = _borders(_grid(part, keys, "meets", "min"))
         if borders:
             # dashed on solid, where limits lie on each other
             colour, dashes = style.COLOURS[(1 + number) % len(style.COLOURS)], "--" if number % 2 else "-"
@@ -101,10 +101,10 @@ def _draw_verdict(axes: Axes, rows: pd.DataFrame, keys: Sequence[str], verdict: 
 
 
 def _borders(inside: np.ndarray) -> list[list[tuple[float, float]]]:
-    """Sides of cells between those inside and others, as pairs of points."""
+    """Sides of cells between those inside, 1, and others, 0, as pairs of points; none to cells without a design, NaN."""
     borders = []
-    for row, column in zip(*np.nonzero(inside[:, 1:] != inside[:, :-1]), strict=True):
+    for row, column in zip(*np.nonzero(np.abs(np.diff(inside, axis=1)) == 1.0), strict=True):
         borders.append([(column + 0.5, row - 0.5), (column + 0.5, row + 0.5)])
-    for row, column in zip(*np.nonzero(inside[1:] != inside[:-1]), strict=True):
+    for row, column in zip(*np.nonzero(np.abs(np.diff(inside, axis=0)) == 1.0), strict=True):
         borders.append([(column - 0.5, row + 0.5), (column + 0.5, row + 0.5)])
     return borders

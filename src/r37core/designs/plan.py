@@ -44,6 +44,11 @@ class Families:
         return designs
 
     @property
+    def names(self) -> dict[str, dict[str, str]]:
+        """Kind -> design -> family."""
+        return {BLADE: self.settings.designs.family_of, SCENE: self.settings.scene_designs.family_of}
+
+    @property
     def _families(self) -> list[tuple[str, dict[str, Family], list[str]]]:
         return [
             (BLADE, self.blade_families, self.settings.blade_names),

@@ -18,6 +18,9 @@ from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
 
 from .compared import BLADE, BOTH, SCENE, SCENE_KEY, Compared
 
+_NAMES = ("blade", "scene", "family")
+"""Columns of names."""
+
 STRUCTURE = {
     "mass_kg": Word("mass", "of the blade", "kg"),
     "frequency_1b_hz": Word("1B at rest", "frequency of the first bending mode", "Hz"),
@@ -39,38 +42,43 @@ IN_OPERATION = {name: meaning for name in OPERATING_MEASURES if (meaning := word
 def design_table(
     pairs: Sequence[tuple[str, str]],
     variables: Mapping[str, Mapping[str, Mapping[str, float]]],
+    families: Mapping[str, Mapping[str, str]],
     masses: Mapping[str, float],
     datasets: Mapping[str, xr.Dataset],
     interactions: pd.DataFrame,
     operating: OperatingRange | None = None,
 ) -> pd.DataFrame:
-    """One row for each of the `pairs` of blade and scene: blade, scene, variables of both, measures.
+    """One row for each of the `pairs` of blade and scene: blade, scene, family, variables of both, measures.
 
-    `variables`: kind -> design -> column -> value; `masses` (kg) by blade; `datasets`: campbell, rms and, if there, stress;
-    `interactions`: summary.csv; `operating`: range for measures of its own. What a scene does not compute, and what does not
-    happen (no interaction of 1B), is NaN.
+    `variables`: kind -> design -> column -> value; `families`: kind -> design -> family; `masses` (kg) by blade; `datasets`:
+    campbell, rms and, if there, stress; `interactions`: summary.csv; `operating`: range for measures of its own. What a scene
+    does not compute, and what does not happen (no interaction of 1B), is NaN.
     """
     rows = []
     for blade, scene in pairs:
-        varied = {**variables["blade"].get(blade, {}), **variables["scene"].get(scene, {})}
+        names = [families[kind][design] for kind, design in ((BLADE, blade), (SCENE, scene)) if design in families[kind]]
+        varied = {"family": "__".join(names), **variables["blade"].get(blade, {}), **variables["scene"].get(scene, {})}
         structure = {"mass_kg": masses.get(blade, np.nan)} | _structure(datasets["campbell"].sel(blade=blade))
         response = response_of(datasets, blade, scene)
         measures = robustness(response, operating=operating)
         rows.append({"blade": blade, "scene": scene, **varied, **structure, **measures, **_shift(blade, scene, interactions)})
     designs = [values for kind in variables.values() for values in kind.values()]
     keys = list(dict.fromkeys(key for values in designs for key in values))
-    return pd.DataFrame(rows, columns=["blade", "scene", *keys, *MEASURES, *(IN_OPERATION if operating else ())])
+    return pd.DataFrame(rows, columns=[*_NAMES, *keys, *MEASURES, *(IN_OPERATION if operating else ())])
 
 
-def compared_in(table: pd.DataFrame) -> Compared:
-    """All designs of a table, as one family or, where one key varies of blades and one of scenes, as their map."""
-    keys = [str(name) for name in table if name not in ("blade", "scene", *MEASURES, *IN_OPERATION)]
-    scene_keys = [key.startswith(SCENE_KEY) for key in keys]
-    kind = SCENE if all(scene_keys) else BLADE
-    if sum(scene_keys) == 1 and len(keys) == 2:
-        kind = BOTH
-    blades, scenes = (tuple(dict.fromkeys(table[column])) for column in ("blade", "scene"))
-    return Compared(kind, tuple(keys), blades, scenes)
+def compared_in(table: pd.DataFrame) -> dict[str, Compared]:
+    """What is compared of each family in a table, by its name; of a blade's and a scene's family together their map."""
+    families = {}
+    for name, rows in table.groupby("family", sort=False):
+        varied = rows.drop(columns=[*_NAMES, *MEASURES, *IN_OPERATION], errors="ignore").dropna(axis=1, how="all")
+        scene_keys = [key for key in map(str, varied) if key.startswith(SCENE_KEY)]
+        kind = SCENE if len(scene_keys) == varied.shape[1] else BLADE
+        if len(scene_keys) == 1 and varied.shape[1] == 2:
+            kind = BOTH
+        blades, scenes = (tuple(dict.fromkeys(rows[column])) for column in ("blade", "scene"))
+        families[str(name)] = Compared(kind, tuple(map(str, varied)), blades, scenes)
+    return families
 
 
 def _structure(campbell: xr.Dataset) -> dict[str, float]:

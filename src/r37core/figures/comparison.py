@@ -1,5 +1,7 @@
 """Blades compared: around an interaction that they share, and by their speeds above yield, scene by scene."""
 
+from collections.abc import Sequence
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
@@ -63,9 +65,12 @@ def draw_comparison(
     return figure
 
 
-def draw_ranking(ranking: pd.DataFrame) -> Figure:
-    """Bars of the speeds above yield in most and in some revolutions, a panel per scene, blades in the order of the first."""
-    scenes = list(dict.fromkeys(ranking["scene"]))
+def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> Figure:
+    """Bars of the speeds above yield in most and in some revolutions, a panel per scene, blades in the order of the first.
+
+    `scenes`: those that are drawn, or all.
+    """
+    scenes = [name for name in dict.fromkeys(ranking["scene"]) if scenes is None or name in scenes]
     first = ranking[ranking["scene"] == scenes[0]].sort_values("rank", kind="stable")["blade"]
     blades = list(dict.fromkeys([*first, *ranking["blade"]]))
     columns = min(len(scenes), 2)

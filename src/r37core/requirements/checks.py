@@ -1,5 +1,7 @@
 """Checks of requirements that need more than their section."""
 
+import numpy as np
+
 from r37core.config import Settings, operating_range
 from r37core.rom.naming import NAMED_MODES
 
@@ -11,12 +13,14 @@ def can_be_judged(settings: Settings) -> None:
     requirements, document = requirements_of(settings), settings.documents.config
     if not requirements.any:
         return
-    if operating_range(settings) is None:
+    operating = operating_range(settings)
+    if operating is None:
         raise document.refusal(
             ("requirements",), "requirements without operating", "operating: with idle and redline beside them"
         )
     campbell = settings.config.campbell
     modes = [*NAMED_MODES, *map(str, range(len(NAMED_MODES) + 1, campbell.modes + 1))]
+    asked: set[tuple[str, int]] = set()
     for number, margin in enumerate(requirements.campbell_margins):
         place = ("requirements", "campbell_margins", number)
         if margin.mode not in modes:
@@ -26,6 +30,18 @@ def can_be_judged(settings: Settings) -> None:
         if max(margin.engine_orders) > campbell.highest_engine_order:
             allowed = f"at most campbell.highest_engine_order ({campbell.highest_engine_order})"
             raise document.refusal((*place, "engine_orders"), f"{max(margin.engine_orders)}", allowed)
+        for order in margin.engine_orders:
+            if (margin.mode, order) in asked:
+                raise document.refusal((*place, "engine_orders"), f"{order} of {margin.mode} twice", "each once")
+            asked.add((margin.mode, order))
+        # a crossing above the diagram is not known, and may be too near
+        needed = max([dwell.stop for dwell in operating.dwell] or [operating.last]) / (1.0 - min(margin.least, 0.99))
+        if settings.structure.maximum_speed_rad_s < needed:
+            reach = f"{100.0 * margin.least:g}, for which crossings up to {needed:.6g} rad/s count"
+            allowed = (
+                f"a margin within structure.maximum_speed_rad_s ({settings.structure.maximum_speed_rad_s:g}), or that larger"
+            )
+            raise document.refusal((*place, "at_least_percent"), reach, allowed)
 
 
 def remarks(settings: Settings) -> list[str]:
@@ -33,8 +49,8 @@ def remarks(settings: Settings) -> list[str]:
     operating = operating_range(settings)
     if operating is None:
         return []
-    ends = {pair: plan.certain for pair, plan in settings.speed_plans.items()}
-    short = [pair for pair, speeds in ends.items() if min(speeds) > operating.first or max(speeds) < operating.last]
+    plans = settings.speed_plans.items()
+    short = [pair for pair, plan in plans if not operating.is_covered(np.array(sorted(plan.certain)))]
     if not short:
         return []
     named = ", ".join(f"{blade} in {scene}" for blade, scene in short[:3]) + (", ..." if len(short) > 3 else "")

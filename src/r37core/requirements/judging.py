@@ -113,11 +113,27 @@ class Evidence:
         """What runs have to cover, in words."""
         return f"speeds are not run from {self.operating.first:.6g} to {self.operating.last:.6g} rad/s"
 
+    def inside(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Speeds (rad/s) of the operating range, with its ends, and values there; between runs they are a straight line.
+
+        `values`, shape (speeds,), of all runs: where one is infinite, so is everything up to the next runs.
+        """
+        speeds, infinite = self.response["speed"].values, np.isinf(values)
+        ends = (self.operating.first, self.operating.last)
+        places = np.unique([*ends, *speeds[(speeds > ends[0]) & (speeds < ends[1])]])
+        inside = np.interp(places, speeds, np.where(infinite, 0.0, values))
+        return places, np.where(np.interp(places, speeds, infinite.astype(float)) > 0.0, np.inf, inside)
+
+    def worst(self, values: np.ndarray) -> tuple[float, float]:
+        """Largest of the values inside, and its speed (rad/s)."""
+        places, inside = self.inside(values)
+        place = int(inside.argmax())
+        return float(inside[place]), float(places[place])
+
     @property
-    def inside(self) -> xr.Dataset:
-        """The response at the speeds of the operating range."""
-        speeds = self.response["speed"].values
-        return self.response.isel(speed=(speeds >= self.operating.first) & (speeds <= self.operating.last))
+    def diverged(self) -> np.ndarray:
+        """Whether each run diverged, shape (speeds,)."""
+        return self.response["status"].values == RunStatus.DIVERGED
 
 
 def judge(requirements: Requirements, evidence: Evidence) -> Iterator[Judgement]:
@@ -126,7 +142,7 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[Judgement]
         yield _above_yield(requirements.above_yield, evidence)
     if requirements.goodman_share is not None:
         yield _goodman_share(requirements.goodman_share, evidence)
-    if requirements.used_lining is not None and np.isfinite(evidence.thickness):
+    if requirements.used_lining is not None:
         yield _used_lining(requirements.used_lining, evidence)
     if requirements.clearance is not None:
         yield _clearance(requirements.clearance, evidence)
@@ -140,7 +156,7 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[Judgement]
 def _above_yield(limit: float, evidence: Evidence) -> Judgement:
     name, unit, operating = "above_yield", "rad/s", evidence.operating
     if "share_of_revolutions_above_yield" not in evidence.response:
-        return Judgement(name, np.nan, limit, unit, note="stress is not among the scene's results")
+        return Judgement(name, np.nan, limit, unit, note="stress is not computed")
     if evidence.not_covered:
         return Judgement(name, np.nan, limit, unit, note=evidence.not_covered)
     exceedance = exceedance_of(evidence.response)
@@ -166,18 +182,15 @@ def _has_rotation(response: xr.Dataset) -> bool:
 
 
 def _goodman_share(limit: float, evidence: Evidence) -> Judgement:
-    name, inside = "goodman_share", evidence.inside
+    name = "goodman_share"
     if "goodman_share" not in evidence.response:
-        return Judgement(name, np.nan, limit, "1", note="fatigue is not among the scene's results")
+        return Judgement(name, np.nan, limit, "1", note="fatigue is not computed")
     if not has_strengths(evidence.response):
         return Judgement(name, np.nan, limit, "1", note="the material has no strengths")
     if evidence.not_covered:
         return Judgement(name, np.nan, limit, "1", note=evidence.not_covered)
-    share = inside["goodman_share"].where(inside["status"] != RunStatus.DIVERGED, np.inf).fillna(0.0)
-    worst = int(share.values.argmax())
-    speed = float(inside["speed"][worst])
-    note = "a run diverged" if np.isinf(share[worst]) else ""
-    return Judgement(name, float(share[worst]), limit, "1", begin=speed, end=speed, note=note)
+    share, speed = evidence.worst(np.where(evidence.diverged, np.inf, evidence.response["goodman_share"].values))
+    return Judgement(name, share, limit, "1", begin=speed, end=speed, note="a run diverged" if np.isinf(share) else "")
 
 
 def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
@@ -216,22 +229,24 @@ def _worst_motion(limit: float, evidence: Evidence) -> float:
 
 
 def _used_lining(limit: float, evidence: Evidence) -> Judgement:
-    name, unit = "used_lining", "%"
-    if "used_thickness" not in evidence.response:
-        return Judgement(name, np.nan, 100.0 * limit, unit, note="wear is not among the scene's results")
+    name, unit, response = "used_lining", "%", evidence.response
+    if not np.isfinite(evidence.thickness):
+        return Judgement(name, 0.0, 100.0 * limit, unit, note="no lining")
+    if "used_thickness" not in response:
+        return Judgement(name, np.nan, 100.0 * limit, unit, note="wear is not computed")
     if evidence.not_covered:
         return Judgement(name, np.nan, 100.0 * limit, unit, note=evidence.not_covered)
-    inside = evidence.inside
-    used = (inside["used_thickness"] / evidence.thickness).fillna(0.0)
-    worst = int(used.values.argmax())
-    through = bool((inside["worn_through_share"] > 0.0).any())
-    diverged = bool((inside["status"] == RunStatus.DIVERGED).any())
     # what is worn through has used all, and would use more
-    value = np.inf if through or diverged else 100.0 * float(used[worst])
-    speed = float(inside["speed"][int((inside["worn_through_share"] > 0.0).values.argmax()) if through else worst])
-    note = "worn through to the casing" if through else "a run diverged" if diverged else ""
-    if not note and "motion_at_end" in inside and inside["motion_at_end"][worst] == MotionAtEnd.GROWING:
-        note = "wear still grows at the end: a lower bound"
+    through = response["worn_through_share"].values > 0.0
+    used = 100.0 * np.nan_to_num(response["used_thickness"].values) / evidence.thickness
+    value, speed = evidence.worst(np.where(through | evidence.diverged, np.inf, used))
+    note = ""
+    if np.isinf(value):
+        note = "worn through to the casing" if evidence.worst(through.astype(float))[0] > 0.0 else "a run diverged"
+    elif "motion_at_end" in response:
+        nearest = int(np.abs(response["speed"].values - speed).argmin())
+        if response["motion_at_end"][nearest] == MotionAtEnd.GROWING:
+            note = "wear still grows at the end: a lower bound"
     if value == 0.0:
         speed = np.nan
     return Judgement(name, value, 100.0 * limit, unit, begin=speed, end=speed, note=note)
@@ -239,14 +254,12 @@ def _used_lining(limit: float, evidence: Evidence) -> Judgement:
 
 def _clearance(limit: float, evidence: Evidence) -> Judgement:
     name, unit = "clearance", "mm"
-    if "clearance" not in evidence.response:
+    if "clearance" not in evidence.response or evidence.response["clearance"].isnull().all():
         return Judgement(name, 1e3 * evidence.clearance, 1e3 * limit, unit, is_lower_limit=True)
     if evidence.not_covered:
         return Judgement(name, np.nan, 1e3 * limit, unit, is_lower_limit=True, note=evidence.not_covered)
-    inside = evidence.inside
-    smallest = inside["clearance"].min("contact_node")
-    speed = float(inside["speed"][int(smallest.values.argmin())])
-    return Judgement(name, 1e3 * float(smallest.min()), 1e3 * limit, unit, is_lower_limit=True, begin=speed, end=speed)
+    loss, speed = evidence.worst(-1e3 * evidence.response["clearance"].min("contact_node").values)
+    return Judgement(name, -loss, 1e3 * limit, unit, is_lower_limit=True, begin=speed, end=speed)
 
 
 def _campbell_margins(margin: CampbellMargin, evidence: Evidence) -> Iterator[Judgement]:
@@ -261,7 +274,7 @@ def _campbell_margins(margin: CampbellMargin, evidence: Evidence) -> Iterator[Ju
 def distance_from_operation(crossing: float, operating: OperatingRange) -> float:
     """Distance of a crossing (rad/s) from the nearest dwell, or without dwells from the range, as a share of its speed.
 
-    0 inside; 1 for a mode that never crosses the engine order.
+    0 inside; 1 for a mode that does not cross the engine order in the diagram, which reaches over all that is near.
     """
     if not np.isfinite(crossing):
         return 1.0

@@ -26,6 +26,10 @@ RANK = "rank_operating"
 """Column of ranking.csv: place by the integral inside the operating range."""
 
 
+_ROUNDING = 1e-9
+"""Share of a speed by which a margin in percent may miss a whole number."""
+
+
 @dataclass(frozen=True)
 class OperatingDwell:
     """A `share` of the operating time that the speed (rad/s) lies between `start` and `stop`."""
@@ -76,8 +80,8 @@ class OperatingRange:
         return self.redline * (1.0 + self.margin)
 
     def is_covered(self, speeds: np.ndarray) -> bool:
-        """Whether runs at these ascending speeds (rad/s) reach over the whole judged range."""
-        return bool(len(speeds) and speeds[0] <= self.first and speeds[-1] >= self.last)
+        """Whether runs at these ascending speeds (rad/s) reach over the whole judged range, but for rounding."""
+        return bool(len(speeds) and speeds[0] <= self.first * (1.0 + _ROUNDING) and speeds[-1] >= self.last * (1.0 - _ROUNDING))
 
     def overlap(self, begin: float, end: float) -> float:
         """Length (rad/s) of a range of speeds inside the judged range; below 0 by its distance where it lies outside."""
@@ -89,25 +93,26 @@ class OperatingRange:
 
     def time_density(self, speeds: np.ndarray) -> np.ndarray:
         """Density of the operating time over speed, relative to an even one, at each of these speeds (rad/s)."""
-        whole = self.last - self.first
-        density = np.full(len(speeds), 1.0 - sum(dwell.share for dwell in self.dwell))
+        whole = self.redline - self.idle
+        flown = (speeds >= self.idle) & (speeds <= self.redline)
+        density = np.where(flown, 1.0 - sum(dwell.share for dwell in self.dwell), 0.0)
         for dwell in self.dwell:
             there = (speeds >= dwell.start) & (speeds <= dwell.stop)
             density = density + np.where(there, dwell.share * whole / (dwell.stop - dwell.start), 0.0)
         return density
 
     def time_share(self, begin: float, end: float) -> float:
-        """Share of the operating time at speeds (rad/s) from `begin` to `end`, inside the judged range."""
-        return self.integral(np.array([begin, end]), np.ones(2), (begin, end)) / (self.last - self.first)
+        """Share of the operating time at speeds (rad/s) from `begin` to `end`."""
+        return self.integral(np.array([begin, end]), np.ones(2), (begin, end)) / (self.redline - self.idle)
 
-    def integral(self, speeds: np.ndarray, values: np.ndarray, within: tuple[float, float] | None = None) -> float:
-        r"""Integral (rad/s) of `values` at ascending `speeds` over the judged range, weighted by the operating time.
+    def integral(self, speeds: np.ndarray, values: np.ndarray, within: tuple[float, float] = (0.0, np.inf)) -> float:
+        r"""Integral (rad/s) of `values` at ascending `speeds` from idle to redline, weighted by the operating time.
 
-        (last - first) \int values(speed) p(speed) d speed, with p the density of the operating time; without dwells the plain
+        (redline - idle) \int values(speed) p(speed) d speed, with p the density of the operating time; without dwells the plain
         integral. Between speeds the values are a straight line, and the density is constant between the ends of dwells.
-        `within`: begin and end (rad/s) of a part of the range.
+        `within`: begin and end (rad/s) of the part of the range that counts.
         """
-        begin, end = within or (self.first, self.last)
+        begin, end = max(within[0], self.idle), min(within[1], self.redline)
         ends = [begin, end, *(side for dwell in self.dwell for side in (dwell.start, dwell.stop))]
         inside = np.unique([speed for speed in (*speeds, *ends) if begin <= speed <= end])
         pieces = 0.5 * (np.interp(inside[1:], speeds, values) + np.interp(inside[:-1], speeds, values)) * np.diff(inside)
