@@ -101,12 +101,14 @@ def _picture(table: pd.DataFrame, file: Path | str) -> None:
     figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 3.4))
     start = table[table["design"] == START].iloc[0]
     tried = table[table["design"] != START]
+    feasible = tried[tried["keeps"] & (tried[BARE] <= start[BARE])].sort_values("lined")
     for axes in panels:
         _draw_designs(axes, tried, start)
-        axes.set_xlabel("lining (rad/s)")
-    panels[0].set_ylabel("bare casing (rad/s)")
-    near = tried[tried["keeps"] & (tried["lined"] <= start["lined"]) & (tried[BARE] <= start[BARE])]
-    lowest = near["lined"].min() if len(near) else start["lined"]
+        best: dict[str, Any] = {"color": style.COLOURS[3], "markersize": 9, "zorder": 6, "linestyle": "none"}
+        axes.plot(feasible["lined"][:1], feasible[BARE][:1], marker="*", label="best design", **best)
+        axes.set_xlabel("integral on lining (rad/s)")
+    panels[0].set_ylabel("integral in a bare casing (rad/s)")
+    lowest = min(feasible["lined"].min(), start["lined"])
     panels[1].set_xlim(lowest - 60.0, start["lined"] + 60.0)
     panels[1].set_ylim(-4.0, 2.5 * start[BARE])
     panels[1].set_title("near the start", fontsize=8)

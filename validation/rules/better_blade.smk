@@ -35,6 +35,9 @@ module checked_best:
             blades_file="validation/better_blades.yaml",
             blades=["Free", "Better"],
             scenes=["material_abradable", "direct"],
+            # fewer speeds than the overlay
+            speeds=[{"start": 750, "stop": 2000, "step": 40}],
+            second_motions={"step_rad_s": 20},
         )
 
 
@@ -51,7 +54,7 @@ module checked_rotor:
             blades=["Free", "Better"],
             scenes=["rotor_abradable"],
             fidelity="draft",
-            speeds=[{"start": 750, "stop": 2000, "step": 20}],
+            speeds=[{"start": 750, "stop": 2000, "step": 40}],
             run={"name": "search_rotor", "engine": "validation/engine_numbers.json"},
         )
 
