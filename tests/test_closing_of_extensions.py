@@ -121,6 +121,6 @@ def test_search(tmp_path):
     found.to_netcdf(tmp_path / "search.nc")
     said = search.closing(tmp_path).replace(str(tmp_path), "results")
     best = "the best, d0001: lined 13.2 rad/s (the start 70.6), mass 2.1 kg (the start 2)"
-    assert said == f"2 designs, 1 of them keep all constraints; {best}; entries and STEP files in results/search/best"
+    assert said == f"2 designs, 1 of them keep all constraints; {best}; entries in results/search/best"
     found.assign(order=("design", [0, 0, 0])).to_netcdf(tmp_path / "search.nc")
     assert search.closing(tmp_path) == "2 designs, 1 of them keep all constraints"
