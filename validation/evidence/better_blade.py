@@ -43,8 +43,7 @@ def searches(input: Any, output: Any, params: Any) -> None:
         )
         name = best_of(search)
         rows.append([words, feasible, *(_design(search, name, Path(file).parent) if name else [""] * len(rows[0][2:]))])
-    keys = [str(key) for key in search["variable"].values]
-    head = ["search", "keep all constraints", "lining (rad/s)", "bare casing (rad/s)", *keys, "mass (%)", "1B (%)"]
+    head = ["search", "keep all constraints", "lining (rad/s)", "bare casing (rad/s)", "mass (%)", "1B (%)"]
     write_table(head, rows, output.table)
 
 
@@ -55,10 +54,9 @@ def best_of(search: xr.Dataset) -> str | None:
 
 
 def _design(search: xr.Dataset, name: str, folder: Path) -> list[str]:
-    """Integrals in both scenes, values of the variables, and mass and frequency in percent of the start's."""
+    """Integrals in both scenes, and mass and frequency in percent of the start's."""
     of_design = search.sel(design=name)
     cells = [integral_text(folder / "search" / name / BLADE / scene / "response.nc") for scene in SCENES]
-    cells += [f"{float(value):.3g}" for value in of_design["value"]]
     relative = 100.0 * of_design["constraint_value"] / search["constraint_value"].sel(design=START)
     return [*cells, *(f"{float(relative.sel(constraint=constraint)):.1f}" for constraint in ("mass", "first_bending"))]
 
@@ -101,12 +99,14 @@ def _picture(table: pd.DataFrame, file: Path | str) -> None:
     figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 3.4))
     start = table[table["design"] == START].iloc[0]
     tried = table[table["design"] != START]
+    feasible = tried[tried["keeps"] & (tried[BARE] <= start[BARE])].sort_values("lined")
     for axes in panels:
         _draw_designs(axes, tried, start)
-        axes.set_xlabel("lining (rad/s)")
-    panels[0].set_ylabel("bare casing (rad/s)")
-    near = tried[tried["keeps"] & (tried["lined"] <= start["lined"]) & (tried[BARE] <= start[BARE])]
-    lowest = near["lined"].min() if len(near) else start["lined"]
+        best: dict[str, Any] = {"color": style.COLOURS[3], "markersize": 9, "zorder": 6, "linestyle": "none"}
+        axes.plot(feasible["lined"][:1], feasible[BARE][:1], marker="*", label="best design", **best)
+        axes.set_xlabel("integral on lining (rad/s)")
+    panels[0].set_ylabel("integral in a bare casing (rad/s)")
+    lowest = min(feasible["lined"].min(), start["lined"])
     panels[1].set_xlim(lowest - 60.0, start["lined"] + 60.0)
     panels[1].set_ylim(-4.0, 2.5 * start[BARE])
     panels[1].set_title("near the start", fontsize=8)
@@ -129,23 +129,23 @@ def _draw_designs(axes: Axes, tried: pd.DataFrame, start: pd.Series) -> None:
 
 
 def checks(input: Any, output: Any, params: Any) -> None:
-    """The start and the best design at another level. Inputs: motions, rotors. Params: folder, blades. Output: table.
+    """The start and some best designs at another level. Inputs: motions, rotors. Output: table. Params: folder, blades (words).
 
-    Integrals of the nominal run, of all members, of the worst of all motions at each speed, and of a rotor's blades.
+    Integrals of all members, of the motion from rest and of the worst of all motions at each speed; lengths of rotors.
     """
     motions, folder = read_dataset(input.motions), Path(params.folder)
-    rows = []
+    cells: dict[str, list[str]] = {}
     for scene, words in SCENES.items():
-        members = {blade: _members(folder, blade, scene) for blade in params.blades}
-        better = sum(members[params.blades[1]][name] < value for name, value in members[params.blades[0]].items())
-        for blade, values in members.items():
-            row = [words, blade, integral_text(folder / blade / scene / "response.nc"), _range(values)]
-            row += [f"{better} of {len(values)}" if blade == params.blades[1] else ""]
-            rows.append([*row, *_motions(motions.sel(blade=blade, scene=scene))])
-    for blade, file in zip(params.blades, input.rotors, strict=True):
-        rows.append(["rotor", blade, f"{_rotor(read_dataset(file)):.0f}", *[""] * 4])
-    head = ["scene", "blade", "nominal (rad/s)", "members (rad/s)", "better member by member", "from rest (rad/s)"]
-    write_table([*head, "worst motion (rad/s)"], rows, output.table)
+        start = _members(folder, BLADE, scene)
+        for blade in params.blades:
+            members, (rest, worst) = _members(folder, blade, scene), _motions(motions.sel(blade=blade, scene=scene))
+            better = sum(members[member] < value for member, value in start.items())
+            share = "" if blade == BLADE else f"; better in {better} of {len(start)}"
+            cells.setdefault(f"{words}: from rest, worst motion", []).append(f"{rest}, {worst}")
+            cells.setdefault(f"{words}: members", []).append(f"{_range(members)}{share}")
+    cells["rotor"] = [_rotor(read_dataset(file)) for file in input.rotors]
+    rows = [[name, *row] for name, *row in zip(params.blades.values(), *cells.values(), strict=True)]
+    write_table(["rad/s", *cells], rows, output.table)
 
 
 def _members(folder: Path, blade: str, scene: str) -> dict[str, float]:
@@ -167,7 +167,11 @@ def _motions(pair: xr.Dataset) -> list[str]:
     return [f"{float(share.integrate('speed')):.0f}" for share in several]
 
 
-def _rotor(rotor: xr.Dataset) -> float:
-    """Share of the blades above yield in the last revolution, integrated over speed (rad/s); all where the run diverged."""
+def _rotor(rotor: xr.Dataset) -> str:
+    """Length (rad/s) of the speeds with a blade above yield in the last revolution; in brackets integral of their share.
+
+    All are above it where the run diverged.
+    """
     shares = rotor["blades_above_yield"].where(rotor["status"] != RunStatus.DIVERGED, 1.0)
-    return float(shares.integrate("speed"))
+    some, share = (float(part.integrate("speed")) for part in ((shares > 0.0).astype(float), shares))
+    return f"{some:.0f} ({share:.0f})"

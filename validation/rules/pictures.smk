@@ -67,7 +67,7 @@ PAGE_PICTURES = {
     "rotor": "results/runs/rotors/figures/rotor_Ref__rotor_abradable.png",
     "run_up_rates": "results/runs/run_ups/figures/run_up_rates_abradable.png",
     "run_ups_Ref": "results/runs/run_ups/figures/run_ups_Ref__abradable.png",
-    "search_slices": "results/runs/search/figures/search_slices.png",
+    "search_slices": "results/runs/search_surrogate_2/figures/search_slices.png",
     "tolerances_Ref": "results/runs/members/figures/tolerances_Ref__material_abradable.png",
     "which_blade": "results/runs/patches/figures/ranking.png",
 }
