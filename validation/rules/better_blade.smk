@@ -6,6 +6,7 @@ SEARCHES = {
     "search_surrogate_2": {"method": "surrogate", "seed": 2},
     "search_surrogate_3": {"method": "surrogate", "seed": 3},
     "search_quasi_random_1": {"method": "quasi_random", "seed": 1},
+    "search_quasi_random_2": {"method": "quasi_random", "seed": 2},
 }
 SEARCHED = {
     f"results/runs/{name}/search.nc": f"{WORDS[changes['method']]}, seed {changes['seed']}"
