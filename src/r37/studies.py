@@ -7,6 +7,7 @@ from typing import Any, Unpack
 
 import pandas as pd
 
+from r37core.config import ConfigError
 from r37core.designs.compared import SCENE_KEY
 
 from .arguments import Speeds, mapping, plain_value, speed_keys
@@ -125,6 +126,8 @@ def designs(
     else:
         example = 'keys of blades.yaml and their values, as in {"sweep_percent": [50, 100]}'
         varied, combine = mapping(vary, "vary", example), options.get("combine", "grid")
+        if not varied:
+            raise ConfigError(f"vary: found nothing that varies; allowed: {example}")
         blade_keys = {key: values for key, values in varied.items() if not key.startswith(SCENE_KEY)}
         entry = {"vary": blade_keys, "combine": combine} if blade_keys else {}
         inner = {key.removeprefix(SCENE_KEY): values for key, values in varied.items() if key.startswith(SCENE_KEY)}
