@@ -171,8 +171,8 @@ def write_entries(
 
 
 _SCENES_HEADER = """\
-# The scenes of a search and of its best designs, as a file of their own. To run these, with the blades_file and blades of the search
-# or, where the blade varies, those of blades.yaml next to this file:
+# The scenes of a search and of its best designs, as a file of their own. To run these, with the blade of the search or, where
+# that varies, those of blades.yaml next to this file:
 #   snakemake all_blades --configfile config/config.yaml --config blades_file=FILE blades='[BLADE]' \\
 #     scenes_file={file} scenes='[{names}]' fidelity=standard run='{{name: best}}'
 """
