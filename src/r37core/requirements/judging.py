@@ -203,7 +203,7 @@ def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
 
 
 def _members(limit: float, evidence: Evidence) -> JudgedMembers:
-    """JudgedMembers whose speeds above yield keep the limit."""
+    """Members under tolerances, and the share of them whose speeds above yield keep the limit."""
     if evidence.members is None or "share_of_revolutions_above_yield" not in evidence.members:
         return JudgedMembers()
     lengths = []
