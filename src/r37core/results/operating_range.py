@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Any
 
 import numpy as np
 
 from r37core.declared import Key
-
-if TYPE_CHECKING:
-    from .exceedance import SpeedRange
-
 
 MEASURES = LENGTH, INTEGRAL, SCATTER, GOODMAN = (
     "length_certain_operating_rad_s",
@@ -87,8 +83,8 @@ class OperatingRange:
         """Length (rad/s) of a range of speeds inside the judged range; below 0 by its distance where it lies outside."""
         return min(end, self.last) - max(begin, self.first)
 
-    def length(self, ranges: Iterable[SpeedRange]) -> float:
-        """Length (rad/s) of these ranges inside the judged range."""
+    def length(self, ranges: Iterable[Any]) -> float:
+        """Length (rad/s) of ranges of speeds, each with a `begin` and an `end` (rad/s), inside the judged range."""
         return float(sum(max(0.0, self.overlap(part.begin, part.end)) for part in ranges))
 
     def time_density(self, speeds: np.ndarray) -> np.ndarray:
