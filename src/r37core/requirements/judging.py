@@ -22,7 +22,7 @@ MEETS, FAILS, UNKNOWN = VERDICTS = ("meets", "fails", "unknown")
 
 @dataclass(frozen=True)
 class JudgedMembers:
-    """JudgedMembers under tolerances: their `number`, and the `share` of them that meets a requirement; NaN without any."""
+    """Members under tolerances: their `number`, and the `share` of them that meets a requirement; NaN without any."""
 
     number: float = np.nan
     share: float = np.nan
@@ -106,15 +106,11 @@ class Evidence:
     def not_covered(self) -> str:
         """Why nothing can be said of the operating range; empty where its speeds are run."""
         speeds = self.response["speed"].values[self.response["status"].values != RunStatus.NOT_RUN]
-        return "" if self.operating.is_covered(speeds) else self.range_text
+        first, last = self.operating.first, self.operating.last
+        return "" if self.operating.is_covered(speeds) else f"speeds are not run from {first:.6g} to {last:.6g} rad/s"
 
-    @property
-    def range_text(self) -> str:
-        """What runs have to cover, in words."""
-        return f"speeds are not run from {self.operating.first:.6g} to {self.operating.last:.6g} rad/s"
-
-    def inside(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Speeds (rad/s) of the operating range, with its ends, and values there; between runs they are a straight line.
+    def worst(self, values: np.ndarray) -> tuple[float, float]:
+        """Largest value in the operating range, and its speed (rad/s); between runs values are a straight line.
 
         `values`, shape (speeds,), of all runs: where one is infinite, so is everything up to the next runs.
         """
@@ -122,11 +118,7 @@ class Evidence:
         ends = (self.operating.first, self.operating.last)
         places = np.unique([*ends, *speeds[(speeds > ends[0]) & (speeds < ends[1])]])
         inside = np.interp(places, speeds, np.where(infinite, 0.0, values))
-        return places, np.where(np.interp(places, speeds, infinite.astype(float)) > 0.0, np.inf, inside)
-
-    def worst(self, values: np.ndarray) -> tuple[float, float]:
-        """Largest of the values inside, and its speed (rad/s)."""
-        places, inside = self.inside(values)
+        inside = np.where(np.interp(places, speeds, infinite.astype(float)) > 0.0, np.inf, inside)
         place = int(inside.argmax())
         return float(inside[place]), float(places[place])
 
