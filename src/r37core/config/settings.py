@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from itertools import product
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -161,14 +162,13 @@ class Settings:
         general, *special = (refusals.of(_planned, document, *section, step) for section in [((), self.config), *sections])
         refusals.tell()
         assert general
-        return {
-            (blade, scene): next(
-                (plan for (_, rule), plan in zip(sections, special, strict=True) if plan and _fits(self, rule, blade, scene)),
-                general,
-            )
-            for blade in self.blade_names
-            for scene in self.scene_names
-        }
+        plans = {(blade, scene): general for blade in self.blade_names for scene in self.scene_names}
+        # of the rules that fit the first one decides
+        for rule, plan in zip(reversed(self.config.speeds_for), reversed(special), strict=True):
+            assert plan
+            blades, scenes = blades_named(self, rule.blades or "all"), scenes_named(self, rule.scenes or "all")
+            plans |= {pair: plan for pair in product(blades, scenes) if pair in plans}
+        return plans
 
     @property
     def results(self) -> Path:
@@ -268,11 +268,6 @@ def operating_range(settings: Settings) -> OperatingRange | None:
     """Speeds in operation, where config.yaml has them."""
     section = settings.config.operating
     return None if section is None else section.operating()
-
-
-def _fits(settings: Settings, rule: SpeedRule, blade: str, scene: str) -> bool:
-    """Whether a rule of speeds is for this blade in this scene."""
-    return blade in blades_named(settings, rule.blades or "all") and scene in scenes_named(settings, rule.scenes or "all")
 
 
 def location_of_contact(settings: Settings, blade: str) -> str:

@@ -117,7 +117,8 @@ def _that_run(designs: Designs[Any], names: list[str]) -> dict[str, Family]:
 
 
 def _designs(family: Family, names: list[str]) -> list[str]:
-    return [design for design in family.designs if design in set(names)]
+    there = set(names)
+    return [design for design in family.designs if design in there]
 
 
 def _column(kind: str, key: str) -> str:

@@ -125,9 +125,8 @@ class Sweep:
     @cached_property
     def drawn_scenes(self) -> list[str]:
         """Scenes with figures of their own: those of no family, or where there are none some of the designs."""
-        settings = self.settings
-        plain = [name for name in settings.scenes if name not in settings.scene_designs.family_of]
-        designs = list(settings.scenes)
+        designs, family_of = list(self.settings.scenes), self.settings.scene_designs.family_of
+        plain = [name for name in designs if name not in family_of]
         count = min(MOST_DRAWN, len(designs))
         return plain or [designs[round(place * (len(designs) - 1) / max(count - 1, 1))] for place in range(count)]
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 import xarray as xr
 
-from r37core.results.exceedance import CERTAIN, Exceedance, SpeedRange, exceedance_of, is_lined
+from r37core.results.exceedance import CERTAIN, Exceedance, SpeedRange, exceedance_of
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
-from r37core.results.other_motions import swept
+from r37core.results.other_motions import exceedance_of_worst, swept
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -212,12 +212,9 @@ def _worst_motion(limit: float, evidence: Evidence) -> float:
     if evidence.motions is None or "share_of_revolutions_above_yield" not in evidence.motions:
         return np.nan
     pair = swept(evidence.motions)
-    speeds = pair["speed"].values
-    if not evidence.operating.is_covered(speeds):
+    if not evidence.operating.is_covered(pair["speed"].values):
         return np.nan
-    diverged = pair["status"] == RunStatus.DIVERGED
-    shares = pair["share_of_revolutions_above_yield"].where(~diverged, 1.0).max("motion").values
-    return limit - evidence.operating.length(Exceedance(speeds, shares, not is_lined(pair)).ranges(CERTAIN))
+    return limit - evidence.operating.length(exceedance_of_worst(pair).ranges(CERTAIN))
 
 
 def _used_lining(limit: float, evidence: Evidence) -> Judgement:

@@ -48,13 +48,16 @@ def _worst(pair: xr.Dataset) -> dict[str, float]:
         return {}
     row = {"largest_rms_worst_m": float(pair["motion_mean"].max())}
     if "share_of_revolutions_above_yield" in pair:
-        diverged = pair["status"] == RunStatus.DIVERGED
-        shares = pair["share_of_revolutions_above_yield"].where(~diverged, 1.0)
-        several = {"rest": shares.sel(motion=REST), "worst": shares.max("motion")}
-        for name, share in several.items():
-            exceedance = Exceedance(pair["speed"].values, share.values, not is_lined(pair))
-            row[f"length_certain_{name}_rad_s"] = exceedance.length(CERTAIN)
+        row["length_certain_rest_rad_s"] = exceedance_of_worst(pair.sel(motion=[REST])).length(CERTAIN)
+        row["length_certain_worst_rad_s"] = exceedance_of_worst(pair).length(CERTAIN)
     return row
+
+
+def exceedance_of_worst(pair: xr.Dataset) -> Exceedance:
+    """Revolutions above yield of the worst motion at each speed, of `swept` motions with stress; all of one that diverged."""
+    diverged = pair["status"] == RunStatus.DIVERGED
+    shares = pair["share_of_revolutions_above_yield"].where(~diverged, 1.0).max("motion")
+    return Exceedance(pair["speed"].values, shares.values, not is_lined(pair))
 
 
 def summary_with_motions(summary: pd.DataFrame, motions: xr.Dataset) -> pd.DataFrame:
