@@ -18,14 +18,13 @@ from r37core.plans.sweep_plan import MAPS, Datasets, Rounds, Simulations, Sweep
 from r37core.product.extensions import beside, sampling_of
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing as drawing_of
 from r37core.product.targets import (
-    motion_files,
+    offered,
     panel_files,
     panel_modules,
     panel_parameters,
     simulated,
     tables,
     targets,
-    verdict_file,
 )
 
 ROOT = Path(workflow.current_basedir).parent.parent
@@ -47,7 +46,7 @@ structure = Structure(settings, samples)
 imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
 simulations, rounds, joined = Simulations(sweep), Rounds(sweep), Datasets(sweep)
-more_motions = motion_files(sweep)
+more_motions = offered("motions", sweep)
 # speeds in operation, by which results are judged as well
 operating = to_plain(operating_range(settings))
 drawing = partial(drawing_of, code, operating)

@@ -38,7 +38,7 @@ use rule figure as design_figure with:
 
 use rule figure as design_map with:
     input:
-        **verdict_file(sweep),
+        **offered("verdict", sweep),
         table=rules.design_table.output[0],
     output:
         **pictures("map_{family}", "Families", EVERY_SCENE, "map of {family}"),

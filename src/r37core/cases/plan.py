@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from r37core.config import Settings, scenes_named
+from r37core.config.cross_checks import engine_order_is_known
 from r37core.config.document import ConfigRefusals
 from r37core.config.fidelity import Level
 from r37core.config.section import AllOrNames, LeftOut, Name, Section, left_out
@@ -136,12 +137,6 @@ def names_are_known(settings: Settings, extension: str, section: CasesSection, l
     if section.base:
         refusals.of(documents.known, (extension, "base"), [section.base], settings.levels, documents.levels)
     refusals.of(documents.known, (extension, "parameters", "level"), list(levels), settings.levels, documents.levels)
-    refusals.of(_order_is_in_the_diagram, settings, extension, section)
+    if section.engine_order:
+        refusals.of(engine_order_is_known, settings, (extension, "engine_order"), section.engine_order)
     refusals.tell()
-
-
-def _order_is_in_the_diagram(settings: Settings, extension: str, section: CasesSection) -> None:
-    highest = settings.config.campbell.highest_engine_order
-    if section.engine_order and section.engine_order > highest:
-        allowed = f"at most campbell.highest_engine_order ({highest})"
-        raise settings.documents.config.refusal((extension, "engine_order"), f"{section.engine_order}", allowed)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from r37core.alignment import padded
+from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, patches_on
 from r37core.rounding import rounded_up
 from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
@@ -72,13 +73,25 @@ def windows_have_crossings(settings: Settings) -> None:
     """No window lies above crossings that the Campbell diagram does not have."""
     if not any(plan.refined for plan in settings.speed_plans.values()):
         return
-    highest, refining = settings.config.campbell.highest_engine_order, settings.config.refinement
+    refining = settings.config.refinement
     for path, windows in {("refinement",): refining.windows, ("refinement", "direct"): refining.direct.windows}.items():
         for number, window in enumerate(windows):
-            if window.highest_engine_order > highest:
-                place: KeyPath = (*path, "windows", number, "highest_engine_order")
-                allowed = f"at most campbell.highest_engine_order ({highest})"
-                raise settings.documents.config.refusal(place, f"{window.highest_engine_order}", allowed)
+            place: KeyPath = (*path, "windows", number, "highest_engine_order")
+            engine_order_is_known(settings, place, window.highest_engine_order)
+
+
+def engine_order_is_known(settings: Settings, path: KeyPath, engine_order: int) -> None:
+    """ConfigError at `path` of config.yaml for an engine order above those whose crossings the Campbell diagram has."""
+    highest = settings.config.campbell.highest_engine_order
+    if engine_order > highest:
+        allowed = f"at most campbell.highest_engine_order ({highest})"
+        raise settings.documents.config.refusal(path, f"{engine_order}", allowed)
+
+
+def pairs_not_covered(settings: Settings, operating: OperatingRange) -> list[tuple[str, str]]:
+    """Blades and scenes whose speeds do not reach over the whole operating range."""
+    plans = settings.speed_plans.items()
+    return [pair for pair, plan in plans if not operating.is_covered(np.array(sorted(plan.certain)))]
 
 
 def history_speeds_are_run(settings: Settings) -> None:

@@ -1,7 +1,7 @@
 """Files that the rule all_blades makes where the configuration asks for it, and what extensions add to it and the explorer."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from r37core.config.remarks import elastic_casings
 from r37core.plans.extension import Panel
@@ -60,16 +60,10 @@ def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
 _PACKAGE = Path(__file__).parent.parent
 
 
-def motion_files(sweep: Sweep) -> dict[str, str]:
-    """The dataset of more motions than that from rest, as the input `motions`; none in a run without one."""
-    files = [file for extension in EXTENSIONS for file in filled(extension.motions(sweep))]
-    return {"motions": files[0]} if files else {}
-
-
-def verdict_file(sweep: Sweep) -> dict[str, str]:
-    """The table of requirements, as the input `verdict`; none in a run without one."""
-    files = [file for extension in EXTENSIONS for file in filled(extension.verdict(sweep))]
-    return {"verdict": files[0]} if files else {}
+def offered(what: Literal["motions", "verdict"], sweep: Sweep) -> dict[str, str]:
+    """File that an extension offers to other rules, `motions` or `verdict`, as the input of that name; none without one."""
+    files = [file for extension in EXTENSIONS for file in filled(getattr(extension, what)(sweep))]
+    return {what: files[0]} if files else {}
 
 
 def panel_files(sweep: Sweep) -> dict[str, str]:

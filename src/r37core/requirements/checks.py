@@ -1,9 +1,8 @@
 """Checks of requirements that need more than their section."""
 
-import numpy as np
-
 from r37core.config import Settings, operating_range
-from r37core.rom.naming import NAMED_MODES
+from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
+from r37core.rom.naming import mode_names
 
 from .plan import requirements_of
 
@@ -18,8 +17,7 @@ def can_be_judged(settings: Settings) -> None:
         raise document.refusal(
             ("requirements",), "requirements without operating", "operating: with idle and redline beside them"
         )
-    campbell = settings.config.campbell
-    modes = [*NAMED_MODES, *map(str, range(len(NAMED_MODES) + 1, campbell.modes + 1))]
+    modes = mode_names(settings.config.campbell.modes)
     asked: set[tuple[str, int]] = set()
     for number, margin in enumerate(requirements.campbell_margins):
         place = ("requirements", "campbell_margins", number)
@@ -27,9 +25,7 @@ def can_be_judged(settings: Settings) -> None:
             raise document.refusal((*place, "mode"), f"'{margin.mode}'", ", ".join(modes))
         if not margin.engine_orders:
             raise document.refusal((*place, "engine_orders"), "none", "one or more engine orders")
-        if max(margin.engine_orders) > campbell.highest_engine_order:
-            allowed = f"at most campbell.highest_engine_order ({campbell.highest_engine_order})"
-            raise document.refusal((*place, "engine_orders"), f"{max(margin.engine_orders)}", allowed)
+        engine_order_is_known(settings, (*place, "engine_orders"), max(margin.engine_orders))
         for order in margin.engine_orders:
             if (margin.mode, order) in asked:
                 raise document.refusal((*place, "engine_orders"), f"{order} of {margin.mode} twice", "each once")
@@ -49,9 +45,7 @@ def remarks(settings: Settings) -> list[str]:
     operating = operating_range(settings)
     if operating is None:
         return []
-    plans = settings.speed_plans.items()
-    short = [pair for pair, plan in plans if not operating.is_covered(np.array(sorted(plan.certain)))]
-    if not short:
+    if not (short := pairs_not_covered(settings, operating)):
         return []
     named = ", ".join(f"{blade} in {scene}" for blade, scene in short[:3]) + (", ..." if len(short) > 3 else "")
     reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"

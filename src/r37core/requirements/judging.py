@@ -11,7 +11,7 @@ import xarray as xr
 from r37core.results.exceedance import CERTAIN, Exceedance, SpeedRange, exceedance_of
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
-from r37core.results.other_motions import exceedance_of_worst, swept
+from r37core.results.other_motions import swept, worst_exceedance
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -214,7 +214,7 @@ def _worst_motion(limit: float, evidence: Evidence) -> float:
     pair = swept(evidence.motions)
     if not evidence.operating.is_covered(pair["speed"].values):
         return np.nan
-    return limit - evidence.operating.length(exceedance_of_worst(pair).ranges(CERTAIN))
+    return limit - evidence.operating.length(worst_exceedance(pair).ranges(CERTAIN))
 
 
 def _used_lining(limit: float, evidence: Evidence) -> Judgement:

@@ -48,12 +48,12 @@ def _worst(pair: xr.Dataset) -> dict[str, float]:
         return {}
     row = {"largest_rms_worst_m": float(pair["motion_mean"].max())}
     if "share_of_revolutions_above_yield" in pair:
-        row["length_certain_rest_rad_s"] = exceedance_of_worst(pair.sel(motion=[REST])).length(CERTAIN)
-        row["length_certain_worst_rad_s"] = exceedance_of_worst(pair).length(CERTAIN)
+        row["length_certain_rest_rad_s"] = worst_exceedance(pair.sel(motion=[REST])).length(CERTAIN)
+        row["length_certain_worst_rad_s"] = worst_exceedance(pair).length(CERTAIN)
     return row
 
 
-def exceedance_of_worst(pair: xr.Dataset) -> Exceedance:
+def worst_exceedance(pair: xr.Dataset) -> Exceedance:
     """Revolutions above yield of the worst motion at each speed, of `swept` motions with stress; all of one that diverged."""
     diverged = pair["status"] == RunStatus.DIVERGED
     shares = pair["share_of_revolutions_above_yield"].where(~diverged, 1.0).max("motion")

@@ -14,6 +14,11 @@ NAMED_MODES = ("1B", "1T", "2B")
 FIRST_BENDING, FIRST_TORSION, _ = NAMED_MODES
 
 
+def mode_names(count: int) -> tuple[str, ...]:
+    """Names of the first `count` modes, 3 or more: those without a name of their own are numbered."""
+    return (*NAMED_MODES, *map(str, range(len(NAMED_MODES) + 1, count + 1)))
+
+
 def mode_label(name: str) -> str:
     """Label of a mode in a legend: those without a name of their own are numbered."""
     return name if name in NAMED_MODES else f"mode {name}"

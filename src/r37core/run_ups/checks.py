@@ -3,7 +3,7 @@
 import math
 
 from r37core.config import Settings, scenes_named
-from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
+from r37core.config.cross_checks import engine_order_is_known, names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
 from r37core.config.speed_choice import length_of_run
 from r37core.yaml_file import KeyPath
@@ -33,12 +33,8 @@ def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
             check_highest(max(choice.start, choice.stop), highest)
     except RunUpError as error:
         raise document.error((*path, entry.key_of_length), str(error)) from None
-    if entry.crossing and entry.crossing.engine_order > settings.config.campbell.highest_engine_order:
-        raise document.refusal(
-            (*path, "crossing", "engine_order"),
-            f"{entry.crossing.engine_order}",
-            f"at most campbell.highest_engine_order ({settings.config.campbell.highest_engine_order})",
-        )
+    if entry.crossing:
+        engine_order_is_known(settings, (*path, "crossing", "engine_order"), entry.crossing.engine_order)
     for scene in scenes_named(settings, entry.scenes):
         if entry.lining == "worn" and settings.scene_designs.entries[scene].lining is None:
             lining = f"worn in the scene '{scene}', which has no lining"

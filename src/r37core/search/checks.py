@@ -1,16 +1,15 @@
 """What the section of a search alone cannot check."""
 
-import numpy as np
-
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
 from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.blades import SHARES, BladeEntry
 from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, blade_number, changed_scene
+from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.document import Document
 from r37core.config.messages import did_you_mean, single_line
-from r37core.rom.naming import NAMED_MODES
+from r37core.rom.naming import mode_names
 from r37core.yaml_file import KeyPath
 
 from .designs import SearchDesigns
@@ -61,10 +60,9 @@ def _operation_is_known(settings: Settings) -> None:
         return
     if operating is None:
         raise document.refusal(("search",), f"{named[0]}, a measure in operation", "a section operating, or another measure")
-    for (_, scene), plan in settings.speed_plans.items():
-        if not operating.is_covered(np.array(sorted(plan.certain))):
-            reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
-            raise document.refusal(("operating",), f"{reach}, which the speeds of {scene} do not reach over", "speeds that do")
+    for _, scene in pairs_not_covered(settings, operating)[:1]:
+        reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
+        raise document.refusal(("operating",), f"{reach}, which the speeds of {scene} do not reach over", "speeds that do")
 
 
 def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, values: dict[str, float]) -> None:
@@ -98,8 +96,7 @@ def _is_of_scenes(designs: SearchDesigns, document: Document, key: str) -> None:
 
 def _scenes_are_run(settings: Settings) -> None:
     entry, document = designs_of(settings).entry, settings.documents.config
-    highest = settings.config.campbell.highest_engine_order
-    modes = (*NAMED_MODES, *map(str, range(len(NAMED_MODES) + 1, settings.config.campbell.modes + 1)))
+    modes = mode_names(settings.config.campbell.modes)
     for where in ("objectives", "constraints"):
         for name, quantity in getattr(entry, where).items():
             path = ("search", where, name)
@@ -114,9 +111,8 @@ def _scenes_are_run(settings: Settings) -> None:
             if quantity.mode is not None and quantity.mode not in modes:
                 allowed = f"one of the Campbell diagram, {', '.join(modes)} (campbell.modes)"
                 raise document.refusal((*path, "mode"), single_line(quantity.mode), allowed)
-            if quantity.engine_order is not None and quantity.engine_order > highest:
-                allowed = f"at most campbell.highest_engine_order ({highest})"
-                raise document.refusal((*path, "engine_order"), f"{quantity.engine_order}", allowed)
+            if quantity.engine_order is not None:
+                engine_order_is_known(settings, (*path, "engine_order"), quantity.engine_order)
     if not designs_of(settings).scenes:
         raise document.refusal(("search", "objectives"), "no scene", "an objective or constraint of contact, with scenes")
 
