@@ -5,9 +5,9 @@ from dataclasses import fields
 import numpy as np
 from numba import njit
 
-from r37core.alignment import LANES, aligned_record, aligned_zeros, padded
 from r37core.contact import complementarity, laws, node_sweeps
-from r37core.lanes import OPTIONS, inlined, load, store
+from r37core.machine_code.alignment import LANES, aligned_record, aligned_zeros, padded
+from r37core.machine_code.lanes import OPTIONS, inlined, load, store
 from r37core.time_integration.compiled.layout import LINING, complementarity_record, contact_record
 from r37core.time_integration.static_modes import settles_at_once
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 
-from r37core import native
 from r37core.contact.ring import Ring
 from r37core.contact.scene import Rotor
+from r37core.machine_code import native
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_simulation import BladesSimulation

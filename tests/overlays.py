@@ -2,7 +2,7 @@
 
 import yaml
 
-from r37core.yaml_file import load_yaml
+from r37core.base.yaml_file import load_yaml
 
 
 def overlay(project, name, text):

@@ -5,7 +5,7 @@ import xarray as xr
 
 from r37core.adaptive.criterion import RefinementChoice, Window
 from r37core.adaptive.replay import replay
-from r37core.speeds import plan_speeds
+from r37core.base.speeds import plan_speeds
 from r37core.time_integration.status import RunStatus
 
 WINDOWS = (Window("1B", 8, 0.0, 0.05, 5.0),)

@@ -7,7 +7,7 @@ import pytest
 import scipy.linalg as la
 import xarray as xr
 
-from r37core.dataset_file import write_dataset
+from r37core.base.dataset_file import write_dataset
 from r37core.results.campbell import (
     Campbell,
     campbell_dataset,

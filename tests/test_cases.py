@@ -12,14 +12,14 @@ import xarray as xr
 from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
 
+from r37core.base.dataset_file import read_dataset, write_dataset
+from r37core.base.io import Named, read_json
+from r37core.base.plain import from_plain, to_plain
 from r37core.cases import runner
 from r37core.cases.case import MODEL_NAME, OWN_MESH, Case, Crossing, ModelChoice, model_of_name
 from r37core.cases.runner import crossing_speed, run_case, run_case_of_files
 from r37core.cases.steps import model as model_step
-from r37core.dataset_file import read_dataset, write_dataset
-from r37core.io import Named, read_json
 from r37core.mesh.mesh_files import write_vtu
-from r37core.plain import from_plain, to_plain
 from r37core.rom.contact_model import read_contact_model
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.compiled.engine import _program

@@ -11,6 +11,7 @@ from box_mesh import box_mesh
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, LINING, random_model, with_static_modes
 
+from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, checked_scene
 from r37core.exchange.fields import displacement_of
 from r37core.fem.material import Material
@@ -34,7 +35,6 @@ from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
-from r37core.yaml_file import load_yaml
 
 SHORT = IntegrationChoice(4e-7, 3, 62, integrator="exact_modal")
 NARROW = replace(ABRADABLE, lining=replace(LINING, bar_area=1.6e-7))

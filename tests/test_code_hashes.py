@@ -11,7 +11,7 @@ from importlib import import_module
 
 import pytest
 
-from r37core import kept
+from r37core.machine_code import kept
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint
 from r37core.plans.provenance import Provenance

@@ -6,11 +6,11 @@ import yaml
 from overlays import overlay
 from test_refusals import edit
 
+from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, plain
 from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws
 from r37core.plans.provenance import structure_hash
 from r37core.product.reading import load_settings, read_settings
-from r37core.yaml_file import load_yaml
 
 
 def load(folder, **changes):

@@ -86,7 +86,7 @@ SCRIPT = (CHECKOUT / "workflow/scripts/simulate.py").read_text()
 IMPORTED = {
     # by each of thousands of jobs
     "\n".join(re.findall(r"^from r37core.*", SCRIPT, re.MULTILINE)): {"pydantic", "yaml", "netCDF4", "xarray"},
-    "import r37core.plain": {"numpy", "pydantic", "yaml"},
+    "import r37core.base.plain": {"numpy", "pydantic", "yaml"},
     # it takes half a second at every start of Snakemake, and a plan builds no blade
     "import r37core.config, r37core.plans.sweep_plan": {"scipy.optimize", "scipy.interpolate"},
 }

@@ -6,10 +6,10 @@ from typing import Annotated
 import pytest
 from pydantic import Field
 
+from r37core.base.declared import Key, declared_keys
 from r37core.config import ConfigError, Document, si_form
 from r37core.config.declaring import DECLARED, declared_by
 from r37core.config.section import Section
-from r37core.declared import Key, declared_keys
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from conftest import CHECKOUT
 from overlays import overlay
 from yaml import safe_dump, safe_load
 
+from r37core.base.yaml_file import load_yaml
 from r37core.config import command_line_document
 from r37core.product.reading import read_settings
-from r37core.yaml_file import load_yaml
 
 
 def section(page, name):

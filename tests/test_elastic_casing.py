@@ -12,6 +12,7 @@ from integration_runs import ENGINES, assert_close, assert_same_record, assert_s
 from scipy.integrate import solve_ivp
 from test_coriolis import SCENES, coupled_model
 
+from r37core.base.plain import to_plain
 from r37core.config import ConfigError, checked_scene, command_line_document
 from r37core.config.remarks import remark_on_overtaken_waves, remarks_of_pipeline, remarks_on_left_out_modes
 from r37core.contact.elastic_casing import (
@@ -26,7 +27,6 @@ from r37core.contact.ring import RingMode, RingMotion, critical_speed
 from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_map
 from r37core.figures.style import plt
-from r37core.plain import to_plain
 from r37core.product.reading import read_settings
 from r37core.results.casing_coincidence import coincidence_table, coincidences, seen_from_rotor, waves_of
 from r37core.results.datasets import write_sweep_dataset

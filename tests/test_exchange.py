@@ -14,6 +14,7 @@ from defaults import MeshSource, Orientation, Where
 from pydantic import TypeAdapter, ValidationError
 from scipy import constants
 
+from r37core.base.units import LENGTH_UNITS
 from r37core.config.imported_entry import LengthUnit
 from r37core.exchange.importing.abaqus_reader import read_abaqus
 from r37core.exchange.importing.import_mesh import _READERS, import_mesh
@@ -31,7 +32,6 @@ from r37core.fem.surface import chosen, mask_within, outer_faces
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.rom.naming import ideal_shapes
-from r37core.units import LENGTH_UNITS
 
 
 def source(file, **changes):

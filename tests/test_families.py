@@ -8,6 +8,7 @@ from overlays import overlay
 from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
 
+from r37core.base.plain import to_plain
 from r37core.blade import section_changes
 from r37core.blade.profile import ProfileParameters
 from r37core.config import ConfigError, command_line_document
@@ -16,7 +17,6 @@ from r37core.designs.compared import Compared
 from r37core.designs.figures import draw_designs
 from r37core.designs.plan import Families
 from r37core.designs.table import MEASURES, design_table
-from r37core.plain import to_plain
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.run_ups.plan import RunUps

@@ -9,10 +9,10 @@ from defaults import IntegrationChoice
 from integration_cases import DIRECT, NARROW
 from stress_cases import inner_places
 
+from r37core.base.dataset_file import read_dataset
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
 from r37core.contact.scene import Rotor
-from r37core.dataset_file import read_dataset
 from r37core.fem.stress import nodal_stress
 from r37core.figures.fatigue_map import draw_fatigue
 from r37core.mesh.mesh_files import write_vtu

@@ -9,12 +9,12 @@ import yaml
 from defaults import Where
 from overlays import overlay
 
+from r37core.base.plain import to_plain
 from r37core.cases.plan import Cases, shape_of_model
 from r37core.config import ConfigError
 from r37core.exchange.orientation import OURS
 from r37core.exports.extension import Exports
 from r37core.exports.extension import targets as exported_targets
-from r37core.plain import to_plain
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
 from r37core.plans.structure_plan import Imported, Structure

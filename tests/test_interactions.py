@@ -8,11 +8,11 @@ import pytest
 import xarray as xr
 from defaults import InteractionChoice
 
+from r37core.base.units import RAD_S
 from r37core.results import interactions
 from r37core.results.interactions import COLUMNS, find_interactions, summarise, titles
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
-from r37core.units import RAD_S
 
 CHOICE = InteractionChoice()
 YIELD = 1e9

@@ -8,8 +8,8 @@ import pytest
 from integration_cases import FUSED
 from numba import types
 
-from r37core.alignment import LANES, aligned_record, aligned_zeros
-from r37core.lanes import OPTIONS, inlined, load, store
+from r37core.machine_code.alignment import LANES, aligned_record, aligned_zeros
+from r37core.machine_code.lanes import OPTIONS, inlined, load, store
 from r37core.time_integration.compiled import program
 from r37core.time_integration.compiled.layout import Kind, capacity_of
 

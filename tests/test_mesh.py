@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import pyvista
 
+from r37core.base.io import InputFileError
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.mesh_quality import MeshQualityError, mesh_quality
-from r37core.io import InputFileError
 from r37core.mesh.blade_mesh import NODE_SETS
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import read_vtu, write_vtu

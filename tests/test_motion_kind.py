@@ -8,8 +8,8 @@ import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, RING, model_of_node, oscillator, random_model, with_static_modes
 
+from r37core.base.dataset_file import read_dataset
 from r37core.config import ConfigError, checked_scene, command_line_document, plain
-from r37core.dataset_file import read_dataset
 from r37core.product.reading import read_settings
 from r37core.results.response import write_response
 from r37core.time_integration import motion_kind as kinds

@@ -15,9 +15,9 @@ import pytest
 from defaults import IntegrationChoice
 from integration_cases import DIRECT, bits_of_programs, random_model, with_static_modes
 
-from r37core import kept, native
-from r37core.native import ObjectCodeError, Sources, cached_object, load_function, object_code
-from r37core.plain import to_plain
+from r37core.base.plain import to_plain
+from r37core.machine_code import kept, native
+from r37core.machine_code.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 from r37core.time_integration.compiled import engine as compiled
 from r37core.time_integration.compiled.layout import MODAL_ROWS, Kind, capacity_of, constants_record, integration_record
 from r37core.time_integration.integrators import EXACT_MODAL, INTEGRATORS
@@ -66,7 +66,7 @@ def test_processes_wait_for_the_one_that_makes_it(cache):
     """Two that need the same at once: one takes its time, and only it makes it; another thing is made beside."""
     code = (
         "import sys, time\n"
-        "from r37core import kept, native\n"
+        "from r37core.machine_code import kept, native\n"
         "kept._writable = lambda folder: False\n"
         "def build():\n"
         "    time.sleep(2)\n"
@@ -128,7 +128,7 @@ def test_a_job_does_not_import_numba(contact, tmp_path):
     Simulation(contact, 1000.0, DIRECT, IntegrationChoice(2e-7, 1, 62))
     task = json.dumps(to_plain([DIRECT, IntegrationChoice(2e-7, 2, 62)]))
     code = (
-        "import sys, json\nfrom r37core.plain import from_plain\nfrom r37core.contact.scene import Scene\n"
+        "import sys, json\nfrom r37core.base.plain import from_plain\nfrom r37core.contact.scene import Scene\n"
         "from r37core.time_integration.integration_choice import IntegrationChoice\n"
         "from r37core.time_integration.speed_run import run_speed\nfrom r37core.rom.contact_model import read_contact_model\n"
         f"model = read_contact_model({str(tmp_path / 'contact.npz')!r})\n"

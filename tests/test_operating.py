@@ -6,12 +6,12 @@ import pytest
 import xarray as xr
 from pydantic import ValidationError
 
+from r37core.base.units import RPM
 from r37core.config.operating_section import OperatingSection
 from r37core.figures import style
 from r37core.results.operating import operating_measures
 from r37core.results.operating_range import MEASURES, OperatingDwell, OperatingRange
 from r37core.results.ranking import ROBUSTNESS, ranking_table
-from r37core.units import RPM
 
 
 def response(speeds, shares, lined=1.0):

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from r37core.adaptive.criterion import RefinementChoice, Window
+from r37core.base.plain import PlainError, from_plain, to_plain
+from r37core.base.speeds import RefinedRange, SpeedPlan
 from r37core.blade.definition import BladeDefinition
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Lining
 from r37core.fem.material import Material
-from r37core.plain import PlainError, from_plain, to_plain
 from r37core.rom.reduction_choice import EVERYWHERE, ReductionChoice
-from r37core.speeds import RefinedRange, SpeedPlan
 
 LINING = defaults.Lining(5e-3, 8e9, 2e9, 15e6, bar_width=0.035)
 ORIENTATION = defaults.Orientation("mm", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")

@@ -3,8 +3,8 @@
 import numba
 import pytest
 
-from r37core.lanes import OPTIONS, inlined
-from r37core.program_constants import specialised
+from r37core.machine_code.lanes import OPTIONS, inlined
+from r37core.machine_code.program_constants import specialised
 from r37core.time_integration.compiled import steps
 from r37core.time_integration.compiled.layout import Kind
 

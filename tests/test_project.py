@@ -19,12 +19,23 @@ from packaging.utils import canonicalize_name
 
 import r37
 from r37core import __version__
-from r37core.io import FILE_ATTRIBUTES
+from r37core.base.io import FILE_ATTRIBUTES
 from r37core.product.extensions import EXTENSIONS
 
-LAYERS = ["io", "plain", "units", "process_wide", "dataset_file", "alignment", "lanes", "program_constants"]
-LAYERS += ["kept", "user_cache", "native", "yaml_file", "declared", "rounding", "speeds"]
-LAYERS += ["blade", "mesh", "fem", "rom", "contact", "stress", "time_integration", "results", "adaptive", "exchange"]
+LAYERS = [
+    "base",
+    "machine_code",
+    "blade",
+    "mesh",
+    "fem",
+    "rom",
+    "contact",
+    "stress",
+    "time_integration",
+    "results",
+    "adaptive",
+    "exchange",
+]
 LAYERS += ["config", "plans", "figures", "explorer", "cases", *(extension.name for extension in EXTENSIONS)]
 LAYERS += ["product", "console"]
 

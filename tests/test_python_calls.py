@@ -14,7 +14,7 @@ from workflow_runs import copy_finished
 
 import r37
 from r37.stages import arguments_of
-from r37core.dataset_file import write_dataset
+from r37core.base.dataset_file import write_dataset
 from r37core.results.table_file import write_table
 
 SPEEDS = [750.0, 1150.0, 1550.0]

@@ -14,14 +14,14 @@ from r37core.adaptive import criterion
 from r37core.adaptive.criterion import dense_ranges, known_of, next_speeds, window_speeds
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
 from r37core.adaptive.steps import refine as refine_step
+from r37core.base.io import InputFileError, Named
+from r37core.base.plain import from_plain, to_plain
+from r37core.base.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
+from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError
-from r37core.io import InputFileError, Named
-from r37core.plain import from_plain, to_plain
 from r37core.product.reading import load_settings
-from r37core.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
-from r37core.yaml_file import load_yaml
 
 
 def test_a_range_has_its_coarse_speeds_and_its_end():

@@ -5,13 +5,13 @@ import re
 import numpy as np
 import pytest
 
+from r37core.base.io import TextFileError
+from r37core.base.speeds import LARGEST_NUMBER, SpeedError, exact_text, plan_speeds
+from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, Document, command_line_document
 from r37core.config.remarks import remarks_on_speeds
-from r37core.io import TextFileError
 from r37core.product.reading import read_settings
 from r37core.product.schemas import MODELS
-from r37core.speeds import LARGEST_NUMBER, SpeedError, exact_text, plan_speeds
-from r37core.yaml_file import load_yaml
 
 
 def edit(file, old, new):

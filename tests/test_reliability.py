@@ -24,12 +24,13 @@ from stubbed_runs import copy_stubbed
 from workflow_runs import copy_project, kill_snakemake, snakemake
 
 from r37 import structure_files
-from r37core import kept
+from r37core.base.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
+from r37core.base.io import InputFileError, OutputFileError, atomic_write, scratch_folder, write_json
+from r37core.base.speeds import plan_speeds
 from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock, snakemake_run
 from r37core.console.leftovers import leftovers
-from r37core.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
-from r37core.io import InputFileError, OutputFileError, atomic_write, scratch_folder, write_json
+from r37core.machine_code import kept
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.reading import read_settings
@@ -37,7 +38,6 @@ from r37core.product.remarks import replaced_level, source_folder
 from r37core.results.campbell import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.rotation import BucklingError
-from r37core.speeds import plan_speeds
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed
 

@@ -6,9 +6,9 @@ import pytest
 import xarray as xr
 from box_mesh import box_mesh
 
+from r37core.base.io import write_json
 from r37core.config import ConfigError, command_line_document
 from r37core.fem.assembly import mesh_volume
-from r37core.io import write_json
 from r37core.product.reading import read_settings
 from r37core.requirements.checks import remarks
 from r37core.requirements.choice import CampbellMargin, Requirements

@@ -9,7 +9,7 @@ from plans_of_snakemake import planned_outputs
 from stubbed_runs import BLADES, SCENES, copy_stubbed, edit, refine, runs, simulated
 from workflow_runs import copy_finished, own_package, snakemake
 
-from r37core.yaml_file import load_yaml
+from r37core.base.yaml_file import load_yaml
 
 pytestmark = pytest.mark.slow
 

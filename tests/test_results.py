@@ -9,14 +9,14 @@ import xarray as xr
 from box_mesh import box_mesh
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 
-from r37core.dataset_file import Variable, hash_of_parts, write_dataset
+from r37core.base.dataset_file import Variable, hash_of_parts, write_dataset
+from r37core.base.io import InputFileError
+from r37core.base.speeds import plan_speeds
 from r37core.fem.material import Material
-from r37core.io import InputFileError
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.results.response import write_response
 from r37core.rom.reduced_model import RecoveryNodes, contact_model
-from r37core.speeds import plan_speeds
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed

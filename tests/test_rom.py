@@ -8,9 +8,9 @@ import scipy.linalg as la
 import scipy.sparse as sp
 from defaults import BoundaryChoice
 
+from r37core.base.io import InputFileError
 from r37core.fem.matrices import static_displacement
 from r37core.fem.solver import lowest_modes
-from r37core.io import InputFileError
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduction_choice import BoundaryError, boundary_nodes

@@ -9,10 +9,10 @@ import xarray as xr
 from test_explorer import unpacked
 from test_rotor import CHOICE, KEPT, LINED_RING, RING, SPEED, STEEP, a_blade, rotor_of, run, samples
 
+from r37core.base.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.base.io import Named
 from r37core.config import command_line_document
-from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
 from r37core.figures.style import plt
-from r37core.io import Named
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import load_settings

@@ -8,13 +8,13 @@ import pytest
 from test_refusals import edit
 
 import r37
+from r37core.base.plain import from_plain, to_plain
+from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, checked_scene
 from r37core.config.changed_numbers import changed_scene, scene_numbers
 from r37core.config.rotor_section import RotorSection
 from r37core.contact.scene import Rotor
-from r37core.plain import from_plain, to_plain
 from r37core.product.reading import read_settings
-from r37core.yaml_file import load_yaml
 
 
 def lined(**rotor):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from r37core.rounding import rounded_to, rounded_up
+from r37core.base.rounding import rounded_to, rounded_up
 
 
 @pytest.mark.parametrize(

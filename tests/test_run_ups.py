@@ -12,8 +12,8 @@ from integration_cases import ABRADABLE, LINING, oscillator, with_static_modes
 from scipy.integrate import solve_ivp
 from scipy.special import wofz
 
+from r37core.base.io import InputFileError
 from r37core.contact.ring import RingMode
-from r37core.io import InputFileError
 from r37core.rom.rotation import BucklingError
 from r37core.run_ups import integration as integration_module
 from r37core.run_ups import revolutions as revolutions_module

@@ -14,9 +14,9 @@ from workflow_runs import copy_project, digests, snakemake, wait_until
 
 import r37
 from r37 import workflow_process
+from r37core.base.yaml_file import load_yaml, yaml_text
 from r37core.blade.profile import BladeShapeError
 from r37core.product.reading import read_settings
-from r37core.yaml_file import load_yaml, yaml_text
 
 ASKED = {"blades": ["Ref", "CS100"], "scenes": "abradable", "speeds": [750, 1150], "results": ["stress"]}
 

@@ -10,13 +10,13 @@ from workflow_runs import snakemake
 
 import r37
 from r37 import studies
+from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.designs.compared import Compared
 from r37core.designs.maps import draw_design_map
 from r37core.designs.panel import contents
 from r37core.designs.plan import Families, targets
 from r37core.designs.table import compared_in
-from r37core.plain import to_plain
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets as all_targets

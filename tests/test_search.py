@@ -12,9 +12,9 @@ import xarray as xr
 import yaml
 from overlays import overlay
 
+from r37core.base.io import Named
+from r37core.base.plain import to_plain
 from r37core.config import ConfigError
-from r37core.io import Named
-from r37core.plain import to_plain
 from r37core.plans.samples import Samples, folder_and_name
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import beside

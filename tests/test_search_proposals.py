@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from r37core.plain import from_plain, to_plain
+from r37core.base.plain import from_plain, to_plain
 from r37core.search.problem import Evaluated, SearchVariable, best_first, designs_at, not_dominated, shares
 from r37core.search.proposal import NEAR, first_designs, propose
 from r37core.search.surrogate import objective_fits, sensitivity, slices

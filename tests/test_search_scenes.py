@@ -9,10 +9,10 @@ from overlays import overlay
 from test_search import BLADES
 from test_search import SEARCH as SEARCH_OF_BLADE
 
+from r37core.base.dataset_file import write_dataset
+from r37core.base.io import Named
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import scene_numbers
-from r37core.dataset_file import write_dataset
-from r37core.io import Named
 from r37core.plans.samples import NOMINAL
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import beside

@@ -10,9 +10,9 @@ import yaml
 from overlays import overlay
 from test_search import BLADES, SEARCH, START, choice, gave, searched, structure
 
-from r37core.dataset_file import read_dataset, write_dataset
-from r37core.io import Named, read_json, write_json
-from r37core.plain import to_plain
+from r37core.base.dataset_file import read_dataset, write_dataset
+from r37core.base.io import Named, read_json, write_json
+from r37core.base.plain import to_plain
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import beside
 from r37core.product.reading import read_settings

@@ -9,9 +9,9 @@ from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import LINING, oscillator
 
 import r37
+from r37core.base.dataset_file import read_dataset
 from r37core.contact.laws import used_thickness, wear_at_the_casing, worn
 from r37core.contact.scene import Friction, Rotor
-from r37core.dataset_file import read_dataset
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response
 from r37core.stress.operator import StressOperator

@@ -11,10 +11,10 @@ from box_mesh import box_mesh
 from browser import opened
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
+from r37core.base.io import read_json, write_json
 from r37core.exchange.fields import WorstInstant, displacement_of, mode_shapes, stress_of
 from r37core.explorer import write_page
 from r37core.figures.style import save
-from r37core.io import read_json, write_json
 from r37core.shapes import INDEX, PARTS, shapes_contents
 from r37core.shapes.gltf import MovingSurface, write_glb
 from r37core.shapes.moving import LARGEST_SHOWN, _skin, write_mode_shapes, write_worst_shapes

@@ -6,8 +6,8 @@ import xarray as xr
 from overlays import overlay
 from workflow_runs import snakemake
 
-from r37core import user_cache
-from r37core.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset
+from r37core.machine_code import user_cache
 
 
 def test_what_cannot_be_kept_is_made_where_it_is_needed(tmp_path, monkeypatch):

@@ -6,16 +6,16 @@ import re
 
 import pytest
 
+from r37core.base.declared import declared_keys
+from r37core.base.units import SUFFIXES
 from r37core.config import si_fields
 from r37core.config.casing_section import CasingSection
 from r37core.config.declaring import si_form
 from r37core.config.section import Section
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene
-from r37core.declared import declared_keys
 from r37core.exchange.importing.source import MeshSource
 from r37core.product import schemas
-from r37core.units import SUFFIXES
 
 IN_SI = {
     f"_{unit}": (0.3, 0.3) for unit in ("m", "m2", "s", "hz", "pa", "kg", "kg_m3", "n_m2", "rad_s", "rad_s2", "clearances")

@@ -12,10 +12,10 @@ from integration_cases import with_static_modes
 from scipy.optimize import brentq
 from test_run_statistics import FREE, SPEED, with_tip
 
-from r37core.dataset_file import read_dataset, write_dataset
+from r37core.base.dataset_file import read_dataset, write_dataset
+from r37core.base.io import InputFileError
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.style import save
-from r37core.io import InputFileError
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.signals.dataset import gather_signals, signals_dataset
 from r37core.signals.figures import draw_contact_forces, draw_orders, draw_spectrograms

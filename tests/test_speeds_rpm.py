@@ -7,13 +7,13 @@ from types import SimpleNamespace
 import pytest
 
 from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
+from r37core.base.plain import from_plain, to_plain
+from r37core.base.speeds import SpeedPlan, exact_text, plan_speeds
 from r37core.config import ConfigError, command_line_document
 from r37core.exports.extension import Exports
-from r37core.plain import from_plain, to_plain
 from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import load_settings, read_settings
-from r37core.speeds import SpeedPlan, exact_text, plan_speeds
 
 RAD_S = math.pi / 30.0
 PLACE = SimpleNamespace(blade="Ref", scene="direct")

@@ -12,10 +12,10 @@ from overlays import overlay
 from test_cases import case_of
 from workflow_runs import snakemake
 
+from r37core.base.dataset_file import read_dataset
 from r37core.cases.plan import Cases
 from r37core.cases.runner import run_case
 from r37core.config import command_line_document
-from r37core.dataset_file import read_dataset
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings

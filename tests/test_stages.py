@@ -16,7 +16,7 @@ from conftest import Terminal
 import r37
 from r37.command import main
 from r37.stages import LOGGER, bar, stages
-from r37core.units import RAD_S
+from r37core.base.units import RAD_S
 
 
 class Notebook(io.StringIO):

@@ -14,9 +14,9 @@ import pytest
 import xarray as xr
 from workflow_runs import copy_project
 
-from r37core.dataset_file import NETCDF_LOCK, lazy_dataset, write_dataset
-from r37core.kept import kept_file
-from r37core.process_wide import ProcessWide
+from r37core.base.dataset_file import NETCDF_LOCK, lazy_dataset, write_dataset
+from r37core.base.process_wide import ProcessWide
+from r37core.machine_code.kept import kept_file
 
 IMPORTS = """
 import sys

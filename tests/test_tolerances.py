@@ -15,19 +15,19 @@ from matplotlib.colors import to_rgb
 from test_interactions import campbell, response
 
 from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
+from r37core.base.dataset_file import write_dataset
+from r37core.base.io import InputFileError
+from r37core.base.speeds import RefinedRange
 from r37core.config import ConfigError, Document
 from r37core.config.spread import Spread
 from r37core.console.leftovers import leftovers
-from r37core.dataset_file import write_dataset
 from r37core.figures import style
-from r37core.io import InputFileError
 from r37core.plans.member_values import is_of_sample, number_of, sobol_points
 from r37core.product.reading import read_settings
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.interactions import COLUMNS, find_interactions
 from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
 from r37core.results.ranges import ENDS, as_ranges_bear, ranged_summary, read_ranges
-from r37core.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
 from r37core.tolerances.figures import draw_tolerances

@@ -20,12 +20,12 @@ from overlays import overlay
 from plans_of_snakemake import plan, planned
 from workflow_runs import LONGEST, copy_odd_project, digests, lose_speed, run_in_odd_project, snakemake
 
+from r37core.base.dataset_file import read_dataset
+from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError
-from r37core.dataset_file import read_dataset
 from r37core.product.reading import read_settings
 from r37core.product.reporting import caption
 from r37core.time_integration.speed_file import read_speed
-from r37core.yaml_file import load_yaml
 
 pytestmark = pytest.mark.slow
 

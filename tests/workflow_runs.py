@@ -16,7 +16,7 @@ import warm_snakemake
 import yaml
 from overlays import overlay
 
-from r37core.yaml_file import load_yaml
+from r37core.base.yaml_file import load_yaml
 
 SNAKEMAKE = str(Path(sys.executable).with_name("snakemake"))
 LONGEST = 1800

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 from r37core import __version__
 
 if TYPE_CHECKING:
+    from r37core.base.dataset_file import NETCDF_LOCK
+    from r37core.base.io import InputFileError
     from r37core.config import ConfigError
-    from r37core.dataset_file import NETCDF_LOCK
-    from r37core.io import InputFileError
     from r37core.rom.rotation import BucklingError
 
     from .choices import BladeChoice, SceneChoice, blade, blades, scene, scenes
@@ -69,8 +69,8 @@ __all__ = [
 
 _NAMES_OF = {
     "r37core.config": ("ConfigError",),
-    "r37core.dataset_file": ("NETCDF_LOCK",),
-    "r37core.io": ("InputFileError",),
+    "r37core.base.dataset_file": ("NETCDF_LOCK",),
+    "r37core.base.io": ("InputFileError",),
     "r37core.rom.rotation": ("BucklingError",),
     ".choices": ("BladeChoice", "SceneChoice", "blade", "blades", "scene", "scenes"),
     ".plots": ("plot_campbell", "plot_designs", "plot_response", "plot_rotor", "plot_run_ups", "plot_tolerances"),

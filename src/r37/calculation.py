@@ -9,15 +9,15 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
+from r37core.base.dataset_file import read_dataset, write_dataset
+from r37core.base.io import Named
+from r37core.base.speeds import exact_text
 from r37core.config import Settings
-from r37core.dataset_file import read_dataset, write_dataset
-from r37core.io import Named
 from r37core.plans import paths
 from r37core.plans.provenance import Provenance
 from r37core.plans.samples import NOMINAL
 from r37core.plans.stages import Stage, sweep_stages
 from r37core.plans.sweep_plan import Rounds, Simulations, Sweep
-from r37core.speeds import exact_text
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.speed_job import run_job
 

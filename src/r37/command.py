@@ -44,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     # imported here, and below: --version and --help need neither
-    from r37core.io import InputFileError
+    from r37core.base.io import InputFileError
 
     logger = logging.getLogger("r37")
     level = logger.level
@@ -164,8 +164,8 @@ def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
 def _simulate(options: argparse.Namespace) -> None:
     import pandas as pd
 
+    from r37core.base.units import RAD_S
     from r37core.time_integration.status import RunStatus
-    from r37core.units import RAD_S
 
     from .choices import blade
     from .simulations import sweep
@@ -237,7 +237,7 @@ def _check_output(file: Path | None) -> None:
 
 
 def _write(dataset: xr.Dataset, file: Path | None) -> None:
-    from r37core.dataset_file import write_dataset
+    from r37core.base.dataset_file import write_dataset
 
     if file is not None:
         write_dataset(dataset, file)

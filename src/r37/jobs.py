@@ -11,9 +11,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 import r37core
+from r37core.base.io import Named
+from r37core.base.process_wide import ProcessWide
 from r37core.config import ConfigError
-from r37core.io import Named
-from r37core.process_wide import ProcessWide
 
 from .stages import bar
 

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
+from r37core.base.plain import to_plain
 from r37core.config import ConfigError
-from r37core.plain import to_plain
 
 from .run_results import RunResults
 from .stages import checked_call

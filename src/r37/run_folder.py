@@ -10,10 +10,10 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
+from r37core.base.io import write_text
+from r37core.base.yaml_file import yaml_text
 from r37core.config import ConfigError, read_document
 from r37core.config.section import Without
-from r37core.io import write_text
-from r37core.yaml_file import yaml_text
 
 from .call_settings import Call
 from .study_folder import add_workflow

@@ -10,9 +10,9 @@ from typing import Generic, TypeVar
 import pandas as pd
 import xarray as xr
 
+from r37core.base.dataset_file import lazy_dataset, read_dataset
+from r37core.base.io import InputFileError
 from r37core.config.messages import did_you_mean
-from r37core.dataset_file import lazy_dataset, read_dataset
-from r37core.io import InputFileError
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 from r37core.search.problem import blade_values, scene_values

@@ -8,9 +8,9 @@ from typing import Any, Unpack
 
 import xarray as xr
 
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import Named, scratch_folder
 from r37core.config import ConfigError
-from r37core.dataset_file import read_dataset
-from r37core.io import Named, scratch_folder
 from r37core.run_ups.dataset import write_run_ups
 from r37core.run_ups.plan import RUN_UP, RunUps
 

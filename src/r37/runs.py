@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from r37core.io import temporary_folder
+from r37core.base.io import temporary_folder
 from r37core.product.extensions import EXTENSIONS
 
 from .arguments import Speeds, plain_value, sequence_of, speed_keys

@@ -9,10 +9,10 @@ from typing import Unpack
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import FILE_ATTRIBUTES, Named, scratch_folder
 from r37core.config import ConfigError
 from r37core.config.remarks import remarks_on_materials
-from r37core.dataset_file import read_dataset
-from r37core.io import FILE_ATTRIBUTES, Named, scratch_folder
 from r37core.plans.provenance import Provenance
 from r37core.results.closing import remarks_on_contact
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError

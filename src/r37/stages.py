@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from functools import wraps
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, get_args
 
-from r37core.process_wide import ProcessWide
+from r37core.base.process_wide import ProcessWide
 
 if TYPE_CHECKING:
     from r37core.config import Settings

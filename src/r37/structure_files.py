@@ -10,17 +10,17 @@ from pathlib import Path
 from typing import Any
 
 import r37core
+from r37core.base.io import Named, room_for, scratch_folder
+from r37core.base.plain import to_plain
 from r37core.config import ConfigError, Settings
 from r37core.exchange.importing.source import MatricesSource, MeshSource
-from r37core.io import Named, room_for, scratch_folder
-from r37core.kept import kept_file
-from r37core.plain import to_plain
+from r37core.machine_code.kept import kept_file
+from r37core.machine_code.user_cache import named_folder, numerics, writable_folder
 from r37core.plans.code import CodeHashes
 from r37core.plans.provenance import Attributes, Provenance
 from r37core.plans.samples import NOMINAL
 from r37core.plans.stages import Stage, structure_stages
 from r37core.plans.structure_plan import Structure
-from r37core.user_cache import named_folder, numerics, writable_folder
 
 from .jobs import run_step
 from .stages import LOGGER

@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 import r37core
+from r37core.base.io import InputFileError
 from r37core.config import ConfigError, Settings
 from r37core.console.caller import CALLER
 from r37core.console.failures import error_of
-from r37core.io import InputFileError
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import structure_stages
 from r37core.plans.structure_plan import Structure

@@ -16,8 +16,8 @@ import numpy as np
 import pandas as pd
 from published import INTERACTIONS, REFERENCE
 
+from r37core.base.io import as_list
 from r37core.figures import style
-from r37core.io import as_list
 from r37core.rom.reduction_choice import MOST_USUAL_PATCHES, PATCHES, POINTS, USUAL_POINTS
 
 from .configuration import settings_of

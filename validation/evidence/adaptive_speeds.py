@@ -14,14 +14,14 @@ import xarray as xr
 
 from r37core.adaptive.refinement_choice import RefinementChoice
 from r37core.adaptive.replay import replay
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import as_list
+from r37core.base.plain import from_plain
+from r37core.base.speeds import SpeedPlan
 from r37core.config import plain
-from r37core.dataset_file import read_dataset
-from r37core.io import as_list
-from r37core.plain import from_plain
 from r37core.plans.sweep_plan import Rounds, Sweep
 from r37core.results.interactions import Interaction, InteractionChoice, find_interactions
 from r37core.results.measures import leading_edge
-from r37core.speeds import SpeedPlan
 
 from .configuration import settings_of
 from .pages import write_table

@@ -11,7 +11,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
-from r37core.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
 from r37core.results.other_motions import REST, swept
 from r37core.results.ranges import ENDS

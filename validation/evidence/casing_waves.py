@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from r37core.base.dataset_file import read_dataset
 from r37core.contact.elastic_casing import flexibility, flexibility_of, nodal_diameters_for, slowest_wave
 from r37core.contact.scene import Scene
-from r37core.dataset_file import read_dataset
 from r37core.results.casing_coincidence import coincidence_table
 from r37core.time_integration.problem import Problem
 

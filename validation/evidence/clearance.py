@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import InputFileError
 from r37core.contact.casing import approach, rise_rate
 from r37core.contact.scene import Scene
-from r37core.dataset_file import read_dataset
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.material import Material
-from r37core.io import InputFileError
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results import measures
 from r37core.results.datasets import response_of

@@ -17,10 +17,10 @@ import numpy as np
 import pandas as pd
 from published import REFERENCE
 
+from r37core.base.io import atomic_write
 from r37core.config import Settings
 from r37core.contact.scene import Scene
 from r37core.fem.matrices import assemble
-from r37core.io import atomic_write
 from r37core.mesh.generate import generate_mesh
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from r37core.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset
 from r37core.results.table_file import read_table
 
 from .pages import write_table

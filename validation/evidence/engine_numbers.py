@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from evidence.configuration import settings_of
+from r37core.base.io import read_json, write_json
 from r37core.fem.matrices import assemble
-from r37core.io import read_json, write_json
 from r37core.mesh.generate import generate_mesh
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade

@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from r37core.io import InputFileError
+from r37core.base.io import InputFileError
 
 _WITHOUT_GRAPHICS_CARD = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
 

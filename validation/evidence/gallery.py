@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from published import BLADES, INTERACTIONS, REFERENCE
 
-from r37core.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
 from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_spectral_map

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pyvista
 
+from r37core.base.io import readable
 from r37core.figures import style
 from r37core.figures.offscreen import look, new_plotter, save_picture
-from r37core.io import readable
 from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.naming import NAMED_MODES
 from r37core.rom.reduction_choice import StressSubmesh

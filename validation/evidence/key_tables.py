@@ -11,11 +11,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from r37core.base.io import write_text
+from r37core.base.units import SUFFIXES
 from r37core.config.speed_section import UNITS
-from r37core.io import write_text
 from r37core.product.schemas import MODELS
 from r37core.results.glossary import INTERACTIONS, RANKING, Word
-from r37core.units import SUFFIXES
 
 from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
 from .keys_again import Shown, ShownModels

@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 from published import INTERACTIONS, REFERENCE
 
+from r37core.base.io import atomic_write
 from r37core.config import Settings
 from r37core.contact.scene import Scene
 from r37core.figures.style import PAGE, plt, save
-from r37core.io import atomic_write
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import StressOperator
 from r37core.stress.statistic import stress_statistic

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from r37core.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset
 from r37core.figures.style import PAGE, plt, save
 from r37core.results.exceedance import CERTAIN
 

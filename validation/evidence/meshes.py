@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from r37core.base.io import as_list, read_json, write_json
 from r37core.config import Settings
 from r37core.config.imported_entry import MeshEntry
 from r37core.exchange.importing.import_mesh import import_mesh
 from r37core.exchange.step_file import write_step
 from r37core.fem.matrices import StructuralMatrices, assemble
 from r37core.fem.solver import lowest_modes
-from r37core.io import as_list, read_json, write_json
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.generate import generate_mesh
 from r37core.results.campbell import campbell_diagram

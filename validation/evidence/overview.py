@@ -12,9 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from published import DIRECT_PEAK, INTERACTIONS, REFERENCE
 
+from r37core.base.io import readable
 from r37core.figures import style
 from r37core.figures.offscreen import look, new_plotter, rendered
-from r37core.io import readable
 from r37core.results.measures import motion
 
 from .gallery_shapes import add_mode

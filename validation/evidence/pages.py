@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from r37core.io import as_list, atomic_write, write_text
+from r37core.base.io import as_list, atomic_write, write_text
 
 _MARKER = re.compile(r"^<!-- table (\w+) -->$", re.MULTILINE)
 _LINK = re.compile(r"(?<=/)validation/tables/\w+\.csv|(?<=\()validation/tables/\w+\.csv")

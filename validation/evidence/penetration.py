@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from r37core.base.io import atomic_write
 from r37core.figures.style import PAGE, plt, save
-from r37core.io import atomic_write
 from r37core.rom.reduction_choice import COSINE, EVEN, PATCHES, POINTS
 
 from .configuration import settings_of

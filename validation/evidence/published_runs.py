@@ -12,10 +12,10 @@ import numpy as np
 import xarray as xr
 from published import DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, PublishedInteraction
 
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import atomic_write
+from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
-from r37core.dataset_file import read_dataset
-from r37core.io import atomic_write
-from r37core.plain import from_plain
 from r37core.results.measures import peak_of
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model

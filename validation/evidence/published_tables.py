@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from published import BLADES, INTERACTIONS, REFERENCE
 
-from r37core.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
 from r37core.results.measures import peak_speed
 

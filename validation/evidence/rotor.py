@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset
 from r37core.results.measures import range_above_yield, ratio_to_yield
 from r37core.time_integration.status import RunStatus
 

@@ -12,8 +12,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.base.dataset_file import read_dataset
 from r37core.config.document import read_document
-from r37core.dataset_file import read_dataset
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model

@@ -11,11 +11,11 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import scratch_folder
 from r37core.contact.scene import Scene
-from r37core.dataset_file import read_dataset
 from r37core.figures import style
 from r37core.figures.response_curves import shade
-from r37core.io import scratch_folder
 from r37core.results.other_motions import ranking_with_motions, swept
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.second_motions.branches import branch_through, events_of

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from r37core.io import as_list
+from r37core.base.io import as_list
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduction_choice import PATCHES
 from r37core.time_integration.simulate import Simulation

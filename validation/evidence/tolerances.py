@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset
+from r37core.base.rounding import rounded_to
 from r37core.results.ranges import read_ranges
-from r37core.rounding import rounded_to
 from r37core.tolerances.dataset import INDEXED, QUANTILES
 from r37core.tolerances.number_ranks import Ranking, ranking
 

@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.base.dataset_file import read_dataset
 from r37core.config import Settings
 from r37core.contact.scene import Scene
-from r37core.dataset_file import read_dataset
 from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, exceedance_of
 from r37core.results.measures import motion
 from r37core.results.ranking import read_ranking

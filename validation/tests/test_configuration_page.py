@@ -9,10 +9,10 @@ from conftest import CHECKOUT
 from evidence.key_tables import COLUMN_LISTS, UNIT_OF_SUFFIX, column_list, filled, tables
 from test_declared_keys import SealSection
 
+from r37core.base.units import SUFFIXES
 from r37core.config import ConfigError, read_document
 from r37core.product import schemas
 from r37core.product.reading import read_settings
-from r37core.units import SUFFIXES
 
 
 @pytest.fixture(scope="module")

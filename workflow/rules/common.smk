@@ -8,7 +8,7 @@ from snakemake.exceptions import WorkflowError
 from r37core.config import operating_range, plain
 from r37core.console.snakemake_run import PYTHON, begin
 from r37core.explorer import parts_hash, page_parts
-from r37core.plain import to_plain
+from r37core.base.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes, EngineNumbers
 from r37core.plans.provenance import Provenance

@@ -7,7 +7,7 @@ server that forks these jobs calls `make_ready` (r37core.console.job_server).
 import sys
 
 from r37core.console.failures import reported
-from r37core.native import this_processor
+from r37core.machine_code.native import this_processor
 from r37core.time_integration.speed_job import make_ready, run_job
 
 __all__ = ["make_ready"]

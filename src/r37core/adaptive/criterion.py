@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from scipy.signal import find_peaks
 
-from r37core.speeds import RefinedRange
+from r37core.base.speeds import RefinedRange
 from r37core.time_integration.status import RunStatus
 
 from .refinement_choice import RefinementChoice, Window

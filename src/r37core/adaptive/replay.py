@@ -3,8 +3,8 @@
 import numpy as np
 import xarray as xr
 
+from r37core.base.speeds import SpeedPlan
 from r37core.results.measures import leading_edge
-from r37core.speeds import SpeedPlan
 
 from .criterion import RefinementChoice
 from .rounds import first_round, round_after

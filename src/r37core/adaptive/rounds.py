@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.io import read_json, readable, write_json
-from r37core.speeds import SpeedPlan
+from r37core.base.io import read_json, readable, write_json
+from r37core.base.speeds import SpeedPlan
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 

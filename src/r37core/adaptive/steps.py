@@ -2,10 +2,10 @@
 
 from typing import Any
 
-from r37core.dataset_file import read_dataset
-from r37core.io import as_list
-from r37core.plain import from_plain
-from r37core.speeds import SpeedPlan
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import as_list
+from r37core.base.plain import from_plain
+from r37core.base.speeds import SpeedPlan
 
 from .criterion import RefinementChoice
 from .rounds import first_round, measure_members, read_round, round_after, write_round

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import about, read_dataset, write_dataset
-from r37core.io import readable
+from r37core.base.dataset_file import about, read_dataset, write_dataset
+from r37core.base.io import readable
 
 from .blade_surface import Blade
 from .profile import PRESSURE, SUCTION, Profile, ProfileParameters

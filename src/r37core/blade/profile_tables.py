@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.io import read_text
-from r37core.units import si_name
+from r37core.base.io import read_text
+from r37core.base.units import si_name
 
 from .profile import BladeShapeError, ProfileParameters
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from r37core.plain import from_plain
+from r37core.base.plain import from_plain
 
 from .definition import BladeDefinition
 from .geometry_file import write_geometry

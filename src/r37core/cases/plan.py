@@ -6,13 +6,13 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
+from r37core.base.plain import to_plain
 from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import engine_order_is_known
 from r37core.config.document import ConfigRefusals
 from r37core.config.fidelity import Level
 from r37core.config.section import AllOrNames, LeftOut, Name, Section, left_out
 from r37core.contact.scene import Scene
-from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.integrators import EXACT_MODAL

@@ -13,8 +13,8 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import SPEED, Variable, read_dataset, write_dataset
-from r37core.io import atomic_write, read_json
+from r37core.base.dataset_file import SPEED, Variable, read_dataset, write_dataset
+from r37core.base.io import atomic_write, read_json
 from r37core.results.netcdf import create_variable
 from r37core.results.response import write_response
 from r37core.rom.contact_model import ContactModel, read_contact_model

@@ -5,14 +5,14 @@ from typing import Any
 
 import numpy as np
 
+from r37core.base.io import write_json, write_text
+from r37core.base.plain import from_plain
 from r37core.blade.geometry_file import read_geometry
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
-from r37core.io import write_json, write_text
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import read_vtu
-from r37core.plain import from_plain
 from r37core.rom.contact_model import write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model

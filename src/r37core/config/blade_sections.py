@@ -4,7 +4,7 @@ from typing import Literal, Self
 
 from pydantic import model_validator
 
-from r37core.declared import declared_keys
+from r37core.base.declared import declared_keys
 from r37core.fem.material import Material
 from r37core.rom.reduction_choice import StressSubmesh
 

@@ -11,6 +11,7 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
+from r37core.base.io import TextFileError
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError, ProfileParameters
 from r37core.blade.profile_tables import check_sweep, read_profile_table, stacking_rows, stacking_table_rows
@@ -19,7 +20,6 @@ from r37core.blade.sense import check_profile_sense
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
-from r37core.io import TextFileError
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.stress.goodman import Strengths
 

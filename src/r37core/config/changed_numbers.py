@@ -7,12 +7,12 @@ from typing import Any
 
 from pydantic import BaseModel, Field, ValidationError
 
+from r37core.base.units import si_name
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep
 from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
-from r37core.units import si_name
 
 from .blade_sections import MaterialSection
 from .blades import SHARES, BladeSettings, SweepLean, TableShare

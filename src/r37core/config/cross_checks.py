@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from r37core.alignment import padded
+from r37core.base.rounding import rounded_up
+from r37core.base.units import RPM
+from r37core.base.yaml_file import KeyPath
+from r37core.machine_code.alignment import padded
 from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, patches_on
-from r37core.rounding import rounded_up
 from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_blades import NO_ROTOR
-from r37core.units import RPM
-from r37core.yaml_file import KeyPath
 
 from .document import ConfigRefusals, Document
 from .families import Designs

@@ -1,6 +1,6 @@
 """Sections of the configuration from the dataclasses of the computations, and back.
 
-A dataclass declares its keys (`r37core.declared`). `declared_by` puts them into a section; `si_form` makes the
+A dataclass declares its keys (`r37core.base.declared`). `declared_by` puts them into a section; `si_form` makes the
 dataclass of a section.
 """
 
@@ -12,8 +12,8 @@ from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
 from pydantic import Field, create_model
 
-from r37core.declared import DeclaredKey, Key, declared_keys
-from r37core.units import si_name
+from r37core.base.declared import DeclaredKey, Key, declared_keys
+from r37core.base.units import si_name
 
 from .section import LeftOut, Section
 

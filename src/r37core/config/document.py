@@ -10,8 +10,8 @@ from typing import Any, TypeVar
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
-from r37core.io import TextFileError
-from r37core.yaml_file import KeyPath, load_yaml_with_lines, scalar
+from r37core.base.io import TextFileError
+from r37core.base.yaml_file import KeyPath, load_yaml_with_lines, scalar
 
 from .messages import did_you_mean, explain_all, single_line
 from .section import Without

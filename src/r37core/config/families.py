@@ -10,10 +10,10 @@ from typing import Any, Generic, TypeVar
 from pydantic import ValidationError
 from pydantic_core import PydanticCustomError
 
+from r37core.base.io import TextFileError
+from r37core.base.speeds import exact_text
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import read_designs
-from r37core.io import TextFileError
-from r37core.speeds import exact_text
 
 from .blade_sections import MaterialSection
 from .blades import SHARES, BladeEntry, readable_table

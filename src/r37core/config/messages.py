@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from r37core.yaml_file import KeyPath
+from r37core.base.yaml_file import KeyPath
 
 _BOUNDS = {
     "minimum": "at least",

@@ -10,8 +10,8 @@ from typing import Annotated, Any, Literal, TypeVar
 import numpy as np
 from pydantic import BeforeValidator, Field, ValidatorFunctionWrapHandler, WithJsonSchema, WrapValidator, model_validator
 
+from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Rotor
-from r37core.yaml_file import KeyPath
 
 from .section import LeftOut, Section, Unique, left_out, refused
 from .spread import SpreadEntry

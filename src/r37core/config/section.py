@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field
 from pydantic.json_schema import SkipJsonSchema
 from pydantic_core import PydanticCustomError
 
-from r37core.yaml_file import KeyPath, scalar
+from r37core.base.yaml_file import KeyPath, scalar
 
 T = TypeVar("T")
 

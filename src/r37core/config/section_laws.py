@@ -5,10 +5,10 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
+from r37core.base.units import si_name
 from r37core.blade.profile import BladeShapeError, ProfileParameters
 from r37core.blade.profile_tables import check_spans
 from r37core.blade.section_changes import SectionChangeError, SpanLaw, changed_profiles
-from r37core.units import si_name
 
 from .section import Section
 

@@ -11,13 +11,13 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from r37core.base.plain import to_plain
+from r37core.base.speeds import SpeedError, SpeedPlan, plan_speeds
+from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Scene
-from r37core.plain import to_plain
 from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice, StressSubmesh
-from r37core.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.time_integration.integration_choice import IntegrationChoice
-from r37core.yaml_file import KeyPath
 
 from .blades import BladeSettings, all_blades
 from .config_file import Config, StructureSection

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from r37core.base.rounding import rounded_to
 from r37core.results.closing import interaction_title, lining_texts, remarks_on_contact
-from r37core.rounding import rounded_to
 from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
-from r37core.io import FULL_DISK, JOB_LOG, OutputFileError
+from r37core.base.io import FULL_DISK, JOB_LOG, OutputFileError
 
 _NOTES = "R37_FAILURES"
 """Environment variable that names the file, one for each run: several may go on in one folder."""

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from itertools import count
 from pathlib import Path
 
+from r37core.base.speeds import SpeedPlan, exact_text
 from r37core.config import Settings
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep, speeds_of_round
 from r37core.product.reading import RESERVED, read_settings
 from r37core.product.targets import everything
-from r37core.speeds import SpeedPlan, exact_text
 
 
 def leftovers(results: Path, settings: Settings) -> list[Path]:

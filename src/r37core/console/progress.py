@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
-from r37core.io import InputFileError
+from r37core.base.io import InputFileError
 from r37core.time_integration.speed_file import read_status
 from r37core.time_integration.status import RunStatus
 

@@ -18,9 +18,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from r37core.base.io import InputFileError
 from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_on_points
-from r37core.io import InputFileError
 from r37core.plans.extent import extent_of
 from r37core.product.extensions import beside
 from r37core.product.reading import settings_of_run

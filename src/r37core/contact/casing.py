@@ -5,7 +5,7 @@ from typing import Annotated
 
 import numpy as np
 
-from r37core.declared import Key
+from r37core.base.declared import Key
 
 from .laws import lobe_shape
 from .ring import RingMode

@@ -7,8 +7,8 @@ eight nodes to an integer.
 
 import numpy as np
 
-from r37core.alignment import LANES
-from r37core.lanes import bits_of, first_bit, flag_at, flags_of, inlined, lanes_used, load, spread, store
+from r37core.machine_code.alignment import LANES
+from r37core.machine_code.lanes import bits_of, first_bit, flag_at, flags_of, inlined, lanes_used, load, spread, store
 
 BLOCK_ROUNDS, SINGLE_ROUNDS = 8, 500
 TOLERANCE = 1e-12

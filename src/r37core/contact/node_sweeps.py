@@ -11,8 +11,8 @@ other, by the projected Gauss-Seidel method.
 
 import numpy as np
 
-from r37core.alignment import LANES
-from r37core.lanes import bits_of, flag_at, flags_of, inlined, lanes_used, largest_of_lanes, load, spread, store
+from r37core.machine_code.alignment import LANES
+from r37core.machine_code.lanes import bits_of, flag_at, flags_of, inlined, lanes_used, largest_of_lanes, load, spread, store
 
 from .laws import lines_of_bar, series_modulus, worn
 

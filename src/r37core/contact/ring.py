@@ -14,7 +14,7 @@ from typing import Annotated
 
 import numpy as np
 
-from r37core.declared import Key
+from r37core.base.declared import Key
 
 MOST_NODAL_DIAMETERS = 100
 """Largest number of nodal diameters of a ring's modes in a simulation."""

@@ -10,8 +10,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.base.plain import from_plain
 from r37core.figures import style
-from r37core.plain import from_plain
 
 from .compared import Compared, axis_of_key
 from .table import MEASURES, STRUCTURE

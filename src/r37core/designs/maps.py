@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.figure import Figure
 
+from r37core.base.plain import from_plain
 from r37core.figures import style
-from r37core.plain import from_plain
 from r37core.results.operating_range import LENGTH
 
 from .compared import Compared, axis_of_key

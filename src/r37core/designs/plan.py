@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from r37core.base.plain import to_plain
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.config.families import Designs, Family
-from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 

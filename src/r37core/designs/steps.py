@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from r37core.dataset_file import read_dataset
-from r37core.io import as_list
-from r37core.plain import from_plain
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import as_list
+from r37core.base.plain import from_plain
 from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table, write_table
 

@@ -7,16 +7,16 @@ from pathlib import Path
 import meshio
 import numpy as np
 
+from r37core.base.io import atomic_write, write_text
+from r37core.base.speeds import exact_text
 from r37core.exchange.importing.meshio_reader import quietly
 from r37core.exchange.orientation import OURS, Orientation
 from r37core.fem.material import Material
 from r37core.fem.stress import nodal_stress
-from r37core.io import atomic_write, write_text
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.mesh_files import vtk_grid
 from r37core.results.campbell import name_modes
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
-from r37core.speeds import exact_text
 from r37core.stress.operator import StressOperator, von_mises
 from r37core.time_integration.speed_file import read_speed
 

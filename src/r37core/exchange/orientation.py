@@ -7,11 +7,11 @@ from typing import Annotated
 
 import numpy as np
 
-from r37core.declared import Key
+from r37core.base.declared import Key
+from r37core.base.units import LENGTH_UNITS
 from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.fem.elements import ELEMENTS
 from r37core.mesh.blade_mesh import BladeMesh
-from r37core.units import LENGTH_UNITS
 
 from .refusal import ImportRefused, MeshWarning
 

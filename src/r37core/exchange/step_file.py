@@ -10,8 +10,8 @@ import gmsh
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
+from r37core.base.io import atomic_write
 from r37core.blade.blade_surface import Blade
-from r37core.io import atomic_write
 from r37core.mesh.generate import quiet_gmsh
 
 _SPAN = np.linspace(0.0, 1.0, 33)

@@ -5,9 +5,9 @@ from pathlib import Path
 import meshio
 import numpy as np
 
+from r37core.base.io import atomic_write
 from r37core.exchange.importing.meshio_reader import quietly
 from r37core.fem.surface import chosen, mask_within, outer_faces
-from r37core.io import atomic_write
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
 GROUPS = {"blade": 1, "root": 2, "tip": 3}

@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from r37core.io import atomic_write
+from r37core.base.io import atomic_write
 
 FOLDER = Path(__file__).parent
 

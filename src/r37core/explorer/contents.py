@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.base.units import shown_unit
 from r37core.results import glossary
 from r37core.results.closing import interaction_title
 from r37core.results.glossary import Word
@@ -17,7 +18,6 @@ from r37core.results.ranges import as_ranges_bear
 from r37core.results.ranking import as_scatter_bears
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
-from r37core.units import shown_unit
 
 CURVES = (
     ("rms", "rms_normal"),

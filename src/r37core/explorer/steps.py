@@ -4,8 +4,8 @@ from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
 
-from r37core.dataset_file import read_dataset
-from r37core.plain import from_plain
+from r37core.base.dataset_file import read_dataset
+from r37core.base.plain import from_plain
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table

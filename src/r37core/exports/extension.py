@@ -8,18 +8,18 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from r37core.base.plain import to_plain
+from r37core.base.speeds import exact_text
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings, si_fields
 from r37core.config.section import ExtensionSection, LeftOut, Rpm, Section, Speed, Unique
 from r37core.config.speed_section import refuse_both_units
 from r37core.exchange.importing.source import MeshSource
 from r37core.exchange.orientation import OURS
-from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.extension import Extension
 from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep
-from r37core.speeds import exact_text
 
 ModeSpeed = Annotated[float, Field(ge=0, le=1e6)]
 ChosenSpeeds = Annotated[

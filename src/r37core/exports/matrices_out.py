@@ -8,12 +8,12 @@ import pandas as pd
 import scipy.io
 import scipy.sparse as sp
 
+from r37core.base.io import atomic_write
+from r37core.base.speeds import exact_text
 from r37core.exchange.importing.matrices_in import COLUMNS, TIP_LENGTH
 from r37core.fem.matrices import StructuralMatrices
-from r37core.io import atomic_write
 from r37core.rom.reduced_model import CORIOLIS_TERM, RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import POINTS
-from r37core.speeds import exact_text
 
 CORIOLIS = "G"
 """Name of the file of the Coriolis matrix per speed, which a model with the Coriolis force has."""

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from r37core.io import atomic_write
+from r37core.base.io import atomic_write
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
 from .elements import ELEMENTS

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import numpy as np
 
-from r37core.declared import Key
+from r37core.base.declared import Key
 
 _DENSITIES, _STRENGTHS = (1000.0, 20000.0), (1e7, 5e9)
 

@@ -2,11 +2,11 @@
 
 from typing import Any
 
+from r37core.base.io import JOB_LOG, atomic_write
+from r37core.base.plain import from_plain
 from r37core.blade.geometry_file import read_geometry
-from r37core.io import JOB_LOG, atomic_write
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import read_vtu, write_vtu
-from r37core.plain import from_plain
 
 from .abaqus_deck import write_abaqus
 from .material import Material

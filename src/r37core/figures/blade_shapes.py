@@ -9,7 +9,7 @@ import numpy as np
 import pyvista
 from matplotlib.colors import to_rgb
 
-from r37core.io import readable
+from r37core.base.io import readable
 
 from .offscreen import look, new_plotter, save_picture
 from .style import blade_styles

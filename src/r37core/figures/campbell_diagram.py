@@ -10,8 +10,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.base.plain import from_plain
 from r37core.contact.elastic_casing import ElasticCasing
-from r37core.plain import from_plain
 from r37core.results.casing_coincidence import coincidences, modes_met, seen_from_rotor, waves_of
 from r37core.rom.naming import NAMED_MODES, mode_label
 

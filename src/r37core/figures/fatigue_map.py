@@ -11,7 +11,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from r37core.io import readable
+from r37core.base.io import readable
 from r37core.results.measures import has_strengths
 from r37core.stress.goodman import Strengths
 

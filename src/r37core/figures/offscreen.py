@@ -11,7 +11,7 @@ if sys.platform == "linux":
 import numpy as np
 import pyvista
 
-from r37core.io import atomic_write
+from r37core.base.io import atomic_write
 
 
 def new_plotter(columns: int, size: tuple[int, int]) -> pyvista.Plotter:

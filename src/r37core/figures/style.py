@@ -21,9 +21,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
-from r37core.io import atomic_write
+from r37core.base.io import atomic_write
+from r37core.base.units import RPM
 from r37core.results.operating_range import OperatingRange
-from r37core.units import RPM
 
 COLUMN, PAGE = 3.5, 7.2
 """Widths (inch) of a figure that goes into one column of a journal and across its page, at the size of its text."""

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pyvista
 
-from r37core.io import atomic_write, readable
+from r37core.base.io import atomic_write, readable
 
 from .blade_mesh import NODE_SETS, BladeMesh, along_chord
 

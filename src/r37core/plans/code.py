@@ -10,7 +10,7 @@ from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
-from r37core.kept import keep, read_kept
+from r37core.machine_code.kept import keep, read_kept
 
 PACKAGE = "r37core"
 

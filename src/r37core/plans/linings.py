@@ -3,9 +3,9 @@
 from contextlib import suppress
 from pathlib import Path
 
+from r37core.base.io import InputFileError
 from r37core.config import Settings
 from r37core.contact.laws import lines_of_bar
-from r37core.io import InputFileError
 from r37core.results.closing import lining_texts
 from r37core.rom.contact_model import read_contact_model
 from r37core.time_integration.lining_at_tip import lining_at_tip

@@ -7,7 +7,7 @@ is empty for the nominal sweep, and `folder/name/` for what a member of a sample
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from r37core.speeds import exact_text
+from r37core.base.speeds import exact_text
 
 GEOMETRY = "<results>/{member}{blade}/geometry.nc"
 MESH = "<results>/{member}{blade}/mesh.vtu"

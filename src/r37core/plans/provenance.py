@@ -10,7 +10,7 @@ from functools import cache
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-from r37core.plain import to_plain
+from r37core.base.plain import to_plain
 
 from .samples import Pair, Sample, Samples, folder_and_name, member_of
 

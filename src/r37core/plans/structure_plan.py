@@ -8,11 +8,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from r37core.base.plain import to_plain
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.config.settings import location_of_contact
 from r37core.exchange.importing.source import MatricesSource, MeshSource, matrix_files, mesh_files
-from r37core.plain import to_plain
 
 from .paths import MESH, WHOLE_BLADE_MODEL, fill
 from .provenance import Attributes

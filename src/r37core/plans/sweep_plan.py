@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
+from r37core.base.io import as_list, read_json, readable
+from r37core.base.plain import to_plain
+from r37core.base.speeds import SpeedPlan
 from r37core.config import Settings, si_form
 from r37core.config.remarks import elastic_casings
-from r37core.io import as_list, read_json, readable
-from r37core.plain import to_plain
-from r37core.speeds import SpeedPlan
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import OF_RUNS
 

@@ -7,9 +7,9 @@ from importlib import import_module
 from pathlib import Path
 
 import r37core
+from r37core.base.io import InputFileError
 from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_of_pipeline
-from r37core.io import InputFileError
 from r37core.plans.extension import Extension
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
+from r37core.base.io import write_text
 from r37core.config.blades import Blades
 from r37core.config.fidelity import Levels
 from r37core.config.scenes import Scenes
-from r37core.io import write_text
 
 from .reading import CONFIG
 

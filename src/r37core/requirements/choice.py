@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from r37core.declared import Key
+from r37core.base.declared import Key
 
 
 @dataclass(frozen=True)

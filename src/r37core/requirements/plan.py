@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from r37core.base.plain import to_plain
 from r37core.config import Settings, operating_range
-from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 

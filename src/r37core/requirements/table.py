@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.io import read_json
+from r37core.base.io import read_json
 from r37core.results.closing import counted, interaction_title
 from r37core.results.datasets import response_of
 from r37core.results.exceedance import CERTAIN, exceedance_of

@@ -10,8 +10,8 @@ import xarray as xr
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, linear_sum_assignment
 
+from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.contact.casing import approach
-from r37core.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.rotation import BucklingError
 

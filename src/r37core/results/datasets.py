@@ -7,8 +7,8 @@ import numpy as np
 import xarray as xr
 from netCDF4 import Dataset
 
-from r37core.dataset_file import Variable, new_netcdf, open_netcdf
-from r37core.io import InputFileError
+from r37core.base.dataset_file import Variable, new_netcdf, open_netcdf
+from r37core.base.io import InputFileError
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.simulate import TIP_POINTS
 from r37core.time_integration.status import MotionKind, RunStatus

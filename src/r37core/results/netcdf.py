@@ -6,10 +6,10 @@ from typing import Any
 import netCDF4
 import numpy as np
 
-from r37core.dataset_file import SPEED_RPM, Variable
+from r37core.base.dataset_file import SPEED_RPM, Variable
+from r37core.base.units import RPM
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import MotionKind, RunStatus
-from r37core.units import RPM
 
 FLAGGED: dict[str, type[RunStatus] | type[MotionAtEnd] | type[MotionKind]] = {
     "status": RunStatus,

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from r37core.declared import Key
+from r37core.base.declared import Key
 
 MEASURES = LENGTH, INTEGRAL, SCATTER, GOODMAN = (
     "length_certain_operating_rad_s",

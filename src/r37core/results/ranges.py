@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from r37core.io import readable
-from r37core.rounding import rounded_to
+from r37core.base.io import readable
+from r37core.base.rounding import rounded_to
 
 from .table_file import read_table
 

@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.io import readable
-from r37core.rounding import rounded_to
+from r37core.base.io import readable
+from r37core.base.rounding import rounded_to
 from r37core.time_integration.status import RunStatus
 
 from .exceedance import CERTAIN, POSSIBLE, exceedance_of

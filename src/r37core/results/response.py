@@ -6,7 +6,7 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-from r37core.dataset_file import new_netcdf
+from r37core.base.dataset_file import new_netcdf
 from r37core.stress.goodman import UNKNOWN, Strengths, goodman_statistic
 from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
+from r37core.base.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.base.io import as_list, write_json
+from r37core.base.plain import from_plain
 from r37core.contact.elastic_casing import ElasticCasing
-from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
-from r37core.io import as_list, write_json
-from r37core.plain import from_plain
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.goodman import Strengths
 

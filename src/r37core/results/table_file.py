@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from r37core.io import atomic_write, readable
+from r37core.base.io import atomic_write, readable
 
 
 def write_table(table: pd.DataFrame, file: Path | str, digits: int | None = None) -> None:

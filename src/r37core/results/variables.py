@@ -3,7 +3,7 @@
 Later revolutions are those of the last half of a run, or the last 100 of one that goes on until it settles.
 """
 
-from r37core.dataset_file import SPEED, Variable
+from r37core.base.dataset_file import SPEED, Variable
 from r37core.stress.statistic import HIGH
 
 _TIP = ("tip_point",)

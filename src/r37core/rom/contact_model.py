@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from r37core.io import atomic_write, readable
+from r37core.base.io import atomic_write, readable
 
 from .rotation import BucklingError, rotation_amplitudes
 

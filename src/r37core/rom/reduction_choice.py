@@ -9,7 +9,7 @@ from typing import Annotated
 
 import numpy as np
 
-from r37core.declared import Key
+from r37core.base.declared import Key
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 

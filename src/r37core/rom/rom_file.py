@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import about, read_dataset, write_dataset
-from r37core.io import readable
+from r37core.base.dataset_file import about, read_dataset, write_dataset
+from r37core.base.io import readable
 
 from .reduced_model import CORIOLIS_TERM, RecoveryNodes, ReducedModel
 

@@ -3,13 +3,13 @@
 from pathlib import Path
 from typing import Any
 
+from r37core.base.io import JOB_LOG
+from r37core.base.plain import from_plain
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
-from r37core.io import JOB_LOG
-from r37core.kept import content_digest
+from r37core.machine_code.kept import content_digest
+from r37core.machine_code.user_cache import kept_for_user, numerics
 from r37core.mesh.mesh_files import read_vtu
-from r37core.plain import from_plain
-from r37core.user_cache import kept_for_user, numerics
 
 from .contact_model import write_contact_model
 from .reduce import reduce_blade

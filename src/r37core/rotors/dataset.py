@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.dataset_file import SPEED, Variable, dataset_of, read_dataset
+from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted, largest_stress_text
 from r37core.results.measures import range_above_yield
 from r37core.results.netcdf import state_flags

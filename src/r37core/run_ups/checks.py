@@ -2,11 +2,11 @@
 
 import math
 
+from r37core.base.yaml_file import KeyPath
 from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import engine_order_is_known, names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
 from r37core.config.speed_choice import length_of_run
-from r37core.yaml_file import KeyPath
 
 from .choice import RunUpError, check_highest
 from .plan import entries

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from r37core.declared import Key
+from r37core.base.declared import Key
 from r37core.rom.naming import NAMED_MODES
 
 from .schedule import RunUp

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import Variable, new_netcdf
-from r37core.io import readable
+from r37core.base.dataset_file import Variable, new_netcdf
+from r37core.base.io import readable
 from r37core.results.netcdf import create_axis, create_labels, create_variable, state_flags
 from r37core.results.variables import AXES
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS

@@ -5,10 +5,10 @@ from functools import cached_property
 from itertools import product
 from typing import Any
 
+from r37core.base.plain import to_plain
 from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.remarks import elastic_casings, remark_on_overtaken_waves
 from r37core.config.speed_choice import fastest_of
-from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage

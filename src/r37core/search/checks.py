@@ -1,5 +1,6 @@
 """What the section of a search alone cannot check."""
 
+from r37core.base.yaml_file import KeyPath
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
@@ -10,7 +11,6 @@ from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.document import Document
 from r37core.config.messages import did_you_mean, single_line
 from r37core.rom.naming import mode_names
-from r37core.yaml_file import KeyPath
 
 from .designs import SearchDesigns
 from .gaussian_processes import SearchPackageMissing, library

@@ -8,13 +8,13 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.base.dataset_file import about, read_dataset
+from r37core.base.io import write_text
+from r37core.base.rounding import rounded_to
+from r37core.base.units import shown_unit
+from r37core.base.yaml_file import yaml_text
 from r37core.config.families import changed_content
-from r37core.dataset_file import about, read_dataset
-from r37core.io import write_text
 from r37core.results.closing import counted
-from r37core.rounding import rounded_to
-from r37core.units import shown_unit
-from r37core.yaml_file import yaml_text
 
 from .plan import BEST, DATASET
 from .problem import (

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
+from r37core.base.units import shown_unit
 from r37core.figures import style
-from r37core.units import shown_unit
 
 from .panel import broken_key, unit_label
 from .problem import START

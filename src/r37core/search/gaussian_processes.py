@@ -14,7 +14,7 @@ from typing import Any, Self
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from r37core.process_wide import ProcessWide
+from r37core.base.process_wide import ProcessWide
 
 RESTARTS = 1
 """Fits from other hyperparameters than the usual, the likeliest of all is taken."""

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from r37core.units import shown_unit
+from r37core.base.units import shown_unit
 
 
 def search_contents(search: xr.Dataset) -> dict[str, object]:

@@ -7,12 +7,12 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
+from r37core.base.io import read_json
+from r37core.base.plain import to_plain
 from r37core.blade.profile_tables import stacking_table_rows
 from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.config.speed_choice import most_runs
-from r37core.io import read_json
-from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.samples import NOMINAL, Pair, Sample, path_part
 from r37core.plans.sweep_plan import Sweep

@@ -1,6 +1,6 @@
 """Variables of a search, what is known of a design once its jobs are done, and which designs are the best.
 
-All are plain values, which `r37core.plain` carries. Light: the workflow imports this whether there is a search or not.
+All are plain values, which `r37core.base.plain` carries. Light: the workflow imports this whether there is a search or not.
 """
 
 import math

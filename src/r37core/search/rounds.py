@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from math import isfinite
 from pathlib import Path
 
-from r37core.io import read_json, readable, write_json
-from r37core.plain import from_plain, to_plain
+from r37core.base.io import read_json, readable, write_json
+from r37core.base.plain import from_plain, to_plain
 from r37core.results.closing import counted
 
 from .problem import QUASI_RANDOM, START, Design, SearchChoice, Value, best_first, not_dominated

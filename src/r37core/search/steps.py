@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from r37core.base.dataset_file import read_dataset, write_dataset
+from r37core.base.io import as_list, read_json, write_json
+from r37core.base.plain import from_plain
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.geometry_file import read_geometry
-from r37core.dataset_file import read_dataset, write_dataset
 from r37core.exchange.step_file import write_step
-from r37core.io import as_list, read_json, write_json
-from r37core.kept import content_digest
-from r37core.plain import from_plain
+from r37core.machine_code.kept import content_digest
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranking import robustness
 from r37core.results.table_file import write_table

@@ -1,10 +1,10 @@
 """Checks of the second motions that need more than their section."""
 
+from r37core.base.yaml_file import KeyPath
 from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
 from r37core.config.speed_choice import length_of_run
-from r37core.yaml_file import KeyPath
 
 from .plan import pairs_of, section_of
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from r37core.declared import Key
-from r37core.speeds import spaced
+from r37core.base.declared import Key
+from r37core.base.speeds import spaced
 
 MOTIONS = UP, DOWN, REST = ("up", "down", "rest")
 """Motions at a speed: carried up from lower speeds, carried down from higher ones, and from rest as the pipeline runs it."""

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import about, read_dataset
+from r37core.base.dataset_file import about, read_dataset
 
 from .choice import MOTIONS
 from .motion_files import SweptStates, levels_of

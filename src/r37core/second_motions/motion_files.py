@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import Variable, about
-from r37core.io import atomic_write, readable
+from r37core.base.dataset_file import Variable, about
+from r37core.base.io import atomic_write, readable
 from r37core.results.netcdf import state_flags
 from r37core.results.variables import OF_KIND
 from r37core.time_integration.carrying import CarriedMotion

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from r37core.base.plain import to_plain
 from r37core.config import Settings, blades_named, scenes_named
-from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage

@@ -4,10 +4,10 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
+from r37core.base.dataset_file import read_dataset, write_dataset
+from r37core.base.io import as_list
+from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
-from r37core.dataset_file import read_dataset, write_dataset
-from r37core.io import as_list
-from r37core.plain import from_plain
 from r37core.results.response import write_response
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model

@@ -4,8 +4,8 @@ import base64
 from collections.abc import Mapping
 from pathlib import Path
 
+from r37core.base.io import read_json, readable
 from r37core.explorer import FOLDER as EXPLORER
-from r37core.io import read_json, readable
 
 FOLDER = Path(__file__).parent
 

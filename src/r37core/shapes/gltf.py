@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.io import atomic_write
+from r37core.base.io import atomic_write
 
 _AXES = [2, 0, 1]
 """glTF has y upwards and z towards the viewer: its x y z are the blade's z (downstream), x (radial) and y."""

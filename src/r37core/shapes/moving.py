@@ -7,15 +7,15 @@ from typing import Final
 import numpy as np
 from matplotlib import colormaps
 
+from r37core.base.io import write_json
+from r37core.base.speeds import exact_text
+from r37core.base.units import RPM
 from r37core.exchange.fields import Target, WorstInstant, displacement_of, mode_shapes, stress_of, write_modes, write_stress
 from r37core.fem.material import Material
 from r37core.fem.surface import outer_faces
-from r37core.io import write_json
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.rom.reduced_model import ReducedModel
-from r37core.speeds import exact_text
 from r37core.stress.operator import von_mises
-from r37core.units import RPM
 
 from . import INDEX
 from .gltf import MovingSurface, write_glb

@@ -4,14 +4,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from r37core.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import as_list
+from r37core.base.plain import from_plain
 from r37core.exchange.fields import worst_instants
 from r37core.explorer import write_page
 from r37core.fem.material import Material
 from r37core.figures.style import save
-from r37core.io import as_list
 from r37core.mesh.mesh_files import read_vtu
-from r37core.plain import from_plain
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator

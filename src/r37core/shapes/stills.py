@@ -14,10 +14,10 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
+from r37core.base.io import read_json, readable
 from r37core.exchange.fields import modal_stress
 from r37core.figures import style
 from r37core.figures.offscreen import look, new_plotter, rendered, without_margins
-from r37core.io import read_json, readable
 
 from . import INDEX
 from .moving import COLOUR_MAP, LARGEST_SHOWN, SHOWN

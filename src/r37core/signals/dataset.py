@@ -8,7 +8,7 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import SPEED, SPEED_RPM, Variable, dataset_of, new_netcdf, open_dataset, read_dataset
+from r37core.base.dataset_file import SPEED, SPEED_RPM, Variable, dataset_of, new_netcdf, open_dataset, read_dataset
 from r37core.results.closing import counted
 from r37core.results.netcdf import create_axis, create_labels, create_variable, state_flags
 from r37core.rom.reduced_model import RecoveryNodes

@@ -7,13 +7,13 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
+from r37core.base.plain import to_plain
 from r37core.config import Settings, si_fields, si_form
 from r37core.config.cross_checks import slow_run_can_be_done
 from r37core.config.declaring import declared_by
 from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Rpm, Section, Speed, Unique, refused
 from r37core.config.speed_choice import length_of_run
 from r37core.config.speed_section import refuse_both_units
-from r37core.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.extension import Extension
 from r37core.plans.structure_plan import Imported

@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from r37core.base.units import RPM
 from r37core.figures import style
 from r37core.figures.maps import draw_cells
-from r37core.units import RPM
 
 from .orders import order_tracks, spectrogram, strongest_orders
 

@@ -2,11 +2,11 @@
 
 from typing import Any
 
+from r37core.base.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.base.io import as_list
+from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
-from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
-from r37core.io import as_list
 from r37core.mesh.mesh_files import read_vtu
-from r37core.plain import from_plain
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model

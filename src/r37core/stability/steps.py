@@ -4,8 +4,8 @@ from typing import Any
 
 import pandas as pd
 
-from r37core.dataset_file import read_dataset
-from r37core.io import as_list
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import as_list
 from r37core.results.table_file import write_table
 
 from .judging import judge

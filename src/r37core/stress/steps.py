@@ -2,8 +2,8 @@
 
 from typing import Any
 
+from r37core.base.plain import from_plain
 from r37core.fem.material import Material
-from r37core.plain import from_plain
 from r37core.rom.rom_file import read_reduced_model
 
 from .operator import write_stress_operator

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Annotated
 
-from r37core.declared import Key
+from r37core.base.declared import Key
 
 from .integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, INTEGRATORS
 

@@ -5,8 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
-from r37core.alignment import padded
 from r37core.contact.scene import Scene
+from r37core.machine_code.alignment import padded
 from r37core.rom.contact_model import ContactModel
 
 from .casing_of_run import CasingOfRun

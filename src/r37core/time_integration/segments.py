@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from r37core.alignment import LANES
+from r37core.machine_code.alignment import LANES
 from r37core.rom.rotation import BucklingError
 
 from .clearance import clearances

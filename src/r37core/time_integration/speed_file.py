@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from r37core.io import atomic_write, readable
+from r37core.base.io import atomic_write, readable
 
 from .status import RunStatus
 

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, TypeVar
 
+from r37core.base.io import JOB_LOG, as_list, readable
+from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
-from r37core.io import JOB_LOG, as_list, readable
-from r37core.plain import from_plain
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import read_stress_operator
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from r37core.alignment import LANES, padded
+from r37core.machine_code.alignment import LANES, padded
 
 from .step_limit import UnstableStepError
 

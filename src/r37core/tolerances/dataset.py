@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.dataset_file import SPEED_RPM, Variable, about, read_dataset
-from r37core.io import readable
+from r37core.base.dataset_file import SPEED_RPM, Variable, about, read_dataset
+from r37core.base.io import readable
+from r37core.base.units import RPM
 from r37core.plans.member_values import is_of_sample, number_of
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
 from r37core.results.netcdf import state_flags
@@ -16,7 +17,6 @@ from r37core.results.ranges import ENDS
 from r37core.results.ranking import MEASURES_RANKED_BY, robustness
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
-from r37core.units import RPM
 
 from .number_ranks import CONFIDENCE, ranking, share_ends
 from .sensitivity import ORDERS, sobol_indices

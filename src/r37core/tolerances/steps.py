@@ -3,9 +3,9 @@
 import math
 from typing import Any
 
-from r37core.dataset_file import hash_of_parts, read_dataset, write_dataset
-from r37core.io import as_list
-from r37core.plain import from_plain
+from r37core.base.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.base.io import as_list
+from r37core.base.plain import from_plain
 from r37core.results.interactions import InteractionChoice, find_interactions
 from r37core.results.table_file import write_table
 

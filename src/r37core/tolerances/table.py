@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from r37core.dataset_file import open_dataset
+from r37core.base.dataset_file import open_dataset
 from r37core.results.closing import counted
 from r37core.results.interactions import Interaction, InteractionChoice
 from r37core.results.ranges import COLUMNS, ENDS, RANGED

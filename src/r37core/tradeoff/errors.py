@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
+from r37core.base.dataset_file import about
 from r37core.cases.runner import energy_share
-from r37core.dataset_file import about
 from r37core.results.measures import leading_edge
 
 CONVERGING = {"rms_normal": "m", "rms_tangential": "m", "high_von_mises": "Pa"}

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from r37core.base.speeds import exact_text
 from r37core.cases.case import Case, Crossing
 from r37core.cases.plan import carries_coriolis, integration_of_level, kept_of, model_of_level, names_are_known
 from r37core.config import Settings
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
-from r37core.speeds import exact_text
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 from .section import DEFAULTS, SECTION, Parameter, TradeoffSection

@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.base.dataset_file import read_dataset
 from r37core.config.fidelity import recommended_level
-from r37core.dataset_file import read_dataset
 from r37core.results.table_file import read_table
 
 from .errors import CONVERGING, COSTS, COSTS_OF_MODEL, MAXIMA, QUANTITIES

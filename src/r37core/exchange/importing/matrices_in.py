@@ -18,6 +18,7 @@ import pandas as pd
 import scipy.linalg as la
 import scipy.sparse as sp
 
+from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
 from r37core.exchange.refusal import ImportRefused, MeshWarning, blamed
 from r37core.fem.solver import Solve, factorise
 from r37core.rom.contact_weights import tip_lengths, weights_along
@@ -26,7 +27,6 @@ from r37core.rom.naming import NAMED_MODES
 from r37core.rom.reduce import contact_nodes, projected
 from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
 from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, BoundaryError, ReductionChoice
-from r37core.units import MASS_UNITS, STIFFNESS_UNITS
 
 from .matrix_file import read_matrix
 from .source import MatricesSource, matrix_files

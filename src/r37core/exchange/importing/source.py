@@ -12,11 +12,11 @@ from typing import Annotated
 
 import numpy as np
 
-from r37core.declared import Key
+from r37core.base.declared import Key
+from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.fem.elements import ELEMENTS
-from r37core.units import MASS_UNITS, STIFFNESS_UNITS
 
 from .deck_text import included_files, is_deck
 from .raw_mesh import RawMesh

@@ -2,11 +2,11 @@
 
 from typing import Any
 
+from r37core.base.io import JOB_LOG
+from r37core.base.plain import from_plain
 from r37core.exchange.refusal import located
 from r37core.exchange.write_mesh import write_mesh
-from r37core.io import JOB_LOG
 from r37core.mesh.mesh_files import write_vtu
-from r37core.plain import from_plain
 from r37core.rom.reduction_choice import ReductionChoice, boundary_located
 from r37core.rom.rom_file import write_reduced_model
 

@@ -9,10 +9,10 @@ the massless boundary of Monjaraz-Tec, Gross and Krack, Computers & Structures 2
 
 import numpy as np
 
-from r37core.alignment import LANES
 from r37core.contact.complementarity import solve_complementarity
 from r37core.contact.node_sweeps import open_gaps, set_laws, sweep_nodes, wear_bars
-from r37core.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
+from r37core.machine_code.alignment import LANES
+from r37core.machine_code.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
 from .layout import LINED
 from .steps import bar_at, friction_response, leave_casing, node_lanes, set_friction_of_listed, wear_bar

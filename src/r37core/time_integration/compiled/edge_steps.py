@@ -6,9 +6,9 @@ all where these come near the largest penetration so far. Nodes are lanes.
 
 import numpy as np
 
-from r37core.alignment import LANES
 from r37core.contact.laws import displaced_position, lobe_shape
-from r37core.lanes import bits_of, inlined, integers_at, largest_of_lanes, load, numbers_at, spread, store
+from r37core.machine_code.alignment import LANES
+from r37core.machine_code.lanes import bits_of, inlined, integers_at, largest_of_lanes, load, numbers_at, spread, store
 
 from .layout import CORIOLIS, EXACT_GAP, LINED, MERIDIONAL, NORMAL, PUBLISHED, TANGENTIAL
 from .steps import list_pressed, mode_lanes, node_lanes

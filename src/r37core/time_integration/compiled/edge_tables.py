@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from r37core.alignment import LANES, aligned_zeros, padded
+from r37core.machine_code.alignment import LANES, aligned_zeros, padded
 
 from ..problem import Problem
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from r37core.alignment import LANES, aligned_copy, aligned_zeros, padded
 from r37core.contact.casing import rise_rate
 from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Friction, Lining
-from r37core.native import Sources, cached_object, load_function
+from r37core.machine_code.alignment import LANES, aligned_copy, aligned_zeros, padded
+from r37core.machine_code.native import Sources, cached_object, load_function
 
 from ..integrators import CENTRAL_DIFFERENCE
 from ..jump_numbers import NEVER
@@ -27,7 +27,9 @@ from .passage import Passage
 
 _COMPILED = ("contact_steps", "edge_steps", "jump_steps", "layout", "segment_steps", "program", "steps")
 SOURCES = Sources(
-    *(f"{name}.py" for name in ("alignment", "kept", "lanes", "native", "program_constants", "declared", "units")),
+    *(f"machine_code/{name}.py" for name in ("alignment", "kept", "lanes", "native", "program_constants")),
+    "base/declared.py",
+    "base/units.py",
     *(f"contact/{name}.py" for name in ("casing", "complementarity", "laws", "node_sweeps", "ring", "scene")),
     *(f"time_integration/compiled/{name}.py" for name in _COMPILED),
     *(f"time_integration/{name}.py" for name in ("jump_numbers", "state")),

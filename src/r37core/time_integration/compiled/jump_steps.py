@@ -12,8 +12,8 @@ their greatest slope times |y|/R nearer than at its undeformed one; n, y (sidewa
 
 import numpy as np
 
-from r37core.alignment import LANES
-from r37core.lanes import bits_of, inlined, load, numbers_at, store
+from r37core.machine_code.alignment import LANES
+from r37core.machine_code.lanes import bits_of, inlined, load, numbers_at, store
 
 from ..jump_numbers import BEYOND, COARSE, D_FROM_D, D_FROM_U, LOSS_DD, LOSS_UD, LOSS_UU, STRIDES, U_FROM_D, U_FROM_U
 from .layout import CORIOLIS, EXACT_GAP, MERIDIONAL, NORMAL, TANGENTIAL

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from r37core.alignment import LANES, Field, aligned_record, padded
 from r37core.contact.scene import Lining
+from r37core.machine_code.alignment import LANES, Field, aligned_record, padded
 
 from ..jump_numbers import STRIDES
 from ..state import TOTALS
@@ -36,7 +36,7 @@ class Kind(NamedTuple):
 
 
 PUBLISHED = LINED = EXACT_GAP = CORIOLIS = False
-"""Placeholders of a kind's constants: each program has its own (r37core.program_constants)."""
+"""Placeholders of a kind's constants: each program has its own (r37core.machine_code.program_constants)."""
 
 NORMAL, TANGENTIAL, MERIDIONAL = range(3)
 """Directions of contact: along the casing's normal, positive towards it; growing theta; along its meridian, downstream."""

@@ -10,10 +10,10 @@ import numba
 import numpy as np
 from numba import types
 
-from r37core.alignment import LANES
-from r37core.lanes import OPTIONS, bits_of, inlined, load, pointed_at, spread, store, sum_of_lanes
-from r37core.native import object_code
-from r37core.program_constants import specialised
+from r37core.machine_code.alignment import LANES
+from r37core.machine_code.lanes import OPTIONS, bits_of, inlined, load, pointed_at, spread, store, sum_of_lanes
+from r37core.machine_code.native import object_code
+from r37core.machine_code.program_constants import specialised
 
 from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, release_contact

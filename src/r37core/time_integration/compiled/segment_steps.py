@@ -3,14 +3,14 @@
 An increment u_n - u_{n-1} belongs to its speed: it is that of a free mode of this frequency, in a step of this length.
 """
 
-from r37core.alignment import LANES
-from r37core.lanes import inlined, integers_at, load, numbers_at, numbers_of, store
+from r37core.machine_code.alignment import LANES
+from r37core.machine_code.lanes import inlined, integers_at, load, numbers_at, numbers_of, store
 
 from .layout import MODAL_ROWS, NORMAL
 from .steps import mode_lanes
 
 OTHERS = 0
-"""Number of a speed's constants that are not of modes: a constant of each program (r37core.program_constants)."""
+"""Number of a speed's constants that are not of modes: a constant of each program (r37core.machine_code.program_constants)."""
 
 
 @inlined

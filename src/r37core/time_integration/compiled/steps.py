@@ -5,16 +5,16 @@ lining or the casing, u_{n+1} = u* + c F. It is carried in displacement u and in
 recursion without its loss of digits: d* = keep d - pull u, u* = u + d*, with keep = -b, pull = 1 - a - b, inverse = c.
 With Coriolis u is the real part of a complex amplitude, whose increment moves the nodes, too: time_integration.gyroscopic.
 
-`m` is a record of layout; tip nodes are lanes (r37core.lanes), sets of nodes are bits, eight nodes to an
+`m` is a record of layout; tip nodes are lanes (r37core.machine_code.lanes), sets of nodes are bits, eight nodes to an
 integer. Names in capitals that choose are those of layout.Kind, constants of each program.
 """
 
 import numpy as np
 
-from r37core.alignment import LANES
 from r37core.contact.complementarity import list_nodes, solve_complementarity
 from r37core.contact.laws import displaced_position, friction_direction, line_of_wear, lobe_shape, return_mapping
-from r37core.lanes import (
+from r37core.machine_code.alignment import LANES
+from r37core.machine_code.lanes import (
     bits_of,
     first_bit,
     flag_at,

@@ -1,6 +1,6 @@
 """Object code for this machine's processor: made once, kept, checked, and loaded without its compiler.
 
-Light: the simulation jobs import it. An object is kept (r37core.kept) under a name made of everything it depends on.
+Light: the simulation jobs import it. An object is kept (`kept`) under a name made of everything it depends on.
 """
 
 import ctypes
@@ -18,7 +18,7 @@ import llvmlite.binding as llvm
 
 from .kept import kept_bytes
 
-_PACKAGE = Path(__file__).parent
+_PACKAGE = Path(__file__).parents[1]
 
 
 class ObjectCodeError(RuntimeError):

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 LANES = 8
-"""Numbers that the compiled time integration handles at once (r37core.lanes)."""
+"""Numbers that the compiled time integration handles at once (r37core.machine_code.lanes)."""
 
 _VECTOR_BYTES = 8 * LANES
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from . import __version__
+from r37core import __version__
 
 FILE_ATTRIBUTES = {"Conventions": "CF-1.11", "r37core_version": __version__}
 """Global attributes of every netCDF file."""

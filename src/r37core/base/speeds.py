@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
-from r37core.units import RAD_S
+from r37core.base.units import RAD_S
 
 LARGEST_NUMBER = 100_000
 """Speeds of one blade in one scene."""
