@@ -8,12 +8,10 @@ from workflow_runs import copy_project
 BLADES, SCENES = ("Ref", "CS100"), ("abradable", "direct")
 REFINED = "{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"
 
-# the job server, which reads the script with fewer arguments, makes nothing
 _STUB = """
-import sys
 from pathlib import Path
 
-for file in snakemake.output if "snakemake" in globals() else sys.argv[2:3] * (len(sys.argv) > 3):
+for file in snakemake.output:
     path = Path(file)
     if not path.suffix:  # a folder
         path.mkdir()
@@ -54,14 +52,13 @@ elif snakemake.params.step == "r37core.search.steps.measure":
 
 
 def copy_stubbed(root, to):
-    """A copy with the small sweep of copy_project, its scripts replaced."""
+    """A copy with the small sweep of copy_project, its script replaced."""
     copy_project(root, to)
-    # start.py starts simulate.py
-    for script in (to / "workflow/scripts/step.py", to / "workflow/scripts/simulate.py"):
-        # the imports stay: they decide what code a job depends on
-        imports = [line for line in script.read_text().splitlines() if re.match(r"from r37core\S* import \w+(, \w+)*$", line)]
-        lazy = "\n".join(["def _imports():", *(f"    {line}" for line in imports), "    return None"])
-        script.write_text(f"{lazy}\n{_STUB}{_REFINE_STUB + _SEARCH_STUB if script.name == 'step.py' else ''}")
+    script = to / "workflow/scripts/step.py"
+    # the imports stay: they decide what code a job depends on
+    imports = [line for line in script.read_text().splitlines() if re.match(r"from r37core\S* import \w+(, \w+)*$", line)]
+    lazy = "\n".join(["def _imports():", *(f"    {line}" for line in imports), "    return None"])
+    script.write_text(f"{lazy}\n{_STUB}{_REFINE_STUB}{_SEARCH_STUB}")
 
 
 def edit(project, name, old, new):

@@ -41,16 +41,7 @@ use rule step as prepare_time_integration with:
         **stage(stages["prepare_time_integration"]),
 
 
-# parameters of jobs that the server runs; paths and no texts: another place is no reason to run again
-served = {
-    "python": PYTHON,
-    "start": SCRIPTS / "start.py",
-    "script": SCRIPTS / "simulate.py",
-    "code": engine("simulate"),
-}
-
-
-rule simulate:
+use rule step as simulate with:
     input:
         prepared=rules.prepare_time_integration.output,
         models=sweep.models,
@@ -59,17 +50,10 @@ rule simulate:
     log:
         "<logs>/{member}{blade}/{scene}/speed_{speed}.log",
     priority: simulations.priority
-    conda:
-        ENVIRONMENT
     resources:
         mem_mb=300,
     params:
-        **served,
-        task=simulations.task,
-        about=made.sweep,
-    # not `script:`, whose preamble imports Snakemake into each of thousands of jobs
-    shell:
-        "{params.python:q} -S -E {params.start:q} {params.script:q} {wildcards.speed:q} {output:q} {log:q} {params.task:q} {params.about:q} {input.models:q}"
+        **stage(stages["simulate"]),
 
 
 # adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none. All members of a

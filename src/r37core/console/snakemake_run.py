@@ -26,23 +26,21 @@ from r37core.product.extensions import beside
 from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, check_part, lines_of_extensions, remarks, replaced_level, source_folder
 
-from . import failures, job_server, lock
+from . import failures, lock
 from .caller import Caller
 from .closing import closing_lines
+from .executor import Executor
 from .progress import Progress, quieten
 
 SNAKEMAKE = "9.27.1"
 """The version that this package was written for."""
-
-PYTHON = Path(sys.executable)
-"""The interpreter, before Snakemake is told how to call it."""
 
 _OF_A_FILE = re.compile(rf"^ *{InputFileError.__name__}: (.*)$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
 class Console:
-    """One run of the `workflow`, with its `settings` and scripts and its package's `source`.
+    """One run of the `workflow`, with its `settings` and its package's `source`.
 
     `refusal`: Snakemake's own exception, which it shows without a traceback. `tell` warns the user; `began`: time in s;
     `caller`: of a run that a Python call has started, which says all itself.
@@ -52,22 +50,21 @@ class Console:
     refusal: type[Exception]
     tell: Callable[[str], object]
     settings: Settings
-    scripts: Path
     source: Path
     began: float
     caller: Caller | None
 
     def start(self) -> None:
-        """Check the targets and start the job server, before the first job."""
+        """Check the targets, before the first job."""
         with _refused(self.refusal):
             check_part(self.settings, self.workflow.dag_settings.targets)
             check_asked(self.settings, self.workflow.dag_settings.targets)
-        # Snakemake keeps to a number of jobs per second by timers, one more for every job that ends while others wait: a
-        # quarter of a core in the default sweep. The limit is for the queues of clusters
         if self.workflow.local_exec:
+            # Snakemake keeps to a number of jobs per second by timers, one more for every job that ends while others wait: a
+            # quarter of a core in the default sweep. The limit is for the queues of clusters
             self.workflow.scheduler.job_rate_limiter = None
-            if job_server.start(self.scripts / "simulate.py", PYTHON, self.tell):
-                start_scripts_by(self.scripts / "start.py")
+            if self.workflow.executor_plugin.executor is not Executor:
+                self.tell("each job starts by itself, which takes several times as long as with --executor warm")
 
     def succeed(self) -> None:
         """Print what the run found, after the last job."""
@@ -103,7 +100,8 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     if workflow.is_main_process:
         failures.begin(f"{socket.gethostname()}_{os.getpid()}")
     # Snakemake puts it into the commands of its scripts as it stands: a blank or `$()` in a folder's name would count
-    sys.executable = shlex.quote(str(PYTHON))
+    sys.executable = shlex.quote(sys.executable)
+    Executor.scripts = root / "workflow/scripts"
     if "CONDA" in {method.name for method in workflow.deployment_settings.deployment_method}:
         raise refusal("--sdm conda: jobs need the Python that runs Snakemake, with r37 in it; leave the option out")
     # where our Snakefile is the main one, values are those of the command line, without lines and with texts for numbers
@@ -120,12 +118,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
         logger.info(line)
     if not (caller or os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
         quieten(logger.handlers, Progress(extent_of(settings, beside(settings)).at_most))
-    return Console(workflow, refusal, logger.warning, settings, root / "workflow/scripts", source, began, caller)
-
-
-def start_scripts_by(start: Path) -> None:
-    """Let Snakemake start the Python scripts of its rules by way of `start`, a script that hands them to the job server."""
-    sys.executable = shlex.join([str(PYTHON), "-S", "-E", str(start)])
+    return Console(workflow, refusal, logger.warning, settings, source, began, caller)
 
 
 def without_files(refusal: type[Exception]) -> type[Exception]:

@@ -69,6 +69,11 @@ def sweep_stages(sweep: Sweep, made: Provenance) -> dict[str, Stage]:
     """Stages from a reduced model to the response over speed, by the names of their rules."""
     simulations, rounds = Simulations(sweep), Rounds(sweep)
     highest = sweep.settings.structure.maximum_speed_rad_s
+
+    def job(wildcards: Any) -> dict[str, str]:
+        """Speed and task of a simulation: one parameter, as Snakemake takes a millisecond to ask for each."""
+        return {"speed": wildcards.speed, "task": simulations.task(wildcards)}
+
     prepared = {"scene": simulations.plain_scene, "speed": highest, "choice": simulations.choice_of_scene}
     refined = {"plan": rounds.refined_plan, "choice": rounds.refinement_choice, "yields": rounds.yields_of_round}
     speeds = {"speeds": sweep.speeds, "stress_history_speeds": sweep.stress_history_speeds}
@@ -76,6 +81,7 @@ def sweep_stages(sweep: Sweep, made: Provenance) -> dict[str, Stage]:
     joined = {**speeds, **limits, "provenance": made.sweep}
     return {
         "prepare_time_integration": Stage("time_integration.speed_job.prepare", prepared),
+        "simulate": Stage("time_integration.speed_job.simulate", {"job": job, "about": made.sweep}),
         "refine": Stage("adaptive.steps.refine", refined),
         "response": Stage("results.steps.response", joined),
     }

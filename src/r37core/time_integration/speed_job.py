@@ -23,6 +23,14 @@ _Model = TypeVar("_Model")
 _READY = set[tuple[str, str]]()
 
 
+def simulate(input: Any, output: Any, params: Any) -> None:
+    """A step of the workflow: one simulation. Inputs: models, that of contact first. Output: speed_*.npz.
+
+    Params: job, with speed (rad/s) and task, and about: see `run_job`. Raises what that raises.
+    """
+    run_job(params.job["speed"], output[0], params.job["task"], str(params.about), *as_list(input.models))
+
+
 def run_job(speed: str, output: str, task: str, about: str, *models: str, motion: InitialMotion | None = None) -> None:
     """Simulate at a speed (rad/s) and write the file, with the attributes `about`; `task` is that of a sweep's plan.
 
@@ -48,13 +56,13 @@ def prepare(input: Any, output: Any, params: Any) -> None:
     JOB_LOG.debug(f"{params.speed:g} rad/s: highest mode {highest:.6g} rad/s, steps of {step:.6g} s")
 
 
-def make_ready(speed: str, output: str, log: str, task: str, about: str, *models: str) -> None:
+def make_ready(input: Any, params: Any) -> None:
     """Load what all jobs of a model and task have in common, once, for a server that forks them. Raises what the job would."""
-    model, *stress = models
+    (model, *stress), task = as_list(input.models), params.job["task"]
     if (model, task) in _READY:
         return
     _READY.add((model, task))
-    prepared(*_given(model, speed, json.loads(task)))
+    prepared(*_given(model, params.job["speed"], json.loads(task)))
     if stress:
         _ = _kept(read_stress_operator, *stress).deviatoric
 
