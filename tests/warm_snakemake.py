@@ -18,6 +18,7 @@ import traceback
 from contextlib import contextmanager, suppress
 from functools import cache, partial
 from importlib import import_module
+from multiprocessing import Pipe
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -83,7 +84,7 @@ def _serve():
 def _import_package():
     """What the rules take from the package of the checkout, and the modules of their steps and figures."""
     os.environ.setdefault("MPLBACKEND", "Agg")
-    for file in [CHECKOUT / "Snakefile", *(CHECKOUT / "workflow").rglob("*.smk"), CHECKOUT / "workflow/scripts/simulate.py"]:
+    for file in [CHECKOUT / "Snakefile", *(CHECKOUT / "workflow").rglob("*.smk")]:
         text = file.read_text()
         names = re.findall(r"^from (r37core\S*) import", text, re.MULTILINE)
         for name in {*names, *(f"r37core.{module}" for module in re.findall(r'"(\w+(?:\.\w+)+)\.\w+"', text))}:
@@ -105,35 +106,28 @@ def _become(order):
         with open(file, stream.mode) as opened:
             os.dup2(opened.fileno(), stream.fileno())
     if "--dry-run" not in order["arguments"]:
-        _fork_job_server()
+        _fork_job_servers()
     signal.alarm(order["seconds"])
     if order["jobs"]:
         _write_jobs(Path(order["jobs"]))
 
 
-def _fork_job_server():
-    """Let the server of the jobs be a fork, which has imported what most of them need; it waits for its address."""
-    job_server = import_module("r37core.console.job_server")
-    reading, writing = os.pipe()
-    if (number := os.fork()) == 0:
-        os.setsid()
-        os.close(writing)
-        os.dup2(reading, 0)
-        os.close(reading)
-        with open(0) as sys.stdin:
-            if line := sys.stdin.readline():
-                address, script = json.loads(line)
-                job_server.serve(Path(address), script)
-        os._exit(0)
-    os.close(reading)
-
-    def popen(command, **_):
-        stdin = os.fdopen(writing, "w")
-        print(json.dumps(command[-2:]), file=stdin, flush=True)
+def _fork_job_servers():
+    """Let the servers of the jobs be forks, which have imported what most jobs need; each waits until it is used."""
+    executor, fork_server = import_module("r37core.console.executor"), import_module("r37core.console.fork_server")
+    waiting = []
+    for _ in range(2):
+        ours, theirs = Pipe()
+        if (number := os.fork()) == 0:
+            os.setsid()
+            for channel, _ in [*waiting, (ours, None)]:
+                channel.close()
+            fork_server.serve(theirs)
+            os._exit(0)
+        theirs.close()
         kill = partial(os.kill, number, signal.SIGKILL)
-        return SimpleNamespace(pid=number, stdin=stdin, kill=kill, wait=lambda _: os.waitpid(number, 0))
-
-    job_server.subprocess = SimpleNamespace(Popen=popen, PIPE=None, TimeoutExpired=subprocess.TimeoutExpired)
+        waiting.append((ours, SimpleNamespace(pid=number, kill=kill, wait=lambda _, number=number: os.waitpid(number, 0))))
+    executor.start_server = waiting.pop
 
 
 def _write_jobs(file):

@@ -15,12 +15,15 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from snakemake_interface_executor_plugins.executors.base import SubmittedJobInfo
 from snakemake_interface_executor_plugins.executors.real import RealExecutor
 from snakemake_interface_executor_plugins.registry import ExecutorPluginRegistry
 from snakemake_interface_executor_plugins.settings import CommonSettings, ExecMode
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
 
 common_settings = CommonSettings(
     non_local_exec=False,
@@ -110,21 +113,24 @@ class Executor(RealExecutor):
         self.shutdown()
 
 
+def start_server() -> tuple[Connection, subprocess.Popen[bytes]]:
+    """Start a process of r37core.console.fork_server, and return the channel to it."""
+    from multiprocessing import Pipe
+
+    ours, theirs = Pipe()
+    with theirs:
+        # -P: the user's folder may hold a random.py. A session of its own: the terminal's interrupt is for Snakemake
+        command = [PYTHON, "-P", "-m", "r37core.console.fork_server", str(theirs.fileno())]
+        return ours, subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=[theirs.fileno()], start_new_session=True)
+
+
 class _Server:
     """A process that forks for jobs (r37core.console.fork_server). `answers`: False once it was killed."""
 
     def __init__(self, tell: Callable[[str], object]):
-        from multiprocessing import Pipe
-
         self.answers, self._tell, self._ending = True, tell, False
         self._ends: dict[int, Callable[[int | None], object]] = {}
-        self._channel, theirs = Pipe()
-        with theirs:
-            # -P: the user's folder may hold a random.py. A session of its own: the terminal's interrupt is for Snakemake
-            command = [PYTHON, "-P", "-m", "r37core.console.fork_server", str(theirs.fileno())]
-            self._process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, pass_fds=[theirs.fileno()], start_new_session=True
-            )
+        self._channel, self._process = start_server()
         threading.Thread(target=self._read, daemon=True).start()
 
     def submit(self, script: str, job: Any, ended: Callable[[int | None], object]) -> None:
