@@ -279,7 +279,7 @@ def test_members_have_changes_on_top_of_the_blade_s(root):
 def test_an_impossible_member_names_its_number(root, changes, key, message):
     with pytest.raises(ImpossibleValueError, match=message) as refusal:
         changed_blade(r37.blade("Ref", config=root / "config/config.yaml").settings, changes)
-    assert refusal.value.key == key
+    assert refusal.value.number.key == key
 
 
 @pytest.mark.parametrize(

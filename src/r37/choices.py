@@ -10,9 +10,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
+from r37core.base.varied import with_value
 from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
 from r37core.config.blades import SHARES, Blades, blade_settings
-from r37core.config.families import Designs, changed_content, expanded_families
+from r37core.config.families import Designs, expanded_families
 from r37core.config.messages import did_you_mean, single_line
 from r37core.config.scenes import SceneEntry, Scenes
 from r37core.config.section import Without
@@ -68,7 +69,7 @@ class Choice:
             raise _unknown(f"changed {self.kind}", original, entries, file.name)
         content: dict[str, Any] = {}
         for key, value in changes.items():
-            content = changed_content(content, key.split("."), Without.KEY if value is None else plain_value(value))
+            content = with_value(content, key, Without.KEY if value is None else plain_value(value))
         changed = command_line_document({self.name: content}, place)
         if self.base is None:
             return changed

@@ -7,13 +7,14 @@ from functools import cached_property
 from typing import Any
 
 from r37core.base.plain import to_plain
+from r37core.base.varied import BLADE, KINDS, SCENE, VariedNumber
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.config.families import Designs, Family
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 
-from .compared import BLADE, BOTH, KINDS, SCENE, SCENE_KEY, Compared
+from .compared import BOTH, Compared
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class Families:
             for family in families.values():
                 for design in _designs(family, names):
                     values = family.values(design).items()
-                    designs[kind][design] = {_column(kind, key): value for key, value in values}
+                    designs[kind][design] = {VariedNumber(kind, key).name: value for key, value in values}
         return designs
 
     @property
@@ -81,7 +82,7 @@ class Families:
             for name, family in families.items():
                 designs = tuple(_designs(family, names))
                 blades, scenes = (designs, self._plain_scenes) if kind == BLADE else (tuple(settings.blade_names), designs)
-                figures[name] = Compared(kind, tuple(_column(kind, key) for key in family.keys), blades, scenes)
+                figures[name] = Compared(kind, tuple(VariedNumber(kind, key).name for key in family.keys), blades, scenes)
         return figures
 
     @property
@@ -119,10 +120,6 @@ def _that_run(designs: Designs[Any], names: list[str]) -> dict[str, Family]:
 def _designs(family: Family, names: list[str]) -> list[str]:
     there = set(names)
     return [design for design in family.designs if design in there]
-
-
-def _column(kind: str, key: str) -> str:
-    return key if kind == BLADE else SCENE_KEY + key
 
 
 def tables_of_maps(sweep: Sweep) -> dict[str, paths.Wildcards]:

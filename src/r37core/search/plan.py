@@ -179,7 +179,7 @@ class Search:
         """Scene -> variables that are of numbers which it has."""
         designs = self.designs
         return {
-            scene: [key for key in designs.entry.variables if scene in designs.values_in_scenes(key)]
+            scene: [number.name for number in designs.numbers if scene in designs.values_in_scenes(number)]
             for scene in designs.scenes
         }
 
