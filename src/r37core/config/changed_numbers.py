@@ -17,7 +17,7 @@ from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
 
 from .blade_sections import MaterialSection
-from .blades import SHARES, BladeEntry, BladeSettings, SweepLean, TableShare
+from .blades import SHARES, BladeSettings, SweepLean, TableShare
 from .declaring import si_fields
 from .document import Document
 from .messages import did_you_mean, explain, single_line

@@ -50,36 +50,45 @@ class ConfigRefusals:
 
 @dataclass(frozen=True)
 class Document:
-    """What a file says. `name`: of the file, for messages; `locations`: file and line of the values, as `file:line`."""
+    """Content of a file. `name`: of the file, for messages; `locations`: file and line of the values, as `file:line`.
+
+    `inherited`: values that an entry has from its base, at its line -> name of the base.
+    """
 
     name: str
     content: Any
     locations: Mapping[KeyPath, str] = field(default_factory=dict)
+    inherited: Mapping[KeyPath, str] = field(default_factory=dict)
 
     def location(self, path: KeyPath) -> str:
         """File and line of a value, of what holds it if it is not given, or the file alone."""
-        for length in range(len(path), 0, -1):
-            if path[:length] in self.locations:
-                return self.locations[path[:length]]
-        return self.name if path else self.locations.get((), self.name)
+        known = self._known(path)
+        return self.locations.get(known, self.name) if known or not path else self.name
+
+    def _known(self, path: KeyPath) -> KeyPath:
+        """The path, or that of what holds it, as far as its line is known."""
+        return next((path[:length] for length in range(len(path), 0, -1) if path[:length] in self.locations), ())
 
     def error(self, path: KeyPath, text: str, key: KeyPath | None = None) -> ConfigError:
         """The error of the value at `path`: place, key (where that is not the whole path) and `text`."""
-        named = path if key is None else key
+        named, base = path if key is None else key, self.inherited.get(self._known(path))
         shown = ".".join(single_line(str(step)) for step in named) or "top level"
-        return ConfigError(f"{self.location(path)}: {shown}: {text}")
+        return ConfigError(f"{self.location(path)}: {shown}: {text}" + (f" (from the base '{base}')" if base else ""))
 
     def refusal(self, path: KeyPath, value: str, allowed: str) -> ConfigError:
         """The error of the value at `path`, with what was found and what is allowed."""
         return self.error(path, f"found {value}; allowed: {allowed}")
 
     def check(self, model: type[Model]) -> Model:
-        """The content as a model; ConfigError for all that the model does not allow."""
+        """The content as a model; ConfigError for all that the model does not allow, in a base for the base alone."""
         try:
             return model.model_validate(self.content)
         except ValidationError as error:
             explained = explain_all(error, self.content, model)
-        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in explained)).tell()
+        texts: dict[tuple[Any, ...], str] = {path: text for path, _, text in explained}
+        bases = {path: self.inherited.get(self._known(path)) for path in texts}
+        own = [each for each in explained if texts.get((bases[each[0]], *each[0][1:])) != each[2]]
+        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in own)).tell()
         raise AssertionError("a model refuses for a reason")
 
     def overlaid(self, above: Document) -> Document:

@@ -122,7 +122,7 @@ class RotorSection(Section):
             return
         if entry.percent:
             raise refused((key,), "a spread in percent of the nominal value, which is 0", "uniform, normal, between, values")
-        (kind, numbers), bounds = entry.given, f"at least {least:g}, at most {most:g}"
+        (kind, numbers), bounds = entry.distribution, f"at least {least:g}, at most {most:g}"
         for number in numbers:
             if kind in ("uniform", "normal") and number > min(-least, most):
                 raise refused((key, kind), f"{number:g}", f"at most {min(-least, most):g}")

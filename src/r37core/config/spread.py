@@ -59,19 +59,19 @@ class SpreadEntry(Section):
         return self
 
     @cached_property
-    def given(self) -> tuple[str, list[float]]:
-        """Key of the distribution, and its numbers."""
+    def distribution(self) -> tuple[str, list[float]]:
+        """Its key, and its numbers."""
         ((key, numbers),) = plain(self).items()
         return key, numbers if isinstance(numbers, list) else [numbers]
 
     @property
     def percent(self) -> bool:
         """Whether the width is in percent of the nominal value."""
-        return self.given[0].endswith("_percent")
+        return self.distribution[0].endswith("_percent")
 
     def value(self, nominal: float, share: float) -> float:
         """The value below which a `share`, from 0 to 1, of all values lies, rounded to 12 digits."""
-        key, numbers = self.given
+        key, numbers = self.distribution
         first = numbers[0]
         width = first * abs(nominal) / 100.0 if self.percent else first
         if key.startswith("uniform"):
@@ -91,7 +91,7 @@ class SpreadEntry(Section):
         """The values that no other goes beyond; none of a normal distribution, which has no bounds."""
         if self.values is not None:
             return tuple(self.values)
-        return () if self.given[0].startswith("normal") else (self.value(nominal, 0.0), self.value(nominal, 1.0))
+        return () if self.distribution[0].startswith("normal") else (self.value(nominal, 0.0), self.value(nominal, 1.0))
 
 
 class Spreads(Section):
