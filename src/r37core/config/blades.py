@@ -123,12 +123,12 @@ class BladeSettings:
 
     @property
     def has_profiles(self) -> bool:
-        """Whether it is given by profiles, so that it can have another mesh."""
+        """True if it is given by profiles, so that it can have another mesh."""
         return isinstance(self.definition, BladeDefinition)
 
     @property
     def is_matrices(self) -> bool:
-        """Whether it is given by matrices, so that it has one model and no stress."""
+        """True if it is given by matrices, so that it has one model and no stress."""
         return isinstance(self.definition, MatricesSource)
 
     @property
@@ -228,7 +228,7 @@ def _changed(
 
 
 def _source(entry: MeshEntry | MatricesEntry, name: str, root: Path, document: Document) -> MeshSource | MatricesSource:
-    """What to import, its directions checked and its files found."""
+    """Mesh or matrices to import, with directions checked and files found."""
     try:
         entry.orientation().check()
         return entry.source(root)

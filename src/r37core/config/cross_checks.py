@@ -1,4 +1,4 @@
-"""What no model of one file can check: each function compares values of several keys or files.
+"""Checks that no model of one file can make: each function compares values of several keys or files.
 
 Each of `CHECKS` raises ConfigError with the place of the value to blame. All of them are run: one that needs what another has
 refused meets the same refusal in `Settings`, and that is told once.

@@ -28,13 +28,13 @@ class ConfigError(ValueError):
 
 
 class ConfigRefusals:
-    """What is wrong with a configuration, from checks that do not wait for each other: a user is told all at once."""
+    """Refusals of a configuration, from checks that do not wait for each other: all are reported at once."""
 
     def __init__(self, *lines: str) -> None:
         self._lines = dict.fromkeys(lines)
 
     def of(self, check: Callable[..., Result], *arguments: Any) -> Result | None:
-        """What a check gives; None where it refuses, which it may do for the reason of one before it."""
+        """Result of a check; None where it refuses, which it may do for the reason of one before it."""
         try:
             return check(*arguments)
         except ConfigError as error:
@@ -130,7 +130,7 @@ def read_document(root: Path, name: str) -> Document:
 
 
 def command_line_document(values: Mapping[str, Any], name: str = "--config") -> Document:
-    """What a command line gives, where Snakemake hands numbers inside lists on as texts, or a call, which may have NumPy's.
+    """Values of a command line, where Snakemake hands numbers inside lists on as texts, or of a call, which may have NumPy's.
 
     Raises ConfigError for a key that no file can have.
     """

@@ -85,7 +85,7 @@ def _schema(model: type[BaseModel]) -> dict[str, Any]:
 
 
 def describe(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
-    """What a part of a JSON schema allows, in words."""
+    """Allowed values of a part of a JSON schema, in words."""
     part = _resolved(part, schema)
     for key in ("anyOf", "oneOf"):
         if key in part:

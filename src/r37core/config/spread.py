@@ -66,7 +66,7 @@ class SpreadEntry(Section):
 
     @property
     def percent(self) -> bool:
-        """Whether the width is in percent of the nominal value."""
+        """True if the width is in percent of the nominal value."""
         return self.distribution[0].endswith("_percent")
 
     def value(self, nominal: float, share: float) -> float:

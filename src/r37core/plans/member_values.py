@@ -44,7 +44,7 @@ def drawn(
 
 
 def is_of_sample(member: str) -> bool:
-    """Whether a member is of the sample, and not beside it for sensitivity indices alone."""
+    """True if a member is of the sample, and not beside it for sensitivity indices alone."""
     return member.isdigit()
 
 

@@ -1,4 +1,4 @@
-"""What the section of a search alone cannot check."""
+"""Checks of a search against blades, scenes and the Campbell diagram."""
 
 from r37core.base.varied import SCENE, VariedNumber
 from r37core.base.yaml_file import KeyPath

@@ -36,7 +36,7 @@ class SearchDesigns:
 
     @property
     def entry(self) -> SearchSection:
-        """What is asked for."""
+        """Section of config.yaml."""
         entry = self.settings.section(SECTION)
         assert entry is not None
         return entry
@@ -50,7 +50,7 @@ class SearchDesigns:
 
     @property
     def variables(self) -> tuple[SearchVariable, ...]:
-        """What varies between which bounds, in the units of the keys."""
+        """Variables with their bounds, in the units of the keys."""
         return tuple(SearchVariable(key, *bounds) for key, bounds in self.entry.variables.items())
 
     @cached_property
@@ -88,7 +88,7 @@ class SearchDesigns:
 
     @property
     def blade_varies(self) -> bool:
-        """Whether a variable is of the blade."""
+        """True if a variable is of the blade."""
         return any(number.kind == BLADE for number in self.numbers)
 
     def model_part(self, name: str) -> str:

@@ -41,12 +41,12 @@ class Evaluated:
 
     @property
     def is_done(self) -> bool:
-        """Whether there is a finite number for every objective and margin."""
+        """True if every objective and margin is a finite number."""
         return all(map(math.isfinite, (*self.objectives, *self.margins)))
 
     @property
     def is_feasible(self) -> bool:
-        """Whether it could be built and keeps every constraint."""
+        """True if it could be built and keeps every constraint."""
         return self.is_done and all(margin >= 0 for margin in self.margins)
 
 

@@ -47,7 +47,7 @@ class QuantitySection(Section):
 
 
 class ObjectiveSection(QuantitySection):
-    """What should be small."""
+    """Number of a design that should be small."""
 
     quantile: Annotated[float, Field(ge=1e-3, le=0.999)] | LeftOut = Field(
         default=None, description="Quantile under tolerances, such as 0.9; the nominal value without it"
@@ -61,7 +61,7 @@ class ObjectiveSection(QuantitySection):
 
 
 class ConstraintSection(QuantitySection):
-    """What has to be kept; with percent of the value that the start has."""
+    """Bounds of a number of a design; with percent, of the value of the start."""
 
     at_least: Number | LeftOut = Field(default=None, description="Lower bound, in the unit of the measure")
     at_most: Number | LeftOut = Field(default=None, description="Upper bound, in the unit of the measure")
