@@ -1,5 +1,7 @@
 """Families of designs: one entry of blades.yaml or scenes.yaml with `vary` or `designs` is many blades or scenes."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace
 from itertools import product
@@ -68,6 +70,14 @@ class Designs(Generic[E]):
     def family_of(self) -> dict[str, str]:
         """Design -> family."""
         return {design: name for name, family in self.families.items() for design in family.designs}
+
+    def families_of(self, names: Iterable[str]) -> dict[str, Family]:
+        """Families with those of their designs that are among these names, where there are some."""
+        there, families = set(names), {}
+        for name, family in self.families.items():
+            if designs := {design: values for design, values in family.designs.items() if design in there}:
+                families[name] = replace(family, designs=designs)
+        return families
 
     def named(self, names: Iterable[str]) -> list[str]:
         """Entries of these names, and designs of families of these names, each once."""
