@@ -67,7 +67,7 @@ def test_a_family_may_have_a_base(with_scenes):
         ("X: { base: direct, linning: null }", r"80: X: found unknown key linning; allowed keys: base, .*mean lining"),
         ("X: { base: direct, lining: { thickness_m: 0.001 } }", r"80: X\.lining: missing key elastic_modulus_pa"),
         ("X: { base: abradable, casing: null }", r"80: X: missing key casing; allowed keys: base, tip_line"),
-        ("X: { base: abradable, lining: null }", r"19: X\.results: found wear; .* a lining \(from the base 'abradable'\)$"),
+        ("X: { base: abradable, lining: null }", r"19: X\.results: found wear; .* a lining \(given by 'abradable'\)$"),
         ("X: { casing: { clearance_m: 0.001 }, lining: null }", r"80: X\.lining: found nothing; allowed: a value"),
         ("X: { base: rotor_abradable, rotor: { longer_m: { 1: null } } }", r"80: X\.rotor\.longer_m\.1: found nothing"),
     ],

@@ -7,9 +7,7 @@ from dataclasses import replace
 from functools import reduce
 from typing import Any
 
-from r37core.base.yaml_file import KeyPath
-
-from .document import ConfigRefusals, Document
+from .document import ConfigRefusals, Document, joined
 from .messages import did_you_mean, single_line
 from .section import Without
 from .varied import FAMILY_KEYS
@@ -39,46 +37,34 @@ def with_bases(scenes: Document, above: Document | None = None) -> tuple[Documen
     A key that is null is left out although the base has it. `above`: changes of some entries, which others that start from them
     do not have. An entry whose base is not there, or in a circle, is left out and refused.
     """
-    changed = scenes.overlaid(above) if above else scenes
-    below, entries = _entries(scenes), _entries(changed)
-    bases = {name: base for name, entry in entries.items() if (base := _base(entry)) is not None}
-    known = [name for name, entry in below.items() if not entry.content.keys() & set(FAMILY_KEYS)]
-    bases_below = {name: _base(entry) for name, entry in below.items()}
-    content = dict(changed.content) if bases else changed.content
-    locations, refusals = dict(changed.locations), ConfigRefusals()
-    inherited: dict[KeyPath, str] = {}
+    changed, refusals = scenes.overlaid(above) if above else scenes, ConfigRefusals()
+    below, entries = _mappings(scenes.content), _mappings(changed.content)
+    bases_below, bases = _bases(below), _bases(entries)
+    known = [name for name, entry in below.items() if not entry.keys() & set(FAMILY_KEYS)]
+    content, sources = dict(changed.content) if bases else changed.content, {}
     for name, base in bases.items():
         chain = refusals.of(chain_of_bases, name, {**bases_below, name: base}.get, known, changed, "scene")
         if chain is None:
             del content[name]
-            continue
-        whole = reduce(Document.overlaid, map(_own_keys, [*(below[link] for link in chain[:-1]), entries[name]]))
-        content[name] = whole.content
-        locations |= {(name, *path): location for path, location in whole.locations.items()}
-        inherited |= {(name, *path): base for path in whole.locations.keys() - entries[name].locations.keys()}
-    return replace(changed, content=content, locations=locations, inherited=inherited), refusals
+        else:
+            content[name] = reduce(joined, map(_own_keys, [*(below[link] for link in chain[:-1]), entries[name]]))
+            sources[name] = base
+    return replace(changed, content=content, sources=sources), refusals
 
 
-def _entries(scenes: Document) -> dict[Any, Document]:
-    """Each scene that is a mapping, by its name."""
-    content = scenes.content if isinstance(scenes.content, Mapping) else {}
-    lines: dict[Any, dict[KeyPath, str]] = {name: {} for name, entry in content.items() if isinstance(entry, Mapping)}
-    for path, location in scenes.locations.items():
-        if path and path[0] in lines:
-            lines[path[0]][path[1:]] = location
-    return {name: Document(scenes.name, content[name], of) for name, of in lines.items()}
+def _mappings(content: Any) -> dict[str, Mapping[str, Any]]:
+    """Entries of a file as far as they are mappings."""
+    every = content.items() if isinstance(content, Mapping) else ()
+    return {name: entry for name, entry in every if isinstance(entry, Mapping)}
 
 
-def _base(entry: Document) -> str | None:
-    base = entry.content.get("base")
-    return base if isinstance(base, str) else None
+def _bases(entries: Mapping[str, Mapping[str, Any]]) -> dict[str, str]:
+    return {name: entry["base"] for name, entry in entries.items() if isinstance(entry.get("base"), str)}
 
 
-def _own_keys(entry: Document) -> Document:
+def _own_keys(entry: Mapping[str, Any]) -> Any:
     """The keys that an entry has itself: on top of a base, null leaves a key out."""
-    if _base(entry) is None:
-        return entry
-    return replace(entry, content=_without_nulls({key: value for key, value in entry.content.items() if key != "base"}))
+    return _without_nulls({key: value for key, value in entry.items() if key != "base"}) if "base" in entry else entry
 
 
 def _without_nulls(value: Any) -> Any:

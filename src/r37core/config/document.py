@@ -52,28 +52,32 @@ class ConfigRefusals:
 class Document:
     """Content of a file. `name`: of the file, for messages; `locations`: file and line of the values, as `file:line`.
 
-    `inherited`: values that an entry has from its base, at its line -> name of the base.
+    `sources`: entry -> the one that gives what stands nowhere in it: its base, or the family of a design.
     """
 
     name: str
     content: Any
     locations: Mapping[KeyPath, str] = field(default_factory=dict)
-    inherited: Mapping[KeyPath, str] = field(default_factory=dict)
+    sources: Mapping[Any, str] = field(default_factory=dict)
 
     def location(self, path: KeyPath) -> str:
         """File and line of a value, of what holds it if it is not given, or the file alone."""
-        known = self._known(path)
-        return self.locations.get(known, self.name) if known or not path else self.name
+        place = self._place(path)
+        return self.locations.get(place, self.name) if place or not path else self.name
 
-    def _known(self, path: KeyPath) -> KeyPath:
-        """The path, or that of what holds it, as far as its line is known."""
-        return next((path[:length] for length in range(len(path), 0, -1) if path[:length] in self.locations), ())
+    def _place(self, path: KeyPath) -> KeyPath:
+        """Path with a line that the value at `path` is from, or what holds it: of its entry or of the source of that."""
+        own: KeyPath = next((path[:length] for length in range(len(path), 0, -1) if path[:length] in self.locations), ())
+        source = self.sources.get(path[0]) if path else None
+        given = () if source is None else self._place((source, *path[1:]))
+        return given if len(given) > len(own) else own
 
     def error(self, path: KeyPath, text: str, key: KeyPath | None = None) -> ConfigError:
         """The error of the value at `path`: place, key (where that is not the whole path) and `text`."""
-        named, base = path if key is None else key, self.inherited.get(self._known(path))
+        named, place = path if key is None else key, self._place(path)
         shown = ".".join(single_line(str(step)) for step in named) or "top level"
-        return ConfigError(f"{self.location(path)}: {shown}: {text}" + (f" (from the base '{base}')" if base else ""))
+        source = f" (given by '{place[0]}')" if place[:1] not in ((), path[:1]) else ""
+        return ConfigError(f"{self.location(path)}: {shown}: {text}{source}")
 
     def refusal(self, path: KeyPath, value: str, allowed: str) -> ConfigError:
         """The error of the value at `path`, with what was found and what is allowed."""
@@ -85,9 +89,9 @@ class Document:
             return model.model_validate(self.content)
         except ValidationError as error:
             explained = explain_all(error, self.content, model)
-        texts: dict[tuple[Any, ...], str] = {path: text for path, _, text in explained}
-        bases = {path: self.inherited.get(self._known(path)) for path in texts}
-        own = [each for each in explained if texts.get((bases[each[0]], *each[0][1:])) != each[2]]
+        texts = {path: text for path, _, text in explained}
+        places = {path: (*self._place(path)[:1], *path[1:]) for path in texts}
+        own = [each for each in explained if places[each[0]] == each[0] or texts.get(places[each[0]]) != each[2]]
         ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in own)).tell()
         raise AssertionError("a model refuses for a reason")
 
@@ -164,6 +168,11 @@ def _mark(content: Any, path: KeyPath, name: str, locations: dict[KeyPath, str])
     if isinstance(content, Mapping):
         for key, value in content.items():
             _mark(value, (*path, key), name, locations)
+
+
+def joined(below: Any, above: Any) -> Any:
+    """One content on top of another: mappings are joined, all else is replaced."""
+    return _overlay(below, above, (), {})
 
 
 def _overlay(below: Any, above: Any, path: KeyPath, locations: dict[KeyPath, str]) -> Any:

@@ -96,22 +96,19 @@ def expanded_families(entries: Mapping[str, E], root: Path, document: Document) 
     """The entries with every family replaced by its designs. Raises ConfigError, with the place in `document`."""
     made: dict[str, E] = {}
     families: dict[str, Family] = {}
-    locations = dict(document.locations)
     for name, entry in entries.items():
         if not is_family(entry):
             made[name] = entry
             continue
         families[name] = family = _family(name, entry, root, document)
-        places = {path[1:]: location for path, location in document.locations.items() if path[:1] == (name,)}
         for design in family.designs:
             if design in entries or design in made:
                 allowed = f"designs that are not named like another {_kind(entry)}"
                 raise document.refusal((name,), f"the design '{design}'", allowed)
             made[design] = design_entry(name, entry, family.values(design), design, document)
-            locations |= {(design, *path): location for path, location in places.items()}
-    designs = Designs(made, families, replace(document, locations=locations))
+    designs = Designs(made, families, document)
     _check_names(designs)
-    return designs
+    return replace(designs, document=replace(document, sources={**document.sources, **designs.family_of}))
 
 
 def _check_names(designs: Designs[E]) -> None:
