@@ -11,7 +11,7 @@ import r37
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, checked_scene, command_line_document
-from r37core.config.changed_numbers import changed_scene, scene_numbers
+from r37core.config.changed_numbers import entry_with, scene_numbers
 from r37core.config.rotor_section import RotorSection
 from r37core.contact.scene import Rotor
 from r37core.product.reading import read_settings
@@ -80,7 +80,7 @@ def test_a_blade_of_a_file_has_another_value_in_python(config_copy):
 def test_a_member_of_a_sample_has_another_value_of_one_blade():
     entry = r37.scene("abradable", results=["stress"], rotor={"blades": 2, "longer_m": {2: 3e-5}}).entry
     assert scene_numbers(entry)["rotor.longer_m.2"] == 3e-5
-    assert changed_scene(entry, {"rotor.longer_m.2": 4e-5}).rotor.longer == (0.0, 4e-5)
+    assert entry_with(entry, {"rotor.longer_m.2": 4e-5}).scene().rotor.longer == (0.0, 4e-5)
 
 
 BLADES = "the number of a blade, from 1 to 1000"

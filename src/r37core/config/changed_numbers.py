@@ -3,61 +3,54 @@
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Annotated, Any, TypeVar
+from typing import Any, TypeVar
 
-from pydantic import BaseModel, Field, ValidationError, create_model
+from pydantic import BaseModel, ValidationError
 
 from r37core.base.units import si_name
 from r37core.base.varied import BLADE, SCENE, VariedNumber, numbers_in, with_value
 from r37core.base.yaml_file import KeyPath
 from r37core.blade.definition import BladeDefinition
-from r37core.blade.profile import BladeShapeError
+from r37core.blade.profile import BladeShapeError, ProfileParameters
 from r37core.blade.profile_tables import check_sweep
 from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
 
 from .blade_sections import MaterialSection
-from .blades import SHARES, BladeSettings, SweepLean, TableShare
+from .blades import SHARES, BladeEntry, BladeSettings, SweepLean
 from .declaring import si_fields
 from .document import Document
 from .messages import did_you_mean, explain, single_line
 from .scenes import SceneEntry
 from .section import Section, plain
-from .section_laws import END_KEYS, SECTION_KEYS, bounds_of, changed_keys, linear_law, neutral_value, profiles_by_laws
+from .section_laws import END_KEYS, SECTION_KEYS, changed_keys, neutral_value, profiles_by_laws, section_laws
 from .varied import FAMILY_KEYS
 
 E = TypeVar("E", bound=Section)
+Profiles = tuple[ProfileParameters, ...]
+Stacking = tuple[tuple[float, float, float], ...] | None
 
 _MATERIAL = "material."
 
 MATERIAL_KEYS = tuple(_MATERIAL + key for key in MaterialSection.model_fields)
 """Numbers of a blade's material."""
 
-_SHAPE: dict[str, Any] = {
-    **dict.fromkeys(SHARES, TableShare),
-    "sweep_cm": Annotated[float, Field(ge=-100, le=100)],
-    "lean_deg": Annotated[float, Field(gt=-90, lt=90)],
-    **{key: bounds_of(key) for key in (*SECTION_KEYS, *END_KEYS)},
-}
-"""Numbers of a blade's shape that a member may have, and their bounds."""
+_LINE = ("sweep_cm", "lean_deg")
+"""Sweep and lean that are added at the tip, and below in proportion to the span."""
 
-_Shape = create_model(  # type: ignore[call-overload]
-    "_Shape",
-    __base__=Section,
-    **{key.replace(".", "_at_"): (kind, Field(neutral_value(key), alias=key)) for key, kind in _SHAPE.items()},
-)
+BLADE_KEYS = (*MATERIAL_KEYS, *SHARES, *_LINE, *SECTION_KEYS, *END_KEYS)
+"""Numbers of a blade that spread: those of an entry that starts from the blade, and _LINE."""
 
-BLADE_KEYS = (*MATERIAL_KEYS, *_SHAPE)
-"""Numbers of a blade that spread. `sweep_cm` and `lean_deg` are added at the tip, and below in proportion to the span. Changes
-of profiles that the entry of a blade has stand under these changes."""
+_ON_TOP = BladeEntry(base="blade")
+"""Entry that starts from a blade and changes nothing."""
 
 
 class ImpossibleValueError(ValueError):
     """Value that a blade or a scene cannot have; `number`: the one to blame, or the key of what it leads to."""
 
-    def __init__(self, number: VariedNumber, text: str):
+    def __init__(self, kind: str, key: str, text: str):
         super().__init__(text)
-        self.number = number
+        self.number = VariedNumber(kind, key)
 
     def place(self, known: Collection[VariedNumber]) -> tuple[tuple[str, ...], str]:
         """Path among tolerances of the `known` numbers, and the message there."""
@@ -108,29 +101,31 @@ def entry_with(entry: E, values: Mapping[str, float]) -> E:
             content = with_value(content, key, value)
         except (AttributeError, KeyError, IndexError, TypeError, ValueError):
             stand = "rows of a table stand in the entry, counted from 0, and hub and tip stand where it has no number"
-            raise ImpossibleValueError(VariedNumber(kind, key), f"found no {key} to vary; {stand}") from None
+            raise ImpossibleValueError(kind, key, f"found no {key} to vary; {stand}") from None
     return _checked(type(entry), content, kind)
-
-
-def changed_scene(entry: SceneEntry, changes: Mapping[str, float]) -> Scene:
-    """The scene with values at dotted keys replaced. Raises ImpossibleValueError."""
-    return entry_with(entry, changes).scene()
 
 
 def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSettings:
     """The blade with values of BLADE_KEYS replaced. Raises ImpossibleValueError."""
-    changed = blade
-    material = {key.removeprefix(_MATERIAL): value for key, value in changes.items() if key.startswith(_MATERIAL)}
+    shape = [key for key in changes if key not in MATERIAL_KEYS]
+    # as entries of two blades, each with the one before as its base: an entry has a number over the whole span or at its ends
+    ends = {key: changes[key] for key in shape if key in END_KEYS}
+    entry = entry_with(_ON_TOP, {key: value for key, value in changes.items() if key not in (*ends, *_LINE)})
+    changed, material = blade, si_fields(entry.material)
     if material and blade.material is not None:
-        other = replace(blade.material, **si_fields(_checked(MaterialSection, material, BLADE, _MATERIAL)))
+        changed = replace(changed, material=(other := replace(blade.material, **material)))
         try:
             other.check_strengths()
         except ValueError as error:
-            raise ImpossibleValueError(VariedNumber(BLADE, _MATERIAL + next(iter(material))), str(error)) from None
-        changed = replace(changed, material=other)
-    shape = {key: value for key, value in changes.items() if key in _SHAPE}
+            raise ImpossibleValueError(BLADE, next(key for key in changes if key in MATERIAL_KEYS), str(error)) from None
     if shape and isinstance(blade.definition, BladeDefinition):
-        changed = replace(changed, definition=_changed_shape(blade.definition, shape))
+        profiles = _changed_profiles(blade.definition.profiles, (entry, entry_with(_ON_TOP, ends)), shape)
+        stacking = _changed_stacking(blade.definition.stacking, entry, changes)
+        try:
+            check_sweep(stacking or (), profiles)
+        except BladeShapeError as error:
+            raise ImpossibleValueError(BLADE, next((key for key in shape if "sweep" in key), shape[0]), str(error)) from None
+        changed = replace(changed, definition=replace(blade.definition, profiles=profiles, stacking=stacking))
     return changed
 
 
@@ -139,41 +134,30 @@ def changed_pair(blade: BladeSettings, scene: SceneEntry, values: Mapping[Varied
     of_blade, of_scene = (
         {number.key: value for number, value in values.items() if number.kind == kind} for kind in (BLADE, SCENE)
     )
-    return changed_blade(blade, of_blade), changed_scene(scene, of_scene)
+    return changed_blade(blade, of_blade), entry_with(scene, of_scene).scene()
 
 
-def _changed_shape(definition: BladeDefinition, changes: Mapping[str, float]) -> BladeDefinition:
-    shape = _checked(_Shape, changes, BLADE).model_dump(by_alias=True)
-    profiles = definition.profiles
+def _changed_profiles(profiles: Profiles, entries: Iterable[BladeEntry], keys: Iterable[str]) -> Profiles:
+    """The profiles with changes of entries on top of each other, for which `keys` are to blame."""
     try:
-        for hub, tip in (("", ""), (".hub", ".tip")):
-            laws = {key: linear_law(key, shape[key + hub], shape[key + tip]) for key in SECTION_KEYS}
-            profiles = profiles_by_laws(profiles, laws)
+        for entry in entries:
+            profiles = profiles_by_laws(profiles, section_laws(entry))
     except SectionChangeError as error:
-        blamed = [key for key in changes if key.split(".")[0] in changed_keys(error)]
+        blamed = [key for key in keys if key.split(".")[0] in changed_keys(error)]
         text = str(error) if len(blamed) == 1 else f"{' and '.join(blamed)}: {error}"
-        raise ImpossibleValueError(VariedNumber(BLADE, blamed[0]), text) from None
-    stacking = _changed_stacking(definition.stacking, shape)
-    try:
-        check_sweep(stacking or (), profiles)
-    except BladeShapeError as error:
-        blamed_key = next((key for key in changes if "sweep" in key), next(iter(changes)))
-        raise ImpossibleValueError(VariedNumber(BLADE, blamed_key), str(error)) from None
-    return replace(definition, profiles=profiles, stacking=stacking)
+        raise ImpossibleValueError(BLADE, blamed[0], text) from None
+    return profiles
 
 
-def _changed_stacking(
-    stacking: tuple[tuple[float, float, float], ...] | None, shape: Mapping[str, float]
-) -> tuple[tuple[float, float, float], ...] | None:
+def _changed_stacking(stacking: Stacking, entry: BladeEntry, changes: Mapping[str, float]) -> Stacking:
     """The table of sweep and lean with shares of it kept, and a straight line over the span added."""
-    if stacking is None and not (shape["sweep_cm"] or shape["lean_deg"]):
+    sweep_cm, lean_deg = (changes.get(key, 0.0) for key in _LINE)
+    _checked(SweepLean, {"span_percent": 100.0, "sweep_cm": sweep_cm, "lean_deg": lean_deg}, BLADE)
+    if stacking is None and not (sweep_cm or lean_deg):
         return None
-    rows = stacking or ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
-    sweep, lean = 0.01 * shape["sweep_cm"], math.radians(shape["lean_deg"])
-    changed = tuple(
-        (span, 0.01 * shape["sweep_percent"] * back + span * sweep, 0.01 * shape["lean_percent"] * side + span * lean)
-        for span, back, side in rows
-    )
+    rows, sweep, lean = stacking or ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), 0.01 * sweep_cm, math.radians(lean_deg)
+    kept, kept_lean = (1.0 if share is None else 0.01 * share for share in (entry.sweep_percent, entry.lean_percent))
+    changed = tuple((span, kept * back + span * sweep, kept_lean * side + span * lean) for span, back, side in rows)
     for span, back, side in changed:
         row = {"span_percent": 100.0 * span, "sweep_cm": 100.0 * back, "lean_deg": math.degrees(side)}
         _checked(SweepLean, row, BLADE, "table: ")
@@ -186,4 +170,4 @@ def _checked(model: type[BaseModel], content: Mapping[str, Any], kind: str, abov
         return model.model_validate(content)
     except ValidationError as error:
         path, _, text = explain(error, content, model)
-        raise ImpossibleValueError(VariedNumber(kind, above + ".".join(map(str, path))), text) from None
+        raise ImpossibleValueError(kind, above + ".".join(map(str, path)), text) from None

@@ -23,11 +23,6 @@ Angle = Annotated[float, Field(ge=-90, le=90)]
 Share = Annotated[float, Field(ge=10, le=1000)]
 
 
-def bounds_of(key: str) -> Any:
-    """Type of a value of one of SECTION_KEYS or END_KEYS, with its bounds."""
-    return Angle if key.split(".")[0].endswith("_deg") else Share
-
-
 def neutral_value(key: str) -> float:
     """Value of a number of a blade's shape that changes nothing: the whole of a share, no angle or length added."""
     return 100.0 if key.split(".")[0].endswith("_percent") else 0.0
@@ -89,27 +84,17 @@ def section_laws(entry: Section) -> dict[str, SpanLaw]:
 
 def span_law(key: str, law: Any) -> SpanLaw:
     """A checked value of one of SECTION_KEYS in the SI. Raises as section_laws."""
+    factor = si_name(key)[1] or 1.0
     if isinstance(law, AngleEnds | ShareEnds):
-        return linear_law(key, law.hub, law.tip)
+        return SpanLaw.linear(law.hub * factor, law.tip * factor)
     if not isinstance(law, list):
-        return linear_law(key, law, law)
-    factor = _factor(key)
+        return SpanLaw.constant(law * factor)
     spans = tuple(0.01 * row.span_percent for row in law)
     try:
         check_spans(spans)
     except BladeShapeError as error:
         raise SectionChangeError(str(error), [si_name(key)[0]]) from None
     return SpanLaw(spans, tuple(row.value * factor for row in law))
-
-
-def linear_law(key: str, hub: float, tip: float) -> SpanLaw:
-    """Law in the SI of values of one of SECTION_KEYS at hub and tip."""
-    factor = _factor(key)
-    return SpanLaw.linear(hub * factor, tip * factor)
-
-
-def _factor(key: str) -> float:
-    return si_name(key)[1] or 1.0
 
 
 def profiles_by_laws(profiles: Sequence[ProfileParameters], laws: Mapping[str, SpanLaw]) -> tuple[ProfileParameters, ...]:

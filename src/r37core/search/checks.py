@@ -7,7 +7,7 @@ from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
 from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.blades import SHARES, BladeEntry
-from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_scene, check_known
+from r37core.config.changed_numbers import ImpossibleValueError, blade_number, check_known, entry_with
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.document import Document
 from r37core.config.messages import did_you_mean, single_line
@@ -69,7 +69,7 @@ def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, value
     """ConfigError, at `path`, where the entry or a scene cannot have these values of some variables."""
     try:
         for scene in designs.scenes:
-            changed_scene(designs.settings.scene_designs.entries[scene], designs.scene_changes(scene, values))
+            entry_with(designs.settings.scene_designs.entries[scene], designs.scene_changes(scene, values))
     except ImpossibleValueError as error:
         raise document.error(path, f"scene '{scene}': {error}") from None
     try:

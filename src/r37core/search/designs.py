@@ -7,7 +7,7 @@ from functools import cached_property
 from r37core.base.varied import BLADE, SCENE, VariedNumber, value_at, values_of
 from r37core.config import BladeSettings, Settings, plain
 from r37core.config.blades import SHARES, BladeEntry, blade_settings
-from r37core.config.changed_numbers import changed_pair, changed_scene, nominal_value, scene_numbers
+from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
 from r37core.config.families import design_entry
 from r37core.config.section_laws import SECTION_KEYS, neutral_value
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
@@ -124,7 +124,7 @@ class SearchDesigns:
 
     def _sample(self, name: str, blade: BladeSettings, scene: str, changes: Mapping[str, float]) -> Sample:
         settings, own = self.settings, self.model_part(name)
-        chosen = changed_scene(settings.scene_designs.entries[scene], changes)
+        chosen = entry_with(settings.scene_designs.entries[scene], changes).scene()
         members = {NOMINAL: Member(blade, chosen, own), **self._members(name, blade, scene, changes)}
         return Sample(
             members=members,
