@@ -69,8 +69,8 @@ class Document:
         """Path with a line that the value at `path` is from, or what holds it: of its entry or of the source of that."""
         own: KeyPath = next((path[:length] for length in range(len(path), 0, -1) if path[:length] in self.locations), ())
         source = self.sources.get(path[0]) if path else None
-        given = () if source is None else self._place((source, *path[1:]))
-        return given if len(given) > len(own) else own
+        other = () if source is None else self._place((source, *path[1:]))
+        return other if len(other) > len(own) else own
 
     def error(self, path: KeyPath, text: str, key: KeyPath | None = None) -> ConfigError:
         """The error of the value at `path`: place, key (where that is not the whole path) and `text`."""
