@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
-from r37core.base.varied import with_value
+from r37core.base.varied_number import with_value
 from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
 from r37core.config.blades import SHARES, Blades, blade_settings
 from r37core.config.families import Designs, expanded_families

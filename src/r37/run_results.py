@@ -12,7 +12,7 @@ import xarray as xr
 
 from r37core.base.dataset_file import lazy_dataset, read_dataset
 from r37core.base.io import InputFileError
-from r37core.base.varied import BLADE, SCENE, values_of
+from r37core.base.varied_number import BLADE, SCENE, values_of
 from r37core.config.messages import did_you_mean
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table

@@ -7,7 +7,7 @@ from typing import Any, Unpack
 
 import pandas as pd
 
-from r37core.base.varied import KINDS, values_of
+from r37core.base.varied_number import KINDS, values_of
 from r37core.config import ConfigError
 
 from .arguments import Speeds, mapping, plain_value, speed_keys

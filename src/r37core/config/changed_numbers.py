@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from r37core.base.units import si_name
-from r37core.base.varied import BLADE, SCENE, VariedNumber, numbers_in, with_value
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber, numbers_in, with_value
 from r37core.base.yaml_file import KeyPath
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError, ProfileParameters

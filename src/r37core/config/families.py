@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 
 from r37core.base.io import TextFileError
 from r37core.base.speeds import exact_text
-from r37core.base.varied import BLADE, SCENE, numbers_in
+from r37core.base.varied_number import BLADE, SCENE, numbers_in
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import read_designs
 

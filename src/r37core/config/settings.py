@@ -87,10 +87,7 @@ class Settings:
 
         Raises ConfigError for a name that is not in the file, and where the part has none.
         """
-        chosen, designs = self.config.blades, self.designs
-        if chosen != "all":
-            self.documents.known(("blades",), chosen, designs.names, self.documents.blades)
-        several = list(designs.entries) if chosen == "all" else designs.named(chosen)
+        several = self._chosen("blades", self.designs)
         names = self.config.run.part_blades(several)
         if not names:
             part = f"{self.config.run.part} of {len(several)} blades"
@@ -108,10 +105,13 @@ class Settings:
 
         Raises ConfigError for a name that is not in the file.
         """
-        chosen, designs = self.config.scenes, self.scene_designs
+        return self._chosen("scenes", self.scene_designs)
+
+    def _chosen(self, key: str, designs: Designs[Any]) -> list[str]:
+        chosen = getattr(self.config, key)
         if chosen == "all":
             return list(designs.entries)
-        self.documents.known(("scenes",), chosen, designs.names, self.documents.scenes)
+        self.documents.known((key,), chosen, designs.names, designs.document)
         return designs.named(chosen)
 
     @cached_property

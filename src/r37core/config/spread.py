@@ -8,7 +8,7 @@ from typing import Annotated
 import scipy
 from pydantic import AfterValidator, Field, model_validator
 
-from r37core.base.varied import BLADE, SCENE, VariedNumber
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 
 from .section import LeftOut, Section, Unique, left_out, plain, refused
 

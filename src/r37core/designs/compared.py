@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from r37core.base.varied import BLADE, SCENE
+from r37core.base.varied_number import BLADE, SCENE
 
 if TYPE_CHECKING:
     # the workflow imports it before it needs tables

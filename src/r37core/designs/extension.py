@@ -1,6 +1,6 @@
 """The comparison of designs as an extension. What varies stands in blades.yaml and scenes.yaml, which the pipeline reads."""
 
-from r37core.base.varied import BLADE
+from r37core.base.varied_number import BLADE
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.plans.extension import Extension, Panel

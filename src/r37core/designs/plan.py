@@ -8,7 +8,7 @@ from itertools import product
 from typing import Any
 
 from r37core.base.plain import to_plain
-from r37core.base.varied import BLADE, SCENE, VariedNumber
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.config.families import Family

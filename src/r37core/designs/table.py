@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.base.varied import BLADE, SCENE, VariedNumber
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 from r37core.results.closing import counted
 from r37core.results.datasets import response_of
 from r37core.results.glossary import RANKING, Word, word

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 import scipy
 
-from r37core.base.varied import VariedNumber
+from r37core.base.varied_number import VariedNumber
 from r37core.config.spread import SpreadEntry
 
 

@@ -1,6 +1,6 @@
 """Checks of a search against blades, scenes and the Campbell diagram."""
 
-from r37core.base.varied import SCENE, VariedNumber
+from r37core.base.varied_number import SCENE, VariedNumber
 from r37core.base.yaml_file import KeyPath
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError

@@ -12,7 +12,7 @@ from r37core.base.dataset_file import about, read_dataset
 from r37core.base.io import write_text
 from r37core.base.rounding import rounded_to
 from r37core.base.units import shown_unit
-from r37core.base.varied import BLADE, SCENE, values_of, with_value
+from r37core.base.varied_number import BLADE, SCENE, values_of, with_value
 from r37core.base.yaml_file import yaml_text
 from r37core.results.closing import counted
 

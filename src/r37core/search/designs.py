@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from r37core.base.varied import BLADE, SCENE, VariedNumber, value_at, values_of
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, values_of
 from r37core.config import BladeSettings, Settings, plain
 from r37core.config.blades import SHARES, BladeEntry, blade_settings
 from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers

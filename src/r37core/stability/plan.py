@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import Field
 
-from r37core.base.varied import with_value
+from r37core.base.varied_number import with_value
 from r37core.cases.case import Case, Crossing
 from r37core.cases.plan import CasesSection, carries_coriolis, integration_of_level, kept_of, model_of_level, names_are_known
 from r37core.config import ConfigError, Settings, checked_scene, plain

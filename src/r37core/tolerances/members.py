@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from r37core.base.varied import VariedNumber
+from r37core.base.varied_number import VariedNumber
 from r37core.config import BladeSettings, ConfigError, Settings, blades_named, scenes_named
 from r37core.config.changed_numbers import ImpossibleValueError, changed_pair, check_known, nominal_value, scene_numbers
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there

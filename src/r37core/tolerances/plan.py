@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from r37core.base.varied import VariedNumber
+from r37core.base.varied_number import VariedNumber
 from r37core.config import BladeSettings, Settings
 from r37core.plans import paths
 from r37core.plans.extent import extent_of
