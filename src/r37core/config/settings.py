@@ -87,7 +87,7 @@ class Settings:
 
         Raises ConfigError for a name that is not in the file, and where the part has none.
         """
-        several = self._chosen("blades", self.designs)
+        several = _chosen(self, "blades", self.designs)
         names = self.config.run.part_blades(several)
         if not names:
             part = f"{self.config.run.part} of {len(several)} blades"
@@ -105,14 +105,7 @@ class Settings:
 
         Raises ConfigError for a name that is not in the file.
         """
-        return self._chosen("scenes", self.scene_designs)
-
-    def _chosen(self, key: str, designs: Designs[Any]) -> list[str]:
-        chosen = getattr(self.config, key)
-        if chosen == "all":
-            return list(designs.entries)
-        self.documents.known((key,), chosen, designs.names, designs.document)
-        return designs.named(chosen)
+        return _chosen(self, "scenes", self.scene_designs)
 
     @cached_property
     def scenes(self) -> dict[str, SceneSettings]:
@@ -252,6 +245,15 @@ def _planned(document: Document, path: KeyPath, section: Config | SpeedRule, ste
         return plan_speeds(entries, step, UNITS[key])
     except SpeedError as error:
         raise document.error((*path, key), str(error)) from None
+
+
+def _chosen(settings: Settings, key: str, designs: Designs[Any]) -> list[str]:
+    """Names that a key of config.yaml chooses. Raises ConfigError for one that is not in the file."""
+    chosen = getattr(settings.config, key)
+    if chosen == "all":
+        return list(designs.entries)
+    settings.documents.known((key,), chosen, designs.names, designs.document)
+    return designs.named(chosen)
 
 
 def blades_named(settings: Settings, chosen: Sequence[str] | str) -> list[str]:
