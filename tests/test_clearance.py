@@ -353,8 +353,8 @@ def test_a_clearance_that_is_none_is_refused(casing, message):
 def test_growth_of_a_casing_reaches_the_highest_speed(config_copy):
     file = config_copy / "config/scenes.yaml"
     table = "casing_growth: { speeds_rpm: [0, 9000], growth_m: [0, 1.0e-5] }"
-    first = "abradable:\n  casing: { clearance: { cold_m: 3.56e-4"
-    file.write_text(file.read_text().replace(first, f"{first}, {table}"))
+    first = "clearance: { cold_m: 3.56e-4 } }\n"
+    file.write_text(file.read_text().replace(first, f"clearance: {{ cold_m: 3.56e-4, {table} }} }}\n", 1))
     load_settings(load_yaml(config_copy / "config/config.yaml"), config_copy)
     config = load_yaml(config_copy / "config/config.yaml") | {"scenes": ["growing_abradable"]}
     found = r"growing_abradable\.casing\.clearance\.casing_growth: found growth up to 942\.478 rad/s; allowed: up to "

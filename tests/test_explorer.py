@@ -607,7 +607,7 @@ def test_the_page_is_made_of_members_and_rotors_where_there_are_some(root, tmp_p
     """Only the page needs the members' dataset: the table of interactions is made of another file."""
     copy_project(root, tmp_path)
     assert not {"tolerances_dataset", "rotors_dataset"} & set(planned(tmp_path, "results/explorer.html"))
-    overlay(tmp_path, "scenes.yaml", "abradable: { rotor: { blades: 2 }, results: [stress] }")
+    overlay(tmp_path, "scenes.yaml", "{ abradable: { rotor: { blades: 2 }, results: [stress] }, direct: { rotor: null } }")
     ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
     overlay(tmp_path, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], scenes: [direct], {ranges} }}")
     assert {"tolerances_dataset", "rotors_dataset"} <= set(planned(tmp_path, "results/explorer.html"))

@@ -78,7 +78,7 @@ def test_lean_is_scaled_apart_from_sweep(with_blades):
 def test_a_grid_has_every_value_with_every_other(with_blades):
     settings = with_blades(GRID)
     names = ["Grid_-2p5_8000", "Grid_-2p5_4500", "Grid_5_8000", "Grid_5_4500"]
-    assert list(Families(settings).blade_families["Grid"].designs) == names
+    assert list(Families(settings).families["blade"]["Grid"].designs) == names
     assert settings.blades["Grid_5_4500"].material.density == 4500.0
     assert settings.blades["Grid_5_4500"].material.youngs_modulus == 180e9
     assert settings.blades["Grid_-2p5_8000"].definition.chordwise_sweep_angle == pytest.approx(np.radians(-2.5))
@@ -99,7 +99,7 @@ def test_a_table_has_one_design_a_row(with_blades):
     table = "blade,chordwise_sweep_deg,material.density_kg_m3\nForward,5,8000\nBack-1,-5,7.5e3\n"
     settings = with_blades("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])
     assert list(settings.blades) == ["Forward", "Back-1", "Ref"]
-    assert Families(settings).blade_families["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
+    assert Families(settings).families["blade"]["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
     assert settings.blades["Back-1"].material.density == 7500.0
 
 

@@ -89,9 +89,9 @@ def test_a_mesh_with_strengths_has_fatigue_where_stress_is_wanted(settings_with)
 
 
 def test_runs_that_end_as_they_have_settled_have_no_signals_by_default(settings_with, config_copy):
-    overlay(config_copy, "scenes.yaml", "abradable: { until: settled }")
+    overlay(config_copy, "scenes.yaml", "direct: { until: settled }")
     wanted = targets(Sweep(settings_with(MESH)))
-    assert wanted["<results>/{blade}/{scene}/signals.nc"] == [{"blade": "Fan", "scene": "direct"}]
+    assert wanted["<results>/{blade}/{scene}/signals.nc"] == [{"blade": "Fan", "scene": "abradable"}]
 
 
 @pytest.mark.parametrize(

@@ -114,9 +114,10 @@ def test_lobes_that_scale_are_remarked_on_once(config_copy, config, scenes, name
         file = config_copy / "config/scenes.yaml"
         entries = yaml.safe_load(file.read_text())
         for name, entry in entries.items():
+            casing = entry.setdefault("casing", {})
             for key in ("amplitude_m", "amplitude_clearances"):
-                entry["casing"].pop(key, None)
-            entry["casing"] |= height | (scenes.get(name, {}))
+                casing.pop(key, None)
+            casing |= height | (scenes.get(name, {}))
         file.write_text(yaml.safe_dump(entries))
         remarks = [one for one in remarks_of_run(read_settings(config_copy, command_line_document(run))) if "lobes" in one]
         expected = [] if in_metres or named is None else [f"scene {named}: {SAID}"]

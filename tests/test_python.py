@@ -127,7 +127,8 @@ def test_files_of_ones_own_may_lie_anywhere(root, tmp_path):
         "Mine:\n  profiles: profiles.csv\n  chordwise_sweep_deg: 10\n"
         "  material: { youngs_modulus_pa: 1.8e+11, density_kg_m3: 8000, poissons_ratio: 0.3, yield_stress_pa: 1.0e+9 }\n"
     )
-    (tmp_path / "scenes.yaml").write_text((root / "config/scenes.yaml").read_text().replace("abradable:", "mine:", 1))
+    scenes = (root / "config/scenes.yaml").read_text().replace("base: abradable", "base: mine")
+    (tmp_path / "scenes.yaml").write_text(scenes.replace("abradable:", "mine:", 1))
     blade = r37.blade("Mine", file=tmp_path / "mine.yaml")
     assert len(blade.settings.definition.profiles) == len(read_settings(root).blades["Ref"].definition.profiles)
     assert r37.scene("mine", file=tmp_path / "scenes.yaml").entry == read_settings(root).scene_designs.entries["abradable"]

@@ -103,6 +103,28 @@ def test_friction_or_a_new_name_runs_its_scene(project, scene):
     assert set(jobs) == DATASETS
 
 
+def test_a_changed_base_runs_what_depends_on_it_and_nothing_else(project):
+    """`direct` and `Thin` have the damping of their base; `direct` has no lining, and `Thin` a thickness of its own."""
+    overlay(project, "config.yaml", "scenes: [abradable, direct, Thin]")
+    overlay(project, "scenes.yaml", "Thin: { base: abradable, lining: { thickness_m: 0.003 } }")
+    assert sorted(simulated(snakemake(project, "all_blades", "--cores", "2"))) == sorted(runs(SPEEDS, scenes=["Thin"]))
+    file = project / "config/scenes.yaml"
+    finished = file.read_text()
+    for change, scenes in (
+        ("abradable: { damping_ratio: 0.001 }", ("abradable", "direct", "Thin")),
+        ("abradable: { lining: { bars: 5000 } }", ("abradable", "Thin")),
+        ("abradable: { lining: { thickness_m: 0.004 } }", ("abradable",)),
+        ("Thin: { lining: { thickness_m: 0.002 } }", ("Thin",)),
+    ):
+        overlay(project, "scenes.yaml", change)
+        jobs = planned_outputs(project)
+        assert jobs.pop("simulate") == runs(SPEEDS, scenes=scenes), change
+        assert jobs.pop("response") == per_run("response.nc", scenes=scenes)
+        assert jobs.pop("prepare_time_integration") == per_run("time_integration.stamp", scenes=scenes)
+        assert set(jobs) == DATASETS
+        file.write_text(finished)
+
+
 @pytest.mark.parametrize(
     ("change", "speeds"), [("results: [signal, stress, energy]", SPEEDS), ("stress_history_speeds_rad_s: [1150]", ["1150"])]
 )

@@ -10,11 +10,14 @@ from test_refusals import edit
 import r37
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.yaml_file import load_yaml
-from r37core.config import ConfigError, checked_scene
-from r37core.config.changed_numbers import changed_scene, scene_numbers
+from r37core.config import ConfigError, checked_scene, command_line_document
+from r37core.config.changed_numbers import entry_with, scene_numbers
 from r37core.config.rotor_section import RotorSection
 from r37core.contact.scene import Rotor
 from r37core.product.reading import read_settings
+
+ROTOR = "rotor: { blades: 36, mistuning_spread_percent: { normal: 1.0 }, seed: 0 }"
+"""Of the scene rotor_abradable."""
 
 
 def lined(**rotor):
@@ -40,9 +43,8 @@ def test_tables_by_number_stand_in_a_file(config_copy, table):
     """The number of a blade is a number or a text there, and the schema for editors allows both."""
     scenes = config_copy / "config/scenes.yaml"
     rotor = f"rotor: {{ blades: 4, mistuning_percent: {table}, longer_m: {table.replace('0.', '0.0')} }}"
-    edit(scenes, "abradable:\n", f"abradable:\n  {rotor}\n")
-    edit(scenes, "results: [spectrum, signal, stress, wear, energy]", "results: [stress]")
-    of_file = read_settings(config_copy).scenes["abradable"].scene.rotor
+    edit(scenes, ROTOR, rotor)
+    of_file = read_settings(config_copy, command_line_document({"scenes": "all"})).scenes["rotor_abradable"].scene.rotor
     assert of_file.frequency_factors == (1.004, 1.0, 0.993, 1.0)
     assert of_file.longer == (0.04, 0.0, -0.07, 0.0)
     schema = json.loads((config_copy / "config/schemas/scenes.schema.json").read_text())
@@ -50,7 +52,7 @@ def test_tables_by_number_stand_in_a_file(config_copy, table):
     edit(scenes, "0.4", "4000")
     with pytest.raises(jsonschema.ValidationError, match="4000 is greater than the maximum"):
         jsonschema.validate(load_yaml(scenes), schema)
-    with pytest.raises(ConfigError, match=r"^config/scenes\.yaml:\d+: abradable\.rotor\.mistuning_percent\.0?1: found 4000"):
+    with pytest.raises(ConfigError, match=r"^config/scenes\.yaml:\d+: rotor_\w+\.rotor\.mistuning_percent\.0?1: found 4000"):
         read_settings(config_copy)
 
 
@@ -70,16 +72,15 @@ def test_tables_by_number_are_given_in_python(rotor):
 
 def test_a_blade_of_a_file_has_another_value_in_python(config_copy):
     scenes = config_copy / "config/scenes.yaml"
-    edit(scenes, "abradable:\n", "abradable:\n  rotor: { blades: 3, longer_m: { 1: 2.0e-5, 2: 3.0e-5 } }\n")
-    edit(scenes, "results: [spectrum, signal, stress, wear, energy]", "results: [stress]")
-    changed = r37.scene("abradable", file=scenes, rotor={"longer_m": {2: -1e-5, 3: 5e-6}})
+    edit(scenes, ROTOR, "rotor: { blades: 3, longer_m: { 1: 2.0e-5, 2: 3.0e-5 } }")
+    changed = r37.scene("rotor_abradable", file=scenes, rotor={"longer_m": {2: -1e-5, 3: 5e-6}})
     assert changed.entry.scene().rotor.longer == (2e-5, -1e-5, 5e-6)
 
 
 def test_a_member_of_a_sample_has_another_value_of_one_blade():
     entry = r37.scene("abradable", results=["stress"], rotor={"blades": 2, "longer_m": {2: 3e-5}}).entry
     assert scene_numbers(entry)["rotor.longer_m.2"] == 3e-5
-    assert changed_scene(entry, {"rotor.longer_m.2": 4e-5}).rotor.longer == (0.0, 4e-5)
+    assert entry_with(entry, {"rotor.longer_m.2": 4e-5}).scene().rotor.longer == (0.0, 4e-5)
 
 
 BLADES = "the number of a blade, from 1 to 1000"

@@ -19,7 +19,7 @@ from r37core.base.dataset_file import write_dataset
 from r37core.base.io import InputFileError
 from r37core.base.speeds import RefinedRange
 from r37core.config import ConfigError, Document
-from r37core.config.spread import Spread
+from r37core.config.spread import SpreadEntry
 from r37core.console.leftovers import leftovers
 from r37core.figures import style
 from r37core.plans.member_values import is_of_sample, number_of, sobol_points
@@ -55,12 +55,12 @@ def test_more_members_change_none_that_are_there_and_those_for_indices_are_made_
 @pytest.mark.parametrize(
     ("tolerance", "shares", "expected"),
     [
-        (Spread("uniform", (5.0,), percent=True), (0.0, 0.5, 1.0), (1.9, 2.0, 2.1)),
-        (Spread("uniform", (0.5,)), (0.0, 0.25, 1.0), (1.5, 1.75, 2.5)),
-        (Spread("normal", (10.0,), percent=True), (0.5, 0.975, 0.025), (2.0, 2.391992797, 1.608007203)),
-        (Spread("between", (0.8, 1.25)), (0.0, 1.0), (0.8, 1.25)),
-        (Spread("log_between", (0.5, 8.0)), (0.0, 0.5), (0.5, 2.0)),
-        (Spread("values", (3.0, 1.0)), (0.0, 0.49, 0.5, 1.0), (3.0, 3.0, 1.0, 1.0)),
+        (SpreadEntry(uniform_percent=5.0), (0.0, 0.5, 1.0), (1.9, 2.0, 2.1)),
+        (SpreadEntry(uniform=0.5), (0.0, 0.25, 1.0), (1.5, 1.75, 2.5)),
+        (SpreadEntry(normal_percent=10.0), (0.5, 0.975, 0.025), (2.0, 2.391992797, 1.608007203)),
+        (SpreadEntry(between=[0.8, 1.25]), (0.0, 1.0), (0.8, 1.25)),
+        (SpreadEntry(log_between=[0.5, 8.0]), (0.0, 0.5), (0.5, 2.0)),
+        (SpreadEntry(values=[3.0, 1.0]), (0.0, 0.49, 0.5, 1.0), (3.0, 3.0, 1.0, 1.0)),
     ],
 )
 def test_values_of_a_distribution(tolerance, shares, expected):
@@ -75,7 +75,7 @@ def test_indices_of_the_ishigami_function():
     """Closed form: Ishigami and Homma (1990), with a = 7, b = 0.1."""
 
     def ishigami(*place):
-        x, y, z = (Spread("between", (-np.pi, np.pi)).value(0.0, share) for share in place)
+        x, y, z = (SpreadEntry(between=[-np.pi, np.pi]).value(0.0, share) for share in place)
         return np.sin(x) + 7.0 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x)
 
     found = sobol_indices(measured(ishigami, 3), [0, 1, 2], 3)
@@ -555,16 +555,13 @@ def test_a_response_that_is_none_is_named(tmp_path):
         tolerances_dataset([MemberRun("Ref", "lined", "0", (0.1,), tmp_path / "other.nc")], NUMBERS[:1])
 
 
-def test_ends_and_words_of_a_spread():
+def test_ends_of_a_spread():
     """The ends are values that are reached: shares of 0 and 1; a list's are its own. Percent are of a number's amount."""
-    uniform, share = Spread("uniform", (0.5,)), Spread("uniform", (5.0,), percent=True)
+    uniform, share = SpreadEntry(uniform=0.5), SpreadEntry(uniform_percent=5.0)
     assert (uniform.ends(2.0), share.ends(2.0)) == ((1.5, 2.5), pytest.approx((1.9, 2.1)))
     assert share.ends(-2.0) == pytest.approx((-2.1, -1.9))
-    assert Spread("between", (0.8, 1.25)).ends(1.0) == (0.8, 1.25)
-    assert Spread("values", (3.0, 1.0)).ends(2.0) == (3.0, 1.0) and Spread("normal", (1.0,)).ends(2.0) == ()
-    assert [uniform.words, share.words] == ["± 0.5", "± 5%"]
-    assert Spread("normal", (1.0,)).words == "standard deviation 1"
-    assert Spread("between", (0.8, 1.25)).words == "0.8 to 1.25" and Spread("values", (3.0, 1.0)).words == "3 or 1"
+    assert SpreadEntry(between=[0.8, 1.25]).ends(1.0) == (0.8, 1.25)
+    assert SpreadEntry(values=[3.0, 1.0]).ends(2.0) == (3.0, 1.0) and SpreadEntry(normal=1.0).ends(2.0) == ()
 
 
 def test_a_normal_number_has_a_value_at_the_sample_s_borders(monkeypatch):
@@ -572,7 +569,7 @@ def test_a_normal_number_has_a_value_at_the_sample_s_borders(monkeypatch):
     monkeypatch.setattr("scipy.stats.qmc.Sobol", lambda numbers, rng: corners)
     points = sobol_points(1, 2, 0)
     assert (points["0"], points["1"]) == ((2.0**-40,), (1.0 - 2.0**-40,))
-    assert all(np.isfinite(Spread("normal", (1.0,)).value(0.0, points[name][0])) for name in ("0", "1"))
+    assert all(np.isfinite(SpreadEntry(normal=1.0).value(0.0, points[name][0])) for name in ("0", "1"))
 
 
 def test_a_member_at_yield_is_not_above_and_speeds_are_there_in_rpm(tmp_path):

@@ -376,7 +376,7 @@ def test_readme_commands_exist(root):
 def test_names_that_begin_alike_keep_their_files_apart(project):
     overlay(project, "blades.yaml", "{ A: { base: Ref }, A_b: { base: Ref } }")
     scenes = load_yaml(project / "config/scenes.yaml")
-    (project / "config/scenes.yaml").write_text(yaml.safe_dump({"b_c": scenes["direct"], "c": scenes["direct"]}))
+    (project / "config/scenes.yaml").write_text(yaml.safe_dump({"b_c": scenes["abradable"], "c": scenes["abradable"]}))
     jobs = plan(project, "all_blades", "--config", "blades=[A,A_b]", "scenes=[b_c,c]", "speeds=[900,1e3]")
     maps = [job for job in jobs if job.rule == "map_figure" and job.wildcards["kind"] == "spectrum"]
     assert {job.outputs[0]: job.wildcards for job in maps} == {

@@ -10,11 +10,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
+from r37core.base.varied_number import with_value
 from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
 from r37core.config.blades import SHARES, Blades, blade_settings
-from r37core.config.families import Designs, changed_content, expanded_families
+from r37core.config.families import Designs, expanded_families
 from r37core.config.messages import did_you_mean, single_line
-from r37core.config.scenes import SceneEntry, Scenes
+from r37core.config.scenes import SceneEntry, checked_scenes
 from r37core.config.section import Without
 from r37core.config.section_laws import SECTION_KEYS
 
@@ -68,7 +69,7 @@ class Choice:
             raise _unknown(f"changed {self.kind}", original, entries, file.name)
         content: dict[str, Any] = {}
         for key, value in changes.items():
-            content = changed_content(content, key.split("."), Without.KEY if value is None else plain_value(value))
+            content = with_value(content, key, self._left_out(entries[original]) if value is None else plain_value(value))
         changed = command_line_document({self.name: content}, place)
         if self.base is None:
             return changed
@@ -81,11 +82,9 @@ class Choice:
         """The content of an entry under another name."""
         return entry
 
-    @cached_property
-    def document(self) -> Document:
-        """The file with the changes. Raises ConfigError."""
-        document = read_document(Path(self.file).parent, self.file)
-        return document if self.above is None else document.overlaid(self.above)
+    def _left_out(self, entry: Any) -> Any:
+        """Value that leaves a key of an entry out."""
+        return Without.KEY
 
     def check(self) -> None:
         """Raises ConfigError for what the entry cannot be."""
@@ -115,6 +114,12 @@ class BladeChoice(Choice):
     """
 
     kind: ClassVar[str] = "blade"
+
+    @cached_property
+    def document(self) -> Document:
+        """The file with the changes. Raises ConfigError."""
+        document = read_document(Path(self.file).parent, self.file)
+        return document if self.above is None else document.overlaid(self.above)
 
     @cached_property
     def settings(self) -> BladeSettings:
@@ -159,6 +164,11 @@ class SceneChoice(Choice):
         """Raises ConfigError for what the scene cannot be."""
         _ = self.entry
 
+    def _left_out(self, entry: Any) -> Any:
+        # what the base has is not there any more, either
+        has_base = isinstance(entry, Mapping) and {**entry, **self.changes}.get("base") is not None
+        return None if has_base else Without.KEY
+
     @cached_property
     def above(self) -> Document | None:
         """Changes as a document that lies on top of the file, the results among them. Raises ConfigError."""
@@ -168,12 +178,12 @@ class SceneChoice(Choice):
     def entry(self) -> SceneEntry:
         """The scene's keys, in the units of their names, or those of a family of scenes. Raises ConfigError."""
         try:
-            entries = self.document.check(Scenes).root
-            designs = expanded_families(entries, self.configuration.root, self.document)
+            document, entries = checked_scenes(read_document(Path(self.file).parent, self.file), self.above)
+            designs = expanded_families(entries, self.configuration.root, document)
         except ConfigError as error:
             raise self.refusal(error) from None
         if self.name not in designs.names:
-            raise _unknown(self.kind, self.name, designs.names, self.document.name)
+            raise _unknown(self.kind, self.name, designs.names, document.name)
         return designs.entries.get(self.name) or entries[self.name]
 
     @property
@@ -182,8 +192,7 @@ class SceneChoice(Choice):
         if not self.changes:
             return False
         with contextlib.suppress(ConfigError):
-            entries = read_document(Path(self.file).parent, self.file).check(Scenes).root
-            original = entries.get(self.base or self.name)
+            original = _scenes_in(self.file).get(self.base or self.name)
             return original is not None and original.casing.cold_clearance != self.entry.casing.cold_clearance
         return False
 
@@ -313,7 +322,8 @@ def scene(
     Parameters
     ----------
     name_of_entry, name, file, config, **changes
-        As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the abradable lining out: the casing is bare.
+        As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the abradable lining out, also that of a `base`: the casing
+        is bare. Scenes that have this one as their base stay as they are.
 
     Returns
     -------
@@ -342,8 +352,11 @@ def scenes_named(configuration: Configuration) -> list[str]:
 
 
 def _scenes_of(configuration: Configuration) -> list[str]:
-    file = Path(configuration.checked.scenes_file)
-    return list(read_document(file.parent, str(file)).check(Scenes).root)
+    return list(_scenes_in(configuration.checked.scenes_file))
+
+
+def _scenes_in(file: str) -> dict[str, SceneEntry]:
+    return checked_scenes(read_document(Path(file).parent, file))[1]
 
 
 def _named(entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> Any:

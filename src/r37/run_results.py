@@ -12,10 +12,10 @@ import xarray as xr
 
 from r37core.base.dataset_file import lazy_dataset, read_dataset
 from r37core.base.io import InputFileError
+from r37core.base.varied_number import BLADE, SCENE, values_of
 from r37core.config.messages import did_you_mean
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
-from r37core.search.problem import blade_values, scene_values
 
 from .stages import checked_call
 
@@ -100,14 +100,14 @@ class RunResults(FilesByName[xr.Dataset]):
 
         Raises KeyError for results without a search, ValueError where no design keeps all constraints.
         """
-        return blade_values(self._best())
+        return values_of(BLADE, self._best())
 
     def best_scene_values(self) -> dict[str, float]:
         """Variables of scenes of the best design of a search, for `r37.scene`, as `best_values` has those of its blade.
 
         Raises KeyError and ValueError as `best_values` does.
         """
-        return scene_values(self._best())
+        return values_of(SCENE, self._best())
 
     def _best(self) -> dict[str, float]:
         search = self["search"]

@@ -7,8 +7,8 @@ from typing import Any, Unpack
 
 import pandas as pd
 
+from r37core.base.varied_number import KINDS, values_of
 from r37core.config import ConfigError
-from r37core.designs.compared import SCENE_KEY
 
 from .arguments import Speeds, mapping, plain_value, speed_keys
 from .call_settings import chosen_blade
@@ -128,10 +128,8 @@ def designs(
         varied, combine = mapping(vary, "vary", example), options.get("combine", "grid")
         if not varied:
             raise ConfigError(f"vary: found nothing that varies; allowed: {example}")
-        blade_keys = {key: values for key, values in varied.items() if not key.startswith(SCENE_KEY)}
-        entry = {"vary": blade_keys, "combine": combine} if blade_keys else {}
-        inner = {key.removeprefix(SCENE_KEY): values for key, values in varied.items() if key.startswith(SCENE_KEY)}
-        scene_entry = {"vary": inner, "combine": combine} if inner else {}
+        families = (values_of(kind, varied) for kind in KINDS)
+        entry, scene_entry = ({"vary": values, "combine": combine} if values else {} for values in families)
     chosen = chosen_blade(blade, options.get("config"))
     family = chosen.family(options.get("name", "Design"), entry) if entry else chosen
     sections = {key: plain_value(section) for key, section in options.items() if key in ("operating", "requirements")}

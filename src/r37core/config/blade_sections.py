@@ -1,4 +1,4 @@
-"""What all kinds of blades have: a material, and a region where stress is recovered."""
+"""Sections of all kinds of blades: a material, and a region where stress is recovered."""
 
 from typing import Literal, Self
 

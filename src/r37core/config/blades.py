@@ -23,6 +23,7 @@ from r37core.fem import material as fem_material
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.stress.goodman import Strengths
 
+from .bases import chain_of_bases
 from .blade_sections import CONTACT_IN_WORDS, REQUIRED_OF_MATERIAL, Contact, MaterialSection
 from .declaring import si_fields, si_form
 from .document import ConfigError, ConfigRefusals, Document
@@ -122,12 +123,12 @@ class BladeSettings:
 
     @property
     def has_profiles(self) -> bool:
-        """Whether it is given by profiles, so that it can have another mesh."""
+        """True if it is given by profiles, so that it can have another mesh."""
         return isinstance(self.definition, BladeDefinition)
 
     @property
     def is_matrices(self) -> bool:
-        """Whether it is given by matrices, so that it has one model and no stress."""
+        """True if it is given by matrices, so that it has one model and no stress."""
         return isinstance(self.definition, MatricesSource)
 
     @property
@@ -173,7 +174,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     Raises ConfigError for a base that is not there or runs in a circle, a material with gaps, tables that cannot be read or
     have an impossible shape, and a mesh or matrices that are not there; a mesh itself is looked into when it is imported.
     """
-    chain = _inheritance(name, entries, document)
+    chain = chain_of_bases(name, lambda link: getattr(entries[link], "base", None), entries, document, "blade")
     first, entry = chain[0], entries[chain[0]]
     if isinstance(entry, MatricesEntry):
         if len(chain) > 1:
@@ -227,7 +228,7 @@ def _changed(
 
 
 def _source(entry: MeshEntry | MatricesEntry, name: str, root: Path, document: Document) -> MeshSource | MatricesSource:
-    """What to import, its directions checked and its files found."""
+    """Mesh or matrices to import, with directions checked and files found."""
     try:
         entry.orientation().check()
         return entry.source(root)
@@ -251,17 +252,6 @@ def _material(chain: Sequence[str], entries: Mapping[str, Any], document: Docume
     except ValueError as error:
         raise document.error((chain[-1], "material"), str(error)) from None
     return made
-
-
-def _inheritance(name: str, entries: Mapping[str, Any], document: Document) -> list[str]:
-    """Names from the blade with profiles, mesh or matrices down to `name`."""
-    chain = [name]
-    while (base := getattr(entries[chain[0]], "base", None)) is not None:
-        if base not in entries or base in chain:
-            others = ", ".join(entry for entry in entries if entry not in chain)
-            raise document.refusal((chain[0], "base"), f"'{base}'", f"another blade of this file ({others})")
-        chain.insert(0, base)
-    return chain
 
 
 def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> dict[str, Any]:

@@ -137,12 +137,12 @@ class CasingSection(Section):
 
     @property
     def lobes_scale(self) -> bool:
-        """Whether a larger clearance has higher lobes."""
+        """True if a larger clearance has higher lobes."""
         return self.lobes > 0 and bool(self.amplitude_clearances)
 
     @property
     def elastic(self) -> bool:
-        """Whether the casing is flexible."""
+        """True if the casing is flexible."""
         return self.ring is not None or self.ring_modes is not None
 
     def elastic_casing(self) -> ElasticCasing:

@@ -1,68 +1,66 @@
-"""A blade or a scene with other values of some numbers, as a member of a sample has it."""
+"""Blades and scenes with other values of some numbers, checked like entries that a user wrote."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
-from pydantic import BaseModel, Field, ValidationError
+from pydantic import BaseModel, ValidationError
 
 from r37core.base.units import si_name
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber, numbers_in, with_value
+from r37core.base.yaml_file import KeyPath
 from r37core.blade.definition import BladeDefinition
-from r37core.blade.profile import BladeShapeError
+from r37core.blade.profile import BladeShapeError, ProfileParameters
 from r37core.blade.profile_tables import check_sweep
 from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
 
 from .blade_sections import MaterialSection
-from .blades import SHARES, BladeSettings, SweepLean, TableShare
-from .families import changed_content, numbers_of
-from .messages import explain
+from .blades import SHARES, BladeEntry, BladeSettings, SweepLean
+from .declaring import si_fields
+from .document import Document
+from .messages import did_you_mean, explain, single_line
 from .scenes import SceneEntry
 from .section import Section, plain
-from .section_laws import SECTION_KEYS, Angle, AngleEnds, Share, ShareEnds, changed_keys, profiles_by_laws, span_law
+from .section_laws import END_KEYS, SECTION_KEYS, changed_keys, neutral_value, profiles_by_laws, section_laws
+from .varied import FAMILY_KEYS
+
+E = TypeVar("E", bound=Section)
+Profiles = tuple[ProfileParameters, ...]
+Stacking = tuple[tuple[float, float, float], ...] | None
 
 _MATERIAL = "material."
 
+MATERIAL_KEYS = tuple(_MATERIAL + key for key in MaterialSection.model_fields)
+"""Numbers of a blade's material."""
 
-class _Shape(Section):
-    """Numbers of a shape as a member may have them."""
+_LINE = ("sweep_cm", "lean_deg")
+"""Sweep and lean that are added at the tip, and below in proportion to the span."""
 
-    sweep_percent: TableShare = 100.0
-    lean_percent: TableShare = 100.0
-    sweep_cm: float = Field(default=0.0, ge=-100, le=100)
-    lean_deg: float = Field(default=0.0, gt=-90, lt=90)
-    stagger_deg: Angle = 0.0
-    camber_deg: Angle = 0.0
-    chord_percent: Share = 100.0
-    thickness_percent: Share = 100.0
+BLADE_KEYS = (*MATERIAL_KEYS, *SHARES, *_LINE, *SECTION_KEYS, *END_KEYS)
+"""Numbers of a blade that spread: those of an entry that starts from the blade, and _LINE."""
 
-
-_ENDS = {key: AngleEnds if key.endswith("_deg") else ShareEnds for key in SECTION_KEYS}
-"""Changes of profiles that a member may also have linear in the span, by dotted keys."""
+_ON_TOP = BladeEntry(base="blade")
+"""Entry that starts from a blade and changes nothing."""
 
 
 class ImpossibleValueError(ValueError):
-    """A value that a blade or a scene cannot have; `key`: of which number, where that is told."""
+    """Value that a blade or a scene cannot have; `number`: the one to blame, or the key of what it leads to."""
 
-    def __init__(self, key: str, text: str):
+    def __init__(self, kind: str, key: str, text: str):
         super().__init__(text)
-        self.key = key
+        self.number = VariedNumber(kind, key)
 
-
-_SHAPE: dict[str, float] = {name: field.default for name, field in _Shape.model_fields.items()} | {
-    f"{key}.{end}": field.default for key, ends in _ENDS.items() for end, field in ends.model_fields.items()
-}
-"""Keys of a blade's shape and their nominal values."""
-
-BLADE_KEYS = (*(_MATERIAL + key for key in MaterialSection.model_fields), *_SHAPE)
-"""What may vary of a blade. `sweep_cm` and `lean_deg` are added at the tip, and below in proportion to the span. What the
-entry of a blade changes of its profiles is there already, and stands under these changes."""
+    def place(self, known: Collection[VariedNumber]) -> tuple[tuple[str, ...], str]:
+        """Path among tolerances of the `known` numbers, and the message there."""
+        section, key = self.number.section, self.number.key
+        return ((section, key), str(self)) if self.number in known else ((section,), f"{key}: {self}")
 
 
 def scene_numbers(entry: SceneEntry) -> dict[str, float]:
     """Dotted key -> value of all numbers of a scene but those that count something or stop a run."""
-    return {key: value for key, value in numbers_of(plain(entry)).items() if key != "divergence_limit_m"}
+    return {key: value for key, value in numbers_in(plain(entry)).items() if key != "divergence_limit_m"}
 
 
 def blade_number(blade: BladeSettings, key: str) -> float | None:
@@ -75,78 +73,101 @@ def blade_number(blade: BladeSettings, key: str) -> float | None:
         return None
     if key in ("sweep_cm", "lean_deg") and shape.chordwise_sweep_angle is not None:
         raise ValueError(f"{key} with {shape.name}, whose sweep is chordwise")
-    return _SHAPE[key]
+    return neutral_value(key)
 
 
-def changed_scene(entry: SceneEntry, changes: Mapping[str, float]) -> Scene:
-    """The scene with values at dotted keys replaced. Raises ImpossibleValueError."""
-    content = plain(entry)
-    for key, value in changes.items():
-        content = changed_content(content, key.split("."), value)
-    return _checked(SceneEntry, content).scene()
+def nominal_value(number: VariedNumber, blade: BladeSettings, scene: Mapping[str, float]) -> float | None:
+    """Value of a number of a blade, or of a scene of these numbers. Raises ValueError as `blade_number`."""
+    return blade_number(blade, number.key) if number.kind == BLADE else scene.get(number.key)
+
+
+def check_known(numbers: Iterable[VariedNumber], scene_keys: Iterable[str], document: Document, path: KeyPath) -> None:
+    """Check that blades, or scenes of these keys, have the numbers that stand at `path` of a document. Raises ConfigError."""
+    scenes = list(dict.fromkeys(scene_keys))
+    for number in numbers:
+        known: Sequence[str] = BLADE_KEYS if number.kind == BLADE else scenes
+        if number.key not in known:
+            what = "one of" if number.kind == BLADE else "a number of the scenes, by its dotted key:"
+            allowed = f"{what} {', '.join(known)}{did_you_mean(number.key, known)}"
+            raise document.refusal((*path, number.section, number.key), single_line(number.key), allowed)
+
+
+def entry_with(entry: E, values: Mapping[str, float]) -> E:
+    """The entry, without a family's keys, with values at dotted keys. Raises ImpossibleValueError."""
+    kind = SCENE if isinstance(entry, SceneEntry) else BLADE
+    content = entry.model_dump(exclude_none=True, exclude_unset=True, exclude=set(FAMILY_KEYS))
+    for key, value in values.items():
+        try:
+            content = with_value(content, key, value)
+        except (AttributeError, KeyError, IndexError, TypeError, ValueError):
+            stand = "rows of a table stand in the entry, counted from 0, and hub and tip stand where it has no number"
+            raise ImpossibleValueError(kind, key, f"found no {key} to vary; {stand}") from None
+    return _checked(type(entry), content, kind)
 
 
 def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSettings:
     """The blade with values of BLADE_KEYS replaced. Raises ImpossibleValueError."""
-    changed = blade
-    material = {key.removeprefix(_MATERIAL): value for key, value in changes.items() if key.startswith(_MATERIAL)}
+    shape = [key for key in changes if key not in MATERIAL_KEYS]
+    # as entries of two blades, each with the one before as its base: an entry has a number over the whole span or at its ends
+    ends = {key: changes[key] for key in shape if key in END_KEYS}
+    entry = entry_with(_ON_TOP, {key: value for key, value in changes.items() if key not in (*ends, *_LINE)})
+    changed, material = blade, si_fields(entry.material)
     if material and blade.material is not None:
-        numbers = plain(_checked(MaterialSection, material, _MATERIAL))
-        other = replace(blade.material, **{si_name(key)[0]: of for key, of in numbers.items()})
+        changed = replace(changed, material=(other := replace(blade.material, **material)))
         try:
             other.check_strengths()
         except ValueError as error:
-            raise ImpossibleValueError(_MATERIAL + next(iter(material)), str(error)) from None
-        changed = replace(changed, material=other)
-    shape = {key: value for key, value in changes.items() if key in _SHAPE}
+            raise ImpossibleValueError(BLADE, next(key for key in changes if key in MATERIAL_KEYS), str(error)) from None
     if shape and isinstance(blade.definition, BladeDefinition):
-        changed = replace(changed, definition=_changed_shape(blade.definition, shape))
+        profiles = _changed_profiles(blade.definition.profiles, (entry, entry_with(_ON_TOP, ends)), shape)
+        stacking = _changed_stacking(blade.definition.stacking, entry, changes)
+        try:
+            check_sweep(stacking or (), profiles)
+        except BladeShapeError as error:
+            raise ImpossibleValueError(BLADE, next((key for key in shape if "sweep" in key), shape[0]), str(error)) from None
+        changed = replace(changed, definition=replace(blade.definition, profiles=profiles, stacking=stacking))
     return changed
 
 
-def _changed_shape(definition: BladeDefinition, changes: Mapping[str, float]) -> BladeDefinition:
-    shape: _Shape = _checked(_Shape, {key: value for key, value in changes.items() if key in _Shape.model_fields})
-    constant = {key: getattr(shape, key) for key in SECTION_KEYS}
-    ends = {}
-    for key, model in _ENDS.items():
-        content = {end: changes[f"{key}.{end}"] for end in model.model_fields if f"{key}.{end}" in changes}
-        ends[key] = _checked(model, content, f"{key}.")
-    profiles = definition.profiles
-    try:
-        for laws in (constant, ends):
-            profiles = profiles_by_laws(profiles, {key: span_law(key, law) for key, law in laws.items()})
-    except SectionChangeError as error:
-        blamed = [key for key in changes if key.split(".")[0] in changed_keys(error)]
-        text = str(error) if len(blamed) == 1 else f"{' and '.join(blamed)}: {error}"
-        raise ImpossibleValueError(blamed[0], text) from None
-    stacking = _changed_stacking(definition.stacking, shape)
-    try:
-        check_sweep(stacking or (), profiles)
-    except BladeShapeError as error:
-        raise ImpossibleValueError(next((key for key in changes if "sweep" in key), next(iter(changes))), str(error)) from None
-    return replace(definition, profiles=profiles, stacking=stacking)
-
-
-def _changed_stacking(
-    stacking: tuple[tuple[float, float, float], ...] | None, shape: _Shape
-) -> tuple[tuple[float, float, float], ...] | None:
-    """The table of sweep and lean with shares of it kept, and a straight line over the span added."""
-    if stacking is None and not (shape.sweep_cm or shape.lean_deg):
-        return None
-    rows = stacking or ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
-    sweep, lean = 0.01 * shape.sweep_cm, math.radians(shape.lean_deg)
-    changed = tuple(
-        (span, 0.01 * shape.sweep_percent * back + span * sweep, 0.01 * shape.lean_percent * side + span * lean)
-        for span, back, side in rows
+def changed_pair(blade: BladeSettings, scene: SceneEntry, values: Mapping[VariedNumber, float]) -> tuple[BladeSettings, Scene]:
+    """A blade and a scene with values of some of their numbers. Raises ImpossibleValueError."""
+    of_blade, of_scene = (
+        {number.key: value for number, value in values.items() if number.kind == kind} for kind in (BLADE, SCENE)
     )
+    return changed_blade(blade, of_blade), entry_with(scene, of_scene).scene()
+
+
+def _changed_profiles(profiles: Profiles, entries: Iterable[BladeEntry], keys: Iterable[str]) -> Profiles:
+    """The profiles with changes of entries on top of each other, for which `keys` are to blame."""
+    try:
+        for entry in entries:
+            profiles = profiles_by_laws(profiles, section_laws(entry))
+    except SectionChangeError as error:
+        blamed = [key for key in keys if key.split(".")[0] in changed_keys(error)]
+        text = str(error) if len(blamed) == 1 else f"{' and '.join(blamed)}: {error}"
+        raise ImpossibleValueError(BLADE, blamed[0], text) from None
+    return profiles
+
+
+def _changed_stacking(stacking: Stacking, entry: BladeEntry, changes: Mapping[str, float]) -> Stacking:
+    """The table of sweep and lean with shares of it kept, and a straight line over the span added."""
+    sweep_cm, lean_deg = (changes.get(key, 0.0) for key in _LINE)
+    _checked(SweepLean, {"span_percent": 100.0, "sweep_cm": sweep_cm, "lean_deg": lean_deg}, BLADE)
+    if stacking is None and not (sweep_cm or lean_deg):
+        return None
+    rows, sweep, lean = stacking or ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), 0.01 * sweep_cm, math.radians(lean_deg)
+    kept, kept_lean = (1.0 if share is None else 0.01 * share for share in (entry.sweep_percent, entry.lean_percent))
+    changed = tuple((span, kept * back + span * sweep, kept_lean * side + span * lean) for span, back, side in rows)
     for span, back, side in changed:
-        _checked(SweepLean, {"span_percent": 100.0 * span, "sweep_cm": 100.0 * back, "lean_deg": math.degrees(side)}, "table: ")
+        row = {"span_percent": 100.0 * span, "sweep_cm": 100.0 * back, "lean_deg": math.degrees(side)}
+        _checked(SweepLean, row, BLADE, "table: ")
     return changed
 
 
-def _checked(model: type[BaseModel], content: dict[str, Any], above: str = "") -> Any:
+def _checked(model: type[BaseModel], content: Mapping[str, Any], kind: str, above: str = "") -> Any:
+    """The content as a model; ImpossibleValueError, of a number of this `kind`, whose key has `above` before it."""
     try:
         return model.model_validate(content)
     except ValidationError as error:
         path, _, text = explain(error, content, model)
-        raise ImpossibleValueError(above + ".".join(map(str, path)), text) from None
+        raise ImpossibleValueError(kind, above + ".".join(map(str, path)), text) from None

@@ -98,7 +98,7 @@ class RefinementSection(Section):
     direct: DirectRefinementSection = DirectRefinementSection()
 
     def scene_refinement(self, scene: Scene) -> RefinementSection:
-        """What counts in a scene: without lining with windows and share of its own."""
+        """Refinement in a scene: without lining with windows and share of its own."""
         return self if scene.lining else self.model_copy(update=dict(self.direct))
 
 

@@ -1,4 +1,4 @@
-"""What no model of one file can check: each function compares values of several keys or files.
+"""Checks that no model of one file can make: each function compares values of several keys or files.
 
 Each of `CHECKS` raises ConfigError with the place of the value to blame. All of them are run: one that needs what another has
 refused meets the same refusal in `Settings`, and that is told once.
@@ -19,8 +19,7 @@ from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEP
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_blades import NO_ROTOR
 
-from .document import ConfigRefusals, Document
-from .families import Designs
+from .document import ConfigRefusals
 from .settings import Settings
 from .speed_choice import RunLength, fastest_of, length_of_run, slowest_speeds
 from .speed_section import key_of_speeds
@@ -40,16 +39,10 @@ def what_is_named_is_there(settings: Settings) -> None:
 def names_are_there(settings: Settings, path: KeyPath, section: Any) -> None:
     """Blades, families and scenes that a section at `path` of config.yaml names, if not `all`, are in their files."""
     refusals = ConfigRefusals()
-    for key, file, designs in files_of_names(settings):
+    for key, designs in (("blades", settings.designs), ("scenes", settings.scene_designs)):
         if getattr(section, key) not in (None, "all"):
-            refusals.of(settings.documents.known, (*path, key), getattr(section, key), designs.names, file)
+            refusals.of(settings.documents.known, (*path, key), getattr(section, key), designs.names, designs.document)
     refusals.tell()
-
-
-def files_of_names(settings: Settings) -> list[tuple[str, Document, Designs[Any]]]:
-    """Key of blades and of scenes in a section of config.yaml, the file of their names, and what that has."""
-    documents = settings.documents
-    return [("blades", documents.blades, settings.designs), ("scenes", documents.scenes, settings.scene_designs)]
 
 
 def speed_rules_name_what_is_there(settings: Settings) -> None:

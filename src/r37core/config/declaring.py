@@ -85,7 +85,7 @@ def _default(declared: DeclaredKey) -> Any:
 
 
 def _file_type(key: Key, kind: Any) -> Any:
-    """What a file has for a field of the type `kind`: words for true and false, lists for tuples, bounds of numbers."""
+    """Type in a file for a field of the type `kind`: words for true and false, lists for tuples, bounds of numbers."""
     if key.words:
         return Literal[tuple(key.words)]
     if key.one_of:

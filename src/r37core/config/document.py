@@ -28,13 +28,13 @@ class ConfigError(ValueError):
 
 
 class ConfigRefusals:
-    """What is wrong with a configuration, from checks that do not wait for each other: a user is told all at once."""
+    """Refusals of a configuration, from checks that do not wait for each other: all are reported at once."""
 
     def __init__(self, *lines: str) -> None:
         self._lines = dict.fromkeys(lines)
 
     def of(self, check: Callable[..., Result], *arguments: Any) -> Result | None:
-        """What a check gives; None where it refuses, which it may do for the reason of one before it."""
+        """Result of a check; None where it refuses, which it may do for the reason of one before it."""
         try:
             return check(*arguments)
         except ConfigError as error:
@@ -50,36 +50,49 @@ class ConfigRefusals:
 
 @dataclass(frozen=True)
 class Document:
-    """What a file says. `name`: of the file, for messages; `locations`: file and line of the values, as `file:line`."""
+    """Content of a file. `name`: of the file, for messages; `locations`: file and line of the values, as `file:line`.
+
+    `sources`: entry -> the one that gives what stands nowhere in it: its base, or the family of a design.
+    """
 
     name: str
     content: Any
     locations: Mapping[KeyPath, str] = field(default_factory=dict)
+    sources: Mapping[Any, str] = field(default_factory=dict)
 
     def location(self, path: KeyPath) -> str:
         """File and line of a value, of what holds it if it is not given, or the file alone."""
-        for length in range(len(path), 0, -1):
-            if path[:length] in self.locations:
-                return self.locations[path[:length]]
-        return self.name if path else self.locations.get((), self.name)
+        place = self._place(path)
+        return self.locations.get(place, self.name) if place or not path else self.name
+
+    def _place(self, path: KeyPath) -> KeyPath:
+        """Path with a line that the value at `path` is from, or what holds it: of its entry or of the source of that."""
+        own: KeyPath = next((path[:length] for length in range(len(path), 0, -1) if path[:length] in self.locations), ())
+        source = self.sources.get(path[0]) if path else None
+        other = () if source is None else self._place((source, *path[1:]))
+        return other if len(other) > len(own) else own
 
     def error(self, path: KeyPath, text: str, key: KeyPath | None = None) -> ConfigError:
         """The error of the value at `path`: place, key (where that is not the whole path) and `text`."""
-        named = path if key is None else key
+        named, place = path if key is None else key, self._place(path)
         shown = ".".join(single_line(str(step)) for step in named) or "top level"
-        return ConfigError(f"{self.location(path)}: {shown}: {text}")
+        source = f" (given by '{place[0]}')" if place[:1] not in ((), path[:1]) else ""
+        return ConfigError(f"{self.location(path)}: {shown}: {text}{source}")
 
     def refusal(self, path: KeyPath, value: str, allowed: str) -> ConfigError:
         """The error of the value at `path`, with what was found and what is allowed."""
         return self.error(path, f"found {value}; allowed: {allowed}")
 
     def check(self, model: type[Model]) -> Model:
-        """The content as a model; ConfigError for all that the model does not allow."""
+        """The content as a model; ConfigError for all that the model does not allow, in a base for the base alone."""
         try:
             return model.model_validate(self.content)
         except ValidationError as error:
             explained = explain_all(error, self.content, model)
-        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in explained)).tell()
+        texts = {path: text for path, _, text in explained}
+        places = {path: (*self._place(path)[:1], *path[1:]) for path in texts}
+        own = [each for each in explained if places[each[0]] == each[0] or texts.get(places[each[0]]) != each[2]]
+        ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in own)).tell()
         raise AssertionError("a model refuses for a reason")
 
     def overlaid(self, above: Document) -> Document:
@@ -121,7 +134,7 @@ def read_document(root: Path, name: str) -> Document:
 
 
 def command_line_document(values: Mapping[str, Any], name: str = "--config") -> Document:
-    """What a command line gives, where Snakemake hands numbers inside lists on as texts, or a call, which may have NumPy's.
+    """Values of a command line, where Snakemake hands numbers inside lists on as texts, or of a call, which may have NumPy's.
 
     Raises ConfigError for a key that no file can have.
     """
@@ -155,6 +168,11 @@ def _mark(content: Any, path: KeyPath, name: str, locations: dict[KeyPath, str])
     if isinstance(content, Mapping):
         for key, value in content.items():
             _mark(value, (*path, key), name, locations)
+
+
+def joined(below: Any, above: Any) -> Any:
+    """One content on top of another: mappings are joined, all else is replaced."""
+    return _overlay(below, above, (), {})
 
 
 def _overlay(below: Any, above: Any, path: KeyPath, locations: dict[KeyPath, str]) -> Any:

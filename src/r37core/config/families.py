@@ -1,28 +1,29 @@
 """Families of designs: one entry of blades.yaml or scenes.yaml with `vary` or `designs` is many blades or scenes."""
 
-import copy
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from pydantic import ValidationError
 from pydantic_core import PydanticCustomError
 
 from r37core.base.io import TextFileError
 from r37core.base.speeds import exact_text
+from r37core.base.varied_number import BLADE, SCENE, numbers_in
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import read_designs
 
-from .blade_sections import MaterialSection
 from .blades import SHARES, BladeEntry, readable_table
+from .changed_numbers import MATERIAL_KEYS, ImpossibleValueError, entry_with
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
-from .messages import did_you_mean, explain, single_line
+from .messages import did_you_mean, single_line
 from .scenes import SceneEntry
 from .section import check_name, check_names, plain
-from .section_laws import SECTION_KEYS
+from .section_laws import END_KEYS, SECTION_KEYS
 from .varied import FAMILY_KEYS, LARGEST_FAMILY, Variation, is_family
 
 AnyEntry = BladeEntry | MeshEntry | MatricesEntry | SceneEntry
@@ -30,13 +31,10 @@ AnyEntry = BladeEntry | MeshEntry | MatricesEntry | SceneEntry
 
 E = TypeVar("E", bound=AnyEntry)
 
-_KINDS: dict[Any, str] = {BladeEntry: "blade", SceneEntry: "scene"}
+_KINDS: dict[Any, str] = {BladeEntry: BLADE, SceneEntry: SCENE}
 """Entries that may be a family, and what they are called."""
 
-VARIED = (
-    *("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *(f"{key}.{end}" for key in SECTION_KEYS for end in ("hub", "tip"))),
-    *(f"material.{key}" for key in MaterialSection.model_fields),
-)
+VARIED = ("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *END_KEYS, *MATERIAL_KEYS)
 """Keys with a number that may vary in a family, besides those in the rows of a table."""
 
 
@@ -73,6 +71,14 @@ class Designs(Generic[E]):
         """Design -> family."""
         return {design: name for name, family in self.families.items() for design in family.designs}
 
+    def families_of(self, names: Iterable[str]) -> dict[str, Family]:
+        """Families with those of their designs that are among these names, where there are some."""
+        there, families = set(names), {}
+        for name, family in self.families.items():
+            if designs := {design: values for design, values in family.designs.items() if design in there}:
+                families[name] = replace(family, designs=designs)
+        return families
+
     def named(self, names: Iterable[str]) -> list[str]:
         """Entries of these names, and designs of families of these names, each once."""
         several = [list(self.families[name].designs) if name in self.families else [name] for name in names]
@@ -90,7 +96,6 @@ def expanded_families(entries: Mapping[str, E], root: Path, document: Document) 
     """The entries with every family replaced by its designs. Raises ConfigError, with the place in `document`."""
     made: dict[str, E] = {}
     families: dict[str, Family] = {}
-    locations = dict(document.locations)
     for name, entry in entries.items():
         if not is_family(entry):
             made[name] = entry
@@ -101,18 +106,21 @@ def expanded_families(entries: Mapping[str, E], root: Path, document: Document) 
                 allowed = f"designs that are not named like another {_kind(entry)}"
                 raise document.refusal((name,), f"the design '{design}'", allowed)
             made[design] = design_entry(name, entry, family.values(design), design, document)
-            locations |= {(design, *path[1:]): location for path, location in document.locations.items() if path[:1] == (name,)}
-        try:
-            check_names(made)
-            for design in family.designs:
-                check_name(design)
-        except PydanticCustomError as error:
-            raise document.error((name,), str(error)) from None
+    designs = Designs(made, families, document)
+    _check_names(designs)
+    return replace(designs, document=replace(document, sources={**document.sources, **designs.family_of}))
+
+
+def _check_names(designs: Designs[E]) -> None:
+    """ConfigError for a design whose name is none, and for two names that differ in capitals only."""
+    family_of, name = designs.family_of, ""
     try:
-        check_names(made)
+        for name in family_of:
+            check_name(name)
+        check_names(designs.entries)
     except PydanticCustomError as error:
-        raise document.error((list(made)[-1],), str(error)) from None
-    return Designs(made, families, replace(document, locations=locations))
+        (blamed,) = (error.context or {})["at"] or (name,)
+        raise designs.document.error((family_of.get(blamed, blamed),), str(error)) from None
 
 
 def _kind(entry: Any) -> str:
@@ -161,24 +169,14 @@ def design_name(family: str, values: Sequence[float]) -> str:
 
 def design_entry(family: str, entry: E, values: Mapping[str, float], design: str, document: Document) -> E:
     """The entry of one design, checked like one that a user wrote."""
-    model = next(model for model in _KINDS if isinstance(entry, model))
-    content = entry.model_dump(exclude_none=True, exclude_unset=True, exclude=set(FAMILY_KEYS))
-    for key, value in values.items():
+    for key in values:
         _check_varies(key, family, entry, design, document)
-        try:
-            content = changed_content(content, key.split("."), value)
-        except (AttributeError, KeyError, IndexError, TypeError, ValueError):
-            raise document.error(
-                (family,),
-                f"design {design}: found no {key} to vary; rows of a table stand in the entry, counted from 0, and hub and "
-                "tip stand where it has no number",
-            ) from None
     try:
-        return model.model_validate(content)
-    except ValidationError as error:
-        path, named, text = explain(error, content, model)
-        at = (family, "vary", ".".join(map(str, path)))
-        raise document.error(at, f"design {design}: {text}", (family, *named)) from None
+        return entry_with(entry, values)
+    except ImpossibleValueError as error:
+        key = error.number.key
+        shown = (family, *filter(None, key.split(".")))
+        raise document.error((family, "vary", key), f"design {design}: {error}", shown) from None
 
 
 def _check_varies(key: str, family: str, entry: Any, design: str, document: Document) -> None:
@@ -186,7 +184,7 @@ def _check_varies(key: str, family: str, entry: Any, design: str, document: Docu
     first = key.split(".")[0]
     if first in type(entry).model_fields and first not in FAMILY_KEYS:
         return
-    known = VARIED if isinstance(entry, BladeEntry) else tuple(numbers_of(plain(entry)))
+    known = VARIED if isinstance(entry, BladeEntry) else tuple(numbers_in(plain(entry)))
     hint = did_you_mean(key, known)
     for model, kind in _KINDS.items():
         if first in model.model_fields and not isinstance(entry, model):
@@ -195,27 +193,3 @@ def _check_varies(key: str, family: str, entry: Any, design: str, document: Docu
     raise document.error(
         (family,), f"design {design}: found unknown key {single_line(key)}; allowed keys: {', '.join(known)}{hint}"
     )
-
-
-def numbers_of(content: Mapping[str, Any], path: str = "") -> dict[str, float]:
-    """Dotted key -> value of all numbers in the sections of an entry but those that count something."""
-    numbers: dict[str, float] = {}
-    for key, value in content.items():
-        if isinstance(value, Mapping):
-            numbers |= numbers_of(value, f"{path}{key}.")
-        elif isinstance(value, float):
-            numbers[path + key] = value
-    return numbers
-
-
-def changed_content(content: dict[str, Any], path: Sequence[str], value: Any) -> dict[str, Any]:
-    """A copy of the content with one value set; sections that are not there are made, rows of a list are not."""
-    changed = copy.deepcopy(content)
-    inner: Any = changed
-    for step in path[:-1]:
-        inner = inner[int(step)] if isinstance(inner, list) else inner.setdefault(step, {})
-    if isinstance(inner, list):
-        raise TypeError
-    # for keys that count; others take one, too
-    inner[path[-1]] = int(value) if isinstance(value, float) and value.is_integer() else value
-    return changed

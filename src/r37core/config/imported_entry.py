@@ -113,7 +113,7 @@ class MeshEntry(Oriented):
     stress_submesh: ImportedSubmesh = ImportedSubmesh()
 
     def source(self, root: Path) -> MeshSource:
-        """What to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
+        """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""
         ends, digest = {"root": _where(self.root), "tip": _where(self.tip)}, digest_of(mesh_files(self.mesh, root))
         return si_form(MeshSource, self, file=self.mesh, orientation=self.orientation(), digest=digest, **ends)
 
@@ -131,7 +131,7 @@ class MatricesEntry(Oriented):
     )
 
     def source(self, root: Path) -> MatricesSource:
-        """What to import, from the folder `root`; ImportRefused where files are missing."""
+        """Matrices to import, from the folder `root`; ImportRefused where files are missing."""
         digest = digest_of(matrix_files(self.matrices, root).values())
         return si_form(MatricesSource, self, folder=self.matrices, orientation=self.orientation(), digest=digest)
 

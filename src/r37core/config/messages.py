@@ -10,6 +10,8 @@ from pydantic import BaseModel, ValidationError
 
 from r37core.base.yaml_file import KeyPath
 
+from .section import Without
+
 _BOUNDS = {
     "minimum": "at least",
     "exclusiveMinimum": "more than",
@@ -58,7 +60,7 @@ def _explained(error: Mapping[str, Any], path: KeyPath, content: Any, model: typ
         text = f"found unknown key {single_line(str(key))}; allowed keys: {', '.join(known)}{did_you_mean(str(key), known)}"
         return path, tuple(parent), text
     value = reduce(getitem, path, content)
-    shown = "nothing" if value is None else single_line(repr(value))
+    shown = "nothing" if value in (None, Without.KEY) else single_line(repr(value))
     return path, path, f"found {shown}; allowed: {describe(_part_at(schema, path, schema, variants), schema) or error['msg']}"
 
 
@@ -83,7 +85,7 @@ def _schema(model: type[BaseModel]) -> dict[str, Any]:
 
 
 def describe(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
-    """What a part of a JSON schema allows, in words."""
+    """Allowed values of a part of a JSON schema, in words."""
     part = _resolved(part, schema)
     for key in ("anyOf", "oneOf"):
         if key in part:

@@ -3,20 +3,16 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeVar
-
-from pydantic import RootModel
+from typing import Any
 
 from .blades import Blades
 from .config_file import Config
 from .document import ConfigError, ConfigRefusals, Document, command_line_document, read_document
 from .families import Designs, expanded_families
-from .fidelity import Levels
-from .scenes import Scenes
+from .fidelity import Level, Levels
+from .scenes import SceneEntry, checked_scenes
 from .settings import Documents, Settings
 from .speed_section import UNITS
-
-Entry = TypeVar("Entry")
 
 CONFIG_FILE = "config/config.yaml"
 
@@ -74,9 +70,9 @@ class Reader:
         refusals = ConfigRefusals()
         checked = refusals.of(document.check, self.model)
         files = [self._file(document, key) for key in ("blades_file", "fidelity_file", "scenes_file")]
-        designs = refusals.of(_designs, root, files[0], Blades, blades_above)
-        levels = refusals.of(_entries, root, files[1], Levels)
-        scenes = refusals.of(_designs, root, files[2], Scenes, scenes_above)
+        designs = refusals.of(_blades, root, files[0], blades_above)
+        levels = refusals.of(_levels, root, files[1])
+        scenes = refusals.of(_scenes, root, files[2], scenes_above)
         refusals.tell()
         assert checked and designs and levels and scenes
         documents = Documents(document, designs.document, levels[0], scenes.document)
@@ -92,17 +88,19 @@ class Reader:
         return named if isinstance(named, str) and named.isprintable() else self.model.model_fields[key].default
 
 
-def _entries(
-    root: Path, name: str, model: type[RootModel[dict[str, Entry]]], above: Document | None = None
-) -> tuple[Document, dict[str, Entry]]:
-    """A file with changes on top, and its checked entries. Raises ConfigError."""
+def _levels(root: Path, name: str) -> tuple[Document, dict[str, Level]]:
+    document = read_document(root, name)
+    return document, document.check(Levels).root
+
+
+def _blades(root: Path, name: str, above: Document | None) -> Designs[Any]:
     document = read_document(root, name)
     document = document.overlaid(above) if above else document
-    return document, document.check(model).root
+    return expanded_families(document.check(Blades).root, root, document)
 
 
-def _designs(root: Path, name: str, model: type[RootModel[dict[str, Any]]], above: Document | None) -> Designs[Any]:
-    document, entries = _entries(root, name, model, above)
+def _scenes(root: Path, name: str, above: Document | None) -> Designs[SceneEntry]:
+    document, entries = checked_scenes(read_document(root, name), above)
     return expanded_families(entries, root, document)
 
 

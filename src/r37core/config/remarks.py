@@ -1,4 +1,4 @@
-"""What a run of the pipeline says before it starts, and at its end."""
+"""Remarks of the pipeline before a run starts, and at its end."""
 
 from collections.abc import Collection, Mapping, Sequence
 
@@ -20,7 +20,7 @@ LARGE_FRICTION = 0.2
 
 
 def remarks_of_pipeline(settings: Settings) -> list[str]:
-    """What a run should say before it starts."""
+    """Remarks of the pipeline before a run starts."""
     lines = []
     measured = settings.fidelity.measured
     if settings.config.fidelity == "auto" and measured is not None:
@@ -54,7 +54,7 @@ def remarks_on_input(settings: Settings, changed: Collection[str] = ()) -> list[
 
 
 def remarks_on_speeds(settings: Settings) -> list[str]:
-    """What is to be said of speeds at which a run takes long, and of those beyond what models are made for: they may be rpm."""
+    """Remarks on speeds at which a run takes long, and on those beyond what models are made for: they may be rpm."""
     lines = []
     run = max((length_of_run(settings, *slowest) for slowest in slowest_speeds(settings).items()), key=lambda run: run.steps)
     if run.cpu_time >= LONG_RUN:
@@ -91,7 +91,7 @@ def _first_few(names: Sequence[str]) -> str:
 
 
 def remarks_on_laws(settings: Settings) -> list[str]:
-    """What is to be said of friction under which no integrator is sure, and of a lining that resists with next to nothing."""
+    """Remarks on friction under which no integrator is sure, and on a lining that resists with next to nothing."""
     lines = []
     for name, chosen in settings.scenes.items():
         friction, lining = chosen.scene.friction, chosen.scene.lining
@@ -139,7 +139,7 @@ def _spread_numbers(settings: Settings) -> set[str]:
 
 
 def remarks_on_points(settings: Settings) -> list[str]:
-    """What a run should say at its end of direct contact on points, which has no limit in the mesh."""
+    """Remark at the end of a run on direct contact on points, which has no limit in the mesh."""
     scenes, blades = settings.direct_on_points
     if not scenes:
         return []

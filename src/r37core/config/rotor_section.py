@@ -120,15 +120,14 @@ class RotorSection(Section):
         entry: SpreadEntry | None = getattr(self, key)
         if entry is None:
             return
-        spread = entry.spread()
-        if spread.percent:
+        if entry.percent:
             raise refused((key,), "a spread in percent of the nominal value, which is 0", "uniform, normal, between, values")
-        width, bounds = spread.kind in ("uniform", "normal"), f"at least {least:g}, at most {most:g}"
-        for number in spread.numbers:
-            if width and number > min(-least, most):
-                raise refused((key, spread.kind), f"{number:g}", f"at most {min(-least, most):g}")
+        (kind, numbers), bounds = entry.distribution, f"at least {least:g}, at most {most:g}"
+        for number in numbers:
+            if kind in ("uniform", "normal") and number > min(-least, most):
+                raise refused((key, kind), f"{number:g}", f"at most {min(-least, most):g}")
             if not least <= number <= most:
-                raise refused((key, spread.kind), f"{number:g}", bounds)
+                raise refused((key, kind), f"{number:g}", bounds)
         for blade, value in zip(self._present, values, strict=True):
             if not least <= value <= most:
                 remedy = f"{bounds}; a narrower spread, a uniform one, or another seed"
@@ -147,8 +146,7 @@ class RotorSection(Section):
         """Values of the blades that are there, of the table or else drawn; a blade keeps its draw where others are missing."""
         table, spread = getattr(self, key), getattr(self, _SPREADS[key])
         shares = np.random.default_rng((self.seed, list(_SPREADS).index(key))).random(self.blades)
-        drawn = spread and spread.spread()
-        nominal = [drawn.value(0.0, float(share)) if drawn else 0.0 for share in shares]
+        nominal = [spread.value(0.0, float(share)) if spread else 0.0 for share in shares]
         return [table.get(str(number), nominal[number - 1]) for number in self._present]
 
     def rotor(self) -> Rotor:

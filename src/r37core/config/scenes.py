@@ -9,10 +9,12 @@ from pydantic import Field, RootModel, model_validator
 from r37core.contact.scene import Friction, Lining, Scene
 from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
+from .bases import with_bases
 from .casing_section import CasingSection
 from .declaring import DECLARED, declared_by, si_fields, si_form
+from .document import ConfigRefusals, Document
 from .rotor_section import RotorSection
-from .section import ByName, LeftOut, Rpm, Section, Speed, left_out, refused
+from .section import ByName, LeftOut, Name, Rpm, Section, Speed, left_out, refused
 from .speed_section import refuse_both_units
 from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, is_family, vary_field
 
@@ -51,6 +53,7 @@ class FrictionSection(Section):
 class SceneEntry(Section):
     """One scene of scenes.yaml; with `vary` or `designs` a family, many scenes that differ in some numbers."""
 
+    base: Name | LeftOut = left_out("Scene of this file that gives what is left out; null leaves out a key that it has")
     tip_line: TipLine | LeftOut = left_out("Line of the contact nodes; by default structure.boundary.tip_line")
     casing: CasingSection
     lining: LiningSection | LeftOut = left_out("Abradable lining; the casing is bare without it")
@@ -138,3 +141,18 @@ class SceneEntry(Section):
 
 class Scenes(RootModel[ByName[SceneEntry]]):
     """scenes.yaml, contact scenes by name."""
+
+
+def checked_scenes(file: Document, above: Document | None = None) -> tuple[Document, dict[str, SceneEntry]]:
+    """Scenes of a file with changes `above`, each with what its base gives it: content with its lines, and checked.
+
+    Raises ConfigError for all that is wrong.
+    """
+    document, refused_bases = with_bases(file, above)
+    refusals = ConfigRefusals()
+    # of a file in which all have such bases nothing is left
+    checked = refusals.of(document.check, Scenes) if document.content or not file.content else None
+    refusals.of(refused_bases.tell)
+    refusals.tell()
+    assert checked
+    return document, checked.root

@@ -1,4 +1,4 @@
-"""What the models of all configuration files share: strictness, and the kinds of values."""
+"""Base of the models of all configuration files: strictness, and the kinds of values."""
 
 import re
 from collections.abc import Mapping
@@ -100,7 +100,7 @@ def _printable(name: str) -> str:
 
 FileName = Annotated[str, Field(min_length=1, max_length=1000, pattern=TEXT_PATTERN), AfterValidator(_printable)]
 LeftOut = SkipJsonSchema[None]
-"""What an optional key is when it is not given; null is refused."""
+"""Type of an optional key that is not given; null is refused."""
 
 
 def left_out(description: str) -> Any:

@@ -15,9 +15,17 @@ from .section import Section
 SECTION_KEYS = ("stagger_deg", "camber_deg", "chord_percent", "thickness_percent")
 """Keys of the changes of a blade's profiles."""
 
+END_KEYS = tuple(f"{key}.{end}" for key in SECTION_KEYS for end in ("hub", "tip"))
+"""Keys of their values at hub and tip."""
+
 _Span = Annotated[float, Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")]
 Angle = Annotated[float, Field(ge=-90, le=90)]
 Share = Annotated[float, Field(ge=10, le=1000)]
+
+
+def neutral_value(key: str) -> float:
+    """Value of a number of a blade's shape that changes nothing: the whole of a share, no angle or length added."""
+    return 100.0 if key.split(".")[0].endswith("_percent") else 0.0
 
 
 class AngleEnds(Section):

@@ -1,4 +1,4 @@
-"""What a run of the workflow is made with: config.yaml, the files it names, and what it chooses of them."""
+"""Settings of a run of the workflow: config.yaml, the files it names, and what it chooses of them."""
 
 from __future__ import annotations
 
@@ -87,10 +87,7 @@ class Settings:
 
         Raises ConfigError for a name that is not in the file, and where the part has none.
         """
-        chosen, designs = self.config.blades, self.designs
-        if chosen != "all":
-            self.documents.known(("blades",), chosen, designs.names, self.documents.blades)
-        several = list(designs.entries) if chosen == "all" else designs.named(chosen)
+        several = _chosen(self, "blades", self.designs)
         names = self.config.run.part_blades(several)
         if not names:
             part = f"{self.config.run.part} of {len(several)} blades"
@@ -108,11 +105,7 @@ class Settings:
 
         Raises ConfigError for a name that is not in the file.
         """
-        chosen, designs = self.config.scenes, self.scene_designs
-        if chosen == "all":
-            return list(designs.entries)
-        self.documents.known(("scenes",), chosen, designs.names, self.documents.scenes)
-        return designs.named(chosen)
+        return _chosen(self, "scenes", self.scene_designs)
 
     @cached_property
     def scenes(self) -> dict[str, SceneSettings]:
@@ -181,7 +174,7 @@ class Settings:
         return Path("logs", "runs", self.config.run.name) if self.config.run.name else Path("logs")
 
     def merged(self) -> dict[str, Any]:
-        """What this run is made with, merged from all files and the command line, as plain values."""
+        """Settings of this run, merged from all files and the command line, as plain values."""
         # the key of the unit that speeds are not given in has the default
         other_speeds = set(UNITS) - {key_of_speeds(self.config)}
         return {
@@ -192,7 +185,7 @@ class Settings:
         }
 
     def reduction_choice(self, blade: str, tip_line: str | None = None) -> ReductionChoice:
-        """What a blade's reduced model is made of, with contact nodes on `tip_line` or on that of config.yaml.
+        """Parameters of a blade's reduced model, with contact nodes on `tip_line` or on that of config.yaml.
 
         Its basis is computed at rest, at half the maximum speed and at the maximum speed.
         """
@@ -211,11 +204,11 @@ class Settings:
         return boundary.on(np.linspace(0.0, 1.0, 2 * tip_elements + 1)).most_nodes
 
     def contact_of(self, blade: str) -> str:
-        """What a blade's contact acts on: as config.yaml says for all of them, else as its own entry does."""
+        """Contact nodes of a blade: as config.yaml says for all of them, else as its own entry does."""
         return self.structure.boundary.contact or self.blades[blade].contact
 
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
-        """What is wanted of a scene, as far as the blade can give it: matrices have no stress, nor shapes.
+        """Results requested for a scene, as far as the blade has them: matrices have no stress, nor shapes.
 
         An imported mesh with strengths has fatigue wherever stress is wanted.
         """
@@ -252,6 +245,15 @@ def _planned(document: Document, path: KeyPath, section: Config | SpeedRule, ste
         return plan_speeds(entries, step, UNITS[key])
     except SpeedError as error:
         raise document.error((*path, key), str(error)) from None
+
+
+def _chosen(settings: Settings, key: str, designs: Designs[Any]) -> list[str]:
+    """Names that a key of config.yaml chooses. Raises ConfigError for one that is not in the file."""
+    chosen = getattr(settings.config, key)
+    if chosen == "all":
+        return list(designs.entries)
+    settings.documents.known((key,), chosen, designs.names, designs.document)
+    return designs.named(chosen)
 
 
 def blades_named(settings: Settings, chosen: Sequence[str] | str) -> list[str]:

@@ -1,64 +1,32 @@
-"""How a number spreads that is never known exactly, and how it is written in a configuration."""
+"""Distributions of numbers that are never known exactly, as a configuration gives them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Literal
+from functools import cached_property
+from typing import Annotated
 
 import scipy
 from pydantic import AfterValidator, Field, model_validator
 
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber
+
 from .section import LeftOut, Section, Unique, left_out, plain, refused
-
-
-@dataclass(frozen=True)
-class Spread:
-    """How a number spreads.
-
-    `uniform`: one half width about the nominal value; `normal`: one standard deviation; `between`: a lower and an upper
-    bound, all between equally likely; `log_between`: the same of the logarithm; `values`: a list, each equally likely. With
-    `percent` the first two are in percent of the nominal value.
-    """
-
-    kind: Literal["uniform", "normal", "between", "log_between", "values"]
-    numbers: tuple[float, ...]
-    percent: bool = False
-
-    def value(self, nominal: float, share: float) -> float:
-        """The value below which a `share`, from 0 to 1, of all values lies, rounded to 12 digits."""
-        first = self.numbers[0]
-        width = first * abs(nominal) / 100.0 if self.percent else first
-        if self.kind == "uniform":
-            value = nominal + (2.0 * share - 1.0) * width
-        elif self.kind == "normal":
-            value = nominal + float(scipy.special.ndtri(share)) * width
-        elif self.kind == "between":
-            value = first + share * (self.numbers[1] - first)
-        elif self.kind == "log_between":
-            value = first * (self.numbers[1] / first) ** share
-        else:
-            value = self.numbers[min(int(share * len(self.numbers)), len(self.numbers) - 1)]
-        # with more digits, the arithmetic of two machines would differ
-        return float(f"{value:.12g}")
-
-    def ends(self, nominal: float) -> tuple[float, ...]:
-        """The values that no other goes beyond; none of a normal distribution, which has no bounds."""
-        if self.kind == "values":
-            return self.numbers
-        return () if self.kind == "normal" else (self.value(nominal, 0.0), self.value(nominal, 1.0))
-
-    @property
-    def words(self) -> str:
-        """Width of the spread as a page shows it, in the unit of the number or in percent of it."""
-        unit = "%" if self.percent else ""
-        if self.kind in ("between", "log_between", "values"):
-            return (" or " if self.kind == "values" else " to ").join(f"{number:g}" for number in self.numbers)
-        return ("± " if self.kind == "uniform" else "standard deviation ") + f"{self.numbers[0]:g}{unit}"
-
 
 Width = Annotated[float, Field(ge=1e-12, le=1e15)]
 Percent = Annotated[float, Field(ge=1e-6, le=1000)]
 Number = Annotated[float, Field(ge=-1e15, le=1e15)]
+
+
+def _ascending(bounds: list[float]) -> list[float]:
+    if not bounds[0] < bounds[1]:
+        raise refused((), f"{bounds}", "a lower and a higher number")
+    return bounds
+
+
+Bounds = Annotated[list[Number], Field(min_length=2, max_length=2), AfterValidator(_ascending)]
+"""Lowest and highest value of a number."""
+
+PositiveBounds = Annotated[list[Width], Field(min_length=2, max_length=2), AfterValidator(_ascending)]
 
 
 def _power_of_two(members: int) -> int:
@@ -79,10 +47,8 @@ class SpreadEntry(Section):
     uniform: Width | LeftOut = left_out("Half width of a uniform distribution")
     normal_percent: Percent | LeftOut = left_out("Standard deviation of a normal distribution, of the value")
     normal: Width | LeftOut = left_out("Standard deviation of a normal distribution")
-    between: Annotated[list[Number], Field(min_length=2, max_length=2)] | LeftOut = left_out("Bounds of a uniform distribution")
-    log_between: Annotated[list[Width], Field(min_length=2, max_length=2)] | LeftOut = left_out(
-        "Bounds of a distribution whose logarithm is uniform"
-    )
+    between: Bounds | LeftOut = left_out("Bounds of a uniform distribution")
+    log_between: PositiveBounds | LeftOut = left_out("Bounds of a distribution whose logarithm is uniform")
     values: Unique[Number] | LeftOut = left_out("Equally likely values")
 
     @model_validator(mode="after")
@@ -90,17 +56,42 @@ class SpreadEntry(Section):
         kinds = list(plain(self))
         if len(kinds) != 1:
             raise refused((), " and ".join(kinds) or "nothing", f"one of {', '.join(type(self).model_fields)}")
-        for key in ("between", "log_between"):
-            bounds = getattr(self, key)
-            if bounds is not None and not bounds[0] < bounds[1]:
-                raise refused((key,), f"{bounds}", "a lower and a higher number")
         return self
 
-    def spread(self) -> Spread:
-        """The spread as samples take it."""
-        ((key, number),) = plain(self).items()
-        numbers = tuple(number) if isinstance(number, list) else (number,)
-        return Spread(key.removesuffix("_percent"), numbers, key.endswith("_percent"))  # type: ignore[arg-type]
+    @cached_property
+    def distribution(self) -> tuple[str, list[float]]:
+        """Its key, and its numbers."""
+        ((key, numbers),) = plain(self).items()
+        return key, numbers if isinstance(numbers, list) else [numbers]
+
+    @property
+    def percent(self) -> bool:
+        """True if the width is in percent of the nominal value."""
+        return self.distribution[0].endswith("_percent")
+
+    def value(self, nominal: float, share: float) -> float:
+        """The value below which a `share`, from 0 to 1, of all values lies, rounded to 12 digits."""
+        key, numbers = self.distribution
+        first = numbers[0]
+        width = first * abs(nominal) / 100.0 if self.percent else first
+        if key.startswith("uniform"):
+            value = nominal + (2.0 * share - 1.0) * width
+        elif key.startswith("normal"):
+            value = nominal + float(scipy.special.ndtri(share)) * width
+        elif key == "between":
+            value = first + share * (numbers[1] - first)
+        elif key == "log_between":
+            value = first * (numbers[1] / first) ** share
+        else:
+            value = numbers[min(int(share * len(numbers)), len(numbers) - 1)]
+        # with more digits, the arithmetic of two machines would differ
+        return float(f"{value:.12g}")
+
+    def ends(self, nominal: float) -> tuple[float, ...]:
+        """The values that no other goes beyond; none of a normal distribution, which has no bounds."""
+        if self.values is not None:
+            return tuple(self.values)
+        return () if self.distribution[0].startswith("normal") else (self.value(nominal, 0.0), self.value(nominal, 1.0))
 
 
 class Spreads(Section):
@@ -117,7 +108,7 @@ class Spreads(Section):
     )
 
     @property
-    def spreads(self) -> dict[tuple[str, str], Spread]:
-        """Section and key of each number -> how it spreads, in the order of the sample."""
-        sections = {"of_blades": self.of_blades, "of_scenes": self.of_scenes}
-        return {(section, key): entry.spread() for section, entries in sections.items() for key, entry in entries.items()}
+    def spreads(self) -> dict[VariedNumber, SpreadEntry]:
+        """Distribution of each number, in the order of the sample."""
+        kinds = {BLADE: self.of_blades, SCENE: self.of_scenes}
+        return {VariedNumber(kind, key): entry for kind, entries in kinds.items() for key, entry in entries.items()}

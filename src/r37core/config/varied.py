@@ -58,7 +58,7 @@ def designs_field(kind: str) -> Any:
 
 
 def is_family(entry: Any) -> bool:
-    """Whether an entry is a family. Raises the error of one that is so in two ways."""
+    """True if an entry is a family. Raises the error of one that is so in two ways."""
     ways = [key for key in ("vary", "designs") if getattr(entry, key, None) is not None]
     if len(ways) > 1:
         raise refused((), "both vary and designs", "one of them")

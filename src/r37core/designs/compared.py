@@ -3,25 +3,21 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from r37core.base.varied_number import BLADE, SCENE
+
 if TYPE_CHECKING:
     # the workflow imports it before it needs tables
     import pandas as pd
 
-BLADE, SCENE = KINDS = ("blade", "scene")
-"""What a family is of, as its column in the tables is called."""
-
 BOTH = "both"
 """Kind of designs of which blade and scene vary."""
-
-SCENE_KEY = "scene."
-"""Begin of the columns of what varies in scenes: `scene.casing.clearance_m`."""
 
 
 @dataclass(frozen=True)
 class Compared:
     """Designs that one figure compares: over `keys`, columns of designs.csv, of these `blades` in these `scenes`.
 
-    `kind`: of the family, BLADE or SCENE; BOTH where a family of blades meets one of scenes.
+    `kind`: of the family, BLADE or SCENE, a column, too; BOTH where a family of blades meets one of scenes.
     """
 
     kind: str

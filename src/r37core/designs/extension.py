@@ -1,5 +1,6 @@
 """The comparison of designs as an extension. What varies stands in blades.yaml and scenes.yaml, which the pipeline reads."""
 
+from r37core.base.varied_number import BLADE
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.plans.extension import Extension, Panel
@@ -9,7 +10,7 @@ from .plan import Families, tables_of_maps, targets
 
 def families_have_shapes(settings: Settings) -> None:
     """No family is of an imported blade: what is compared of designs needs their shape."""
-    for name, family in Families(settings).blade_families.items():
+    for name, family in Families(settings).families[BLADE].items():
         members = [settings.blades[design] for design in family.designs if design in settings.blades]
         if any(not isinstance(blade.definition, BladeDefinition) for blade in members):
             raise settings.documents.blades.refusal(

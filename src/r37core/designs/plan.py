@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from typing import Any
 
 from r37core.base.plain import to_plain
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
-from r37core.config.families import Designs, Family
+from r37core.config.families import Family
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 
-from .compared import BLADE, BOTH, KINDS, SCENE, SCENE_KEY, Compared
+from .compared import BOTH, Compared
 
 
 @dataclass(frozen=True)
@@ -23,37 +25,27 @@ class Families:
     settings: Settings
 
     @cached_property
-    def blade_families(self) -> dict[str, Family]:
-        """Families of blades of which some designs are run."""
-        return _that_run(self.settings.designs, self.settings.blade_names)
-
-    @cached_property
-    def scene_families(self) -> dict[str, Family]:
-        """Families of scenes of which some designs are run."""
-        return _that_run(self.settings.scene_designs, self.settings.scene_names)
+    def families(self) -> dict[str, dict[str, Family]]:
+        """Kind -> name -> family with those of its designs that are run, some of them."""
+        blades, scenes = self.settings.designs, self.settings.scene_designs
+        return {BLADE: blades.families_of(self.settings.blade_names), SCENE: scenes.families_of(self.settings.scene_names)}
 
     @property
     def variables(self) -> dict[str, dict[str, dict[str, float]]]:
         """Kind -> design that is run -> column of designs.csv -> value of what varies."""
-        designs = {kind: {} for kind in KINDS}  # type: dict[str, dict[str, dict[str, float]]]
-        for kind, families, names in self._families:
-            for family in families.values():
-                for design in _designs(family, names):
-                    values = family.values(design).items()
-                    designs[kind][design] = {_column(kind, key): value for key, value in values}
-        return designs
+        return {
+            kind: {
+                design: {VariedNumber(kind, key).name: value for key, value in family.values(design).items()}
+                for family in families.values()
+                for design in family.designs
+            }
+            for kind, families in self.families.items()
+        }
 
     @property
     def names(self) -> dict[str, dict[str, str]]:
         """Kind -> design -> family."""
         return {BLADE: self.settings.designs.family_of, SCENE: self.settings.scene_designs.family_of}
-
-    @property
-    def _families(self) -> list[tuple[str, dict[str, Family], list[str]]]:
-        return [
-            (BLADE, self.blade_families, self.settings.blade_names),
-            (SCENE, self.scene_families, self.settings.scene_names),
-        ]
 
     @property
     def pairs(self) -> list[tuple[str, str]]:
@@ -77,11 +69,11 @@ class Families:
         """What is drawn of each family, by its name."""
         settings = self.settings
         figures = {}
-        for kind, families, names in self._families:
+        for kind, families in self.families.items():
             for name, family in families.items():
-                designs = tuple(_designs(family, names))
+                designs = tuple(family.designs)
                 blades, scenes = (designs, self._plain_scenes) if kind == BLADE else (tuple(settings.blade_names), designs)
-                figures[name] = Compared(kind, tuple(_column(kind, key) for key in family.keys), blades, scenes)
+                figures[name] = Compared(kind, tuple(VariedNumber(kind, key).name for key in family.keys), blades, scenes)
         return figures
 
     @property
@@ -96,11 +88,10 @@ class Families:
         """What is drawn as a map: families of two keys, and a family of blades with one of scenes that have one key each."""
         figures = self.figures
         maps = {name: compared for name, compared in figures.items() if len(compared.keys) == 2}
-        for blades in self.blade_families:
-            for scenes in self.scene_families:
-                across, up = figures[blades], figures[scenes]
-                if len(across.keys) == len(up.keys) == 1:
-                    maps[f"{blades}__{scenes}"] = Compared(BOTH, across.keys + up.keys, across.blades, up.scenes)
+        for blades, scenes in product(self.families[BLADE], self.families[SCENE]):
+            across, up = figures[blades], figures[scenes]
+            if len(across.keys) == len(up.keys) == 1:
+                maps[f"{blades}__{scenes}"] = Compared(BOTH, across.keys + up.keys, across.blades, up.scenes)
         return maps
 
     def compared(self, wildcards: Any) -> dict[str, Any]:
@@ -110,19 +101,6 @@ class Families:
     def mapped(self, wildcards: Any) -> dict[str, Any]:
         """What one map compares, as plain values."""
         return to_plain(self.maps[wildcards.family])
-
-
-def _that_run(designs: Designs[Any], names: list[str]) -> dict[str, Family]:
-    return {name: family for name, family in designs.families.items() if _designs(family, names)}
-
-
-def _designs(family: Family, names: list[str]) -> list[str]:
-    there = set(names)
-    return [design for design in family.designs if design in there]
-
-
-def _column(kind: str, key: str) -> str:
-    return key if kind == BLADE else SCENE_KEY + key
 
 
 def tables_of_maps(sweep: Sweep) -> dict[str, paths.Wildcards]:

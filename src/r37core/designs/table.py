@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 from r37core.results.closing import counted
 from r37core.results.datasets import response_of
 from r37core.results.glossary import RANKING, Word, word
@@ -16,7 +17,7 @@ from r37core.results.ranking import RANKED_BY, ROBUSTNESS, robustness
 from r37core.results.table_file import read_table
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
 
-from .compared import BLADE, BOTH, SCENE, SCENE_KEY, Compared
+from .compared import BOTH, Compared
 
 _NAMES = ("blade", "scene", "family")
 """Columns of names."""
@@ -72,10 +73,8 @@ def compared_in(table: pd.DataFrame) -> dict[str, Compared]:
     families = {}
     for name, rows in table.groupby("family", sort=False):
         varied = rows.drop(columns=[*_NAMES, *MEASURES, *IN_OPERATION], errors="ignore").dropna(axis=1, how="all")
-        scene_keys = [key for key in map(str, varied) if key.startswith(SCENE_KEY)]
-        kind = SCENE if len(scene_keys) == varied.shape[1] else BLADE
-        if len(scene_keys) == 1 and varied.shape[1] == 2:
-            kind = BOTH
+        kinds = [VariedNumber.named(str(key)).kind for key in varied]
+        kind = SCENE if set(kinds) == {SCENE} else BOTH if sorted(kinds) == [BLADE, SCENE] else BLADE
         blades, scenes = (tuple(dict.fromkeys(rows[column])) for column in ("blade", "scene"))
         families[str(name)] = Compared(kind, tuple(map(str, varied)), blades, scenes)
     return families
@@ -102,7 +101,7 @@ def closing(results: Path) -> str:
     table = read_table(results / "designs.csv")
     flown = LENGTH in table and table[LENGTH].notna().any()
     order = [LENGTH, INTEGRAL, "largest_median_stress_pa"] if flown else list(RANKED_BY)
-    scenes_vary = any(str(name).startswith(SCENE_KEY) for name in table)
+    scenes_vary = any(VariedNumber.named(str(name)).kind == SCENE for name in table)
     text = counted(len(table) if scenes_vary else table["blade"].nunique(), "design")
     ranked = table.dropna(subset=order[0])
     for scene, rows in [("", ranked)] if scenes_vary and len(ranked) else ranked.groupby("scene", sort=False):

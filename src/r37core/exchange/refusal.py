@@ -1,4 +1,4 @@
-"""What is raised and said about meshes and matrices from other programs."""
+"""Errors of meshes and matrices from other programs, and their messages."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager

@@ -1,1 +1,1 @@
-"""What runs when: paths, provenance, code hashes and plans, for the rules of the workflow. Works without Snakemake."""
+"""Plan of a run: paths, provenance, code hashes and plans, for the rules of the workflow. Works without Snakemake."""

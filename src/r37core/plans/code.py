@@ -222,5 +222,5 @@ def _parts(node: ast.AST) -> Iterator[str]:
 
 
 def _is_text(node: ast.AST) -> bool:
-    """Whether a statement is a text alone: a docstring, or one after an assignment."""
+    """True if a statement is a text alone: a docstring, or one after an assignment."""
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)

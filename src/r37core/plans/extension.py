@@ -18,7 +18,7 @@ Targets = Callable[[Sweep], dict[str, Wildcards]]
 
 @dataclass(frozen=True)
 class Panel:
-    """What an extension shows in the explorer of a run that has its dataset.
+    """Panel of an extension in the explorer of a run that has its dataset.
 
     `dataset`: that one file, a dataset or a table, none in a run without it.
     `contents`: function of what it holds, as `folder.module.function`, that gives what JSON can carry.

@@ -34,7 +34,7 @@ class Extent:
         return f"{sweep}, and at most {self.members} of members" if self.members else sweep
 
     def cpu_time(self, per_run: float) -> str:
-        """What they take at most, in words; `per_run`: CPU seconds of one."""
+        """Time that they take at most, in words; `per_run`: CPU seconds of one."""
         cost = self.at_most * per_run
         return f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
 

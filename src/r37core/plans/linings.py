@@ -1,4 +1,4 @@
-"""What the linings of a run resist with at the tips, before it starts."""
+"""Stiffness of the linings of a run at the tips, before it starts."""
 
 from contextlib import suppress
 from pathlib import Path

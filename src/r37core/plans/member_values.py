@@ -4,12 +4,13 @@ Light but for `sobol_points`: the workflow imports it whether there are toleranc
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import scipy
 
-from r37core.config.spread import Spread
+from r37core.base.varied_number import VariedNumber
+from r37core.config.spread import SpreadEntry
 
 
 def sobol_points(numbers: int, members: int, seed: int) -> dict[str, tuple[float, ...]]:
@@ -34,14 +35,16 @@ def together(row: int, numbers: Iterable[int]) -> list[str]:
     return [f"{row}", f"{row}b", *(f"{row}f{number + 1}" for number in numbers)]
 
 
-def drawn(spreads: Iterable[Spread], nominal: Sequence[float | None], point: Sequence[float]) -> tuple[float | None, ...]:
-    """Values of a member at its `point`; None for a number without a nominal value."""
-    numbers = zip(spreads, nominal, point, strict=True)
-    return tuple(None if value is None else spread.value(value, share) for spread, value, share in numbers)
+def drawn(
+    spreads: Mapping[VariedNumber, SpreadEntry], nominal: Sequence[float | None], point: Sequence[float]
+) -> dict[VariedNumber, float]:
+    """Values of a member at its `point`, of the numbers that have a `nominal` value."""
+    numbers = zip(spreads.items(), nominal, point, strict=True)
+    return {number: spread.value(value, share) for (number, spread), value, share in numbers if value is not None}
 
 
 def is_of_sample(member: str) -> bool:
-    """Whether a member is of the sample, and not beside it for sensitivity indices alone."""
+    """True if a member is of the sample, and not beside it for sensitivity indices alone."""
     return member.isdigit()
 
 

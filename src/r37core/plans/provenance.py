@@ -1,4 +1,4 @@
-"""What result files say about their making."""
+"""Attributes of result files that say how they were made."""
 
 from __future__ import annotations
 

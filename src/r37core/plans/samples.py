@@ -47,7 +47,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class Sampling:
-    """What an extension adds whose members are runs of the sweep.
+    """Samples of an extension, whose members are run like the sweep.
 
     `samples`: members by blade and scene; none where the settings ask for none. What is made of them stands in the tables of
     all blades: `ranges`, a table as of results/ranges.py, in the summary; `dataset`, with a dimension `member`, in the ranking

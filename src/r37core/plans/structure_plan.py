@@ -52,7 +52,7 @@ class Structure:
         return to_plain(self._samples.blade(wildcards).elastic.material)
 
     def kept(self, wildcards: Any) -> bool:
-        """Whether the user's cache keeps a blade's reduced model: those of members are used once."""
+        """True if the user's cache keeps a blade's reduced model: those of members are used once."""
         return member_of(wildcards) == NOMINAL
 
     def location_of_contact(self, wildcards: Any) -> Attributes:
@@ -60,7 +60,7 @@ class Structure:
         return Attributes(location=location_of_contact(self.settings, wildcards.blade))
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
-        """What the reduced model is made of, with contact nodes on the line of the wildcard, or as config.yaml has them."""
+        """Parameters of the reduced model, with contact nodes on the line of the wildcard, or as config.yaml has them."""
         return to_plain(self.settings.reduction_choice(wildcards.blade, getattr(wildcards, "tip_line", None)))
 
     def whole_blade_model(self, wildcards: Any) -> str:
@@ -70,7 +70,7 @@ class Structure:
         return fill(WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
 
     def whole_blade_reduction(self, wildcards: Any) -> dict[str, Any]:
-        """What that model is made of: the sweep's, recovered everywhere."""
+        """Parameters of the model of the whole blade: the sweep's, recovered everywhere."""
         choice = self.settings.reduction_choice(wildcards.blade, wildcards.tip_line)
         return to_plain(replace(choice, recover_whole_blade=True))
 
@@ -111,7 +111,7 @@ class Imported:
         return _pattern(self.given_by(MatricesSource))
 
     def files(self, wildcards: Any) -> list[str]:
-        """What a blade is imported from, as seen from the current folder where that is possible."""
+        """Files that a blade is imported from, as seen from the current folder where that is possible."""
         source = self.settings.blades[wildcards.blade].definition
         if isinstance(source, MeshSource):
             files = mesh_files(source.file, self.settings.root)
@@ -121,7 +121,7 @@ class Imported:
         return [_seen_from_here(file) for file in files]
 
     def source(self, wildcards: Any) -> Any:
-        """What to import."""
+        """Mesh or matrices to import."""
         return to_plain(self.settings.blades[wildcards.blade].definition)
 
     def locations(self, wildcards: Any) -> Attributes:

@@ -49,11 +49,11 @@ class Sweep:
         return Samples(self.settings, self.beside)
 
     def contact_model(self, wildcards: Any) -> str:
-        """What the simulations of a blade and scene start from."""
+        """Contact model that the simulations of a blade and scene start from."""
         return self._model_file(wildcards, paths.CONTACT_MODEL)
 
     def models(self, wildcards: Any) -> list[str]:
-        """What the simulations of a blade and scene start from, and the operator of the stress, where that is wanted."""
+        """Contact model of the simulations of a blade and scene, and the operator of the stress, where that is wanted."""
         return [self.contact_model(wildcards), *self.stress_operator(wildcards)]
 
     def stress_operator(self, wildcards: Any) -> list[str]:
@@ -69,7 +69,7 @@ class Sweep:
         return paths.fill(pattern, member=self.samples.member(wildcards).model, blade=wildcards.blade, tip_line=tip_line)
 
     def nominal_stamp(self, wildcards: Any) -> list[str]:
-        """What a member waits for: the nominal runs can be done, which else would be said once for every member."""
+        """Stamp of the nominal runs; a member waits for it, so that their error is reported once."""
         where = {"blade": wildcards.blade, "scene": wildcards.scene}
         return [paths.fill(paths.INTEGRATION_STAMP, **where)] if wildcards.member else []
 
@@ -104,7 +104,7 @@ class Sweep:
         return [float(name.removeprefix("speed_")) for name in names if name.startswith("speed_")]
 
     def results(self, wildcards: Any) -> tuple[str, ...]:
-        """What is wanted of a blade and scene."""
+        """Results requested for a blade and scene."""
         return self.samples.sample(wildcards).results
 
     def stress_history_speeds(self, wildcards: Any) -> tuple[float, ...]:
@@ -171,7 +171,7 @@ class Simulations:
     sweep: Sweep
 
     def task(self, wildcards: Any) -> str:
-        """What one simulation does, as JSON text."""
+        """Parameters of one simulation, as JSON text."""
         task = {
             "scene": self.plain_scene(wildcards),
             "choice": to_plain(self._choice(wildcards, float(wildcards.speed))),
@@ -215,7 +215,7 @@ class Rounds:
         return [paths.fill(paths.ROUND, blade=blade, scene=scene, round=0) for blade, scene in adaptive]
 
     def round_inputs(self, wildcards: Any) -> dict[str, Any]:
-        """What a round looks at: the Campbell diagram, or the runs that the round before it asked for, member by member."""
+        """Input files of a round: the Campbell diagram, or the runs that the round before it asked for, member by member."""
         number, (folder, _) = int(wildcards.round), folder_and_name(wildcards)
         if number == 0:
             diagram = self.sweep.samples.sample(wildcards).campbell
@@ -235,7 +235,7 @@ class Rounds:
         return to_plain(self.sweep.speed_plan(wildcards))
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
-        """What makes an interval of speeds of a scene worth halving, as fields of RefinementChoice."""
+        """Criterion for halving intervals of speeds of a scene, as fields of RefinementChoice."""
         settings = self.sweep.settings
         refinement = settings.config.refinement.scene_refinement(settings.scenes[wildcards.scene].scene)
         windows = tuple(si_form(Window, window) for window in refinement.windows)
@@ -254,7 +254,7 @@ class Datasets:
         return self.sweep.runs_with(wildcards.kind)
 
     def responses(self, wildcards: Any) -> list[str]:
-        """What one dataset is joined of."""
+        """Responses that one dataset is joined of."""
         return [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs(wildcards)]
 
     @property

@@ -1,4 +1,4 @@
-"""What a run says of the pipeline and its extensions: remarks before it starts, refused targets, and its last lines."""
+"""Messages of the pipeline and its extensions: remarks before it starts, refused targets, and its last lines."""
 
 import json
 from collections.abc import Collection
@@ -44,7 +44,7 @@ def lines_of_extensions(settings: Settings, began: float) -> list[str]:
 
 
 def line_of_extension(extension: Extension, sweep: Sweep, results: Path, began: float) -> str:
-    """What an extension has found, in the folder `results`, and where to look; empty where all that it made is older."""
+    """Findings of an extension, in the folder `results`, and where to look; empty where all that it made is older."""
     files = [results / file.removeprefix("<results>/") for file in filled(extension.all_targets(sweep))]
     made = [file for file in files if file.exists() and file.stat().st_mtime >= began]
     if not made:

@@ -1,4 +1,4 @@
-"""What the report (snakemake --report) shows: categories by blade, then scene, labels and captions."""
+"""Content of the report (snakemake --report): categories by blade, then scene, labels and captions."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -32,7 +32,7 @@ def drawing(
 
 
 def _title_parts(wildcards: Any) -> dict[str, str]:
-    """What a figure is of, as its title says it and as datasets have it."""
+    """Names of what a figure shows, as its title says it and as datasets have it."""
     values = dict(wildcards.items())
     return {name: values[name] for name in ("family", "blade", "scene") if name in values}
 

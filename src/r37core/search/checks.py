@@ -1,12 +1,13 @@
-"""What the section of a search alone cannot check."""
+"""Checks of a search against blades, scenes and the Campbell diagram."""
 
+from r37core.base.varied_number import SCENE, VariedNumber
 from r37core.base.yaml_file import KeyPath
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
 from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.blades import SHARES, BladeEntry
-from r37core.config.changed_numbers import BLADE_KEYS, ImpossibleValueError, blade_number, changed_scene
+from r37core.config.changed_numbers import ImpossibleValueError, blade_number, check_known, entry_with
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.document import Document
 from r37core.config.messages import did_you_mean, single_line
@@ -15,7 +16,6 @@ from r37core.rom.naming import mode_names
 from .designs import SearchDesigns
 from .gaussian_processes import SearchPackageMissing, library
 from .plan import choice_of, designs_of, is_asked
-from .problem import scene_key
 from .quantity import FATIGUE_MEASURES, IN_OPERATION
 from .section import SECTION
 
@@ -32,8 +32,8 @@ def search_can_be_run(settings: Settings) -> None:
         raise document.refusal(("search", "blade"), f"'{entry.blade}', an imported blade", "a blade with profiles")
     _scenes_are_run(settings)
     for key, bounds in entry.variables.items():
-        if scene_key(key) is not None:
-            _is_of_scenes(designs, document, key)
+        if VariedNumber.named(key).kind == SCENE:
+            _is_of_scenes(designs, document, VariedNumber.named(key))
         for value in bounds:
             _has_values(designs, document, ("search", "variables", key), {key: value})
     # keys that exclude each other do so at any value
@@ -69,7 +69,7 @@ def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, value
     """ConfigError, at `path`, where the entry or a scene cannot have these values of some variables."""
     try:
         for scene in designs.scenes:
-            changed_scene(designs.settings.scene_designs.entries[scene], designs.scene_changes(scene, values))
+            entry_with(designs.settings.scene_designs.entries[scene], designs.scene_changes(scene, values))
     except ImpossibleValueError as error:
         raise document.error(path, f"scene '{scene}': {error}") from None
     try:
@@ -81,17 +81,18 @@ def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, value
         raise document.error(path, str(error)) from None
 
 
-def _is_of_scenes(designs: SearchDesigns, document: Document, key: str) -> None:
+def _is_of_scenes(designs: SearchDesigns, document: Document, number: VariedNumber) -> None:
     """ConfigError for a variable of scenes that no scene of the search has, or of which they have different values."""
-    path, values = ("search", "variables", key), designs.values_in_scenes(key)
+    name, values = number.name, designs.values_in_scenes(number)
+    path = ("search", "variables", name)
     if not values:
-        known = dict.fromkeys(f"scene.{each}" for numbers in designs.scene_numbers.values() for each in numbers)
-        scenes = ", ".join(designs.scenes)
-        hint = did_you_mean(key, known)
-        raise document.refusal(path, f"{single_line(key)}, which none of the scenes {scenes} has", f"{', '.join(known)}{hint}")
+        keys = (key for numbers in designs.scene_numbers.values() for key in numbers)
+        known = dict.fromkeys(VariedNumber(SCENE, key).name for key in keys)
+        without = f"{single_line(name)}, which none of the scenes {', '.join(designs.scenes)} has"
+        raise document.refusal(path, without, f"{', '.join(known)}{did_you_mean(name, known)}")
     if len(set(values.values())) > 1:
         different = ", ".join(f"{value:g} in '{scene}'" for scene, value in values.items())
-        raise document.refusal(path, f"{key} with {different}", "scenes of the search that start at the same value")
+        raise document.refusal(path, f"{name} with {different}", "scenes of the search that start at the same value")
 
 
 def _scenes_are_run(settings: Settings) -> None:
@@ -121,12 +122,8 @@ def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None
     tolerances, document = designs.entry.tolerances, settings.documents.config
     if tolerances is None:
         return
-    path = ("search", "tolerances")
-    known = {key for numbers in designs.scene_numbers.values() for key in numbers}
-    for where, allowed in (("of_blades", BLADE_KEYS), ("of_scenes", sorted(known))):
-        for key in getattr(tolerances, where):
-            if key not in allowed:
-                raise document.refusal((*path, where, key), single_line(key), f"one of {', '.join(allowed)}")
+    path, numbers = ("search", "tolerances"), tolerances.spreads
+    check_known(numbers, (key for known in designs.scene_numbers.values() for key in known), document, path)
     blade = settings.blades[designs.entry.blade]
     for key in tolerances.of_blades:
         try:
@@ -138,5 +135,5 @@ def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None
     try:
         designs.samples("of the search", None)
     except ImpossibleValueError as error:
-        where = "of_blades" if error.key in tolerances.of_blades else "of_scenes"
-        raise document.error((*path, where, error.key), f"a member of the start: {error}; or a narrower tolerance") from None
+        place, text = error.place(numbers)
+        raise document.error((*path, *place), f"a member of the start: {text}; or a narrower tolerance") from None

@@ -12,8 +12,8 @@ from r37core.base.dataset_file import about, read_dataset
 from r37core.base.io import write_text
 from r37core.base.rounding import rounded_to
 from r37core.base.units import shown_unit
+from r37core.base.varied_number import BLADE, SCENE, values_of, with_value
 from r37core.base.yaml_file import yaml_text
-from r37core.config.families import changed_content
 from r37core.results.closing import counted
 
 from .plan import BEST, DATASET
@@ -24,10 +24,8 @@ from .problem import (
     Evaluated,
     SearchChoice,
     best_first,
-    blade_values,
     not_dominated,
     number,
-    scene_values,
 )
 from .rounds import SearchRound
 from .surrogate import sensitivity, slices
@@ -154,8 +152,8 @@ def entries_of(search: xr.Dataset, designs: Sequence[str], start: str, entries: 
     made: dict[str, Any] = {}
     for place, design in enumerate(designs, 1):
         content = dict(entries[start])
-        for key, value in blade_values(_values(search, design)).items():
-            content = changed_content(content, key.split("."), value)
+        for key, value in values_of(BLADE, _values(search, design)).items():
+            content = with_value(content, key, value)
         made[f"{start}_best{place}"] = content
     return made
 
@@ -194,8 +192,8 @@ def write_scenes(
         values, made = _values(search, design), {}
         for scene, keys in varied.items():
             content = dict(entries[scene])
-            for key, value in scene_values({key: values[key] for key in keys}).items():
-                content = changed_content(content, key.split("."), value)
+            for key, value in values_of(SCENE, {key: values[key] for key in keys}).items():
+                content = with_value(content, key, value)
             if keys:
                 made[f"{scene}_best{place}"] = content
         names += made

@@ -3,17 +3,17 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
-from r37core.config import BladeSettings, Settings
+from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, values_of
+from r37core.config import BladeSettings, Settings, plain
 from r37core.config.blades import SHARES, BladeEntry, blade_settings
-from r37core.config.changed_numbers import blade_number, changed_blade, changed_scene, scene_numbers
+from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
 from r37core.config.families import design_entry
-from r37core.config.section_laws import SECTION_KEYS
+from r37core.config.section_laws import SECTION_KEYS, neutral_value
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, path_part
 
-from .problem import START, SearchVariable, blade_values, scene_key, scene_values
+from .problem import START, SearchVariable
 from .section import SECTION, SearchSection
 
 FOLDER = SECTION.name
@@ -36,7 +36,7 @@ class SearchDesigns:
 
     @property
     def entry(self) -> SearchSection:
-        """What is asked for."""
+        """Section of config.yaml."""
         entry = self.settings.section(SECTION)
         assert entry is not None
         return entry
@@ -50,7 +50,7 @@ class SearchDesigns:
 
     @property
     def variables(self) -> tuple[SearchVariable, ...]:
-        """What varies between which bounds, in the units of the keys."""
+        """Variables with their bounds, in the units of the keys."""
         return tuple(SearchVariable(key, *bounds) for key, bounds in self.entry.variables.items())
 
     @cached_property
@@ -63,17 +63,23 @@ class SearchDesigns:
     @property
     def start_values(self) -> list[float | None]:
         """Values of the variables that the start has; None where neither its entry says nor a key that is left out."""
-        return [self._start_value(key) for key in self.entry.variables]
+        return [self._start_value(number) for number in self.numbers]
 
-    def _start_value(self, key: str) -> float | None:
-        if scene_key(key) is None:
-            return start_value(self.start, key)
+    def _start_value(self, number: VariedNumber) -> float | None:
+        if number.kind == BLADE:
+            return start_value(self.start, number.key)
         # all scenes that have it agree
-        return next(iter(self.values_in_scenes(key).values()))
+        return next(iter(self.values_in_scenes(number).values()))
 
-    def values_in_scenes(self, key: str) -> dict[str, float]:
-        """Scene -> its value of a variable of scenes, of all scenes of the search that have this number."""
-        return {scene: numbers[named] for scene, numbers in self.scene_numbers.items() if (named := scene_key(key)) in numbers}
+    @property
+    def numbers(self) -> list[VariedNumber]:
+        """Numbers of the variables."""
+        return list(map(VariedNumber.named, self.entry.variables))
+
+    def values_in_scenes(self, number: VariedNumber) -> dict[str, float]:
+        """Scene -> its value of a number of scenes, of all scenes of the search that have it."""
+        known = self.scene_numbers.items() if number.kind == SCENE else ()
+        return {scene: numbers[number.key] for scene, numbers in known if number.key in numbers}
 
     @cached_property
     def scene_numbers(self) -> dict[str, dict[str, float]]:
@@ -82,8 +88,8 @@ class SearchDesigns:
 
     @property
     def blade_varies(self) -> bool:
-        """Whether a variable is of the blade."""
-        return bool(blade_values(dict.fromkeys(self.entry.variables, 0.0)))
+        """True if a variable is of the blade."""
+        return any(number.kind == BLADE for number in self.numbers)
 
     def model_part(self, name: str) -> str:
         """The part `member` of the paths of a design's model: the nominal one where its blade is the start's."""
@@ -91,11 +97,11 @@ class SearchDesigns:
 
     def varied_entry(self, name: str, values: Mapping[str, float]) -> BladeEntry:
         """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
-        return design_entry(self.entry.blade, self.start, blade_values(values), name, self.settings.designs.document)
+        return design_entry(self.entry.blade, self.start, values_of(BLADE, values), name, self.settings.designs.document)
 
     def scene_changes(self, scene: str, values: Mapping[str, float]) -> dict[str, float]:
         """Values of the variables that a scene has, of all `values` of variables, by dotted keys of its entry."""
-        return {key: value for key, value in scene_values(values).items() if key in self.scene_numbers[scene]}
+        return {key: value for key, value in values_of(SCENE, values).items() if key in self.scene_numbers[scene]}
 
     def blade(self, name: str, values: Sequence[float] | None) -> BladeSettings:
         """A design as a blade, the start without `values`. Raises ConfigError where its shape is impossible."""
@@ -118,7 +124,7 @@ class SearchDesigns:
 
     def _sample(self, name: str, blade: BladeSettings, scene: str, changes: Mapping[str, float]) -> Sample:
         settings, own = self.settings, self.model_part(name)
-        chosen = changed_scene(settings.scene_designs.entries[scene], changes)
+        chosen = entry_with(settings.scene_designs.entries[scene], changes).scene()
         members = {NOMINAL: Member(blade, chosen, own), **self._members(name, blade, scene, changes)}
         return Sample(
             members=members,
@@ -134,26 +140,20 @@ class SearchDesigns:
         if tolerances is None:
             return {}
         numbers, spreads = {**self.scene_numbers[scene], **scene_changes}, tolerances.spreads
-        nominal = [blade_number(blade, key) if where == "of_blades" else numbers.get(key) for where, key in spreads]
+        design = {VariedNumber(SCENE, key): value for key, value in scene_changes.items()}
+        nominal = [nominal_value(number, blade, numbers) for number in spreads]
         points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
         members = {}
         for member in filter(is_of_sample, points):
-            changes: dict[str, dict[str, float]] = {"of_blades": {}, "of_scenes": dict(scene_changes)}
-            for (where, key), value in zip(spreads, drawn(spreads.values(), nominal, points[member]), strict=True):
-                if value is not None:
-                    changes[where][key] = value
-            other = changed_blade(blade, changes["of_blades"])
+            other, changed = changed_pair(blade, scene_entry, {**design, **drawn(spreads, nominal, points[member])})
             own = self.model_part(name) if other.elastic == blade.elastic else path_part(f"{FOLDER}/{name}", member)
-            members[member] = Member(other, changed_scene(scene_entry, changes["of_scenes"]), own)
+            members[member] = Member(other, changed, own)
         return members
 
 
 def start_value(entry: BladeEntry, key: str) -> float | None:
     """Value of a dotted key of an entry, for a share or law that is left out one that changes nothing; None without a value."""
-    first, *others = key.split(".")
-    inner: Any = getattr(entry, first, None)
-    if inner is None and (first in SECTION_KEYS or key in SHARES):
-        return 100.0 if first.endswith("_percent") else 0.0
-    for step in others:
-        inner = inner[int(step)] if isinstance(inner, list) else getattr(inner, step, None)
-    return float(inner) if isinstance(inner, int | float) else None
+    first = key.split(".")[0]
+    if getattr(entry, first, None) is None and (first in SECTION_KEYS or key in SHARES):
+        return neutral_value(key)
+    return value_at(plain(entry), key)

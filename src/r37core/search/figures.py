@@ -29,7 +29,7 @@ _MOST_COLUMNS = 5
 
 
 class _Objective(NamedTuple):
-    """What is drawn of an objective: label of its axis, and values and scatter [design] in its shown unit."""
+    """Drawn numbers of an objective: label of its axis, and values and scatter [design] in its shown unit."""
 
     label: str
     values: np.ndarray

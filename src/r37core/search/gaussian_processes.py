@@ -52,7 +52,7 @@ class Fit:
 
     @property
     def is_constant(self) -> bool:
-        """Whether all numbers are equal, so that nothing was fitted."""
+        """True if all numbers are equal, so that nothing was fitted."""
         return self.process is None
 
     def at(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,4 +1,4 @@
-"""What the explorer shows of a search: objectives against each other, all numbers of each design, and the best ones."""
+"""Panel of a search in the explorer: objectives against each other, all numbers of each design, and the best ones."""
 
 import math
 

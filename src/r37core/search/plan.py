@@ -46,15 +46,15 @@ class Search:
 
     @property
     def designs(self) -> SearchDesigns:
-        """What designs are made of."""
+        """Designs of the search."""
         return designs_of(self.sweep.settings)
 
     def choice(self, wildcards: Any) -> dict[str, Any]:
-        """What is sought, as plain values."""
+        """Variables, objectives and constraints, as plain values."""
         return to_plain(choice_of(self.sweep.settings))
 
     def quantities(self, wildcards: Any) -> dict[str, Any]:
-        """What a design is judged by, as plain values."""
+        """Quantities of objectives and constraints, as plain values."""
         return to_plain(choice_of(self.sweep.settings).quantities)
 
     def number_of_designs(self, wildcards: Any) -> int:
@@ -75,7 +75,7 @@ class Search:
         return [name for name in round_of(self.round_file(number)).new if name not in refused]
 
     def round_inputs(self, wildcards: Any) -> dict[str, Any]:
-        """What a round looks at: the round before it, and what its designs gave."""
+        """Input files of a round: the round before it, and the results of its designs."""
         number = int(wildcards.round)
         if number == 0:
             return {}
@@ -87,7 +87,7 @@ class Search:
         }
 
     def shapes(self, wildcards: Any) -> list[str]:
-        """Whether each design of a round can be built."""
+        """Files that say whether each design of a round can be built."""
         return [paths.fill(SHAPE, design=name) for name in round_of(self.round_file(int(wildcards.round))).new]
 
     def shape(self, wildcards: Any) -> dict[str, Any]:
@@ -106,7 +106,7 @@ class Search:
         return to_plain(self.sweep.settings.reduction_choice(self.designs.entry.blade).stress_submesh)
 
     def measured(self, wildcards: Any) -> dict[str, Any]:
-        """What a design, or the start, is judged by."""
+        """Files of the structure and the runs of a design, or of the start."""
         own, blade = member_part(wildcards.design), self.designs.entry.blade
         model, tip_line = self.designs.model_part(wildcards.design), self.sweep.settings.structure.boundary.tip_line
         of = {"member": model, "blade": blade, "tip_line": tip_line}
@@ -179,13 +179,13 @@ class Search:
         """Scene -> variables that are of numbers which it has."""
         designs = self.designs
         return {
-            scene: [key for key in designs.entry.variables if scene in designs.values_in_scenes(key)]
+            scene: [number.name for number in designs.numbers if scene in designs.values_in_scenes(number)]
             for scene in designs.scenes
         }
 
 
 def choice_of(settings: Settings) -> SearchChoice:
-    """What the section of config.yaml asks for."""
+    """Search that the section of config.yaml asks for."""
     designs = designs_of(settings)
     entry, is_flown = designs.entry, operating_range(settings) is not None
     constraints = {
@@ -198,7 +198,7 @@ def choice_of(settings: Settings) -> SearchChoice:
 
 
 def designs_of(settings: Settings) -> SearchDesigns:
-    """What the designs of the settings' search are made of."""
+    """Designs of the search of these settings, made once."""
     return settings.made(SearchDesigns)
 
 
@@ -218,7 +218,7 @@ def values_of(results: Path, design: str) -> tuple[float, ...] | None:
 
 
 def round_of(file: str) -> SearchRound:
-    """What the file of a round says, read once as long as it is the same. Raises InputFileError for a damaged one."""
+    """Content of the file of a round, read once as long as it is the same. Raises InputFileError for a damaged one."""
     path = Path(file)
     return _round_of(file, path.stat().st_mtime_ns if path.exists() else 0)
 
@@ -243,7 +243,7 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 
 def is_asked(settings: Settings) -> bool:
-    """Whether this run has a search: a part of the blades may be without the one that it starts at."""
+    """True if this run has a search: a part of the blades may be without the one that it starts at."""
     entry = settings.section(SECTION)
     return entry is not None and entry.blade in settings.blade_names
 

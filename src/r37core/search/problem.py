@@ -15,31 +15,13 @@ FEWEST_DONE = 3
 """Fewest built designs for a fit; with fewer, proposals stay away from all that was tried."""
 
 
-_OF_SCENES = "scene."
-
-
 @dataclass(frozen=True)
 class SearchVariable:
-    """A number of the blade, or of scenes, and the range that is searched; any unit."""
+    """A number of the blade or of scenes by its name (VariedNumber), and the range that is searched; any unit."""
 
     key: str
     lowest: float
     highest: float
-
-
-def scene_key(key: str) -> str | None:
-    """Key of scenes.yaml that a variable of scenes stands for, such as lining.thickness_m; None of one of the blade."""
-    return key.removeprefix(_OF_SCENES) if key.startswith(_OF_SCENES) else None
-
-
-def blade_values(values: Mapping[str, float]) -> dict[str, float]:
-    """Values of the blade's variables, of all `values` of variables, by dotted keys of its entry."""
-    return {key: value for key, value in values.items() if scene_key(key) is None}
-
-
-def scene_values(values: Mapping[str, float]) -> dict[str, float]:
-    """Values of the variables of scenes, of all `values` of variables, by dotted keys of their entries."""
-    return {scene: value for key, value in values.items() if (scene := scene_key(key)) is not None}
 
 
 @dataclass(frozen=True)
@@ -59,12 +41,12 @@ class Evaluated:
 
     @property
     def is_done(self) -> bool:
-        """Whether there is a finite number for every objective and margin."""
+        """True if every objective and margin is a finite number."""
         return all(map(math.isfinite, (*self.objectives, *self.margins)))
 
     @property
     def is_feasible(self) -> bool:
-        """Whether it could be built and keeps every constraint."""
+        """True if it could be built and keeps every constraint."""
         return self.is_done and all(margin >= 0 for margin in self.margins)
 
 

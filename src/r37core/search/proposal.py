@@ -51,7 +51,7 @@ def propose(
 
 @dataclass(frozen=True)
 class Models:
-    """What all results so far say: of each objective (compressed) and margin, and of the chance to build a design."""
+    """Fits of all results so far: of each objective (compressed) and margin, and of the chance to build a design."""
 
     objectives: tuple[Fit, ...]
     margins: tuple[Fit, ...]

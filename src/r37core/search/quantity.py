@@ -84,7 +84,7 @@ class Quantity:
 
     @property
     def needs_contact(self) -> bool:
-        """Whether simulations are needed for it."""
+        """True if it needs simulations."""
         return self.measure in CONTACT_MEASURES
 
     @property
@@ -96,7 +96,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class DesignStructure:
-    """What is known of a design before anything touches it. `volume` (m3), `density` (kg/m3).
+    """Numbers of a design without contact. `volume` (m3), `density` (kg/m3).
 
     `campbell`: its Campbell diagram; `static_stress` (Pa) by rotation at the speeds (rad/s) that are asked for.
     """

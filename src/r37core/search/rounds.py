@@ -60,7 +60,7 @@ def write_round(finished: SearchRound, file: Path | str) -> None:
 
 
 def read_round(file: Path | str) -> SearchRound:
-    """What `write_round` wrote; InputFileError when it cannot be read."""
+    """Read the file of `write_round`; InputFileError when it cannot be read."""
     content = read_json(file)
     with readable(file):
         return from_plain(SearchRound, content)

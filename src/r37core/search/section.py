@@ -5,24 +5,13 @@ from typing import Annotated, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
-from r37core.config.spread import MemberCount, Spreads
+from r37core.config.spread import Bounds, MemberCount, Number, Spreads
 from r37core.results.operating_range import INTEGRAL
 
 from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, STRUCTURE_MEASURES, Quantity
 
 COLUMNS = ("design", "round", "feasible", "not_dominated", "order", "refused")
 """Columns of search.csv next to those of variables, objectives and constraints."""
-
-Bound = Annotated[float, Field(ge=-1e15, le=1e15)]
-
-
-def _lower_first(bounds: list[float]) -> list[float]:
-    if not bounds[0] < bounds[1]:
-        raise refused((), f"{bounds}", "a lower and a higher value")
-    return bounds
-
-
-Bounds = Annotated[list[Bound], Field(min_length=2, max_length=2), AfterValidator(_lower_first)]
 
 
 class QuantitySection(Section):
@@ -58,7 +47,7 @@ class QuantitySection(Section):
 
 
 class ObjectiveSection(QuantitySection):
-    """What should be small."""
+    """Number of a design that should be small."""
 
     quantile: Annotated[float, Field(ge=1e-3, le=0.999)] | LeftOut = Field(
         default=None, description="Quantile under tolerances, such as 0.9; the nominal value without it"
@@ -72,12 +61,12 @@ class ObjectiveSection(QuantitySection):
 
 
 class ConstraintSection(QuantitySection):
-    """What has to be kept; with percent of the value that the start has."""
+    """Bounds of a number of a design; with percent, of the value of the start."""
 
-    at_least: Bound | LeftOut = Field(default=None, description="Lower bound, in the unit of the measure")
-    at_most: Bound | LeftOut = Field(default=None, description="Upper bound, in the unit of the measure")
-    at_least_percent: Bound | LeftOut = Field(default=None, description="Lower bound, of the starting blade's value")
-    at_most_percent: Bound | LeftOut = Field(default=None, description="Upper bound, of the starting blade's value")
+    at_least: Number | LeftOut = Field(default=None, description="Lower bound, in the unit of the measure")
+    at_most: Number | LeftOut = Field(default=None, description="Upper bound, in the unit of the measure")
+    at_least_percent: Number | LeftOut = Field(default=None, description="Lower bound, of the starting blade's value")
+    at_most_percent: Number | LeftOut = Field(default=None, description="Upper bound, of the starting blade's value")
 
     @model_validator(mode="after")
     def _is_bounded(self) -> Self:

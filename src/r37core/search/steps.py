@@ -46,7 +46,7 @@ def propose_round(input: Any, output: Any, params: Any) -> str:
 
 
 def shape(input: Any, output: Any, params: Any) -> None:
-    """Whether a design can be built. Output: shape (json). Params: shape, edges, mesh, stress_submesh."""
+    """Test whether a design can be built. Output: shape (json). Params: shape, edges, mesh, stress_submesh."""
     # gmsh takes a second to load, which rounds have no use for
     from r37core.fem.mesh_quality import mesh_quality
     from r37core.mesh.generate import generate_mesh
@@ -73,7 +73,7 @@ def built(input: Any, output: Any, params: Any) -> None:
 
 
 def measure(input: Any, output: Any, params: Any) -> None:
-    """What a design is judged by. Inputs: geometry, campbell, contact, stress, responses. Output: measures (json).
+    """Quantities of a design. Inputs: geometry, campbell, contact, stress, responses. Output: measures (json).
 
     Params: quantities, scenes (how many of the responses are of each, the nominal one first), density, highest_speed,
     operating (the range, or None).

@@ -1,4 +1,4 @@
-"""What the tried designs say about those between them: slices of each objective with a band, and which variables decide it."""
+"""Predictions between the tried designs: slices of each objective with a band, and which variables decide it."""
 
 from collections.abc import Sequence
 

@@ -6,10 +6,10 @@ from typing import Any
 
 from pydantic import Field
 
+from r37core.base.varied_number import with_value
 from r37core.cases.case import Case, Crossing
 from r37core.cases.plan import CasesSection, carries_coriolis, integration_of_level, kept_of, model_of_level, names_are_known
 from r37core.config import ConfigError, Settings, checked_scene, plain
-from r37core.config.families import changed_content
 from r37core.config.section import AllOrNames, ExtensionSection
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
@@ -172,7 +172,7 @@ def _changed(entry: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
         casing["amplitude_clearances"] = casing.pop("amplitude_m") / clearance
         entry = {**entry, "casing": casing}
     for path, value in changes.items():
-        entry = changed_content(entry, (cold if path == _CLEARANCE else path).split("."), value)
+        entry = with_value(entry, cold if path == _CLEARANCE else path, value)
     return entry
 
 

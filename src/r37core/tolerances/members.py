@@ -1,27 +1,17 @@
 """Members of a sample: a blade and a scene with other values of the numbers under `tolerances`."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
 
+from r37core.base.varied_number import VariedNumber
 from r37core.config import BladeSettings, ConfigError, Settings, blades_named, scenes_named
-from r37core.config.changed_numbers import (
-    BLADE_KEYS,
-    ImpossibleValueError,
-    blade_number,
-    changed_blade,
-    changed_scene,
-    scene_numbers,
-)
+from r37core.config.changed_numbers import ImpossibleValueError, changed_pair, check_known, nominal_value, scene_numbers
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
-from r37core.config.messages import single_line
 from r37core.contact.scene import Scene
 from r37core.plans.member_values import drawn, is_of_sample, number_of, sobol_points
 
 from .section import SECTION
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -34,7 +24,7 @@ class Member:
 
 
 class Members:
-    """The members of all blades and scenes that have tolerances. `numbers`: section and key of each -> its tolerance."""
+    """The members of all blades and scenes that have tolerances. `numbers`: each with its tolerance."""
 
     def __init__(self, settings: Settings):
         self._settings, self._entry = settings, settings.section(SECTION)
@@ -50,7 +40,7 @@ class Members:
         pairs = [pair for pair, nominal in nominals.items() if any(value is not None for value in nominal)]
         # a part of the blades may have none
         if self.numbers and not pairs and settings.config.run.part is None:
-            named, (blades, scenes) = ", ".join(key for _, key in self.numbers), self._chosen
+            named, (blades, scenes) = ", ".join(number.key for number in self.numbers), self._chosen
             run = f"{', '.join(blades)} in {', '.join(scenes)}"
             raise self._refusal((), f"none of its numbers ({named}) in {run}", "blades and scenes that are run and have some")
         return pairs
@@ -68,7 +58,9 @@ class Members:
             return {}
         blades, scenes = self._chosen
         pairs = [pair for pair in self._settings.speed_plans if pair[0] in blades and pair[1] in scenes]
-        return {pair: [self._nominal(*number, *pair) for number in self.numbers] for pair in pairs}
+        keys = (key for numbers in self._scene_numbers.values() for key in numbers)
+        check_known(self.numbers, keys, self._settings.documents.config, (SECTION.name,))
+        return {pair: [self._nominal(number, *pair) for number in self.numbers] for pair in pairs}
 
     @cached_property
     def _scene_numbers(self) -> dict[str, dict[str, float]]:
@@ -97,61 +89,37 @@ class Members:
 
     def _check_ends(self, blade: str, scene: str, nominal: Sequence[float | None]) -> None:
         """Every value that a bounded number can take at most is possible: more members then meet nothing new."""
-        for ((section, key), tolerance), value in zip(self.numbers.items(), nominal, strict=True):
+        for (number, tolerance), value in zip(self.numbers.items(), nominal, strict=True):
             for end in tolerance.ends(value) if value is not None else ():
-                self._changed(blade, scene, {(section, key): end}, f"the end of its range of {blade} in {scene}")
+                self._changed(blade, scene, {number: end}, f"the end of its range of {blade} in {scene}")
 
-    def _nominal(self, section: str, key: str, blade: str, scene: str) -> float | None:
+    def _nominal(self, number: VariedNumber, blade: str, scene: str) -> float | None:
         """Value without tolerance; None where the blade or the scene has no such number."""
-        path = (section, key)
-        if section == "of_blades":
-            if key not in BLADE_KEYS:
-                raise self._refusal(path, single_line(key), f"one of {', '.join(BLADE_KEYS)}")
-            entry = self._settings.blades[blade]
-            try:
-                nominal = blade_number(entry, key)
-            except ValueError as error:
-                raise self._refusal(path, str(error), "blades with a table of sweep and lean, or none") from None
-        else:
-            known = list(dict.fromkeys(key for numbers in self._scene_numbers.values() for key in numbers))
-            if key not in known:
-                allowed = f"a number of the scenes that are run, by its dotted key: {', '.join(known)}"
-                raise self._refusal(path, single_line(key), allowed)
-            nominal = self._scene_numbers[scene].get(key)
-        if nominal == 0.0 and self.numbers[path].percent:
-            raise self._refusal(path, f"percent of {key}, which is 0", "uniform, normal, between or values")
+        path, run = (number.section, number.key), (self._settings.blades[blade], self._scene_numbers[scene])
+        try:
+            nominal = nominal_value(number, *run)
+        except ValueError as error:
+            raise self._refusal(path, str(error), "blades with a table of sweep and lean, or none") from None
+        if nominal == 0.0 and self.numbers[number].percent:
+            raise self._refusal(path, f"percent of {number.key}, which is 0", "uniform, normal, between or values")
         return nominal
 
     def _member(self, name: str, blade: str, scene: str, nominal: Sequence[float | None]) -> Member:
-        values = drawn(self.numbers.values(), nominal, self._points[name])
-        changes = {number: value for number, value in zip(self.numbers, values, strict=True) if value is not None}
-        return Member(*self._changed(blade, scene, changes, f"member {name} of {blade} in {scene}"), values)
+        values = drawn(self.numbers, nominal, self._points[name])
+        changed = self._changed(blade, scene, values, f"member {name} of {blade} in {scene}")
+        return Member(*changed, tuple(map(values.get, self.numbers)))
 
-    def _changed(
-        self, blade: str, scene: str, values: Mapping[tuple[str, str], float], who: str
-    ) -> tuple[BladeSettings, Scene]:
+    def _changed(self, blade: str, scene: str, values: Mapping[VariedNumber, float], who: str) -> tuple[BladeSettings, Scene]:
         """A blade and a scene with other values of some numbers."""
         settings = self._settings
-        blade_changes, scene_changes = (
-            {key: value for (section, key), value in values.items() if section == wanted}
-            for wanted in ("of_blades", "of_scenes")
-        )
-        return (
-            self._possible("of_blades", who, lambda: changed_blade(settings.blades[blade], blade_changes)),
-            self._possible("of_scenes", who, lambda: changed_scene(settings.scene_designs.entries[scene], scene_changes)),
-        )
-
-    def _possible(self, section: str, who: str, change: Callable[[], T]) -> T:
         try:
-            return change()
+            return changed_pair(settings.blades[blade], settings.scene_designs.entries[scene], values)
         except ImpossibleValueError as error:
-            known = (section, error.key) in self.numbers
-            path, text = (error.key,) if known else (), str(error) if known else f"{error.key}: {error}"
-            path_of_key = ("tolerances", section, *path)
-            raise self._settings.documents.config.error(path_of_key, f"{who}: {text}; or a narrower tolerance") from None
+            path, text = error.place(self.numbers)
+            raise settings.documents.config.error((SECTION.name, *path), f"{who}: {text}; or a narrower tolerance") from None
 
     def _refusal(self, path: tuple[str, ...], value: str, allowed: str) -> ConfigError:
-        return self._settings.documents.config.refusal(("tolerances", *path), value, allowed)
+        return self._settings.documents.config.refusal((SECTION.name, *path), value, allowed)
 
 
 def members_of(settings: Settings) -> Members:

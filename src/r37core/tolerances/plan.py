@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
+from r37core.base.varied_number import VariedNumber
 from r37core.config import BladeSettings, Settings
 from r37core.plans import paths
 from r37core.plans.extent import extent_of
@@ -99,7 +100,7 @@ class Tolerances:
     @property
     def numbers(self) -> list[str]:
         """Keys of the numbers that vary."""
-        return [key for _, key in self._members.numbers]
+        return [number.key for number in self._members.numbers]
 
     @property
     def values(self) -> list[list[float | None]]:
@@ -140,13 +141,14 @@ def remarks(settings: Settings) -> list[str]:
 
 def _without_width(members: Members) -> list[str]:
     """Remarks on numbers that have one value in all members, and so no index."""
-    values: dict[tuple[str, str], set[float]] = {number: set() for number in members.numbers}
+    values: dict[VariedNumber, set[float]] = {number: set() for number in members.numbers}
     for member in (member for of in members.all.values() for member in of.values()):
         for number, value in zip(members.numbers, member.values, strict=True):
             if value is not None:
                 values[number].add(value)
     return [
-        f"tolerances.{section}: {key} is {min(of):g} in all members, so it has no index; a wider tolerance gives it one"
-        for (section, key), of in values.items()
+        f"tolerances.{number.section}: {number.key} is {min(of):g} in all members, so it has no index; a wider tolerance "
+        "gives it one"
+        for number, of in values.items()
         if len(of) == 1
     ]

@@ -211,7 +211,7 @@ def _named(sets: dict[str, list[int]], cell: str) -> list[int]:
 
 
 def _prescribes_displacement(options: dict[str, str]) -> bool:
-    """Whether a block *BOUNDARY prescribes displacements, not velocities or those of another model."""
+    """True if a block *BOUNDARY prescribes displacements, not velocities or those of another model."""
     same_type = options.get("TYPE", "DISPLACEMENT").upper() == "DISPLACEMENT"
     return same_type and options.keys().isdisjoint(("SUBMODEL", "USER", "AMPLITUDE"))
 

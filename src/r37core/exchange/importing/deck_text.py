@@ -1,4 +1,4 @@
-"""What a text in the language of Abaqus and CalculiX looks like: whether a file is one, its lines, the files it includes.
+"""Texts in the language of Abaqus and CalculiX: whether a file is one, its lines, the files it includes.
 
 Light: the configuration imports it.
 """
@@ -15,7 +15,7 @@ _LOOKED_AT = 65536
 
 
 def is_deck(file: Path) -> bool:
-    """Whether the first line that is no comment begins with a keyword of Abaqus, whatever the file's ending."""
+    """True if the first line that is no comment begins with a keyword of Abaqus, whatever the file's ending."""
     with open(file, encoding="utf-8-sig", errors="replace") as text:
         lines = text.read(_LOOKED_AT).splitlines()
     first = next((line for line in map(str.strip, lines) if line and not line.startswith("**")), "")

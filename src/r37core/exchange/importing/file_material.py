@@ -27,7 +27,7 @@ class FileMaterial:
     density: float = np.nan
 
     def agrees(self, material: Material) -> bool:
-        """Whether this is the same material, in one of the usual systems of units, as far as the file has numbers."""
+        """True if this is the same material, in one of the usual systems of units, as far as the file has numbers."""
         own = np.array(astuple(self))
         blade, present = np.array([material.youngs_modulus, material.poissons_ratio, material.density]), np.isfinite(own)
         factors = ([modulus, 1.0, density] for modulus, density in _UNITS)

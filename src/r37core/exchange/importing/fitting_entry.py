@@ -1,4 +1,4 @@
-"""What the shape of a refused mesh suggests for its entry in blades.yaml: axes, and rules for root and tip."""
+"""Suggestions from the shape of a refused mesh for its entry in blades.yaml: axes, and rules for root and tip."""
 
 import warnings
 from contextlib import suppress
@@ -52,7 +52,7 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
 
 
 def _tolerance_of_flat_tip(tip: np.ndarray, tolerance: float) -> dict[str, str]:
-    """What lets a flat tip pass, nodes at `tip` (m), shape (n, 3), where that is farther than `tolerance` (m) from a cone."""
+    """Keys that let a flat tip pass: nodes `tip` (m), shape (n, 3), farther than `tolerance` (m) from a cone."""
     off = float(np.abs(off_revolution(tip)).max())
     if off <= tolerance or not is_flat(tip, _FLAT * off):
         return {}
@@ -83,7 +83,7 @@ def _direction(vector: tuple[float, float, float]) -> str:
 
 
 def _catches(what: str, source: MeshSource, mesh: RawMesh, surface: list[Faces], end: End) -> bool:
-    """Whether the set or rule of the entry catches this end, or may well be meant otherwise."""
+    """True if the set or rule of the entry catches this end, or may well be meant otherwise."""
     with suppress(ImportRefused):
         if what == "root":
             check_end(what, source.root, caught_by(source.root, what, mesh, surface), end)
@@ -129,7 +129,7 @@ def _turned(orientation: Orientation, sign: float, rotation: str) -> Orientation
 
 
 def _makes_sense(mesh: RawMesh, orientation: Orientation) -> bool:
-    """Whether leading edge and pressure side of the tip fit the orientation, and follow from its shape."""
+    """True if leading edge and pressure side of the tip fit the orientation, and follow from its shape."""
     placed = orientation.to_blade(mesh)
     casing = find_end("tip", placed.points, outer_faces(placed.blocks))
     if casing is None:

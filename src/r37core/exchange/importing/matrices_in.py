@@ -173,7 +173,7 @@ def _not_held(square: float) -> ImportRefused:
 
 
 def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> _InputMatrices:
-    """What the files hold; `fastest`: the highest speed (rad/s) that the stiffness is needed at."""
+    """Content of the files; `fastest`: the highest speed (rad/s) that the stiffness is needed at."""
     orientation = source.orientation
     nodes, dofs, lengths = _boundary(files["boundary"])
     with blamed("matrices", files["boundary"].name):

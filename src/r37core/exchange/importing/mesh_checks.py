@@ -1,4 +1,4 @@
-"""Whether an imported mesh can be computed with: one part, no free nodes, well shaped elements in order, each once."""
+"""Checks of an imported mesh before it is computed with: one part, no free nodes, well shaped elements in order, each once."""
 
 import warnings
 from dataclasses import replace

@@ -61,7 +61,7 @@ def read_ansys(file: Path) -> RawMesh:
 
 
 def quietly(read: Callable[[Path], Any], file: Path) -> Any:
-    """What `read` makes of the file, its prints kept back; ImportRefused for any error, and for an attempt to exit."""
+    """Result of `read` for the file, its prints kept back; ImportRefused for any error, and for an attempt to exit."""
     printed = io.StringIO()
     try:
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):

@@ -13,7 +13,7 @@ _SURFACE = ("vertex", "line", "triangle", "quad", "polygon")
 
 @dataclass(frozen=True)
 class RawMesh:
-    """What a reader found.
+    """Mesh as a reader found it in a file.
 
     `points`: shape (nodes, 3), in the file's unit; `labels`: the file's own numbers of the nodes, shape (nodes,); `blocks`:
     element type -> nodes, shape (elements, nodes of the type), solids only; `sets`: name -> node numbers from 0.

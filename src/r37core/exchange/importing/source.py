@@ -1,4 +1,4 @@
-"""What a user says of a blade of another program: its files, where root and tip are. Light: the configuration imports it."""
+"""Description of a blade of another program: its files, where root and tip are. Light: the configuration imports it."""
 
 from __future__ import annotations
 

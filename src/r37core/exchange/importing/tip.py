@@ -46,7 +46,7 @@ def off_revolution(points: np.ndarray) -> np.ndarray:
 
 
 def is_flat(points: np.ndarray, within: float) -> bool:
-    """Whether `points`, shape (n, 3), lie on a plane to `within` (m)."""
+    """True if `points`, shape (n, 3), lie on a plane to `within` (m)."""
     offsets = points - points.mean(axis=0)
     _, _, axes = np.linalg.svd(offsets, full_matrices=False)
     return float(np.abs(offsets @ axes[-1]).max()) <= within
