@@ -9,7 +9,8 @@ from types import SimpleNamespace
 
 import pytest
 from snakemake.iocontainers import InputFiles
-from workflow_runs import wait_until
+from stubbed_runs import copy_stubbed
+from workflow_runs import snakemake, wait_until
 
 from r37core.console import executor
 
@@ -169,3 +170,43 @@ def test_a_server_ends_with_its_snakemake(root, tmp_path):
     snakemake.kill()
     wait_until(lambda: is_gone(process), LONGEST, "the end of the server")
     snakemake.communicate()
+
+
+@pytest.fixture
+def project(root, tmp_path):
+    """A sweep whose script also writes who made each output."""
+    copy_stubbed(root, tmp_path)
+    script = tmp_path / "workflow/scripts/step.py"
+    script.write_text(f"{script.read_text()}\n{ONCE}")
+    return tmp_path
+
+
+ONCE = """
+import os, signal
+first = Path("killed")
+if snakemake.rule == "geometry" and snakemake.wildcards.blade == "Ref" and not first.exists():
+    first.write_text("")
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["warm", "local"])
+def test_every_job_is_done_by_either_executor(project, name):
+    """With the executor also one whose process is killed, which then runs by itself."""
+    if name == "local":
+        (project / "killed").write_text("")
+    text = snakemake(project, "responses", "--cores", "2", "--executor", name)
+    assert "(100%) done" in text and (project / "killed").exists()
+    assert ("each job starts by itself" in text) == (name == "local")
+
+
+@pytest.mark.slow
+def test_a_job_that_fails_fails_once(project):
+    """And is not done again by another executor."""
+    script = project / "workflow/scripts/step.py"
+    failing = "if snakemake.rule == 'mesh':\n    open('tried', 'a').write('x')\n    raise ValueError\n"
+    script.write_text(f"{script.read_text()}\n{failing}")
+    text = snakemake(project, "results/Ref/mesh.msh", "--cores", "2", check=False)
+    assert "Error in rule mesh" in text and "ValueError" in text
+    assert (project / "tried").read_text() == "x"

@@ -103,12 +103,12 @@ def imports_of(file):
 
 
 def test_packages_import_only_those_above_them(root):
-    """blade, mesh, fem, rom, ...: a package may use those above it, never one below it; Snakemake nowhere."""
+    """blade, mesh, fem, rom, ...: a package may use those above it, never one below it; Snakemake in the console."""
     core = root / "src/r37core"
     for file in core.rglob("*.py"):
         layer = file.relative_to(core).parts[0].removesuffix(".py")
         for name in imports_of(file):
-            assert not name.startswith(("snakemake", "workflow")), f"{file} imports {name}"
+            assert layer == "console" or not name.startswith(("snakemake", "workflow")), f"{file} imports {name}"
             if name.startswith("r37core.") and layer != "__init__":
                 used = name.split(".")[1]
                 assert LAYERS.index(used) <= LAYERS.index(layer), f"{file} imports {name}, which is below it"

@@ -60,13 +60,13 @@ def serve(channel: Connection) -> None:
 
 def _ended(jobs: dict[int, int]) -> list[tuple[int, int]]:
     """Numbers and statuses of the jobs, by process, that have ended; they are removed."""
-    found = []
+    statuses = []
     with suppress(ChildProcessError):
         while (end := os.waitpid(-1, os.WNOHANG))[0]:
             process, status = end
             if process in jobs:
-                found.append((jobs.pop(process), os.waitstatus_to_exitcode(status)))
-    return found
+                statuses.append((jobs.pop(process), os.waitstatus_to_exitcode(status)))
+    return statuses
 
 
 def _import_named(arguments: bytes, known: frozenset[bytes]) -> frozenset[bytes]:
