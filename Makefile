@@ -86,7 +86,7 @@ lock: ## the newest versions that pyproject.toml allows, of all packages that th
 	rm -rf build/lock
 
 clean: $(VENV)/.ready ## list results that the configuration no longer asks for; REMOVE=yes removes them
-	$(BIN)/python -m r37core.console.leftovers $(if $(REMOVE),--remove)
+	$(BIN)/python -m r37core.product.leftovers $(if $(REMOVE),--remove)
 
 clean-results: ## remove results/ and logs/
 	rm -rf results logs

@@ -17,7 +17,7 @@ from stubbed_runs import BLADES, REFINED, SCENES, copy_stubbed, refine, runs, si
 from workflow_runs import copy_finished, digests, kill_snakemake, lose_speed, snakemake
 
 import r37
-from r37core.console.leftovers import leftovers
+from r37core.product.leftovers import leftovers
 from r37core.product.reading import read_settings
 from r37core.time_integration.status import RunStatus
 

@@ -29,10 +29,10 @@ from r37core.base.io import InputFileError, OutputFileError, atomic_write, scrat
 from r37core.base.speeds import plan_speeds
 from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock, snakemake_run
-from r37core.console.leftovers import leftovers
 from r37core.machine_code import kept
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import speeds_of_round
+from r37core.product.leftovers import leftovers
 from r37core.product.reading import read_settings
 from r37core.product.remarks import replaced_level, source_folder
 from r37core.results.campbell import campbell_dataset
@@ -239,7 +239,7 @@ def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
 def test_make_clean_lists_and_removes(config_copy):
     (config_copy / "results/Gone").mkdir(parents=True)
     (config_copy / "results/Gone/mesh.vtu").write_text("x")
-    command = [sys.executable, "-m", "r37core.console.leftovers"]
+    command = [sys.executable, "-m", "r37core.product.leftovers"]
     listed = subprocess.run(command, cwd=config_copy, capture_output=True, text=True, check=True).stdout
     assert "results/Gone" in listed
     assert listed.endswith("1 left over; make clean REMOVE=yes removes them\n")

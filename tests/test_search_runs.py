@@ -8,7 +8,7 @@ from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed, simulated
 from workflow_runs import copy_finished, kill_snakemake, snakemake
 
-from r37core.console.leftovers import leftovers
+from r37core.product.leftovers import leftovers
 from r37core.product.reading import read_settings
 
 pytestmark = pytest.mark.slow

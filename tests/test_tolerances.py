@@ -20,9 +20,9 @@ from r37core.base.io import InputFileError
 from r37core.base.speeds import RefinedRange
 from r37core.config import ConfigError, Document
 from r37core.config.spread import SpreadEntry
-from r37core.console.leftovers import leftovers
 from r37core.figures import style
 from r37core.plans.member_values import is_of_sample, number_of, sobol_points
+from r37core.product.leftovers import leftovers
 from r37core.product.reading import read_settings
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.interactions import COLUMNS, find_interactions

@@ -1,4 +1,4 @@
-"""Results that the configuration no longer asks for: `python -m r37core.console.leftovers` lists or removes them."""
+"""Results that the configuration no longer asks for: `python -m r37core.product.leftovers` lists or removes them."""
 
 import argparse
 import re
