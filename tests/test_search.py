@@ -74,7 +74,7 @@ def folder(config_copy):
         ("{ variables: { chordwise_sweep_deg: [-1, 1] } }", "chordwise_sweep_deg: .*at most one of"),
         (
             "{ objectives: { other: { measure: speed } } }",
-            "objectives.other.measure: found 'speed'; allowed: one of exceedance_",
+            "objectives.other.measure: found 'speed'; allowed: one of length_certain_rad_s, ",
         ),
         ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
         ("{ objectives: { other: { measure: frequency_hz, mode: 1b } } }", "other.mode: found 1b; allowed: .*, 1B, 1T, 2B, 4"),

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import xarray as xr
 
-from r37core.results.exceedance import CERTAIN, Exceedance, SpeedRange, exceedance_of
+from r37core.results.columns import CERTAIN
+from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
 from r37core.results.other_motions import swept, worst_exceedance

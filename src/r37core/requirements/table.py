@@ -11,8 +11,9 @@ import xarray as xr
 
 from r37core.base.io import read_json
 from r37core.results.closing import counted, interaction_title
+from r37core.results.columns import CERTAIN
 from r37core.results.datasets import response_of
-from r37core.results.exceedance import CERTAIN, exceedance_of
+from r37core.results.exceedance import exceedance_of
 from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table
 

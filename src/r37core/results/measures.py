@@ -12,10 +12,8 @@ import xarray as xr
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
+from .columns import DROP_WITHIN
 from .exceedance import ranges_above
-
-DROP_WITHIN = 24.0
-"""Speeds (rad/s) above a peak over which its motion counts as dropped."""
 
 _RESPONDS = 2e-3
 """Motion (m) below which a range of speeds holds no interaction."""

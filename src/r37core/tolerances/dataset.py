@@ -9,12 +9,12 @@ import xarray as xr
 
 from r37core.base.dataset_file import SPEED_RPM, Variable, about, read_dataset
 from r37core.base.io import readable
-from r37core.base.units import RPM
+from r37core.base.units import RPM, si_name
 from r37core.plans.member_values import is_of_sample, number_of
+from r37core.results.columns import ENDS
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
 from r37core.results.netcdf import state_flags
-from r37core.results.ranges import ENDS
-from r37core.results.ranking import MEASURES_RANKED_BY, robustness
+from r37core.results.ranking import RANKED_BY, robustness
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 
@@ -85,7 +85,7 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
         above, (largest, _) = speeds_above_yield(response), largest_stress(response)
         measures |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
         ranked = robustness(response, chance_scatter=False)
-        measures |= {measure: ranked[column] for column, measure in MEASURES_RANKED_BY.items()}
+        measures |= {si_name(column)[0]: ranked[column] for column in RANKED_BY}
         measures["largest_goodman_share"] = ranked["largest_goodman_share"]
     return measures
 
