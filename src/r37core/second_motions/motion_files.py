@@ -9,7 +9,6 @@ import xarray as xr
 
 from r37core.base.dataset_file import Variable, about
 from r37core.base.io import atomic_write, readable
-from r37core.results.netcdf import state_flags
 from r37core.results.variables import OF_KIND
 from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.speed_file import read_speed
@@ -108,7 +107,6 @@ def dwell_dataset(rows: Sequence[tuple[Mapping[str, Any], Dwell]], revolutions: 
         },
         {"revolution": ("revolution", np.arange(1, revolutions + 1), about("1", "number of the revolution"))},
     )
-    dataset["motion_kind"].attrs |= state_flags("motion_kind")
     return dataset
 
 

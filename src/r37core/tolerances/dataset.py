@@ -13,7 +13,6 @@ from r37core.base.units import RPM, si_name
 from r37core.plans.member_values import is_of_sample, number_of
 from r37core.results.columns import ENDS
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
-from r37core.results.netcdf import state_flags
 from r37core.results.ranking import RANKED_BY, robustness
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
@@ -105,7 +104,6 @@ def _pair_dataset(
 ) -> xr.Dataset:
     """One blade in one scene."""
     sample = xr.concat(members, "member", join="exact", combine_attrs="override").drop_attrs(deep=False)
-    sample["status"].attrs.update(state_flags("status"))
     diverged = sample["status"] == RunStatus.DIVERGED
     for name in _CURVES:
         if name not in sample:
