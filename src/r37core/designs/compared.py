@@ -1,4 +1,4 @@
-"""What one figure of designs compares."""
+"""Designs that one figure compares."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 BLADE, SCENE = KINDS = ("blade", "scene")
-"""What a family is of, as its column in the tables is called."""
+"""Kinds of families, named like their columns in the tables."""
 
 BOTH = "both"
 """Kind of designs of which blade and scene vary."""
@@ -35,7 +35,7 @@ class Compared:
 
     @property
     def other(self) -> str:
-        """What does not vary, a line or a panel each; empty where both do."""
+        """Kind that does not vary, a line or a panel each; empty where both do."""
         return {BLADE: SCENE, SCENE: BLADE}.get(self.kind, "")
 
 

@@ -29,7 +29,7 @@ _LABEL_WIDTH = 22
 
 
 def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -> Figure:
-    """What a family is chosen by: over the one key that varies, or over the designs by name; a line for each of the other kind.
+    """Draw the measures of a family over the key that varies, or over the designs by name; a line for each of the other kind.
 
     `compared`: a Compared, as plain values.
     """

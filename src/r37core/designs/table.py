@@ -66,7 +66,7 @@ def design_table(
 
 
 def compared_in(table: pd.DataFrame) -> dict[str, Compared]:
-    """What is compared of each family in a table, by its name; of a blade's and a scene's family together their map."""
+    """Designs compared of each family in a table, by its name; of a blade's and a scene's family together their map."""
     families = {}
     for name, rows in table.groupby("family", sort=False):
         varied = rows.drop(columns=[*_NAMES, *names(MEASURES), *names(OPERATING)], errors="ignore").dropna(axis=1, how="all")

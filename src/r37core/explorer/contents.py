@@ -1,4 +1,4 @@
-"""What the explorer shows: the datasets of a sweep, thinned to what a screen shows, as one mapping that JSON can carry."""
+"""Contents of the explorer: the datasets of a sweep, thinned to what a screen shows, as one mapping that JSON can carry."""
 
 import base64
 import gzip
@@ -251,7 +251,7 @@ def ranking_rows(ranking: pd.DataFrame | None) -> dict[str, object]:
 
 
 def _columns(names: Iterable[str], columns: Sequence[Column]) -> list[dict[str, object]]:
-    """What heads and cells of a table need, of those of the `names` that are declared."""
+    """Title, meaning, unit and digits of the columns, for heads and cells of a table; of `names` that are declared."""
     known = {name: column for name in names if (column := column_named(name, columns))}
     attributes = ("title", "meaning", "unit", "factor", "digits")
     return [{"name": name} | {key: getattr(column, key) for key in attributes} for name, column in known.items()]

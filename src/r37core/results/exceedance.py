@@ -144,7 +144,7 @@ def exceedance_of(response: xr.Dataset, share_of_revolutions: str = "share_of_re
 
 
 def is_lined(response: xr.Dataset) -> bool:
-    """Whether a lining is worn, and the tip does not meet the casing itself."""
+    """True where a lining is worn, false where the tip meets the casing itself."""
     return bool(response["lined"]) if "lined" in response else True
 
 

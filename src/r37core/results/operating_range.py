@@ -64,7 +64,7 @@ class OperatingRange:
         return self.redline * (1.0 + self.margin)
 
     def is_covered(self, speeds: np.ndarray) -> bool:
-        """Whether runs at these ascending speeds (rad/s) reach over the whole judged range, but for rounding."""
+        """True if runs at these ascending speeds (rad/s) reach over the whole judged range, but for rounding."""
         return bool(len(speeds) and speeds[0] <= self.first * (1.0 + _ROUNDING) and speeds[-1] >= self.last * (1.0 - _ROUNDING))
 
     def overlap(self, begin: float, end: float) -> float:

@@ -1,4 +1,4 @@
-"""What motions other than that from rest change in the answers: the worst of all motions at each speed.
+"""Effect of motions other than that from rest on ranking and summary: the worst of all motions at each speed.
 
 `motions` is the dataset of an extension, over (blade, scene, motion, speed); the motion from rest is among them, called REST.
 `motion_mean` (m) is the mean rms of a revolution, normal and tangential together; `differ` is 1 where the motions differ. What

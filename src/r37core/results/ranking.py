@@ -80,7 +80,7 @@ def _length_lasting(response: xr.Dataset) -> float:
 
 
 def measures_of_members(members: xr.Dataset) -> MeasuresOfMembers:
-    """What blades are ranked by of each blade and scene, member by member; `members`: a dataset of them."""
+    """Columns of RANKED_BY of each blade and scene, member by member; `members`: a dataset of them."""
     pair_measures: MeasuresOfMembers = {}
     measures = [si_name(column)[0] for column in RANKED_BY]
     for blade in members["blade"].values.tolist():

@@ -36,7 +36,7 @@ MEASURES = {
     "largest_median_stress": Variable((), "Pa", "largest over all speeds of the median over the revolutions"),
     "largest_goodman_share": Variable((), "1", "largest share of the Goodman line over all speeds"),
 }
-"""What is read off each member over all its speeds; all but the first need the stress."""
+"""Measures of each member over all its speeds; all but the first need the stress."""
 
 INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
 """Measures for which the numbers are ranked."""
@@ -90,7 +90,7 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
 
 
 def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:
-    """What stays of one member."""
+    """Curves and measures of one member."""
     edge = leading_edge(response)
     kept = [name for name in ("status", *_CURVES, "yield_stress", "share_of_revolutions_above_yield", "lined") if name in edge]
     member = edge[kept].drop_vars("speed_rpm", errors="ignore")
