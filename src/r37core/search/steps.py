@@ -21,8 +21,8 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.stress.operator import read_stress_operator
 
-from .dataset import entries_of, search_dataset, search_table, write_entries, write_scenes
-from .problem import SearchChoice
+from .dataset import BLADES_HEADER, SCENES_HEADER, search_dataset, search_table, write_entries
+from .problem import SearchChoice, scene_key
 from .quantity import DesignStructure, Quantity, contact_value, static_stress, structure_value
 from .rounds import first_round, progress, read_round, round_after, tried_after, write_round
 
@@ -123,10 +123,11 @@ def best(input: Any, output: Any, params: Any) -> None:
     designs = ordered["design"].values[: params.number].tolist()
     folder.mkdir(parents=True)
     if params.scenes:
-        write_scenes(search, designs, params.scenes, params.varied_in_scenes, folder / "scenes.yaml")
+        scenes = params.scenes, params.varied_in_scenes
+        write_entries(search, designs, *scenes, SCENES_HEADER, folder / "scenes.yaml")
     if params.entries:
-        made = entries_of(search, designs, list(params.entries)[-1], params.entries)
-        write_entries(search, made, designs, params.entries, folder / "blades.yaml")
+        varied = {list(params.entries)[-1]: [key for key in search["variable"].values.tolist() if scene_key(key) is None]}
+        names = write_entries(search, designs, params.entries, varied, BLADES_HEADER, folder / "blades.yaml")
         files = {Path(file).parent.parent.name: file for file in as_list(input.shapes)}
-        for name, design in zip(made, designs, strict=True):
+        for name, design in zip(names, designs, strict=True):
             write_step(read_geometry(files[design]), folder / f"{name}.step")
