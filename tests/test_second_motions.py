@@ -228,11 +228,11 @@ def test_random_starts_count_from_their_first_change():
 def test_a_dwell_that_diverges_does_not_last():
     high, low = switching((500, 4.0)), switching((500, 1.0))
     diverged = np.where(np.arange(500) < 200, 4.0, np.nan)
-    assert verdict_of([diverged], [low]).high is Lasting.DIVERGED
-    assert verdict_of([np.full(500, np.nan)], [low]).high is Lasting.DIVERGED
+    assert verdict_of([diverged], [low])["high"] is Lasting.DIVERGED
+    assert verdict_of([np.full(500, np.nan)], [low])["high"] is Lasting.DIVERGED
     verdict = verdict_of([], [low])
     assert (verdict["high"], verdict["low"]) == (Lasting.DIVERGED, Lasting.LASTING)
-    assert np.isnan(verdict_of([high], [diverged]).share)
+    assert np.isnan(verdict_of([high], [diverged])["share_of_time_high"])
 
 
 def test_on_a_lining_a_motion_lasts_that_is_held_at_the_end():
@@ -242,7 +242,7 @@ def test_on_a_lining_a_motion_lasts_that_is_held_at_the_end():
     assert (verdict["high"], verdict["low"]) == (Lasting.TRANSIENT, Lasting.TRANSIENT)
     assert np.isnan(verdict["share_of_time_high"])
     assert verdict["high_revolutions"] == pytest.approx(300 - 70, abs=20)
-    assert verdict_of([high], [low], falls, lined=True).high is Lasting.LASTING
+    assert verdict_of([high], [low], falls, lined=True)["high"] is Lasting.LASTING
 
 
 def test_random_states_are_outside_of_the_casing(contact):

@@ -21,7 +21,7 @@ from .choice import Requirements
 
 MEETS, FAILS, UNKNOWN = VERDICTS = ("meets", "fails", "unknown")
 
-Found = dict[str, Any]
+Columns = dict[str, Any]
 """Columns of a requirement that are known."""
 
 
@@ -94,10 +94,10 @@ class Evidence:
 
 def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, object]]:
     """Each requirement in turn: COLUMNS."""
-    for name, (unit, factor, find) in _NUMBERS.items():
+    for name, (unit, factor, columns_of) in _NUMBERS.items():
         limit = getattr(requirements, name)
         if limit is not None:
-            yield _judged(name, unit, factor * limit, find(evidence, limit), is_lower_limit=name == "clearance")
+            yield _judged(name, unit, factor * limit, columns_of(evidence, limit), is_lower_limit=name == "clearance")
     for margin in requirements.campbell_margins:
         crossings = evidence.campbell["crossing_speed"].sel(mode=margin.mode)
         for order in margin.engine_orders:
@@ -107,21 +107,21 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, 
             yield _judged(name, "%", 100.0 * margin.least, _at(value, crossing), is_lower_limit=True)
 
 
-def _judged(requirement: str, unit: str, limit: float, found: Found, *, is_lower_limit: bool) -> dict[str, object]:
-    """The row of a requirement, by what is found of its value."""
-    value = found.get("value", np.nan)
+def _judged(requirement: str, unit: str, limit: float, columns: Columns, *, is_lower_limit: bool) -> dict[str, object]:
+    """The row of a requirement, by the columns that are known."""
+    value = columns.get("value", np.nan)
     margin = value - limit if is_lower_limit else limit - value
     verdict = UNKNOWN if np.isnan(margin) else MEETS if margin >= 0.0 else FAILS
     row = {"requirement": requirement, "verdict": verdict, "limit": limit, "margin": margin, "unit": unit, "note": ""}
-    return dict.fromkeys(COLUMNS, np.nan) | row | found
+    return dict.fromkeys(COLUMNS, np.nan) | row | columns
 
 
-def _at(value: float, speed: float, note: str = "") -> Found:
+def _at(value: float, speed: float, note: str = "") -> Columns:
     """A value that is worst at one speed (rad/s)."""
     return {"value": value, "from_rad_s": speed, "to_rad_s": speed, "note": note}
 
 
-def _above_yield(evidence: Evidence, limit: float) -> Found:
+def _above_yield(evidence: Evidence, limit: float) -> Columns:
     operating = evidence.operating
     if "share_of_revolutions_above_yield" not in evidence.response:
         return {"note": "stress is not computed"}
@@ -146,7 +146,7 @@ def _has_rotation(response: xr.Dataset) -> bool:
     return "static_stress" in response and bool(response["static_stress"] > 0.0)
 
 
-def _goodman_share(evidence: Evidence, _: float) -> Found:
+def _goodman_share(evidence: Evidence, _: float) -> Columns:
     if "goodman_share" not in evidence.response:
         return {"note": "fatigue is not computed"}
     if not has_strengths(evidence.response):
@@ -166,7 +166,7 @@ def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
     return float(scatter.round(9))
 
 
-def _members(limit: float, evidence: Evidence) -> Found:
+def _members(limit: float, evidence: Evidence) -> Columns:
     """Members under tolerances, and the share of them whose speeds above yield keep the limit."""
     if evidence.members is None or "share_of_revolutions_above_yield" not in evidence.members:
         return {}
@@ -190,7 +190,7 @@ def _worst_motion(limit: float, evidence: Evidence) -> float:
     return limit - evidence.operating.length(worst_exceedance(pair).ranges(CERTAIN))
 
 
-def _used_lining(evidence: Evidence, _: float) -> Found:
+def _used_lining(evidence: Evidence, _: float) -> Columns:
     response = evidence.response
     if not np.isfinite(evidence.thickness):
         return {"value": 0.0, "note": "no lining"}
@@ -212,7 +212,7 @@ def _used_lining(evidence: Evidence, _: float) -> Found:
     return _at(value, np.nan if value == 0.0 else speed, note)
 
 
-def _clearance(evidence: Evidence, _: float) -> Found:
+def _clearance(evidence: Evidence, _: float) -> Columns:
     if "clearance" not in evidence.response or evidence.response["clearance"].isnull().all():
         return {"value": 1e3 * evidence.clearance}
     if evidence.not_covered:
@@ -221,18 +221,18 @@ def _clearance(evidence: Evidence, _: float) -> Found:
     return _at(-loss, speed)
 
 
-def _mass(evidence: Evidence, _: float) -> Found:
+def _mass(evidence: Evidence, _: float) -> Columns:
     return {"value": evidence.mass, "note": "" if np.isfinite(evidence.mass) else "matrices do not say it"}
 
 
-_NUMBERS: dict[str, tuple[str, float, Callable[[Evidence, float], Found]]] = {
+_NUMBERS: dict[str, tuple[str, float, Callable[[Evidence, float], Columns]]] = {
     "above_yield": ("rad/s", 1.0, _above_yield),
     "goodman_share": ("1", 1.0, _goodman_share),
     "used_lining": ("%", 100.0, _used_lining),
     "clearance": ("mm", 1e3, _clearance),
     "mass": ("kg", 1.0, _mass),
 }
-"""Requirement -> unit of its row, factor to it from that of the limit, and what is found of the value for a limit."""
+"""Requirement -> unit of its row, factor to it from that of the limit, and its columns for a limit."""
 
 
 def distance_from_operation(crossing: float, operating: OperatingRange) -> float:

@@ -31,9 +31,9 @@ def write_sweep_dataset(
         contacts.setdefault(of.get("contact", "unknown"), {})[blade] = None
         first_with.setdefault(of.get("numerics", "unknown numerics"), response)
     if len(first_with) > 1:
-        (first, one), (other, another), *_ = first_with.items()
+        (first, earlier), (other, later), *_ = first_with.items()
         raise InputFileError(
-            f"{one} was made with {first}, {another} with {other}; a dataset holds one fidelity level: "
+            f"{earlier} was made with {first}, {later} with {other}; a dataset holds one fidelity level: "
             "delete the one that is out of date and run again"
         )
     contact = "; ".join(f"{contact}: {', '.join(blades)}" for contact, blades in contacts.items())
