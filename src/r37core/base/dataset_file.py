@@ -159,5 +159,5 @@ def attributes_of(files: Iterable[Path | str]) -> list[dict[str, Any]]:
 
 def joined_hash(attributes: Iterable[Mapping[str, object]]) -> str:
     """Input hash of a file that joins others, by the attributes of these in any order."""
-    texts = [sorted((name, str(value)) for name, value in of.items()) for of in attributes]
+    texts = [sorted((name, str(value)) for name, value in several.items()) for several in attributes]
     return hashlib.sha256(repr(sorted(texts)).encode()).hexdigest()[:16]

@@ -104,7 +104,7 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, 
             crossing = float(crossings.sel(engine_order=order))
             value = 100.0 * distance_from_operation(crossing, evidence.operating)
             name = f"campbell_margin {margin.mode}/{order}"
-            yield _judged(name, "%", 100.0 * margin.least, _at(value, crossing), is_lower_limit=True)
+            yield _judged(name, "%", 100.0 * margin.least, _worst_at(value, crossing), is_lower_limit=True)
 
 
 def _judged(requirement: str, unit: str, limit: float, columns: Columns, *, is_lower_limit: bool) -> dict[str, object]:
@@ -116,7 +116,7 @@ def _judged(requirement: str, unit: str, limit: float, columns: Columns, *, is_l
     return dict.fromkeys(COLUMNS, np.nan) | row | columns
 
 
-def _at(value: float, speed: float, note: str = "") -> Columns:
+def _worst_at(value: float, speed: float, note: str = "") -> Columns:
     """A value that is worst at one speed (rad/s)."""
     return {"value": value, "from_rad_s": speed, "to_rad_s": speed, "note": note}
 
@@ -154,7 +154,7 @@ def _goodman_share(evidence: Evidence, _: float) -> Columns:
     if evidence.not_covered:
         return {"note": evidence.not_covered}
     share, speed = evidence.worst(np.where(evidence.diverged, np.inf, evidence.response["goodman_share"].values))
-    return _at(share, speed, "a run diverged" if np.isinf(share) else "")
+    return _worst_at(share, speed, "a run diverged" if np.isinf(share) else "")
 
 
 def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
@@ -209,7 +209,7 @@ def _used_lining(evidence: Evidence, _: float) -> Columns:
         nearest = int(np.abs(response["speed"].values - speed).argmin())
         if response["motion_at_end"][nearest] == MotionAtEnd.GROWING:
             note = "wear still grows at the end: a lower bound"
-    return _at(value, np.nan if value == 0.0 else speed, note)
+    return _worst_at(value, np.nan if value == 0.0 else speed, note)
 
 
 def _clearance(evidence: Evidence, _: float) -> Columns:
@@ -218,7 +218,7 @@ def _clearance(evidence: Evidence, _: float) -> Columns:
     if evidence.not_covered:
         return {"note": evidence.not_covered}
     loss, speed = evidence.worst(-1e3 * evidence.response["clearance"].min("contact_node").values)
-    return _at(-loss, speed)
+    return _worst_at(-loss, speed)
 
 
 def _mass(evidence: Evidence, _: float) -> Columns:

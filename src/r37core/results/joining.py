@@ -20,14 +20,14 @@ from .netcdf import add_variable, create_axis
 class Along:
     """Place of the datasets of runs in the joined one: a cell of the dimensions `labels`, or rows of one dimension.
 
-    `rows`: name of that dimension, in which they stand one after another with their labels; `of`: dimension of the datasets
-    that becomes it, empty where each is a single row. `names`: variables that are joined, by default all; `coordinates`: those
+    `rows`: name of that dimension, in which they stand one after another with their labels; `dim`: dimension of the
+    datasets that becomes it, empty where each is a single row. `names`: variables that are joined, by default all; `coordinates`: those
     of them, and of the labels, that are coordinates.
     """
 
     labels: tuple[str, ...] = ("blade", "scene")
     rows: str = ""
-    of: str = ""
+    dim: str = ""
     names: Sequence[str] = ()
     coordinates: Sequence[str] = ()
 
@@ -49,8 +49,8 @@ def join(
     rows = []
     for source in sources.values():
         with read(source) as dataset:
-            rows.append(dataset.sizes[along.of] if along.of else 1)
-            indexes = {str(name): index for name, index in dataset.indexes.items() if name != along.of}
+            rows.append(dataset.sizes[along.dim] if along.dim else 1)
+            indexes = {str(name): index for name, index in dataset.indexes.items() if name != along.dim}
             axes |= {name: axes.get(name, index).union(index) for name, index in indexes.items()}
             described = {str(name): variable for name, variable in dataset.variables.items()}
             # texts without any rows are read as numbers
@@ -67,7 +67,7 @@ def join(
             create_axis(target, name, axes[name].to_numpy(), variables[name].attrs)
         for name in names:
             variable = variables[name]
-            own = [str(dim) for dim in variable.dims if dim != along.of]
+            own = [str(dim) for dim in variable.dims if dim != along.dim]
             more = {"coordinates": " ".join(along.coordinates)} if along.coordinates and name not in along.coordinates else {}
             created = add_variable(target, name, (*dims, *own), variable.dtype, variable.attrs | more)
             if name in states:
@@ -79,7 +79,9 @@ def join(
                 there = [name for name in names if name in dataset.variables]
                 part = dataset[there].reindex({name: axes[name] for name in axes if name in dataset.dims}, fill_value=states)
                 for name in there:
-                    values = part[name].expand_dims(row=count) if along.rows and along.of not in part[name].dims else part[name]
+                    values = (
+                        part[name].expand_dims(row=count) if along.rows and along.dim not in part[name].dims else part[name]
+                    )
                     target[name][place] = values.values[()]
 
 
@@ -87,7 +89,7 @@ def join_runs(files: Sequence[str], runs: Iterable[Sequence[str]], along: Along,
     """Join the files of the `runs` (blade, scene); global attributes are those that all share, level and hash of the inputs."""
     attributes = attributes_of(files)
     first = attributes[0] if attributes else {}
-    shared = {name: value for name, value in first.items() if all(of.get(name) == value for of in attributes)}
+    shared = {name: value for name, value in first.items() if all(several.get(name) == value for several in attributes)}
     made = shared | {"fidelity": fidelity, "input_hash": joined_hash(attributes)}
     join(dict(zip(map(tuple, runs), files, strict=True)), along, file, made)
 

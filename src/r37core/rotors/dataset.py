@@ -49,7 +49,7 @@ VARIABLES = {
 OF_ALL_SPEEDS = ("blade_angle", "blade_frequency_factor", "blade_longer", "yield_stress")
 """Variables that no speed changes."""
 
-RUNS = Along(rows="run", of="speed", names=(*VARIABLES, "speed"), coordinates=("blade", "scene", "speed"))
+RUNS = Along(rows="run", dim="speed", names=(*VARIABLES, "speed"), coordinates=("blade", "scene", "speed"))
 """Rotors of all blades and scenes: each speed is a run; NaN where a rotor has fewer blades."""
 
 AXES = {

@@ -83,7 +83,7 @@ def join(input: Any, output: Any, params: Any) -> None:
 
 def join_parts(input: Any, output: Any, params: Any) -> None:
     """Join dwells, or orbits, of all blades and scenes. Inputs: parts. Output: dataset (nc). Params: pairs, along, fidelity."""
-    along = Along(rows=params.along, of=params.along)
+    along = Along(rows=params.along, dim=params.along)
     join_runs(as_list(input.parts), params.pairs, along, output.dataset, params.fidelity)
 
 

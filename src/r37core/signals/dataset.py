@@ -34,7 +34,7 @@ VARIABLES = {
 }
 """Dimensions are those beyond the run."""
 
-RUNS = Along(rows="run", of="speed", coordinates=("blade", "scene", "speed", "speed_rpm", "interaction"))
+RUNS = Along(rows="run", dim="speed", coordinates=("blade", "scene", "speed", "speed_rpm", "interaction"))
 """Signals of all blades and scenes: those of each speed are a run; NaN where fewer revolutions are kept."""
 
 _BLADE_AXES = ("x", "y", "z")
