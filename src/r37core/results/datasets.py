@@ -27,9 +27,9 @@ def write_sweep_dataset(
     attributes = attributes_of(responses.values())
     contacts: dict[str, dict[str, None]] = {}
     first_with: dict[str, Path | str] = {}
-    for ((blade, _), response), attributes_of_response in zip(responses.items(), attributes, strict=True):
-        contacts.setdefault(attributes_of_response.get("contact", "unknown"), {})[blade] = None
-        first_with.setdefault(attributes_of_response.get("numerics", "unknown numerics"), response)
+    for ((blade, _), response), response_attributes in zip(responses.items(), attributes, strict=True):
+        contacts.setdefault(response_attributes.get("contact", "unknown"), {})[blade] = None
+        first_with.setdefault(response_attributes.get("numerics", "unknown numerics"), response)
     if len(first_with) > 1:
         (first, earlier), (other, later), *_ = first_with.items()
         raise InputFileError(

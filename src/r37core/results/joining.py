@@ -20,8 +20,8 @@ from .netcdf import add_variable, create_axis
 class Along:
     """Place of the datasets of runs in the joined one: a cell of the dimensions `labels`, or rows of one dimension.
 
-    `rows`: name of that dimension, in which they stand one after another with their labels; `dim`: dimension of the
-    datasets that becomes it, empty where each is a single row. `names`: variables that are joined, by default all; `coordinates`: those
+    `rows`: name of that dimension, in which they stand one after another with their labels; `dim`: dimension of the datasets
+    that becomes it, empty where each is a single row. `names`: variables that are joined, by default all; `coordinates`: those
     of them, and of the labels, that are coordinates.
     """
 
@@ -79,9 +79,9 @@ def join(
                 there = [name for name in names if name in dataset.variables]
                 part = dataset[there].reindex({name: axes[name] for name in axes if name in dataset.dims}, fill_value=states)
                 for name in there:
-                    values = (
-                        part[name].expand_dims(row=count) if along.rows and along.dim not in part[name].dims else part[name]
-                    )
+                    values = part[name]
+                    if along.rows and along.dim not in values.dims:
+                        values = values.expand_dims(row=count)
                     target[name][place] = values.values[()]
 
 
