@@ -7,10 +7,11 @@ import xarray as xr
 from test_interactions import CHOICE, campbell
 
 from r37core.figures.comparison import draw_ranking
+from r37core.results.columns import CERTAIN, POSSIBLE, ROBUSTNESS, names
 from r37core.results.contact_ranges import rows_above_yield
-from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
+from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from r37core.results.interactions import find_interactions
-from r37core.results.ranking import ROBUSTNESS, as_scatter_bears, chance_to_be_better, ranking_table, robustness
+from r37core.results.ranking import as_scatter_bears, chance_to_be_better, ranking_table, robustness
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -135,20 +136,19 @@ def test_a_row_of_direct_contact_is_a_range_and_has_no_mode():
     speeds = np.arange(900.0, 1401.0, 5.0)
     motion = 1e-3 * (1.0 + rising(speeds))
     found = find_interactions(response(speeds, drawn(rising(speeds), speeds), motion), None, CHOICE)
-    (row,) = [one for one in found if one.all_revolutions.certain_length_rad_s > 0.0]
-    assert row.crossing.mode == ""
-    assert np.isnan(row.crossing.campbell_speed_rad_s)
-    assert np.isnan(row.last_revolution.width_above_yield_rad_s)
-    assert np.isnan(row.last_revolution.max_von_mises_pa)
-    assert "direct contact" in row.note
-    assert row.all_revolutions.certain_from_rad_s == pytest.approx(1050.0, abs=8.0)
-    assert row.all_revolutions.certain_to_rad_s == pytest.approx(1300.0, abs=5.0)
-    every = row.all_revolutions
-    assert every.possible_from_rad_s < every.certain_from_rad_s < every.certain_to_rad_s < every.possible_to_rad_s
-    assert row.all_revolutions.median_von_mises_pa == pytest.approx(1.5e9)
-    assert row.peak_motion.peak_motion_m == pytest.approx(np.sqrt(2.0) * 2e-3)
+    (row,) = [one for one in found if one["certain_length_rad_s"] > 0.0]
+    assert row["mode"] == ""
+    assert np.isnan(row["campbell_speed_rad_s"])
+    assert np.isnan(row["width_above_yield_rad_s"])
+    assert np.isnan(row["max_von_mises_pa"])
+    assert "direct contact" in row["note"]
+    assert row["certain_from_rad_s"] == pytest.approx(1050.0, abs=8.0)
+    assert row["certain_to_rad_s"] == pytest.approx(1300.0, abs=5.0)
+    assert row["possible_from_rad_s"] < row["certain_from_rad_s"] < row["certain_to_rad_s"] < row["possible_to_rad_s"]
+    assert row["median_von_mises_pa"] == pytest.approx(1.5e9)
+    assert row["peak_motion_m"] == pytest.approx(np.sqrt(2.0) * 2e-3)
     # the motion is halved, and no less, where the range ends
-    assert np.isnan(row.peak_motion.fall_speed_rad_s)
+    assert np.isnan(row["fall_speed_rad_s"])
 
 
 def test_no_speed_above_yield_is_outside_of_a_row():
@@ -158,11 +158,10 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     shares[20], last = 0.09, 1e9 * (0.5 + shares)
     last[40] = 1.1e9
     rows = rows_above_yield(response(speeds, shares, np.ones(len(speeds)), last=last), [])
-    shown = [row.all_revolutions for row in rows]
     for speed in speeds[(shares > POSSIBLE) | (last > 1e9)]:
-        assert any(every.possible_from_rad_s <= speed <= every.possible_to_rad_s for every in shown), speed
-    assert [every.certain_length_rad_s > 0.0 for every in shown] == [False, False, True]
-    assert np.isnan(shown[0].possible_from_scatter_rad_s)
+        assert any(every["possible_from_rad_s"] <= speed <= every["possible_to_rad_s"] for every in rows), speed
+    assert [every["certain_length_rad_s"] > 0.0 for every in rows] == [False, False, True]
+    assert np.isnan(rows[0]["possible_from_scatter_rad_s"])
 
 
 def test_the_motion_falls_where_it_stays_down():
@@ -171,7 +170,7 @@ def test_the_motion_falls_where_it_stays_down():
     down, shares = np.where(speeds <= 1050.0, 1.0 + 1e-3 * speeds, 0.3), np.where(speeds < 1060.0, 1.0, 0.0)
     for loud, fall in ((), (1051.0, 1.0)), ((1054.0,), (1053.0, 3.0)), ((1076.0,), (1064.0, 14.0)), ((1078.0,), (1051.0, 1.0)):
         (row,) = rows_above_yield(response(speeds, shares, np.where(np.isin(speeds, loud), 1.5, down)), [])
-        assert (row.peak_motion.fall_speed_rad_s, row.peak_motion.fall_speed_scatter_rad_s) == fall
+        assert (row["fall_speed_rad_s"], row["fall_speed_scatter_rad_s"]) == fall
 
 
 def test_the_scatter_of_a_peak_is_of_the_five_nearest_speeds_or_of_those_within_ten():
@@ -188,12 +187,12 @@ def test_the_scatter_of_a_peak_is_of_the_five_nearest_speeds_or_of_those_within_
         nearest = np.argsort(away)[: within or np.count_nonzero(away <= 10.0)]
         assert len(nearest) >= 5
         expected = 1.4826 * np.median(np.array(off)[nearest]) / np.sqrt(1.5)
-        assert row.peak_motion.peak_motion_scatter_m == pytest.approx(expected)
+        assert row["peak_motion_scatter_m"] == pytest.approx(expected)
     (few,) = rows_above_yield(response(speeds[:3], np.ones(3), np.array([1.0, 2.0, 4.0]) / np.sqrt(2.0)), [])
     share = (speeds[1] - speeds[0]) / (speeds[2] - speeds[0])
-    assert few.peak_motion.peak_motion_scatter_m == pytest.approx(1.4826 / np.sqrt(1.5) * abs(1.0 - 3.0 * share))
+    assert few["peak_motion_scatter_m"] == pytest.approx(1.4826 / np.sqrt(1.5) * abs(1.0 - 3.0 * share))
     (two,) = rows_above_yield(response(speeds[:2], np.ones(2), np.ones(2)), [])
-    assert np.isnan(two.peak_motion.peak_motion_scatter_m)
+    assert np.isnan(two["peak_motion_scatter_m"])
 
 
 def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_peak():
@@ -204,18 +203,18 @@ def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_pe
     aside = np.roll(normal, 1)
     for tangential, direction in ((normal, "both"), (0.1 * aside, "normal")):
         rows = rows_above_yield(response(speeds, shares, normal, tangential=tangential), [])
-        assert [row.peak.peak_speed_rad_s for row in rows] == [1020.0, 1080.0]
-        assert [row.crossing.direction for row in rows] == [direction, direction]
+        assert [row["peak_speed_rad_s"] for row in rows] == [1020.0, 1080.0]
+        assert [row["direction"] for row in rows] == [direction, direction]
     (row, _) = rows_above_yield(response(speeds, shares, 0.1 * aside, tangential=normal), [])
-    assert row.crossing.direction == "tangential"
+    assert row["direction"] == "tangential"
     # neither direction has its own peak where both together have theirs
     to_and_fro = [1e-3 * np.exp(-(((speeds - peak) / 4.0) ** 2)) for peak in (1018.0, 1022.0)]
     (row,) = rows_above_yield(response(speeds, np.abs(speeds - 1020.0) <= 6.0, to_and_fro[0], tangential=to_and_fro[1]), [])
-    assert (row.peak.peak_speed_rad_s, row.crossing.direction) == (1020.0, "both")
+    assert (row["peak_speed_rad_s"], row["direction"]) == (1020.0, "both")
     below = find_interactions(response(speeds, np.zeros(len(speeds)), normal), None, CHOICE)
-    assert [row.peak.peak_speed_rad_s for row in below] == [1020.0, 1080.0]
-    assert below[1].peak_motion.fall_speed_rad_s == 1085.0
-    assert all(np.isnan(row.all_revolutions.possible_from_rad_s) for row in below)
+    assert [row["peak_speed_rad_s"] for row in below] == [1020.0, 1080.0]
+    assert below[1]["fall_speed_rad_s"] == 1085.0
+    assert all(np.isnan(row["possible_from_rad_s"]) for row in below)
 
 
 def test_a_lined_row_has_both_widths():
@@ -227,9 +226,9 @@ def test_a_lined_row_has_both_widths():
     lined = response(speeds, np.where(last, 1.0, np.where(ever, 0.2, 0.0)), motion, lined=1)
     lined["max_von_mises"][:], lined["max_von_mises_ever"][:] = np.where(last, 2e9, 0.0), np.where(ever, 2e9, 0.0)
     (row,) = find_interactions(lined, campbell(), CHOICE)
-    assert (row.crossing.mode, row.crossing.engine_order, row.note) == ("1B", 6, "")
-    assert (row.last_revolution.width_above_yield_rad_s, row.all_revolutions.width_ever_above_yield_rad_s) == (3.0, 5.0)
-    assert row.all_revolutions.certain_length_rad_s == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
+    assert (row["mode"], row["engine_order"], row["note"]) == ("1B", 6, "")
+    assert (row["width_above_yield_rad_s"], row["width_ever_above_yield_rad_s"]) == (3.0, 5.0)
+    assert row["certain_length_rad_s"] == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
 
 
 def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
@@ -237,9 +236,8 @@ def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
     speeds = np.arange(1000.0, 1011.0)
     rising_motion = response(speeds, np.ones(11), 1e-3 * speeds, lined=1)
     (row,) = find_interactions(rising_motion, campbell(), CHOICE)
-    every = row.all_revolutions
-    assert (every.possible_from_rad_s, every.possible_to_rad_s, every.certain_length_rad_s) == (1000.0, 1010.0, 10.0)
-    assert "without a peak" in row.note
+    assert (row["possible_from_rad_s"], row["possible_to_rad_s"], row["certain_length_rad_s"]) == (1000.0, 1010.0, 10.0)
+    assert "without a peak" in row["note"]
 
 
 def test_robustness_counts_diverged_runs_as_above_yield():
@@ -252,14 +250,14 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     found = robustness(one)
     assert found["length_certain_rad_s"] == 10.0
     assert found["largest_gap_rad_s"] == 10.0
-    assert set(found) == set(ROBUSTNESS)
+    assert set(found) == set(names(ROBUSTNESS))
     assert found["widest_range_rad_s"] == 10.0
     assert robustness(response(speeds, np.zeros(11), np.ones(11), lined=1))["widest_range_rad_s"] == 0.0
     nothing = np.full(len(speeds), np.nan)
     every = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
     (row,) = find_interactions(every, None, CHOICE)
-    assert row.status == "diverged" and row.crossing.engine_order is None
-    assert np.isnan([row.peak_motion.peak_motion_m, row.peak_motion.peak_motion_scatter_m]).all()
+    assert row["status"] == "diverged" and row["engine_order"] is None
+    assert np.isnan([row["peak_motion_m"], row["peak_motion_scatter_m"]]).all()
     found = robustness(every)
     assert (found["length_certain_rad_s"], found["diverged_runs"]) == (100.0, 11)
     assert np.isnan(found["largest_rms_m"])
@@ -268,13 +266,13 @@ def test_robustness_counts_diverged_runs_as_above_yield():
 def of(certain, possible=0.0, stress=1e9):
     values = {"length_certain_rad_s": certain, "length_possible_rad_s": possible, "largest_median_stress_pa": stress}
     values["diverged_runs"] = 0.0
-    return dict.fromkeys(ROBUSTNESS, np.nan) | values
+    return dict.fromkeys(names(ROBUSTNESS), np.nan) | values
 
 
 def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
     lined = {("A", "x"): of(5.0), ("B", "x"): of(1.0, 9.0), ("C", "x"): of(1.0, 2.0)}
     table = ranking_table(lined | {("A", "y"): of(0.0), ("B", "y"): of(np.nan)})
-    assert list(table.columns[:4]) == ["blade", "scene", "rank", ROBUSTNESS[0]]
+    assert list(table.columns[:4]) == ["blade", "scene", "rank", ROBUSTNESS[0].name]
     assert list(zip(table["scene"], table["blade"], table["rank"], strict=True)) == [
         ("x", "C", 1), ("x", "B", 2), ("x", "A", 3), ("y", "A", 1), ("y", "B", pd.NA),
     ]  # fmt: skip

@@ -8,10 +8,8 @@ from explorer_cases import beside, interaction_rows, sweep
 
 from r37core.explorer import write_page
 from r37core.explorer.contents import explorer_contents
-from r37core.results import glossary
-from r37core.results.interaction import COLUMNS
-from r37core.results.ranges import RANGES
-from r37core.results.ranking import ROBUSTNESS
+from r37core.results.columns import RANKING as RANKING_COLUMNS
+from r37core.results.columns import SUMMARY, column_named
 
 RANKING = pd.DataFrame(
     [
@@ -60,19 +58,15 @@ def column(page, name):
 
 
 def test_every_column_has_words():
-    """And the unit of what it shows: one glossary for the page and its tooltips."""
-    named = [*COLUMNS, *RANGES, "share_of_members", "robust"]
-    assert [name for name in ROBUSTNESS if not glossary.word(name, glossary.RANKING)] == []
-    assert [name for name in named if not glossary.word(name, glossary.INTERACTIONS)] == []
-    assert glossary.word("length_certain_rad_s_low", glossary.RANKING).title == "above yield in most revolutions, 5%"
-    assert glossary.word("chance_better_than_L50", glossary.RANKING).title == "chance to be better than L50"
-    assert glossary.word("length_certain_rad_s_median", glossary.RANKING).title == "above yield in most revolutions, median"
-    assert glossary.word("length_certain_rad_s_scatter", glossary.RANKING).title == "above yield in most revolutions, scatter"
-    assert glossary.word("never_heard_of", glossary.RANKING) is None
-    names = ("blade", "peak_rms_normal_m", "max_von_mises_pa", "drop")
-    words = [glossary.INTERACTIONS[name] for name in names]
-    assert [(word.unit, word.factor) for word in words] == [("", 1.0), ("mm", 1e3), ("MPa", 1e-6), ("%", 100.0)]
-    assert glossary.word("blade", glossary.INTERACTIONS).title == "blade"
+    """And the unit of what it shows: one declaration for the page and its tooltips."""
+    assert column_named("length_certain_rad_s_low", RANKING_COLUMNS).title == "above yield in most revolutions, 5%"
+    assert column_named("chance_better_than_L50", RANKING_COLUMNS).title == "chance to be better than L50"
+    assert column_named("length_certain_rad_s_median", RANKING_COLUMNS).title == "above yield in most revolutions, median"
+    assert column_named("length_certain_scatter_rad_s", RANKING_COLUMNS).title == "above yield in most revolutions, scatter"
+    assert column_named("never_heard_of", RANKING_COLUMNS) is None
+    columns = [column_named(name, SUMMARY) for name in ("blade", "peak_rms_normal_m", "max_von_mises_pa", "drop")]
+    assert [(column.unit, column.factor) for column in columns] == [("", 1.0), ("mm", 1e3), ("MPa", 1e-6), ("%", 100.0)]
+    assert columns[0].title == "blade"
 
 
 def test_contents_have_the_ranking(rows):

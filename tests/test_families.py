@@ -19,6 +19,7 @@ from r37core.designs.plan import Families
 from r37core.designs.table import MEASURES, design_table
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
+from r37core.results.columns import names
 from r37core.run_ups.plan import RunUps
 from r37core.time_integration.status import RunStatus
 
@@ -204,7 +205,7 @@ def compared():
 
 
 def test_designs_are_compared(compared):
-    assert list(compared.columns) == ["blade", "scene", "family", "sweep_percent", *MEASURES]
+    assert list(compared.columns) == ["blade", "scene", "family", "sweep_percent", *names(MEASURES)]
     rows = compared.set_index(["blade", "scene"])
     one = rows.loc["F_1", "lined"]
     assert (one["mass_kg"], one["frequency_1b_hz"], one["frequency_1t_hz"]) == (0.2, 800.0, 2500.0)

@@ -10,7 +10,9 @@ from defaults import InteractionChoice
 
 from r37core.base.units import RAD_S
 from r37core.results import interactions
-from r37core.results.interactions import COLUMNS, find_interactions, summarise, titles
+from r37core.results.closing import interaction_title
+from r37core.results.columns import INTERACTIONS, names
+from r37core.results.interactions import find_interactions, summarise, titles
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -19,6 +21,10 @@ YIELD = 1e9
 STRESS_OF_MOTION = 1e12
 ORDERS = np.arange(0.0, 10.01, 0.02)
 CROSSINGS = {("1B", 4): 1672.0, ("1B", 5): 1213.0, ("1B", 6): 965.0, ("1B", 7): 806.0, ("1T", 9): 1680.0}
+
+
+def title(row):
+    return interaction_title(row["mode"], row["engine_order"])
 
 
 def campbell():
@@ -76,32 +82,32 @@ def joined(data):
 def test_a_row_of_each_branch():
     branches = [(840.0, 6e-4, 7), (1265.0, 8e-4, 5), (1715.0, 2e-3, 4)]
     rows = found(response(tangential=branches))
-    assert [row.crossing.title for row in rows] == ["1B/7", "1B/5", "1B/4"]
-    assert [row.peak.peak_speed_rad_s for row in rows] == [840.0, 1265.0, 1715.0]
-    np.testing.assert_allclose([row.peak.shift_rad_s for row in rows], [34.0, 52.0, 43.0])
-    assert {row.crossing.direction for row in rows} == {"tangential"}
+    assert [title(row) for row in rows] == ["1B/7", "1B/5", "1B/4"]
+    assert [row["peak_speed_rad_s"] for row in rows] == [840.0, 1265.0, 1715.0]
+    np.testing.assert_allclose([row["shift_rad_s"] for row in rows], [34.0, 52.0, 43.0])
+    assert {row["direction"] for row in rows} == {"tangential"}
     last = rows[-1]
-    assert last.peak.drop == pytest.approx(1.0, abs=0.02)
-    assert (last.peak.peak_rms_normal_m, last.peak.peak_rms_tangential_m) == pytest.approx((1e-5, 2e-3))
+    assert last["drop"] == pytest.approx(1.0, abs=0.02)
+    assert (last["peak_rms_normal_m"], last["peak_rms_tangential_m"]) == pytest.approx((1e-5, 2e-3))
     # stress is twice yield at the peak, yield at half its height: 25 rad/s before it; after it the fall is within one step
-    assert last.last_revolution.width_above_yield_rad_s == pytest.approx(25.0 + 5.0 * 1.0 / 1.99, rel=0.02)
-    assert last.last_revolution.share_above_yield == pytest.approx(1.0)
-    assert last.last_revolution.max_von_mises_pa == pytest.approx(2e9, rel=1e-3)
-    assert (rows[0].last_revolution.width_above_yield_rad_s, last.status) == (0.0, "completed")
-    assert np.isnan([rows[0].last_revolution.share_above_yield, last.max_wear_m]).all()
+    assert last["width_above_yield_rad_s"] == pytest.approx(25.0 + 5.0 * 1.0 / 1.99, rel=0.02)
+    assert last["share_above_yield"] == pytest.approx(1.0)
+    assert last["max_von_mises_pa"] == pytest.approx(2e9, rel=1e-3)
+    assert (rows[0]["width_above_yield_rad_s"], last["status"]) == (0.0, "completed")
+    assert np.isnan([rows[0]["share_above_yield"], last["max_wear_m"]]).all()
 
 
 def test_single_speeds_below_yield_do_not_end_the_range():
     """Near the end of a branch the motion is chaotic: width is from the first to the last, the share says what is above."""
     data = response(tangential=[(1715.0, 4e-3, 4)], step=1.0)
-    whole = found(data)[0].last_revolution
+    whole = found(data)[0]
     for name in ("max_von_mises", "rms_tangential"):
         data[name].loc[{"speed": [1713.0, 1714.0]}] *= 0.1
-    broken = found(data)[0].last_revolution
-    assert broken.width_above_yield_rad_s == whole.width_above_yield_rad_s
+    broken = found(data)[0]
+    assert broken["width_above_yield_rad_s"] == whole["width_above_yield_rad_s"]
     # of the ratios 3.76, 0.384, 0.392 and 4 only the ends of the first and last interval are above yield
     below = 1.0 + (1.0 - 0.384) / (3.76 - 0.384) + (1.0 - 0.392) / (4.0 - 0.392)
-    assert broken.share_above_yield == pytest.approx(1.0 - below / whole.width_above_yield_rad_s, rel=1e-3)
+    assert broken["share_above_yield"] == pytest.approx(1.0 - below / whole["width_above_yield_rad_s"], rel=1e-3)
 
 
 def test_a_row_has_the_worst_within_its_interaction():
@@ -113,29 +119,29 @@ def test_a_row_has_the_worst_within_its_interaction():
         data[name].loc[{"speed": 1720.0}] = np.nan
     share = np.where(data["speed"] > 1690.0, 0.2, 0.0) * (data["speed"] < 1710.0)
     rows = found(data.assign(worn_through_share=share, largest_penetration=1e-3 * share))
-    assert [row.status for row in rows] == ["completed", "diverged"]
-    stress = rows[-1].last_revolution
-    assert (stress.max_von_mises_pa, stress.max_von_mises_speed_rad_s) == (5e9, 1705.0)
-    assert stress.width_above_yield_rad_s == pytest.approx(1720.0 - 1690.0, rel=1e-3)
-    assert (rows[-1].peak.peak_speed_rad_s, [row.worn_through_share for row in rows]) == (1715.0, [0.0, 0.2])
-    assert np.isnan(found(data)[0].worn_through_share)
-    assert [row.columns["largest_penetration_m"] for row in rows] == [0.0, 2e-4]
-    assert np.isnan(found(data)[0].largest_penetration_m)
+    assert [row["status"] for row in rows] == ["completed", "diverged"]
+    stress = rows[-1]
+    assert (stress["max_von_mises_pa"], stress["max_von_mises_speed_rad_s"]) == (5e9, 1705.0)
+    assert stress["width_above_yield_rad_s"] == pytest.approx(1720.0 - 1690.0, rel=1e-3)
+    assert (rows[-1]["peak_speed_rad_s"], [row["worn_through_share"] for row in rows]) == (1715.0, [0.0, 0.2])
+    assert np.isnan(found(data)[0]["worn_through_share"])
+    assert [row["largest_penetration_m"] for row in rows] == [0.0, 2e-4]
+    assert np.isnan(found(data)[0]["largest_penetration_m"])
 
 
 def test_a_drop_need_not_follow_at_once_and_is_that_of_the_row_s_own_peak():
     data = response(tangential=[(1001.0, 2e-3, 6)], step=1.0)
     data["rms_tangential"].loc[{"speed": slice(1002.0, 1005.0)}] = 0.97 * 2e-3
-    assert found(data)[0].peak.drop == pytest.approx(1.0 - np.hypot(1e-5, 1e-5) / 2e-3, rel=1e-4)
+    assert found(data)[0]["drop"] == pytest.approx(1.0 - np.hypot(1e-5, 1e-5) / 2e-3, rel=1e-4)
     # but not anywhere: 24 rad/s above the peak
     data["rms_tangential"].loc[{"speed": slice(1002.0, 1026.0)}] = 0.97 * 2e-3
-    assert found(data)[0].peak.drop == pytest.approx(0.03, rel=1e-3)
+    assert found(data)[0]["drop"] == pytest.approx(0.03, rel=1e-3)
     # as S50 in direct contact: the tip moves more a little above a normal peak, tangentially and too little for a peak
     data = response(normal=[(1000.0, 1e-4, 2)], tangential=[(1715.0, 1e-2, 4)])
     data["rms_tangential"].loc[{"speed": 1005.0}] = 5e-4
     row = found(data)[0]
-    assert row.peak.peak_speed_rad_s == 1000.0
-    assert row.peak.drop == pytest.approx(1.0 - np.sqrt(2.0) * 1e-5 / np.hypot(1e-4, 1e-5))
+    assert row["peak_speed_rad_s"] == 1000.0
+    assert row["drop"] == pytest.approx(1.0 - np.sqrt(2.0) * 1e-5 / np.hypot(1e-4, 1e-5))
 
 
 @pytest.mark.parametrize(
@@ -163,26 +169,26 @@ def test_peaks_that_are_one_interaction_and_those_that_are_not(normal, tangentia
     """Title and peak speed of each row, and its direction where that is not tangential."""
     both = found(response(normal, tangential))
     assert titles(both) == {speed: title for title, speed, *_ in rows}
-    assert [row.crossing.direction for row in both] == [(*row, "tangential")[2] for row in rows]
-    assert all(np.isnan(row.crossing.campbell_speed_rad_s) for row in both if not row.crossing.mode)
+    assert [row["direction"] for row in both] == [(*row, "tangential")[2] for row in rows]
+    assert all(np.isnan(row["campbell_speed_rad_s"]) for row in both if not row["mode"])
 
 
 def test_the_end_of_the_speeds_is_no_peak():
     """It ends the reach of the interaction before it all the same."""
     data = response(tangential=[(1940.0, 1e-3, 2), (2000.0, 3e-3, 4)])
     (row,) = found(data)
-    assert (row.peak.peak_speed_rad_s, row.last_revolution.max_von_mises_speed_rad_s) == (1940.0, 1940.0)
+    assert (row["peak_speed_rad_s"], row["max_von_mises_speed_rad_s"]) == (1940.0, 1940.0)
     falling = response(tangential=[(1265.0, 1e-3, 5)])
     falling["rms_tangential"][0] = 5e-3
-    assert [one.peak.peak_speed_rad_s for one in found(falling)] == [1265.0]
+    assert [one["peak_speed_rad_s"] for one in found(falling)] == [1265.0]
 
 
 def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
     """A peak too small to be listed, far above one that is, neither widens nor worsens it."""
     data = response([(1265.0, 5e-5, 5)], [(900.0, 30e-3, 3), (1265.0, 5e-3, 5), (1400.0, 2e-3, 2)])
     row = found(data)[1]
-    assert row.crossing.title == "1B/5"
-    assert row.last_revolution.width_above_yield_rad_s < 50.0
+    assert title(row) == "1B/5"
+    assert row["width_above_yield_rad_s"] < 50.0
     data["max_von_mises"].loc[{"speed": 1400.0}] = 90e9
     # as texts: what is NaN in both is the same
     assert repr(found(data)[1]) == repr(row)
@@ -191,17 +197,17 @@ def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
 def test_the_crossing_is_the_nearest_and_the_order_the_strongest_whole_one():
     """Between 1B/4 at 1672 and 1T/9 at 1680 the nearest, not the least; without a spectrum any order is as good."""
     bare = {1685.0: "1T/9", 1670.0: "1B/4", 1450.0: "a peak of its own"}
-    for speed, title in bare.items():
+    for speed, expected in bare.items():
         (row,) = found(response(tangential=[(speed, 1e-3, 4)]).drop_vars(["amplitude", "amplitude_tangential"]))
-        assert row.crossing.title == title
+        assert title(row) == expected
     data = response(tangential=[(1715.0, 2e-3, 3.98)])
     data["amplitude_tangential"].loc[{"engine_order": 0.0}] = 1.0
-    assert found(data)[0].crossing.title == "1B/4"
+    assert title(found(data)[0]) == "1B/4"
 
 
 def test_the_table_of_all():
     table = summarise(joined(response(tangential=[(1265.0, 8e-4, 5), (1715.0, 2e-3, 4)])), CHOICE)
-    assert list(table.columns) == list(COLUMNS)
+    assert list(table.columns) == names(INTERACTIONS)
     assert list(table["scene"]) == ["lined", "lined", "bare", "bare"]
     lined, bare = table.iloc[1], table.iloc[3]
     assert (lined["max_von_mises_pa"], lined["engine_order"]) == (pytest.approx(2e9, rel=1e-3), 4)
@@ -245,10 +251,10 @@ def test_a_row_says_whether_it_lasts_and_which_thickness_suffices():
     used = np.where(speed == 1000.0, 5e-3, np.where(speed > 1300.0, 1e-3, 0.0))
     runs = {"motion_at_end": states, "used_thickness": used, "worn_through_share": np.where(used == 5e-3, 0.2, 0.0)}
     first, second = found(data.assign({name: ("speed", values) for name, values in runs.items()}))
-    assert (first.motion_at_end, first.sufficient_thickness_m) == ("cut_free", 5e-3)
-    assert first.note == "worn through: the sufficient thickness is a lower bound" and not second.note
-    assert 0.0 < first.lasting_share < 0.5
-    assert (second.motion_at_end, second.sufficient_thickness_m, second.lasting_share) == ("lasting", 1e-3, 1.0)
+    assert (first["motion_at_end"], first["sufficient_thickness_m"]) == ("cut_free", 5e-3)
+    assert first["note"] == "worn through: the sufficient thickness is a lower bound" and not second["note"]
+    assert 0.0 < first["lasting_share"] < 0.5
+    assert (second["motion_at_end"], second["sufficient_thickness_m"], second["lasting_share"]) == ("lasting", 1e-3, 1.0)
     # of a response without them
     (row, _) = found(data)
-    assert row.motion_at_end == "" and np.isnan([row.lasting_share, row.sufficient_thickness_m]).all()
+    assert row["motion_at_end"] == "" and np.isnan([row["lasting_share"], row["sufficient_thickness_m"]]).all()

@@ -9,9 +9,10 @@ from pydantic import ValidationError
 from r37core.base.units import RPM
 from r37core.config.operating_section import OperatingSection
 from r37core.figures import style
+from r37core.results.columns import OPERATING, ROBUSTNESS, names
 from r37core.results.operating import operating_measures
-from r37core.results.operating_range import MEASURES, OperatingDwell, OperatingRange
-from r37core.results.ranking import ROBUSTNESS, ranking_table
+from r37core.results.operating_range import OperatingDwell, OperatingRange
+from r37core.results.ranking import ranking_table
 
 
 def response(speeds, shares, lined=1.0):
@@ -62,13 +63,13 @@ def test_measures_inside():
 def test_what_is_not_run_over_the_whole_range_is_not_known():
     speeds = np.arange(1000.0, 1301.0, 10.0)
     measures = operating_measures(response(speeds, np.ones(len(speeds))), OperatingRange(990.0, 1150.0))
-    assert set(measures) == set(MEASURES)
+    assert set(measures) == set(names(OPERATING))
     assert np.isnan(list(measures.values())).all()
 
 
 def test_the_ranking_inside_stands_next_to_that_over_all_speeds():
     def of(length, inside):
-        own = dict.fromkeys(ROBUSTNESS, 0.0) | {"length_certain_rad_s": length, "diverged_runs": 0.0}
+        own = dict.fromkeys(names(ROBUSTNESS), 0.0) | {"length_certain_rad_s": length, "diverged_runs": 0.0}
         return own | {"length_certain_operating_rad_s": inside, "exceedance_integral_operating_rad_s": inside}
 
     table = ranking_table({("A", "x"): of(1.0, 9.0), ("B", "x"): of(5.0, 2.0), ("C", "x"): of(3.0, np.nan)})

@@ -284,7 +284,7 @@ def test_a_flipped_bit_of_a_response_is_found(tmp_path):
     values = np.frombuffer(np.random.default_rng(1).bytes(2400))
     by_bytes = values.view(np.uint8).reshape(-1, 8).T.tobytes()
     with netCDF4.Dataset(file, "w") as dataset:
-        create_axis(dataset, "speed", np.arange(300.0), SPEED)
+        create_axis(dataset, "speed", np.arange(300.0), SPEED.attributes)
         create_variable(dataset, "a", Variable(("speed",), "m", "a"))[:] = values
     sound = file.read_bytes()
     # the variable, and the axis

@@ -9,7 +9,7 @@ import xarray as xr
 from box_mesh import box_mesh
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 
-from r37core.base.dataset_file import Variable, hash_of_parts, write_dataset
+from r37core.base.dataset_file import Variable, about, attributes_of, joined_hash, write_dataset
 from r37core.base.io import InputFileError
 from r37core.base.speeds import plan_speeds
 from r37core.fem.material import Material
@@ -184,17 +184,17 @@ def test_a_joined_file_hashes_what_its_parts_say(tmp_path):
         attributes = {"input_hash": f"{number}", "scene": name}
         write_dataset(xr.Dataset({"x": ("speed", [number])}), tmp_path / f"{name}.nc", attributes)
     first, second = tmp_path / "one.nc", tmp_path / "other.nc"
-    made = hash_of_parts([first, second])
-    assert made == hash_of_parts([second, first])
-    assert len({made, hash_of_parts([first]), hash_of_parts([first, tmp_path / "third.nc"])}) == 3
+    made = joined_hash(attributes_of([first, second]))
+    assert made == joined_hash(attributes_of([second, first]))
+    assert len({made, joined_hash(attributes_of([first])), joined_hash(attributes_of([first, tmp_path / "third.nc"]))}) == 3
     with pytest.raises(InputFileError, match=r"none\.nc"):
-        hash_of_parts([first, tmp_path / "none.nc"])
+        joined_hash(attributes_of([first, tmp_path / "none.nc"]))
 
 
 def test_empty_parts_of_cubes_take_no_place(tmp_path):
     with netCDF4.Dataset(tmp_path / "cube.nc", "w") as dataset:
         for name, length in (("theta", 4), ("speed", 50_000)):
-            create_axis(dataset, name, np.arange(length), Variable((name,), "1", name))
+            create_axis(dataset, name, np.arange(float(length)), about("1", name))
         create_variable(dataset, "level", Variable(("theta", "speed"), "1", "level"))[0] = np.arange(50_000)
         assert set(dataset.variables) == {"theta", "speed", "speed_rpm", "level"}
     assert (tmp_path / "cube.nc").stat().st_size < 0.8 * 4 * 8 * 50_000

@@ -9,15 +9,16 @@ import xarray as xr
 from test_explorer import unpacked
 from test_rotor import CHOICE, KEPT, LINED_RING, RING, SPEED, STEEP, a_blade, rotor_of, run, samples
 
-from r37core.base.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import Named
 from r37core.config import command_line_document
 from r37core.figures.style import plt
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import load_settings
+from r37core.results.joining import join_runs
 from r37core.results.table_file import read_table
-from r37core.rotors.dataset import gather_rotors, rotor_dataset, rotor_table
+from r37core.rotors.dataset import RUNS, rotor_dataset, rotor_table
 from r37core.rotors.figures import draw_rotor
 from r37core.rotors.panel import MOST_SPANS, rotor_contents
 from r37core.rotors.plan import joined_dataset, remarks, rotor_runs, targets
@@ -152,7 +153,7 @@ def test_dataset_table_and_figure(tmp_path):
     made = Named(dataset=tmp_path / "rotor.nc", table=tmp_path / "rotors.csv")
     join(Named(rotors=files), made, Named(runs=runs, fidelity="draft"))
     together, table, many = read_dataset(made.dataset), read_table(made.table), read_dataset(files[0])
-    assert together.attrs["fidelity"] == "draft" and together.attrs["input_hash"] == hash_of_parts(files)
+    assert together.attrs["fidelity"] == "draft" and together.attrs["input_hash"] == joined_hash(attributes_of(files))
     assert many.attrs["made"] == "many" and many["status"].attrs["flag_meanings"].startswith("completed diverged")
     assert together.sizes["run"] == 6 and together.sizes["blade_number"] == 6
     assert together["blade"].values.tolist() == ["Ref"] * 6 and together["speed"].values.tolist() == 2 * speeds
@@ -323,11 +324,16 @@ def test_the_figure_of_one_speed_or_without_stress_has_lines():
     plt.close(figure)
 
 
+def joined(files, file):
+    join_runs(list(files.values()), files, RUNS, file, "draft")
+    return read_dataset(file)
+
+
 def test_the_panel_shows_the_growth_of_the_blades_that_move_most(tmp_path):
     lost = [np.nan] * 5
     many = a_rotor([[3.0, 1.0, 4.0, 2.0, 5.0], lost], [[0.5, 2.0, 3.0, 0.1, 0.2], lost], [0, 1], [9, 3])
     files = files_of(tmp_path, {"many": many, "few": a_rotor([[1.0, 2.0]])})
-    contents = {rotor["scene"]: rotor for rotor in rotor_contents(gather_rotors(files))}
+    contents = {rotor["scene"]: rotor for rotor in rotor_contents(joined(files, tmp_path / "rotor.nc"))}
     rotor = contents["many"]
     assert (rotor["blade"], rotor["numbers"], rotor["diameters"]) == ("Ref", [1, 3, 5, 7, 9], [-1, 0, 1])
     np.testing.assert_allclose(unpacked(rotor["rms"]), 1e3 * many["blade_rms"], rtol=1e-4)
@@ -343,7 +349,7 @@ def test_the_panel_shows_the_growth_of_the_blades_that_move_most(tmp_path):
     np.testing.assert_allclose(growth[0, :, 0], 0.2 * 1e3 * np.array([5.0, 4.0, 3.0, 3.0]), rtol=1e-4)
     np.testing.assert_allclose(growth[0, :, -1], 0.1 * 1e3 * (MOST_SPANS + 1) * np.array([5.0, 4.0, 3.0, 3.0]), rtol=1e-4)
     # another blade shape in the same scene
-    both = gather_rotors(files | {("S100", "many"): files["Ref", "few"]})
+    both = joined(files | {("S100", "many"): files["Ref", "few"]}, tmp_path / "rotor.nc")
     assert [(rotor["blade"], rotor["numbers"]) for rotor in rotor_contents(both)][1:] == [("Ref", [1, 3]), ("S100", [1, 3])]
     rotor = contents["few"]
     assert rotor["numbers"] == [1, 3] and unpacked(rotor["largest"]).tolist() == [[3, 1]]

@@ -21,7 +21,7 @@ from r37core.product.extensions import beside
 from r37core.product.reading import read_settings
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.search import rounds
-from r37core.search.dataset import entries_of, search_dataset, search_table, write_entries
+from r37core.search.dataset import BLADES_HEADER, search_dataset, search_table, write_entries
 from r37core.search.plan import Search, choice_of, designs_of, is_asked
 from r37core.search.problem import Constraint, Design, SearchChoice, SearchVariable
 from r37core.search.proposal import first_designs
@@ -74,7 +74,7 @@ def folder(config_copy):
         ("{ variables: { chordwise_sweep_deg: [-1, 1] } }", "chordwise_sweep_deg: .*at most one of"),
         (
             "{ objectives: { other: { measure: speed } } }",
-            "objectives.other.measure: found 'speed'; allowed: one of exceedance_",
+            "objectives.other.measure: found 'speed'; allowed: one of length_certain_rad_s, ",
         ),
         ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
         ("{ objectives: { other: { measure: frequency_hz, mode: 1b } } }", "other.mode: found 1b; allowed: .*, 1B, 1T, 2B, 4"),
@@ -324,8 +324,8 @@ def test_a_best_design_is_the_blade_that_its_entry_gives(folder, start):
         coords={"design": ["start", "d0004"], "variable": list(wanted.entry.variables), "objective": ["lined"]},
     ).assign_coords(objective_unit=("objective", ["rad s-1"]))
     entries = Search(Sweep(settings), str, str).entries(None)
-    made = entries_of(search, ["d0004"], start, entries)
-    write_entries(search, made, ["d0004"], entries, folder / "config/best.yaml")
+    varied = {start: list(wanted.entry.variables)}
+    write_entries(search, ["d0004"], entries, varied, BLADES_HEADER, folder / "config/best.yaml")
     del content["search"]
     content |= {"blades_file": "config/best.yaml", "blades": [start, f"{start}_best1"]}
     (folder / "config/config.yaml").write_text(yaml.safe_dump(content))

@@ -199,50 +199,50 @@ def verdict_of(high, low, *random, lined=False):
 def test_motions_last_switch_or_are_transients():
     high, low = switching((500, 4.0)), switching((500, 1.0))
     verdict = verdict_of([high], [low], high, low)
-    assert (verdict.high, verdict.low) == (Lasting.LASTING, Lasting.LASTING)
-    assert np.isnan(verdict.share)
-    assert verdict.high_starts == 0.5
+    assert (verdict["high"], verdict["low"]) == (Lasting.LASTING, Lasting.LASTING)
+    assert np.isnan(verdict["share_of_time_high"])
+    assert verdict["random_starts_high"] == 0.5
     falls = switching((300, 4.0), (200, 1.0))
     verdict = verdict_of([falls], [low])
-    assert (verdict.high, verdict.low, verdict.share) == (Lasting.TRANSIENT, Lasting.LASTING, 0.0)
-    assert verdict.high_revolutions == pytest.approx(300 - 70, abs=20)
+    assert (verdict["high"], verdict["low"], verdict["share_of_time_high"]) == (Lasting.TRANSIENT, Lasting.LASTING, 0.0)
+    assert verdict["high_revolutions"] == pytest.approx(300 - 70, abs=20)
     rises = switching((250, 1.0), (250, 4.0))
     verdict = verdict_of([falls], [rises])
-    assert (verdict.high, verdict.low) == (Lasting.SWITCHING, Lasting.SWITCHING)
-    assert 0.4 < verdict.share < 0.6
+    assert (verdict["high"], verdict["low"]) == (Lasting.SWITCHING, Lasting.SWITCHING)
+    assert 0.4 < verdict["share_of_time_high"] < 0.6
     # gone before it was looked at
     verdict = verdict_of([low], [low])
-    assert verdict.high is Lasting.TRANSIENT
-    assert verdict.high_revolutions == 0.0
+    assert verdict["high"] is Lasting.TRANSIENT
+    assert verdict["high_revolutions"] == 0.0
 
 
 def test_random_starts_count_from_their_first_change():
     high, low, falls = switching((500, 4.0)), switching((500, 1.0)), switching((200, 4.0), (300, 1.0))
     verdict = verdict_of([high], [low], falls, switching((200, 1.0), (300, 4.0)))
-    assert (verdict.high, verdict.low, verdict.high_starts) == (Lasting.LASTING, Lasting.LASTING, 0.5)
+    assert (verdict["high"], verdict["low"], verdict["random_starts_high"]) == (Lasting.LASTING, Lasting.LASTING, 0.5)
     # a second change is the blade's own
     verdict = verdict_of([high], [low], switching((150, 1.0), (150, 4.0), (200, 1.0)))
-    assert (verdict.high, verdict.low) == (Lasting.TRANSIENT, Lasting.LASTING)
+    assert (verdict["high"], verdict["low"]) == (Lasting.TRANSIENT, Lasting.LASTING)
 
 
 def test_a_dwell_that_diverges_does_not_last():
     high, low = switching((500, 4.0)), switching((500, 1.0))
     diverged = np.where(np.arange(500) < 200, 4.0, np.nan)
-    assert verdict_of([diverged], [low]).high is Lasting.DIVERGED
-    assert verdict_of([np.full(500, np.nan)], [low]).high is Lasting.DIVERGED
+    assert verdict_of([diverged], [low])["high"] is Lasting.DIVERGED
+    assert verdict_of([np.full(500, np.nan)], [low])["high"] is Lasting.DIVERGED
     verdict = verdict_of([], [low])
-    assert (verdict.high, verdict.low) == (Lasting.DIVERGED, Lasting.LASTING)
-    assert np.isnan(verdict_of([high], [diverged]).share)
+    assert (verdict["high"], verdict["low"]) == (Lasting.DIVERGED, Lasting.LASTING)
+    assert np.isnan(verdict_of([high], [diverged])["share_of_time_high"])
 
 
 def test_on_a_lining_a_motion_lasts_that_is_held_at_the_end():
     high, low = switching((500, 4.0)), switching((500, 1.0))
     falls, rises = switching((300, 4.0), (200, 1.0)), switching((300, 1.0), (200, 4.0))
     verdict = verdict_of([falls], [rises], high, lined=True)
-    assert (verdict.high, verdict.low) == (Lasting.TRANSIENT, Lasting.TRANSIENT)
-    assert np.isnan(verdict.share)
-    assert verdict.high_revolutions == pytest.approx(300 - 70, abs=20)
-    assert verdict_of([high], [low], falls, lined=True).high is Lasting.LASTING
+    assert (verdict["high"], verdict["low"]) == (Lasting.TRANSIENT, Lasting.TRANSIENT)
+    assert np.isnan(verdict["share_of_time_high"])
+    assert verdict["high_revolutions"] == pytest.approx(300 - 70, abs=20)
+    assert verdict_of([high], [low], falls, lined=True)["high"] is Lasting.LASTING
 
 
 def test_random_states_are_outside_of_the_casing(contact):

@@ -16,8 +16,9 @@ from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import InputFileError
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.style import save
+from r37core.results.joining import join_runs
 from r37core.rom.reduced_model import RecoveryNodes
-from r37core.signals.dataset import gather_signals, signals_dataset
+from r37core.signals.dataset import RUNS, signals_dataset
 from r37core.signals.figures import draw_contact_forces, draw_orders, draw_spectrograms
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
@@ -292,7 +293,7 @@ def test_datasets_are_joined_by_run(dataset, tmp_path):
     for pair, one in {("Ref", "abradable"): dataset, ("Ref", "direct"): other, ("L50", "direct"): empty}.items():
         files[pair] = tmp_path / f"{'_'.join(pair)}.nc"
         write_dataset(one, files[pair], {})
-    gather_signals(files, tmp_path / "signals.nc", {"fidelity": "draft"})
+    join_runs(list(files.values()), files, RUNS, tmp_path / "signals.nc", "draft")
     joined = read_dataset(tmp_path / "signals.nc")
     assert joined.sizes["run"] == 3
     assert joined.attrs["fidelity"] == "draft"
@@ -308,7 +309,7 @@ def test_datasets_are_joined_by_run(dataset, tmp_path):
     np.testing.assert_array_equal(joined["status"], [0, 0, 0])
     files["Ref", "direct"].write_bytes(b"damaged")
     with pytest.raises(InputFileError, match=r"Ref_direct\.nc: cannot be read"):
-        gather_signals(files, tmp_path / "signals.nc", {})
+        join_runs(list(files.values()), files, RUNS, tmp_path / "signals.nc", "draft")
 
 
 def test_signals_are_drawn(dataset, tmp_path):

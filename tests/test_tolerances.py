@@ -25,9 +25,10 @@ from r37core.plans.member_values import is_of_sample, number_of, sobol_points
 from r37core.product.leftovers import leftovers
 from r37core.product.reading import read_settings
 from r37core.product.remarks import remarks as remarks_of
-from r37core.results.interactions import COLUMNS, find_interactions
+from r37core.results.columns import ENDS, INTERACTIONS, names
+from r37core.results.interactions import find_interactions
 from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
-from r37core.results.ranges import ENDS, as_ranges_bear, ranged_summary, read_ranges
+from r37core.results.ranges import as_ranges_bear, ranged_summary, read_ranges
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import MemberRun, tolerances_dataset
 from r37core.tolerances.figures import draw_tolerances
@@ -496,7 +497,7 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path):
     nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
     rows = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4), (990.0, 0.004, 6))}, InteractionChoice())
     range_table([("NA", "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
-    summary = pd.DataFrame([{"blade": blade, "scene": "lined", **one.columns} for blade in ("NA", "L50") for one in nominal])
+    summary = pd.DataFrame([{"blade": blade, "scene": "lined", **one} for blade in ("NA", "L50") for one in nominal])
     joined = ranged_summary(summary.astype({"engine_order": "Int64"}), read_ranges(tmp_path / "tolerances.csv"))
     assert len(joined) == len(summary)
     assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
@@ -538,7 +539,7 @@ def test_a_summary_without_a_nominal_interaction(tmp_path, blade):
     range_table([(blade, "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
     table = read_ranges(tmp_path / "tolerances.csv")
     assert (table["blade"][0], table["share_of_members"][0]) == (blade, 0.5)
-    joined = ranged_summary(pd.DataFrame([], columns=list(COLUMNS)), table)
+    joined = ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), table)
     assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
 
 

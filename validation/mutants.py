@@ -32,7 +32,7 @@ TESTS = {
     "results/contact_ranges.py": "test_exceedance.py",
     "results/datasets.py": "test_results.py",
     "results/exceedance.py": "test_exceedance.py",
-    "results/glossary.py": "test_explorer_tables.py",
+    "results/columns.py": "test_explorer_tables.py",
     "results/interactions.py": "test_interactions.py test_results.py",
     "results/netcdf.py": "test_results.py test_reliability.py",
     "results/ranking.py": "test_exceedance.py",

@@ -54,9 +54,9 @@ class Comparison:
     @property
     def name(self) -> str:
         """Mode and engine order of the interaction."""
-        crossing = self.interaction.crossing
-        order = "" if crossing.engine_order is None or math.isnan(crossing.engine_order) else f"/{crossing.engine_order}"
-        return f"{crossing.mode}{order}" if crossing.mode else f"no crossing, order {crossing.engine_order}"
+        mode, engine_order = (self.interaction[name] for name in ("mode", "engine_order"))
+        order = "" if engine_order is None or math.isnan(engine_order) else f"/{engine_order}"
+        return f"{mode}{order}" if mode else f"no crossing, order {engine_order}"
 
 
 @dataclass(frozen=True)
@@ -145,16 +145,15 @@ def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: Intera
 
 def _peak_and_width(row: Interaction) -> tuple[float, float]:
     """Speed of the peak and width above yield (rad/s): of the last revolution, on a bare casing in most revolutions."""
-    every = row.all_revolutions
-    width = every.certain_to_rad_s - every.certain_from_rad_s if row.note else row.last_revolution.width_above_yield_rad_s
-    return row.peak.peak_speed_rad_s, 0.0 if math.isnan(width) else width
+    width = row["certain_to_rad_s"] - row["certain_from_rad_s"] if row["note"] else row["width_above_yield_rad_s"]
+    return row["peak_speed_rad_s"], 0.0 if math.isnan(width) else width
 
 
 def _nearest(row: Interaction, got: Sequence[Interaction]) -> Interaction | None:
     """The nearest of some interactions within an interaction's width, or TOLERANCE, of its peak."""
     peak, width = _peak_and_width(row)
-    near = [other for other in got if abs(other.peak.peak_speed_rad_s - peak) <= max(width, TOLERANCE)]
-    return min(near, key=lambda other: abs(other.peak.peak_speed_rad_s - peak), default=None)
+    near = [other for other in got if abs(other["peak_speed_rad_s"] - peak) <= max(width, TOLERANCE)]
+    return min(near, key=lambda other: abs(other["peak_speed_rad_s"] - peak), default=None)
 
 
 def summary(outcomes: Outcomes) -> tuple[list[str], list[list[str]]]:

@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 
 from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
+from r37core.results.columns import ENDS
 from r37core.results.other_motions import REST, swept
-from r37core.results.ranges import ENDS
 from r37core.results.ranking import robustness
 from r37core.search.problem import START
 from r37core.time_integration.status import RunStatus

@@ -15,7 +15,7 @@ from r37core.base.io import write_text
 from r37core.base.units import SUFFIXES
 from r37core.config.speed_section import UNITS
 from r37core.product.schemas import MODELS
-from r37core.results.glossary import INTERACTIONS, RANKING, Word
+from r37core.results.columns import RANKING, SUMMARY, Column
 
 from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
 from .keys_again import Shown, ShownModels
@@ -199,12 +199,12 @@ def filled(page: str) -> str:
     return page
 
 
-def column_list(words: Mapping[str, Word]) -> str:
+def column_list(columns: Iterable[Column]) -> str:
     """Columns as a list of Markdown."""
-    return "\n".join(f"- `{name}`: {word.meaning}" for name, word in words.items())
+    return "\n".join(f"- `{column.name}`: {column.meaning}" for column in columns)
 
 
-COLUMN_LISTS = {"columns": INTERACTIONS, "ranking_columns": RANKING}
+COLUMN_LISTS = {"columns": SUMMARY, "ranking_columns": RANKING}
 """Part of docs/results.md -> columns that stand there."""
 
 

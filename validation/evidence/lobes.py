@@ -11,7 +11,7 @@ import pandas as pd
 
 from r37core.base.dataset_file import read_dataset
 from r37core.figures.style import PAGE, plt, save
-from r37core.results.exceedance import CERTAIN
+from r37core.results.columns import CERTAIN
 
 from .configuration import settings_of
 from .pages import write_table

@@ -13,7 +13,8 @@ import xarray as xr
 from r37core.base.dataset_file import read_dataset
 from r37core.config import Settings
 from r37core.contact.scene import Scene
-from r37core.results.exceedance import CERTAIN, POSSIBLE, Exceedance, exceedance_of
+from r37core.results.columns import CERTAIN, POSSIBLE
+from r37core.results.exceedance import Exceedance, exceedance_of
 from r37core.results.measures import motion
 from r37core.results.ranking import read_ranking
 from r37core.rom.contact_model import ContactModel, read_contact_model

@@ -14,7 +14,7 @@ def test_the_tables_name_what_is_missed():
     """Of two interactions above yield the one in the window is found, the other one, 5 rad/s wide, only by every speed."""
     response, diagram = spiked((1232.0, 1237.0, 1e-3), (1832.0, 1836.0, 1e-3)), campbell([1200.0])
     found = compare(response, diagram, replay(response, diagram, PLAN, CHOICE), InteractionChoice())
-    rows = [(each.interaction.peak.peak_speed_rad_s, each.nearest is not None, each.same) for each in found.interactions]
+    rows = [(each.interaction["peak_speed_rad_s"], each.nearest is not None, each.same) for each in found.interactions]
     assert rows == [(1237.0, True, True), (1836.0, False, False)]
     every = compare(response, diagram, [plain_grid(PLAN, 1.0)], InteractionChoice())
     assert (every.runs, [each.same for each in every.interactions]) == (1251, [True, True])

@@ -5,6 +5,7 @@ import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from enum import IntEnum
 from pathlib import Path
 from typing import Any
 
@@ -67,17 +68,23 @@ def lazy_dataset(file: Path | str) -> xr.Dataset:
 
 @dataclass(frozen=True)
 class Variable:
-    """Variable of a dataset's table: `dims` beyond those that a file adds to all, meaning, `dtype` as stored."""
+    """Variable of a dataset's table: `dims` beyond those that a file adds to all, meaning, `dtype` as stored.
+
+    `states`: what its whole numbers mean, the last one for what was not run or is not known; each has a `text`.
+    """
 
     dims: tuple[str, ...]
     units: str
     long_name: str
     dtype: str = "f8"
+    states: type[IntEnum] | None = None
 
     @property
-    def attributes(self) -> dict[str, str]:
-        """Attributes of the variable in a file."""
-        return about(self.units, self.long_name)
+    def attributes(self) -> dict[str, Any]:
+        """Attributes of the variable in a file, after the CF conventions."""
+        states: list[Any] = list(self.states or ())
+        flags = {"flag_values": np.array(states, "i1"), "flag_meanings": " ".join(state.text for state in states)}
+        return about(self.units, self.long_name) | (flags if states else {})
 
 
 def about(units: str, long_name: str) -> dict[str, str]:
@@ -97,7 +104,7 @@ def dataset_of(
     labels: Mapping[str, Any],
     along: Sequence[str] = (),
 ) -> xr.Dataset:
-    """The dataset of the `values`, by name, that tables of variables and coordinates describe; speeds are there in rpm, too.
+    """The dataset of the `values`, by name, that tables of variables and coordinates describe; an axis of speeds also in rpm.
 
     `labels`: of dimensions that are counted by names; `along`: dimensions of all variables, before their own.
     """
@@ -109,9 +116,11 @@ def dataset_of(
             if name in values
         }
 
-    speed_rpm = SPEED_RPM.dims, RPM * np.asarray(values["speed"]), SPEED_RPM.attributes
-    speeds = described({"speed": coordinates["speed"]}, ()) | {"speed_rpm": speed_rpm}
-    return xr.Dataset(described(variables, along), {**labels, **speeds, **described(coordinates, ())})
+    axes = described(coordinates, ())
+    if "speed" in axes:
+        speeds = {"speed": axes["speed"], "speed_rpm": (SPEED_RPM.dims, RPM * axes["speed"][1], SPEED_RPM.attributes)}
+        axes = speeds | axes
+    return xr.Dataset(described(variables, along), {**labels, **axes})
 
 
 def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
@@ -139,14 +148,16 @@ def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> 
         return dataset.sel({name: label for name, label in (part or {}).items() if name in dataset.dims}).load()
 
 
-def hash_of_parts(files: Iterable[Path | str]) -> str:
-    """Input hash of a file that joins others: of what each of them, in any order, says of its making.
-
-    Raises InputFileError for a file that cannot be read.
-    """
+def attributes_of(files: Iterable[Path | str]) -> list[dict[str, Any]]:
+    """Global attributes of each file but for those of all; InputFileError for a file that cannot be read."""
     attributes = []
     for file in files:
         with open_netcdf(file) as dataset:
-            names = sorted(set(dataset.ncattrs()) - set(FILE_ATTRIBUTES))
-            attributes.append([(name, str(dataset.getncattr(name))) for name in names])
-    return hashlib.sha256(repr(sorted(attributes)).encode()).hexdigest()[:16]
+            attributes.append({name: dataset.getncattr(name) for name in dataset.ncattrs() if name not in FILE_ATTRIBUTES})
+    return attributes
+
+
+def joined_hash(attributes: Iterable[Mapping[str, object]]) -> str:
+    """Input hash of a file that joins others, by the attributes of these in any order."""
+    texts = [sorted((name, str(value)) for name, value in several.items()) for several in attributes]
+    return hashlib.sha256(repr(sorted(texts)).encode()).hexdigest()[:16]

@@ -38,6 +38,9 @@ MASS_UNITS = {"kg": 1.0, "g": 1e-3, "t": 1e3}
 STIFFNESS_UNITS = {"N/m": 1.0, "N/mm": 1e3}
 """Name of a unit of stiffness -> N/m."""
 
+SI_UNITS = {"_m": "m", "_pa": "Pa", "_kg": "kg", "_hz": "Hz", "_rad_s": "rad s-1", "_percent": "percent"}
+"""End of a table's column -> its unit as datasets have it."""
+
 _SHOWN = {"m": ("mm", 1e3), "Pa": ("MPa", 1e-6), "rad s-1": ("rad/s", 1.0), "percent": ("%", 1.0), "1": ("", 1.0)}
 
 
@@ -53,3 +56,8 @@ def si_name(key: str) -> tuple[str, float | None]:
         return key, None
     end = max(ends, key=len)
     return key.removesuffix(end), SUFFIXES[end]
+
+
+def unit_of(column: str) -> str:
+    """Unit of a table's column, as datasets have it, by the end of its name; "1" for a plain number."""
+    return next((unit for end, unit in SI_UNITS.items() if column.endswith(end)), "1")

@@ -1,4 +1,4 @@
-"""What one figure of designs compares."""
+"""Designs that one figure compares."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -31,7 +31,7 @@ class Compared:
 
     @property
     def other(self) -> str:
-        """What does not vary, a line or a panel each; empty where both do."""
+        """Kind that does not vary, a line or a panel each; empty where both do."""
         return {BLADE: SCENE, SCENE: BLADE}.get(self.kind, "")
 
 

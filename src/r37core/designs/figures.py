@@ -12,13 +12,14 @@ from matplotlib.figure import Figure
 
 from r37core.base.plain import from_plain
 from r37core.figures import style
+from r37core.results.columns import names
 
 from .compared import Compared, axis_of_key
 from .table import MEASURES, STRUCTURE
 
 _ROBUSTNESS = ("shift_1b_rad_s", "length_certain_rad_s", "length_possible_rad_s")
 _DRAWN = {
-    "blade": (*STRUCTURE, *_ROBUSTNESS, "largest_median_stress_pa"),
+    "blade": (*names(STRUCTURE), *_ROBUSTNESS, "largest_median_stress_pa"),
     "scene": (*_ROBUSTNESS, "exceedance_integral_rad_s", "largest_median_stress_pa", "largest_rms_m"),
 }
 """Measures that a family of blades, or of scenes, is chosen by."""
@@ -28,7 +29,7 @@ _LABEL_WIDTH = 22
 
 
 def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -> Figure:
-    """What a family is chosen by: over the one key that varies, or over the designs by name; a line for each of the other kind.
+    """Draw the measures of a family over the key that varies, or over the designs by name; a line for each of the other kind.
 
     `compared`: a Compared, as plain values.
     """
@@ -37,11 +38,12 @@ def draw_designs(title: str, table: pd.DataFrame, compared: Mapping[str, Any]) -
     drawn = _DRAWN[kind]
     count = len(drawn) // 3
     figure, grid = plt.subplots(count, 3, figsize=(style.PAGE, 2.1 * count + (0.9 if len(keys) > 1 else 0.1)), sharex=True)
-    for axes, column in zip(grid.flat, drawn, strict=True):
-        word = MEASURES[column]
+    measures = {column.name: column for column in MEASURES}
+    for axes, measure in zip(grid.flat, drawn, strict=True):
+        column = measures[measure]
         for name, rows in table.groupby(chosen.other, sort=False):
-            _draw(axes, rows.assign(**{column: word.factor * rows[column]}), column, kind, keys, str(name))
-        axes.set_ylabel(f"{fill(word.title, _LABEL_WIDTH)}\n({word.unit})")
+            _draw(axes, rows.assign(**{measure: column.factor * rows[measure]}), measure, kind, keys, str(name))
+        axes.set_ylabel(f"{fill(column.title, _LABEL_WIDTH)}\n({column.unit})")
     # what does not depend on the scene is the same line twice
     figure.legend(*style.legend_entries([grid.flat[-1]]), loc="outside lower center", ncols=4)
     for axes in grid[-1]:

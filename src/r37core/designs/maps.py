@@ -12,11 +12,9 @@ from matplotlib.figure import Figure
 
 from r37core.base.plain import from_plain
 from r37core.figures import style
-from r37core.results.operating_range import LENGTH
 
 from .compared import Compared, axis_of_key
-
-_LENGTH = "length_certain_rad_s"
+from .table import length_column
 
 
 def draw_design_map(
@@ -45,18 +43,13 @@ def draw_design_map(
             _draw_verdict(axes, part, keys, verdict)
     for axes in list(grid.flat)[len(panels) :]:
         axes.set_axis_off()
-    inside = " in operation" if column == LENGTH else ""
+    inside = " in operation" if "operating" in column else ""
     figure.colorbar(cells, ax=grid, label=f"length above yield{inside} (rad/s)")
     handles, labels = style.legend_entries(grid.flat)
     if handles:
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
     figure.suptitle(f"family {title.replace('__', ' x ')}")
     return figure
-
-
-def length_column(table: pd.DataFrame) -> str:
-    """Column of the length above yield in most revolutions: in operation, where it is known there."""
-    return LENGTH if LENGTH in table and table[LENGTH].notna().any() else _LENGTH
 
 
 def _grid(rows: pd.DataFrame, keys: Sequence[str], column: str, together: str) -> np.ndarray:

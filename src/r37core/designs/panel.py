@@ -5,8 +5,7 @@ import pandas as pd
 from r37core.explorer.contents import packed
 
 from .compared import Compared
-from .maps import length_column
-from .table import compared_in
+from .table import compared_in, length_column
 
 
 def contents(table: pd.DataFrame) -> list[dict[str, object]]:

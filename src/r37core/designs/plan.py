@@ -66,7 +66,7 @@ class Families:
 
     @cached_property
     def figures(self) -> dict[str, Compared]:
-        """What is drawn of each family, by its name."""
+        """Designs that the figure of each family compares, by its name."""
         settings = self.settings
         figures = {}
         for kind, families in self.families.items():
@@ -85,7 +85,7 @@ class Families:
 
     @cached_property
     def maps(self) -> dict[str, Compared]:
-        """What is drawn as a map: families of two keys, and a family of blades with one of scenes that have one key each."""
+        """Designs drawn as maps: families of two keys, and a family of blades with one of scenes that have one key each."""
         figures = self.figures
         maps = {name: compared for name, compared in figures.items() if len(compared.keys) == 2}
         for blades, scenes in product(self.families[BLADE], self.families[SCENE]):
@@ -95,11 +95,11 @@ class Families:
         return maps
 
     def compared(self, wildcards: Any) -> dict[str, Any]:
-        """What one figure compares, as plain values."""
+        """Designs that one figure compares, as plain values."""
         return to_plain(self.figures[wildcards.family])
 
     def mapped(self, wildcards: Any) -> dict[str, Any]:
-        """What one map compares, as plain values."""
+        """Designs that one map compares, as plain values."""
         return to_plain(self.maps[wildcards.family])
 
 

@@ -9,11 +9,10 @@ import xarray as xr
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 from r37core.results.closing import counted
+from r37core.results.columns import OPERATING, ROBUSTNESS, Column, names
 from r37core.results.datasets import response_of
-from r37core.results.glossary import RANKING, Word, word
-from r37core.results.operating_range import INTEGRAL, LENGTH, OperatingRange
-from r37core.results.operating_range import MEASURES as OPERATING_MEASURES
-from r37core.results.ranking import RANKED_BY, ROBUSTNESS, robustness
+from r37core.results.operating_range import OperatingRange
+from r37core.results.ranking import RANKED_BY, robustness
 from r37core.results.table_file import read_table
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
 
@@ -22,22 +21,21 @@ from .compared import BOTH, Compared
 _NAMES = ("blade", "scene", "family")
 """Columns of names."""
 
-STRUCTURE = {
-    "mass_kg": Word("mass", "of the blade", "kg"),
-    "frequency_1b_hz": Word("1B at rest", "frequency of the first bending mode", "Hz"),
-    "frequency_1t_hz": Word("1T at rest", "frequency of the first torsion mode", "Hz"),
-    "clearance_loss_1b_m": Word("loss of clearance, 1B", "largest as the tip swings along the free mode", "mm", 1e3),
-    "clearance_loss_1t_m": Word("loss of clearance, 1T", "largest as the tip swings along the free mode", "mm", 1e3),
-}
-MEASURES = {
-    **STRUCTURE,
-    "shift_1b_rad_s": Word("shift of 1B", "peak less crossing of the strongest interaction of 1B", "rad/s"),
-    **{name: meaning for name in ROBUSTNESS if (meaning := word(name, RANKING))},
-}
-"""Columns of designs.csv in words; those of STRUCTURE do not depend on the scene."""
+STRUCTURE = (
+    Column("mass_kg", "of the blade"),
+    Column("frequency_1b_hz", "frequency of the first bending mode", "1B at rest"),
+    Column("frequency_1t_hz", "frequency of the first torsion mode", "1T at rest"),
+    Column("clearance_loss_1b_m", "largest as the tip swings along the free mode", "loss of clearance, 1B"),
+    Column("clearance_loss_1t_m", "largest as the tip swings along the free mode", "loss of clearance, 1T"),
+)
+"""Columns of designs.csv that do not depend on the scene."""
 
-IN_OPERATION = {name: meaning for name in OPERATING_MEASURES if (meaning := word(name, RANKING))}
-"""More of them where there is an operating range."""
+MEASURES = (
+    *STRUCTURE,
+    Column("shift_1b_rad_s", "peak less crossing of the strongest interaction of 1B", "shift of 1B"),
+    *ROBUSTNESS,
+)
+"""Columns of designs.csv next to those of names and of what varies; more of them, OPERATING, with an operating range."""
 
 
 def design_table(
@@ -57,27 +55,33 @@ def design_table(
     """
     rows = []
     for blade, scene in pairs:
-        names = [families[kind][design] for kind, design in ((BLADE, blade), (SCENE, scene)) if design in families[kind]]
-        varied = {"family": "__".join(names), **variables["blade"].get(blade, {}), **variables["scene"].get(scene, {})}
+        own = [families[kind][design] for kind, design in ((BLADE, blade), (SCENE, scene)) if design in families[kind]]
+        varied = {"family": "__".join(own), **variables["blade"].get(blade, {}), **variables["scene"].get(scene, {})}
         structure = {"mass_kg": masses.get(blade, np.nan)} | _structure(datasets["campbell"].sel(blade=blade))
         response = response_of(datasets, blade, scene)
         measures = robustness(response, operating=operating)
         rows.append({"blade": blade, "scene": scene, **varied, **structure, **measures, **_shift(blade, scene, interactions)})
     designs = [values for kind in variables.values() for values in kind.values()]
     keys = list(dict.fromkeys(key for values in designs for key in values))
-    return pd.DataFrame(rows, columns=[*_NAMES, *keys, *MEASURES, *(IN_OPERATION if operating else ())])
+    return pd.DataFrame(rows, columns=[*_NAMES, *keys, *names(MEASURES), *(names(OPERATING) if operating else ())])
 
 
 def compared_in(table: pd.DataFrame) -> dict[str, Compared]:
-    """What is compared of each family in a table, by its name; of a blade's and a scene's family together their map."""
+    """Designs compared of each family in a table, by its name; of a blade's and a scene's family together their map."""
     families = {}
     for name, rows in table.groupby("family", sort=False):
-        varied = rows.drop(columns=[*_NAMES, *MEASURES, *IN_OPERATION], errors="ignore").dropna(axis=1, how="all")
+        varied = rows.drop(columns=[*_NAMES, *names(MEASURES), *names(OPERATING)], errors="ignore").dropna(axis=1, how="all")
         kinds = [VariedNumber.named(str(key)).kind for key in varied]
         kind = SCENE if set(kinds) == {SCENE} else BOTH if sorted(kinds) == [BLADE, SCENE] else BLADE
         blades, scenes = (tuple(dict.fromkeys(rows[column])) for column in ("blade", "scene"))
         families[str(name)] = Compared(kind, tuple(map(str, varied)), blades, scenes)
     return families
+
+
+def length_column(table: pd.DataFrame) -> str:
+    """Column of the length above yield in most revolutions: in operation, where it is known there."""
+    inside = "length_certain_operating_rad_s"
+    return inside if inside in table and table[inside].notna().any() else RANKED_BY[0]
 
 
 def _structure(campbell: xr.Dataset) -> dict[str, float]:
@@ -99,14 +103,15 @@ def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, floa
 def closing(results: Path) -> str:
     """How many designs there are, and the best: of each scene, or of all where scenes vary."""
     table = read_table(results / "designs.csv")
-    flown = LENGTH in table and table[LENGTH].notna().any()
-    order = [LENGTH, INTEGRAL, "largest_median_stress_pa"] if flown else list(RANKED_BY)
+    length = length_column(table)
+    flown = length != RANKED_BY[0]
+    order = [length, "exceedance_integral_operating_rad_s", "largest_median_stress_pa"] if flown else list(RANKED_BY)
     scenes_vary = any(VariedNumber.named(str(name)).kind == SCENE for name in table)
     text = counted(len(table) if scenes_vary else table["blade"].nunique(), "design")
-    ranked = table.dropna(subset=order[0])
+    ranked = table.dropna(subset=length)
     for scene, rows in [("", ranked)] if scenes_vary and len(ranked) else ranked.groupby("scene", sort=False):
         best = rows.sort_values(order, kind="stable").iloc[0]
         where, name = (f"{scene}: ", best["blade"]) if scene else ("", f"{best['blade']} in {best['scene']}")
         inside = " in operation" if flown else ""
-        text += f"; {where}{name} is above yield at the fewest speeds{inside} ({best[order[0]]:.0f} rad/s)"
+        text += f"; {where}{name} is above yield at the fewest speeds{inside} ({best[length]:.0f} rad/s)"
     return text

@@ -13,10 +13,10 @@ FOLDER = Path(__file__).parent
 _PROGRAMS = ("theme", "words", "ranking", "interactions", "panels", "explorer")
 
 PARTS = (FOLDER / "explorer.html", FOLDER / "explorer.css", *(FOLDER / f"{name}.js" for name in _PROGRAMS))
-"""What the page is put together from, beside its data and plotly: body, style, and its program in the order it runs."""
+"""Files of the page apart from its data and plotly: body, style, and its program in the order it runs."""
 
 _FRAME = FOLDER / "frame.html"
-"""What stands round the body of every page."""
+"""Frame round the body of every page."""
 
 
 def page_parts(programs: Sequence[Path | str]) -> tuple[Path, ...]:

@@ -1,18 +1,17 @@
-"""What the explorer shows: the datasets of a sweep, thinned to what a screen shows, as one mapping that JSON can carry."""
+"""Contents of the explorer: the datasets of a sweep, thinned to what a screen shows, as one mapping that JSON can carry."""
 
 import base64
 import gzip
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict
+from operator import attrgetter
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from r37core.base.units import shown_unit
-from r37core.results import glossary
 from r37core.results.closing import interaction_title
-from r37core.results.glossary import Word
+from r37core.results.columns import RANKING, SUMMARY, Column, column_named
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranges import as_ranges_bear
 from r37core.results.ranking import as_scatter_bears
@@ -211,47 +210,20 @@ def order_bins(orders: np.ndarray) -> np.ndarray:
     return np.flatnonzero(np.diff(bins, prepend=-1.0) > 0.0)
 
 
-WORDS = glossary.INTERACTIONS | {
-    "interaction": Word(
-        "interaction",
-        "mode and engine order that meet there, 1B/4: first bending with order 4; without a crossing the strongest order",
-    ),
-}
-
-COLUMNS = (
+INTERACTION = Column(
     "interaction",
-    "blade",
-    "scene",
-    "direction",
-    "campbell_speed_rad_s",
-    "peak_speed_rad_s",
-    "peak_speed_rad_s_low",
-    "peak_speed_rad_s_median",
-    "peak_speed_rad_s_high",
-    "share_of_members",
-    "shift_rad_s",
-    "peak_rms_normal_m",
-    "drop",
-    "width_above_yield_rad_s",
-    "possible_from_rad_s",
-    "possible_to_rad_s",
-    "certain_length_rad_s",
-    "median_von_mises_pa",
-    "max_von_mises_pa",
-    "max_von_mises_speed_rad_s",
-    "largest_goodman_share",
-    "max_wear_m",
-    "worn_through_share",
-    "sufficient_thickness_m",
-    "motion_at_end",
-    "lasting_share",
-    "second_motion",
-    "second_motion_speed_rad_s",
-    "second_motion_rms_normal_m",
-    "second_motion_rest_rms_normal_m",
-    "largest_penetration_m",
-    "status",
+    "mode and engine order that meet there, 1B/4: first bending with order 4; without a crossing the strongest order",
 )
+
+COLUMNS = [
+    INTERACTION.name,
+    *(
+        name
+        for column in sorted(SUMMARY, key=attrgetter("place"))
+        if column.place
+        for name in (column.name, *(column.range_names if column.name == "peak_speed_rad_s" else ()))
+    ),
+]
 """Columns of the table of interactions, in this order; those that summary.csv does not have are left out."""
 
 
@@ -263,18 +235,23 @@ def interaction_table(interactions: pd.DataFrame) -> dict[str, object]:
         for mode, order in zip(table["mode"], table["engine_order"], strict=True)
     ]
     table = table.assign(interaction=titles)
-    return {"interactions": table.to_dict("records"), "columns": _columns([name for name in COLUMNS if name in table], WORDS)}
+    return {
+        "interactions": table.to_dict("records"),
+        "columns": _columns([name for name in COLUMNS if name in table], (INTERACTION, *SUMMARY)),
+    }
 
 
 def ranking_rows(ranking: pd.DataFrame | None) -> dict[str, object]:
-    """`ranking`, its rows or None, and `ranking_columns`, those of them that the glossary knows."""
+    """`ranking`, its rows or None, and `ranking_columns`, those of them that are declared."""
     if ranking is None or ranking.empty:
         return {"ranking": None, "ranking_columns": []}
     ranking = as_scatter_bears(ranking)
     rows = ranking.astype(object).where(ranking.notna(), None).to_dict("records")
-    return {"ranking": rows, "ranking_columns": _columns(ranking.columns, glossary.RANKING)}
+    return {"ranking": rows, "ranking_columns": _columns(ranking.columns, RANKING)}
 
 
-def _columns(names: Iterable[str], words: dict[str, Word]) -> list[dict[str, object]]:
-    known = {name: glossary.word(name, words) for name in names}
-    return [{"name": name, **asdict(word), "meaning": word.meaning.replace("`", "")} for name, word in known.items() if word]
+def _columns(names: Iterable[str], columns: Sequence[Column]) -> list[dict[str, object]]:
+    """Title, meaning, unit and digits of the columns, for heads and cells of a table; of `names` that are declared."""
+    known = {name: column for name in names if (column := column_named(name, columns))}
+    attributes = ("title", "meaning", "unit", "factor", "digits")
+    return [{"name": name} | {key: getattr(column, key) for key in attributes} for name, column in known.items()]

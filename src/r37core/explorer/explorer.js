@@ -469,10 +469,10 @@
   const STRESSES = ["max_von_mises_pa", "median_von_mises_pa"];
   const outside = (row, name) => aboveYield(1e-6 * row[name], data.blades.indexOf(row.blade), data.scenes.indexOf(row.scene));
   // a cell of a table: in the unit that its head has
-  function valueText(row, { name, unit, factor: toUnit }) {
+  function valueText(row, { name, unit, factor: toUnit, digits: count }) {
     const value = row[name] ?? "";
     if (typeof value !== "number") return String(value);
-    return digits(value * (unit === "rad/s" ? factor() : toUnit), name.includes("speed") ? 5 : 4);
+    return digits(value * (unit === "rad/s" ? factor() : toUnit), count);
   }
   const page = {
     state, set, valueText,

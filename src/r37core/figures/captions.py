@@ -1,4 +1,4 @@
-"""What is seen in each figure: the one text that stands in the file itself, in the report and in the gallery."""
+"""Captions of the figures: the one text that stands in the file itself, in the report and in the gallery."""
 
 CAPTIONS = {
     "campbell": (

@@ -33,7 +33,7 @@ def look(
 
 
 def rendered(plotter: pyvista.Plotter) -> np.ndarray:
-    """What was drawn, as pixels of shape (height, width, 3), and the end of the plotter."""
+    """Picture that was drawn, as pixels of shape (height, width, 3), and the end of the plotter."""
     pixels = np.asarray(plotter.screenshot(return_img=True))
     plotter.close()
     return pixels

@@ -22,7 +22,7 @@ class CampbellMargin:
 
 @dataclass(frozen=True)
 class Requirements:
-    """What is required of each blade in each scene inside the operating range; None where nothing is."""
+    """Requirements on each blade in each scene inside the operating range; None where nothing is."""
 
     above_yield: Annotated[
         float | None,
@@ -50,6 +50,6 @@ class Requirements:
 
     @property
     def any(self) -> bool:
-        """Whether there is one."""
+        """True if there is one."""
         numbers = (self.above_yield, self.goodman_share, self.used_lining, self.clearance, self.mass)
         return bool(self.campbell_margins) or any(number is not None for number in numbers)

@@ -2,92 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from r37core.results.exceedance import CERTAIN, Exceedance, SpeedRange, exceedance_of
+from r37core.results.columns import CERTAIN
+from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
 from r37core.results.other_motions import swept, worst_exceedance
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
-from .choice import CampbellMargin, Requirements
+from .choice import Requirements
 
 MEETS, FAILS, UNKNOWN = VERDICTS = ("meets", "fails", "unknown")
 
-
-@dataclass(frozen=True)
-class JudgedMembers:
-    """Members under tolerances: their `number`, and the `share` of them that meets a requirement; NaN without any."""
-
-    number: float = np.nan
-    share: float = np.nan
+Columns = dict[str, Any]
+"""Columns of a requirement that are known."""
 
 
-@dataclass(frozen=True)
-class Judgement:
-    """One requirement of one blade in one scene: `value` and `limit` in the `unit`; the value is NaN where it is not known.
+COLUMNS = (
+    "requirement",
+    "verdict",
+    "value",
+    "limit",
+    "margin",
+    "unit",
+    "from_rad_s",
+    "to_rad_s",
+    "scatter",
+    "members",
+    "share_of_members",
+    "margin_worst_motion",
+    "note",
+)
+"""Columns of verdict.csv after blade and scene.
 
-    `begin`, `end`: speeds (rad/s) where it is worst. `scatter`: standard deviation of the value by chance; `members`: how
-    many there are under tolerances, and the share that meets it; `worst_motion`: margin of the worst of all motions; NaN each
-    where not run.
-    """
-
-    requirement: str
-    value: float
-    limit: float
-    unit: str
-    is_lower_limit: bool = False
-    begin: float = np.nan
-    end: float = np.nan
-    scatter: float = np.nan
-    members: JudgedMembers = JudgedMembers()
-    worst_motion: float = np.nan
-    note: str = ""
-
-    @property
-    def margin(self) -> float:
-        """Distance from the limit, in the unit, above 0 where the requirement is met."""
-        return self.value - self.limit if self.is_lower_limit else self.limit - self.value
-
-    @property
-    def verdict(self) -> str:
-        """One of VERDICTS."""
-        if np.isnan(self.margin):
-            return UNKNOWN
-        return MEETS if self.margin >= 0.0 else FAILS
-
-    @property
-    def columns(self) -> dict[str, object]:
-        """The row of verdict.csv."""
-        return {
-            "requirement": self.requirement,
-            "verdict": self.verdict,
-            "value": self.value,
-            "limit": self.limit,
-            "margin": self.margin,
-            "unit": self.unit,
-            "from_rad_s": self.begin,
-            "to_rad_s": self.end,
-            "scatter": self.scatter,
-            "members": self.members.number,
-            "share_of_members": self.members.share,
-            "margin_worst_motion": self.worst_motion,
-            "note": self.note,
-        }
-
-
-COLUMNS = ("blade", "scene", *Judgement("", 0.0, 0.0, "").columns)
-"""Columns of verdict.csv."""
+`value` and `limit` are in the `unit`; the value is NaN where it is not known, for the reason in `note`. `margin`: distance from
+the limit, above 0 where the requirement is met. `from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard
+deviation of the value by chance; `members`, `share_of_members`: number of members under tolerances, and the share of them that
+meets it; `margin_worst_motion`: margin of the worst of all motions; NaN each where not run.
+"""
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """What is known of one blade in one scene. `response`: rms with stress and wear, if computed; `campbell`: of the blade.
+    """Results of one blade in one scene. `response`: rms with stress and wear, if computed; `campbell`: of the blade.
 
     `members`, `motions`: parts of the datasets of members under tolerances and of more motions. `clearance` (m): of a casing
     whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); NaN each where not known.
@@ -124,65 +88,73 @@ class Evidence:
 
     @property
     def diverged(self) -> np.ndarray:
-        """Whether each run diverged, shape (speeds,)."""
+        """Runs that diverged: true or false, shape (speeds,)."""
         return self.response["status"].values == RunStatus.DIVERGED
 
 
-def judge(requirements: Requirements, evidence: Evidence) -> Iterator[Judgement]:
-    """Each requirement in turn."""
-    if requirements.above_yield is not None:
-        yield _above_yield(requirements.above_yield, evidence)
-    if requirements.goodman_share is not None:
-        yield _goodman_share(requirements.goodman_share, evidence)
-    if requirements.used_lining is not None:
-        yield _used_lining(requirements.used_lining, evidence)
-    if requirements.clearance is not None:
-        yield _clearance(requirements.clearance, evidence)
-    if requirements.mass is not None:
-        note = "" if np.isfinite(evidence.mass) else "matrices do not say it"
-        yield Judgement("mass", evidence.mass, requirements.mass, "kg", note=note)
+def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, object]]:
+    """Each requirement in turn: COLUMNS."""
+    for name, (unit, factor, columns_of) in _NUMBERS.items():
+        limit = getattr(requirements, name)
+        if limit is not None:
+            yield _judged(name, unit, factor * limit, columns_of(evidence, limit), is_lower_limit=name == "clearance")
     for margin in requirements.campbell_margins:
-        yield from _campbell_margins(margin, evidence)
+        crossings = evidence.campbell["crossing_speed"].sel(mode=margin.mode)
+        for order in margin.engine_orders:
+            crossing = float(crossings.sel(engine_order=order))
+            value = 100.0 * distance_from_operation(crossing, evidence.operating)
+            name = f"campbell_margin {margin.mode}/{order}"
+            yield _judged(name, "%", 100.0 * margin.least, _worst_at(value, crossing), is_lower_limit=True)
 
 
-def _above_yield(limit: float, evidence: Evidence) -> Judgement:
-    name, unit, operating = "above_yield", "rad/s", evidence.operating
+def _judged(requirement: str, unit: str, limit: float, columns: Columns, *, is_lower_limit: bool) -> dict[str, object]:
+    """The row of a requirement, by the columns that are known."""
+    value = columns.get("value", np.nan)
+    margin = value - limit if is_lower_limit else limit - value
+    verdict = UNKNOWN if np.isnan(margin) else MEETS if margin >= 0.0 else FAILS
+    row = {"requirement": requirement, "verdict": verdict, "limit": limit, "margin": margin, "unit": unit, "note": ""}
+    return dict.fromkeys(COLUMNS, np.nan) | row | columns
+
+
+def _worst_at(value: float, speed: float, note: str = "") -> Columns:
+    """A value that is worst at one speed (rad/s)."""
+    return {"value": value, "from_rad_s": speed, "to_rad_s": speed, "note": note}
+
+
+def _above_yield(evidence: Evidence, limit: float) -> Columns:
+    operating = evidence.operating
     if "share_of_revolutions_above_yield" not in evidence.response:
-        return Judgement(name, np.nan, limit, unit, note="stress is not computed")
+        return {"note": "stress is not computed"}
     if evidence.not_covered:
-        return Judgement(name, np.nan, limit, unit, note=evidence.not_covered)
+        return {"note": evidence.not_covered}
     exceedance = exceedance_of(evidence.response)
     inside = [part for part in exceedance.ranges(CERTAIN) if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
-    return Judgement(
-        name,
-        operating.length(inside),
-        limit,
-        unit,
-        begin=max(widest.begin, operating.first),
-        end=min(widest.end, operating.last),
-        scatter=_scatter(exceedance, operating),
-        worst_motion=_worst_motion(limit, evidence),
-        note="" if _has_rotation(evidence.response) else "stress of vibration alone",
-        members=_members(limit, evidence),
-    )
+    return {
+        "value": operating.length(inside),
+        "from_rad_s": max(widest.begin, operating.first),
+        "to_rad_s": min(widest.end, operating.last),
+        "scatter": _scatter(exceedance, operating),
+        "margin_worst_motion": _worst_motion(limit, evidence),
+        "note": "" if _has_rotation(evidence.response) else "stress of vibration alone",
+        **_members(limit, evidence),
+    }
 
 
 def _has_rotation(response: xr.Dataset) -> bool:
-    """Whether the stress of rotation is in that of the response."""
+    """True where the stress of rotation is in that of the response."""
     return "static_stress" in response and bool(response["static_stress"] > 0.0)
 
 
-def _goodman_share(limit: float, evidence: Evidence) -> Judgement:
-    name = "goodman_share"
+def _goodman_share(evidence: Evidence, _: float) -> Columns:
     if "goodman_share" not in evidence.response:
-        return Judgement(name, np.nan, limit, "1", note="fatigue is not computed")
+        return {"note": "fatigue is not computed"}
     if not has_strengths(evidence.response):
-        return Judgement(name, np.nan, limit, "1", note="the material has no strengths")
+        return {"note": "the material has no strengths"}
     if evidence.not_covered:
-        return Judgement(name, np.nan, limit, "1", note=evidence.not_covered)
+        return {"note": evidence.not_covered}
     share, speed = evidence.worst(np.where(evidence.diverged, np.inf, evidence.response["goodman_share"].values))
-    return Judgement(name, share, limit, "1", begin=speed, end=speed, note="a run diverged" if np.isinf(share) else "")
+    return _worst_at(share, speed, "a run diverged" if np.isinf(share) else "")
 
 
 def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
@@ -194,17 +166,18 @@ def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
     return float(scatter.round(9))
 
 
-def _members(limit: float, evidence: Evidence) -> JudgedMembers:
+def _members(limit: float, evidence: Evidence) -> Columns:
     """Members under tolerances, and the share of them whose speeds above yield keep the limit."""
     if evidence.members is None or "share_of_revolutions_above_yield" not in evidence.members:
-        return JudgedMembers()
+        return {}
     lengths = []
     for name in evidence.members["member"].values:
         member = evidence.members.sel(member=name)
         if (member["status"] != RunStatus.NOT_RUN).any():
             member = member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN))
             lengths.append(evidence.operating.length(exceedance_of(member).ranges(CERTAIN)))
-    return JudgedMembers(float(len(lengths)), float(np.mean(np.array(lengths) <= limit))) if lengths else JudgedMembers()
+    kept = np.array(lengths) <= limit
+    return {"members": float(kept.size), "share_of_members": float(kept.mean())} if lengths else {}
 
 
 def _worst_motion(limit: float, evidence: Evidence) -> float:
@@ -217,14 +190,14 @@ def _worst_motion(limit: float, evidence: Evidence) -> float:
     return limit - evidence.operating.length(worst_exceedance(pair).ranges(CERTAIN))
 
 
-def _used_lining(limit: float, evidence: Evidence) -> Judgement:
-    name, unit, response = "used_lining", "%", evidence.response
+def _used_lining(evidence: Evidence, _: float) -> Columns:
+    response = evidence.response
     if not np.isfinite(evidence.thickness):
-        return Judgement(name, 0.0, 100.0 * limit, unit, note="no lining")
+        return {"value": 0.0, "note": "no lining"}
     if "used_thickness" not in response:
-        return Judgement(name, np.nan, 100.0 * limit, unit, note="wear is not computed")
+        return {"note": "wear is not computed"}
     if evidence.not_covered:
-        return Judgement(name, np.nan, 100.0 * limit, unit, note=evidence.not_covered)
+        return {"note": evidence.not_covered}
     # what is worn through has used all, and would use more
     through = response["worn_through_share"].values > 0.0
     used = 100.0 * np.nan_to_num(response["used_thickness"].values) / evidence.thickness
@@ -236,28 +209,30 @@ def _used_lining(limit: float, evidence: Evidence) -> Judgement:
         nearest = int(np.abs(response["speed"].values - speed).argmin())
         if response["motion_at_end"][nearest] == MotionAtEnd.GROWING:
             note = "wear still grows at the end: a lower bound"
-    if value == 0.0:
-        speed = np.nan
-    return Judgement(name, value, 100.0 * limit, unit, begin=speed, end=speed, note=note)
+    return _worst_at(value, np.nan if value == 0.0 else speed, note)
 
 
-def _clearance(limit: float, evidence: Evidence) -> Judgement:
-    name, unit = "clearance", "mm"
+def _clearance(evidence: Evidence, _: float) -> Columns:
     if "clearance" not in evidence.response or evidence.response["clearance"].isnull().all():
-        return Judgement(name, 1e3 * evidence.clearance, 1e3 * limit, unit, is_lower_limit=True)
+        return {"value": 1e3 * evidence.clearance}
     if evidence.not_covered:
-        return Judgement(name, np.nan, 1e3 * limit, unit, is_lower_limit=True, note=evidence.not_covered)
+        return {"note": evidence.not_covered}
     loss, speed = evidence.worst(-1e3 * evidence.response["clearance"].min("contact_node").values)
-    return Judgement(name, -loss, 1e3 * limit, unit, is_lower_limit=True, begin=speed, end=speed)
+    return _worst_at(-loss, speed)
 
 
-def _campbell_margins(margin: CampbellMargin, evidence: Evidence) -> Iterator[Judgement]:
-    crossings = evidence.campbell["crossing_speed"].sel(mode=margin.mode)
-    for order in margin.engine_orders:
-        crossing = float(crossings.sel(engine_order=order))
-        value = 100.0 * distance_from_operation(crossing, evidence.operating)
-        title, limit = f"campbell_margin {margin.mode}/{order}", 100.0 * margin.least
-        yield Judgement(title, value, limit, "%", is_lower_limit=True, begin=crossing, end=crossing)
+def _mass(evidence: Evidence, _: float) -> Columns:
+    return {"value": evidence.mass, "note": "" if np.isfinite(evidence.mass) else "matrices do not say it"}
+
+
+_NUMBERS: dict[str, tuple[str, float, Callable[[Evidence, float], Columns]]] = {
+    "above_yield": ("rad/s", 1.0, _above_yield),
+    "goodman_share": ("1", 1.0, _goodman_share),
+    "used_lining": ("%", 100.0, _used_lining),
+    "clearance": ("mm", 1e3, _clearance),
+    "mass": ("kg", 1.0, _mass),
+}
+"""Requirement -> unit of its row, factor to it from that of the limit, and its columns for a limit."""
 
 
 def distance_from_operation(crossing: float, operating: OperatingRange) -> float:

@@ -11,8 +11,9 @@ import xarray as xr
 
 from r37core.base.io import read_json
 from r37core.results.closing import counted, interaction_title
+from r37core.results.columns import CERTAIN
 from r37core.results.datasets import response_of
-from r37core.results.exceedance import CERTAIN, exceedance_of
+from r37core.results.exceedance import exceedance_of
 from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table
 
@@ -43,7 +44,7 @@ def verdict_table(
     datasets: Mapping[str, xr.Dataset],
     numbers: Numbers,
 ) -> pd.DataFrame:
-    """A row for each requirement of each of the `pairs` of blade and scene; COLUMNS.
+    """A row for each requirement of each of the `pairs` of blade and scene: COLUMNS.
 
     `datasets`: campbell, rms and, if there, stress, wear, members and motions.
     """
@@ -59,8 +60,8 @@ def verdict_table(
             thickness=numbers.thickness.get(scene, np.nan),
             mass=numbers.mass.get(blade, np.nan),
         )
-        rows += [{"blade": blade, "scene": scene, **judgement.columns} for judgement in judge(requirements, evidence)]
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+        rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
+    return pd.DataFrame(rows, columns=["blade", "scene", *COLUMNS])
 
 
 def _part(dataset: xr.Dataset | None, blade: str, scene: str) -> xr.Dataset | None:
@@ -73,7 +74,7 @@ def _part(dataset: xr.Dataset | None, blade: str, scene: str) -> xr.Dataset | No
 def operating_table(
     pairs: Sequence[tuple[str, str]], operating: OperatingRange, datasets: Mapping[str, xr.Dataset], interactions: pd.DataFrame
 ) -> pd.DataFrame:
-    """What lies in the operating range: crossings of each blade, interactions and speeds above yield of the `pairs`.
+    """List what lies in the operating range: crossings of each blade, interactions and speeds above yield of the `pairs`.
 
     OPERATING_COLUMNS; `time_share`: of the operating time that is spent at these speeds. `distance_percent`: of a crossing from
     the nearest dwell, 0 without dwells. `interactions`: summary.csv, of whose rows the peak counts.
@@ -134,7 +135,7 @@ def reason(row: pd.Series) -> str:
 
 
 def certainty(row: pd.Series) -> str:
-    """What chance, tolerances and other motions say of a verdict, and what its number leaves out; or an empty text."""
+    """Certainty of a verdict by chance, tolerances and other motions, and what its number leaves out; or an empty text."""
     texts = [str(row["note"])] if pd.notna(row["note"]) and row["note"] and np.isfinite(row["margin"]) else []
     if row["scatter"] > 0.0:
         texts.append(f"scatter {row['scatter']:.2g}{_unit(row)}")
@@ -176,7 +177,7 @@ def closing(results: Path) -> str:
 
 
 def _is_judged(results: Path) -> bool:
-    """Whether the last run had requirements: the verdict of one before it says nothing of this."""
+    """True if the last run had requirements: the verdict of one before it says nothing of this."""
     requirements = read_json(results / "configuration.json")["config"].get("requirements", {})
     return any(value not in (None, []) for value in requirements.values())
 

@@ -1,4 +1,4 @@
-"""What a finished run says: names, counts, the largest stress, where nothing touched. Light: Snakemake's start imports it."""
+"""Closing lines of a run: names, counts, the largest stress, where nothing touched. Light: Snakemake's start imports it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def largest_stress_text(table: pd.DataFrame, speed: str) -> str:
 
 
 def interaction_title(mode: str, engine_order: str | int | None) -> str:
-    """What meets there: 1B/4, the engine order alone without a mode, or neither."""
+    """Title of an interaction: 1B/4, the engine order alone without a mode, or neither."""
     if mode:
         return f"{mode}/{engine_order}"
     return "a peak of its own" if engine_order in (None, "") else f"engine order {engine_order}"

@@ -1,14 +1,16 @@
 """Rows of direct contact: ranges of speed that may be above yield, and what else is loud."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from operator import itemgetter
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from .exceedance import HALF_WIDTH, POSSIBLE, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
-from .interaction import Crossing, Interaction, interaction_row, range_columns
-from .measures import DROP_WITHIN, motion, ratio_to_yield, strongest_order
+from .columns import DROP_WITHIN, POSSIBLE
+from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
+from .interaction import Interaction, interaction_row, range_columns
+from .measures import motion, ratio_to_yield, strongest_order
 
 NOTE = "direct contact: matches with modes and the stress of one revolution are chance"
 NO_PEAK = "above yield without a peak of the motion: nothing to match with a mode"
@@ -27,22 +29,22 @@ def rows_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list
     ranges = _ranges(response, exceedance)
     rows = [_row(response, exceedance, within) for within in ranges]
     for peak in peaks:
-        at = peak.peak.peak_speed_rad_s
+        at = peak["peak_speed_rad_s"]
         if not any(within.begin <= at <= within.end for within in ranges):
             row = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
-            rows.append(replace(row, crossing=replace(row.crossing, direction=peak.crossing.direction)))
-    return sorted(rows, key=lambda row: row.peak.peak_speed_rad_s)
+            rows.append(row | {"direction": peak["direction"]})
+    return sorted(rows, key=itemgetter("peak_speed_rad_s"))
 
 
 def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> list[Interaction]:
     """Rows of ranges above yield that no interaction among the `rows` of a lined scene reaches into."""
     if "share_of_revolutions_above_yield" not in response:
         return []
-    exceedance, possible = exceedance_of(response), [row.all_revolutions for row in rows]
+    exceedance = exceedance_of(response)
     return [
         _row(response, exceedance, within, note=NO_PEAK)
         for within in _ranges(response, exceedance)
-        if not any(near.possible_from_rad_s <= within.end and near.possible_to_rad_s >= within.begin for near in possible)
+        if not any(row["possible_from_rad_s"] <= within.end and row["possible_to_rad_s"] >= within.begin for row in rows)
     ]
 
 
@@ -66,15 +68,16 @@ def _row(
     largest = [name for name in ("normal", "tangential") if np.argmax(response[f"rms_{name}"].fillna(0.0).values[inside]) == at]
     ended = bool(np.isfinite(peak["rms_normal"]))
     order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
-    columns = range_columns(exceedance, within) if exceedance else {}
+    columns: dict[str, Any] = {"mode": "", "engine_order": order, "direction": largest[0] if len(largest) == 1 else "both"}
+    if exceedance:
+        columns |= range_columns(exceedance, within)
     if exceedance and not peak_alone:
         # ends of the row itself, which may be single speeds
         columns |= {"possible_from_rad_s": within.begin, "possible_to_rad_s": within.end}
     if ended:
         columns["peak_motion_scatter_m"] = _scatter(speeds, level, index)
         columns["fall_speed_rad_s"], columns["fall_speed_scatter_rad_s"] = _fall(speeds, level, index)
-    crossing = Crossing("", order, largest[0] if len(largest) == 1 else "both")
-    return interaction_row(response, index, response.isel(speed=inside), crossing, columns, note)
+    return interaction_row(response, index, response.isel(speed=inside), columns, note)
 
 
 def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:

@@ -5,23 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from netCDF4 import Dataset
 
-from r37core.base.dataset_file import Variable, new_netcdf, open_netcdf
+from r37core.base.dataset_file import attributes_of, joined_hash
 from r37core.base.io import InputFileError
-from r37core.time_integration.settling import MotionAtEnd
-from r37core.time_integration.simulate import TIP_POINTS
-from r37core.time_integration.status import MotionKind, RunStatus
+from r37core.time_integration.status import RunStatus
 
-from .netcdf import create_axis, create_labels, create_variable
-from .variables import AXES, DATASETS, FLAGS
-
-_NOT_RUN: dict[str, int] = {
-    "status": RunStatus.NOT_RUN,
-    "motion_at_end": MotionAtEnd.UNKNOWN,
-    "motion_kind": MotionKind.UNKNOWN,
-}
-"""Whole numbers of a speed that was not run."""
+from .joining import Along, join
+from .variables import DATASETS, FLAGS
 
 
 def write_sweep_dataset(
@@ -34,18 +24,21 @@ def write_sweep_dataset(
     InputFileError for a response that cannot be read, and for two of different `numerics` (attribute of a response): mesh,
     integrator and step of a fidelity level.
     """
-    blades = list(dict.fromkeys(blade for blade, _ in responses))
-    scenes = list(dict.fromkeys(scene for _, scene in responses))
-    axes = _axes(responses)
-    with new_netcdf(file, provenance) as target:
-        for name, labels in (("blade", blades), ("scene", scenes), ("tip_point", TIP_POINTS)):
-            create_labels(target, name, labels)
-        contacts: dict[str, dict[str, None]] = {}
-        for (blade, scene), source in responses.items():
-            with open_netcdf(source) as response:
-                contacts.setdefault(getattr(response, "contact", "unknown"), {})[blade] = None
-                _copy(response, target, kind, (blades.index(blade), scenes.index(scene)), axes)
-        target.setncattr("contact", "; ".join(f"{contact}: {', '.join(of)}" for contact, of in contacts.items()))
+    attributes = attributes_of(responses.values())
+    contacts: dict[str, dict[str, None]] = {}
+    first_with: dict[str, Path | str] = {}
+    for ((blade, _), response), response_attributes in zip(responses.items(), attributes, strict=True):
+        contacts.setdefault(response_attributes.get("contact", "unknown"), {})[blade] = None
+        first_with.setdefault(response_attributes.get("numerics", "unknown numerics"), response)
+    if len(first_with) > 1:
+        (first, earlier), (other, later), *_ = first_with.items()
+        raise InputFileError(
+            f"{earlier} was made with {first}, {later} with {other}; a dataset holds one fidelity level: "
+            "delete the one that is out of date and run again"
+        )
+    contact = "; ".join(f"{contact}: {', '.join(blades)}" for contact, blades in contacts.items())
+    made = {**provenance, "input_hash": joined_hash(attributes), "contact": contact}
+    join(responses, Along(names=("tip_point", *DATASETS[kind], *FLAGS)), file, made)
 
 
 def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
@@ -59,48 +52,3 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> x
             part = datasets[kind].sel(blade=blade, scene=scene, drop=True)
             parts.append(part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN)))
     return xr.merge([part for part in parts if part.sizes["speed"]] or parts[:1], compat="override", join="exact")
-
-
-def _axes(responses: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]:
-    """Union of each numeric axis over the responses, all of the same numerics."""
-    axes: dict[str, np.ndarray] = {}
-    first_with: dict[str, Path | str] = {}
-    for source in responses.values():
-        with open_netcdf(source) as response:
-            first_with.setdefault(getattr(response, "numerics", "unknown numerics"), source)
-            for name in AXES.keys() & response.variables.keys():
-                axes[name] = np.union1d(axes.get(name, np.empty(0)), response[name][:].filled(np.nan))
-    if len(first_with) > 1:
-        (first, file), (other, another), *_ = first_with.items()
-        raise InputFileError(
-            f"{file} was made with {first}, {another} with {other}; a dataset holds one fidelity level: "
-            "delete the one that is out of date and run again"
-        )
-    return axes
-
-
-def _copy(response: Dataset, target: Dataset, kind: str, pair: tuple[int, int], axes: Mapping[str, np.ndarray]) -> None:
-    for name in (*DATASETS[kind], *FLAGS):
-        if name not in response.variables:
-            continue
-        source = response[name]
-        for dim in source.dimensions:
-            if dim in axes and dim not in target.variables:
-                create_axis(target, dim, axes[dim], AXES[dim])
-        if name not in target.variables:
-            attributes = {key: source.getncattr(key) for key in source.ncattrs() if key != "_FillValue"}
-            dtype = "str" if source.dtype is str else source.dtype.str
-            variable = Variable(source.dimensions, attributes.pop("units"), attributes.pop("long_name"), dtype)
-            created = create_variable(target, name, variable, ("blade", "scene"), **attributes)
-            if name in _NOT_RUN:
-                created[:] = _NOT_RUN[name]
-        if source.dtype is str:
-            target[name][pair] = source[...]
-            continue
-        rows = [
-            np.searchsorted(axes[dim], response[dim][:]) if dim in axes else np.arange(len(target.dimensions[dim]))
-            for dim in source.dimensions
-        ]
-        slab = np.full(target[name].shape[2:], _NOT_RUN.get(name, np.nan), dtype=source.dtype)
-        slab[np.ix_(*rows)] = np.ma.filled(source[:], np.nan) if source.dtype.kind == "f" else source[:]
-        target[name][pair] = slab

@@ -16,8 +16,7 @@ import xarray as xr
 
 from r37core.time_integration.status import RunStatus
 
-CERTAIN, POSSIBLE = 0.5, 0.05
-"""Shares above which a speed counts as above yield in most, and in some, revolutions."""
+from .columns import CERTAIN, POSSIBLE
 
 HALF_WIDTH = 10.0
 """Distance (rad/s) at which a neighbour's share has no weight any more; its weight falls in a straight line to there."""
@@ -145,7 +144,7 @@ def exceedance_of(response: xr.Dataset, share_of_revolutions: str = "share_of_re
 
 
 def is_lined(response: xr.Dataset) -> bool:
-    """Whether a lining is worn, and the tip does not meet the casing itself."""
+    """True where a lining is worn, false where the tip meets the casing itself."""
     return bool(response["lined"]) if "lined" in response else True
 
 

@@ -1,4 +1,4 @@
-"""What counts as an interaction. Light: the configuration imports it."""
+"""Limits by which peaks count as interactions. Light: the configuration imports it."""
 
 from dataclasses import dataclass
 from typing import Annotated
@@ -8,7 +8,7 @@ from r37core.base.declared import Key
 
 @dataclass(frozen=True)
 class InteractionChoice:
-    """What counts as an interaction.
+    """Limits by which peaks count as interactions.
 
     A peak of the leading edge's normal or tangential rms must rise above its surroundings, on both sides, by `prominence` of
     the largest one in that direction. It is matched with a crossing of the engine order that is strongest in that

@@ -3,6 +3,8 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
+from operator import itemgetter
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,12 +14,14 @@ from scipy.signal import find_peaks
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
+from .closing import interaction_title
+from .columns import DROP_WITHIN, INTERACTIONS, names
 from .contact_ranges import ranges_without_peak, rows_above_yield
 from .datasets import response_of
 from .exceedance import SpeedRange, exceedance_of, is_lined
-from .interaction import COLUMNS, Crossing, Interaction, interaction_row, range_columns
+from .interaction import Interaction, interaction_row, range_columns
 from .interaction_choice import InteractionChoice
-from .measures import DROP_WITHIN, largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
+from .measures import largest_stress, leading_edge, motion, speeds_above_yield, strongest_order
 
 QUIET = 0.1
 """Share of an interaction's peak below which the motion counts as outside, if it stays there."""
@@ -58,7 +62,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     lined = is_lined(response)
     peaks = _interactions(response, campbell if lined else None, choice)
     if lined:
-        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=lambda row: row.peak.peak_speed_rad_s)
+        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=itemgetter("peak_speed_rad_s"))
     return rows_above_yield(response, peaks)
 
 
@@ -82,7 +86,7 @@ def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: Int
 
 def titles(interactions: Iterable[Interaction]) -> dict[float, str]:
     """Peak speed (rad/s) -> title."""
-    return {row.peak.peak_speed_rad_s: row.crossing.title for row in interactions}
+    return {row["peak_speed_rad_s"]: interaction_title(row["mode"], row["engine_order"]) for row in interactions}
 
 
 def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, choice: InteractionChoice) -> list[_Peak]:
@@ -172,10 +176,15 @@ def _interaction(response: xr.Dataset, index: int, reach: xr.Dataset, group: lis
     first = group[0]
     directions = {peak.direction for peak in group if peak.index == index}
     direction = "both" if len(directions) == len(SPECTRA) else min(directions)
-    columns: dict[str, float] = {}
+    columns: dict[str, Any] = {
+        "mode": first.mode,
+        "engine_order": first.engine_order,
+        "direction": direction,
+        "campbell_speed_rad_s": first.crossing,
+    }
     if "max_von_mises" in reach:
         above, (largest, at) = speeds_above_yield(reach), largest_stress(reach)
-        columns = {
+        columns |= {
             "first_yield_speed_rad_s": above.first,
             "width_above_yield_rad_s": above.width,
             "share_above_yield": above.share,
@@ -186,16 +195,15 @@ def _interaction(response: xr.Dataset, index: int, reach: xr.Dataset, group: lis
         ends = SpeedRange(float(reach["speed"][0]), float(reach["speed"][-1]), truncated=False)
         columns |= range_columns(exceedance_of(reach), ends)
         columns["width_ever_above_yield_rad_s"] = speeds_above_yield(reach, "max_von_mises_ever").width
-    crossing = Crossing(first.mode, first.engine_order, direction, first.crossing)
-    return interaction_row(response, index, reach, crossing, columns)
+    return interaction_row(response, index, reach, columns)
 
 
 def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> pd.DataFrame:
-    """Table of all interactions, columns as in COLUMNS, from the datasets `campbell`, `rms` and, if there, others."""
+    """Table of all interactions, columns as in INTERACTIONS, from the datasets `campbell`, `rms` and, if there, others."""
     rows = [
-        {"blade": blade, "scene": scene} | interaction.columns
+        {"blade": blade, "scene": scene} | interaction
         for blade in datasets["rms"]["blade"].values
         for scene in datasets["rms"]["scene"].values
         for interaction in find_interactions(response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade), choice)
     ]
-    return pd.DataFrame(rows, columns=list(COLUMNS)).astype({"engine_order": "Int64"})
+    return pd.DataFrame(rows, columns=names(INTERACTIONS)).astype({"engine_order": "Int64"})

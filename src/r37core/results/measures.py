@@ -1,4 +1,4 @@
-"""What is read off a response, each number once: for the summary, designs, refinement, studies, figures and the explorer.
+"""Measures of a response, each declared once: for the summary, designs, refinement, studies, figures and the explorer.
 
 A `response` is one blade in one scene, with the variables of response.nc over ascending `speed` (rad/s); those of the tip may
 have the leading edge alone instead of the dimension `tip_point`.
@@ -12,10 +12,8 @@ import xarray as xr
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
+from .columns import DROP_WITHIN
 from .exceedance import ranges_above
-
-DROP_WITHIN = 24.0
-"""Speeds (rad/s) above a peak over which its motion counts as dropped."""
 
 _RESPONDS = 2e-3
 """Motion (m) below which a range of speeds holds no interaction."""
@@ -123,12 +121,12 @@ def largest_stress(response: xr.Dataset) -> tuple[float, float]:
 
 
 def has_strengths(response: xr.Dataset) -> bool:
-    """Whether the response has shares of the Goodman line: fatigue of a blade whose material has strengths."""
+    """True for a response with shares of the Goodman line: fatigue of a blade whose material has strengths."""
     return "goodman_share" in response and bool(np.isfinite(response["fatigue_strength"]))
 
 
 def lasts(response: xr.Dataset) -> xr.DataArray:
-    """Whether the motion lasts or grows at the end of each run, or the run diverged, over the speeds."""
+    """Runs whose motion lasts or grows at the end, or that diverged: true or false over the speeds."""
     return ~response["motion_at_end"].isin([MotionAtEnd.QUIET, MotionAtEnd.CUT_FREE])
 
 

@@ -10,18 +10,6 @@ import numpy as np
 
 from r37core.base.declared import Key
 
-MEASURES = LENGTH, INTEGRAL, SCATTER, GOODMAN = (
-    "length_certain_operating_rad_s",
-    "exceedance_integral_operating_rad_s",
-    "exceedance_integral_operating_scatter_rad_s",
-    "goodman_integral_operating_rad_s",
-)
-"""What is read off a response inside the operating range; in words: glossary.RANKING."""
-
-RANK = "rank_operating"
-"""Column of ranking.csv: place by the integral inside the operating range."""
-
-
 _ROUNDING = 1e-9
 """Share of a speed by which a margin in percent may miss a whole number."""
 
@@ -76,7 +64,7 @@ class OperatingRange:
         return self.redline * (1.0 + self.margin)
 
     def is_covered(self, speeds: np.ndarray) -> bool:
-        """Whether runs at these ascending speeds (rad/s) reach over the whole judged range, but for rounding."""
+        """True if runs at these ascending speeds (rad/s) reach over the whole judged range, but for rounding."""
         return bool(len(speeds) and speeds[0] <= self.first * (1.0 + _ROUNDING) and speeds[-1] >= self.last * (1.0 - _ROUNDING))
 
     def overlap(self, begin: float, end: float) -> float:

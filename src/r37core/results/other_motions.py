@@ -1,4 +1,4 @@
-"""What motions other than that from rest change in the answers: the worst of all motions at each speed.
+"""Effect of motions other than that from rest on ranking and summary: the worst of all motions at each speed.
 
 `motions` is the dataset of an extension, over (blade, scene, motion, speed); the motion from rest is among them, called REST.
 `motion_mean` (m) is the mean rms of a revolution, normal and tangential together; `differ` is 1 where the motions differ. What
@@ -11,18 +11,13 @@ import xarray as xr
 
 from r37core.time_integration.status import RunStatus
 
-from .exceedance import CERTAIN, Exceedance, is_lined
+from .columns import CERTAIN, SECOND_MOTIONS, WORST_MOTION, names
+from .exceedance import Exceedance, is_lined
 
 REST = "rest"
 
 WITHIN = 0.06
 """Distance of a speed from the peak of an interaction, as a share of it, within which another motion belongs to that."""
-
-RANKED = ("length_certain_rest_rad_s", "length_certain_worst_rad_s", "largest_rms_worst_m", "rank_worst")
-"""Columns of ranking.csv."""
-
-SUMMARISED = ("second_motion", "second_motion_speed_rad_s", "second_motion_rms_normal_m", "second_motion_rest_rms_normal_m")
-"""Columns of summary.csv."""
 
 
 def swept(motions: xr.Dataset) -> xr.Dataset:
@@ -38,8 +33,9 @@ def half_step(speeds: np.ndarray) -> float:
 def ranking_with_motions(ranking: pd.DataFrame, motions: xr.Dataset) -> pd.DataFrame:
     """The ranking with the length of speeds above yield by the motion from rest and by the worst one, on the same speeds."""
     rows = [_worst(swept(motions.sel(blade=row.blade, scene=row.scene))) for row in ranking.itertuples()]
-    table = pd.concat([ranking, pd.DataFrame(rows, index=ranking.index, columns=list(RANKED[:-1]))], axis=1)
-    table[RANKED[-1]] = table.groupby("scene")["length_certain_worst_rad_s"].rank(method="min").astype("Int64")
+    *lengths, rank = names(WORST_MOTION)
+    table = pd.concat([ranking, pd.DataFrame(rows, index=ranking.index, columns=lengths)], axis=1)
+    table[rank] = table.groupby("scene")["length_certain_worst_rad_s"].rank(method="min").astype("Int64")
     return table
 
 
@@ -65,9 +61,9 @@ def summary_with_motions(summary: pd.DataFrame, motions: xr.Dataset) -> pd.DataF
 
     Speeds belong to the interaction whose peak is nearest, up to WITHIN of it.
     """
-    table = summary.copy()
-    table[SUMMARISED[0]] = pd.Series("", table.index, dtype=object)
-    table[list(SUMMARISED[1:])] = np.nan
+    table, (name, *numbers) = summary.copy(), names(SECOND_MOTIONS)
+    table[name] = pd.Series("", table.index, dtype=object)
+    table[numbers] = np.nan
     for (blade, scene), rows in table.groupby(["blade", "scene"], sort=False):
         pair, peaks = swept(motions.sel(blade=blade, scene=scene)), rows["peak_speed_rad_s"]
         mean = pair["motion_mean"].transpose("motion", "speed").values
@@ -82,5 +78,5 @@ def summary_with_motions(summary: pd.DataFrame, motions: xr.Dataset) -> pd.DataF
                 rms = pair["rms_normal"].isel(speed=place)
                 values = (str(pair["motion"].values[motion]), speed, float(rms[motion]), float(rms.sel(motion=REST)))
                 # the last one is the largest
-                table.loc[nearest, list(SUMMARISED)] = values
+                table.loc[nearest, [name, *numbers]] = values
     return table

@@ -9,54 +9,24 @@ import xarray as xr
 
 from r37core.base.io import readable
 from r37core.base.rounding import rounded_to
+from r37core.base.units import si_name
 from r37core.time_integration.status import RunStatus
 
-from .exceedance import CERTAIN, POSSIBLE, exceedance_of
+from .columns import CERTAIN, CHANCE, ENDS, POSSIBLE, ROBUSTNESS, names
+from .exceedance import exceedance_of
 from .measures import drop_after, has_strengths, lasts, motion, peak_of, speeds_above_yield
 from .operating import operating_measures
-from .operating_range import INTEGRAL, RANK, OperatingRange
-from .ranges import ENDS
+from .operating_range import OperatingRange
 from .table_file import read_table
 
 MeasuresOfMembers = dict[tuple[str, str], dict[str, dict[str, float]]]
-"""(blade, scene) -> member -> what it is ranked by -> value."""
+"""(blade, scene) -> member -> column of RANKED_BY -> value."""
 
-ROBUSTNESS = (
-    "length_certain_rad_s",
-    "length_certain_scatter_rad_s",
-    "length_possible_rad_s",
-    "length_possible_scatter_rad_s",
-    "length_ever_rad_s",
-    "length_lasting_rad_s",
-    "exceedance_integral_rad_s",
-    "exceedance_integral_scatter_rad_s",
-    "largest_goodman_share",
-    "length_goodman_rad_s",
-    "goodman_integral_rad_s",
-    "largest_median_stress_pa",
-    "first_certain_rad_s",
-    "first_possible_rad_s",
-    "widest_range_rad_s",
-    "largest_rms_m",
-    "largest_rms_speed_rad_s",
-    "drop",
-    "largest_gap_rad_s",
-    "diverged_runs",
-)
-"""What is read off a response, the same for blades, designs and members; in words: glossary.RANKING."""
-
-MEASURES_RANKED_BY = {
-    "length_certain_rad_s": "length_certain",
-    "length_possible_rad_s": "length_possible",
-    "diverged_runs": "diverged_runs",
-    "largest_median_stress_pa": "largest_median_stress",
-}
-"""What blades are ranked by -> measure of members. Less of the first is better, of the next where that is the same."""
-
-RANKED_BY = tuple(MEASURES_RANKED_BY)
+RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "diverged_runs", "largest_median_stress_pa")
+"""Columns that blades are ranked by: less of the first is better, of the next where that is the same."""
 
 _STEP = 1.0
-"""What lengths (rad/s) are told apart by where nothing scatters: the distance of the closest speeds."""
+"""Smallest distinguishable length (rad/s) without scatter: the distance of the closest speeds."""
 
 
 def robustness(
@@ -69,7 +39,7 @@ def robustness(
     """
     response = response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
     inside = operating_measures(response, operating, chance_scatter=chance_scatter) if operating else {}
-    measures = dict.fromkeys(ROBUSTNESS, np.nan) | inside
+    measures = dict.fromkeys(names(ROBUSTNESS), np.nan) | inside
     if not response.sizes["speed"]:
         return measures
     ended = response["status"].values == RunStatus.COMPLETED
@@ -110,12 +80,13 @@ def _length_lasting(response: xr.Dataset) -> float:
 
 
 def measures_of_members(members: xr.Dataset) -> MeasuresOfMembers:
-    """What blades are ranked by of each blade and scene, member by member; `members`: a dataset of them."""
+    """Columns of RANKED_BY of each blade and scene, member by member; `members`: a dataset of them."""
     pair_measures: MeasuresOfMembers = {}
+    measures = [si_name(column)[0] for column in RANKED_BY]
     for blade in members["blade"].values.tolist():
         for scene in members["scene"].values.tolist():
-            part = members[list(MEASURES_RANKED_BY.values())].sel(blade=blade, scene=scene).dropna("member", how="all")
-            rows = part.to_dataframe()[list(MEASURES_RANKED_BY.values())].set_axis(list(RANKED_BY), axis=1)
+            part = members[measures].sel(blade=blade, scene=scene).dropna("member", how="all")
+            rows = part.to_dataframe()[measures].set_axis(list(RANKED_BY), axis=1)
             if len(rows):
                 pair_measures[blade, scene] = {str(member): values for member, values in rows.to_dict("index").items()}
     return pair_measures
@@ -136,8 +107,9 @@ def ranking_table(
     ranks = [1 + sum(other < key for other in keys[table["scene"] == of]) for key, of in zip(keys, table["scene"], strict=True)]
     # blades without stress have nothing to be ranked by
     table.insert(2, "rank", pd.Series(ranks, dtype="Int64").where(table[RANKED_BY[0]].notna()))
-    if INTEGRAL in table:
-        table[RANK] = table.groupby("scene")[INTEGRAL].rank(method="min").astype("Int64")
+    if "exceedance_integral_operating_rad_s" in table:
+        inside = table.groupby("scene")["exceedance_integral_operating_rad_s"].rank(method="min")
+        table["rank_operating"] = inside.astype("Int64")
     if members:
         table = pd.concat([table, pd.DataFrame([_member_columns(pair, members) for pair in measures])], axis=1)
     scenes = list(dict.fromkeys(table["scene"]))
@@ -148,7 +120,7 @@ def read_ranking(file: Path | str) -> pd.DataFrame:
     """ranking.csv. Raises InputFileError where it cannot be read, or a column is missing or has no numbers."""
     table = read_table(file)
     with readable(file):
-        missing = [name for name in ("blade", "scene", "rank", *ROBUSTNESS) if name not in table]
+        missing = [name for name in ("blade", "scene", "rank", *names(ROBUSTNESS)) if name not in table]
         if missing:
             raise ValueError(f"without the columns {', '.join(missing)}")
         numbers = dict.fromkeys(table.columns.drop(["blade", "scene"]), float)
@@ -178,7 +150,7 @@ def _member_columns(pair: tuple[str, str], members: MeasuresOfMembers) -> dict[s
             row[f"{name}_{end}"] = float(np.quantile(values, ENDS[end], method="inverted_cdf")) if values else np.nan
     for other in dict.fromkeys(name for name, of in members if of == scene):
         if other != blade:
-            row[f"chance_better_than_{other}"] = chance_to_be_better(own, members[other, scene])
+            row[f"{CHANCE}{other}"] = chance_to_be_better(own, members[other, scene])
     return row
 
 

@@ -13,7 +13,7 @@ from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
 from .measures import first_yield
-from .netcdf import FLAGGED, create_axis, create_labels, create_variable, state_flags
+from .netcdf import create_axis, create_variable
 from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, VARIABLES
 
 _BLOCK = 32
@@ -96,14 +96,12 @@ def _create(
     coordinates = {name: values[name] for name in AXES if name in values} | {"speed": np.array(speeds)}
     if history_speeds:
         coordinates["history_speed"] = np.array(history_speeds)
-    create_labels(dataset, "tip_point", TIP_POINTS)
+    create_axis(dataset, "tip_point", TIP_POINTS)
     for name, numbers in coordinates.items():
-        create_axis(dataset, name, numbers, AXES[name])
+        create_axis(dataset, name, np.asarray(numbers, AXES[name].dtype), AXES[name].attributes)
     for name, variable in VARIABLES.items():
         if name in values:
             create_variable(dataset, name, variable, ("speed",))
-    for name in FLAGGED.keys() & dataset.variables.keys():
-        dataset[name].setncatts(state_flags(name))
     for name, variable in HISTORIES.items() if history_speeds else ():
         create_variable(dataset, name, variable)
     for name, variable in OF_ALL_SPEEDS.items():

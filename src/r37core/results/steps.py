@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from r37core.base.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import as_list, write_json
 from r37core.base.plain import from_plain
 from r37core.contact.elastic_casing import ElasticCasing
@@ -39,7 +39,7 @@ def campbell_of_blade(input: Any, output: Any, params: Any) -> None:
 def campbell_of_all(input: Any, output: Any, params: Any) -> None:
     """Gather the Campbell diagrams. Inputs: campbells, of each blade. Params: blades, fidelity. Output: campbell (nc)."""
     files = as_list(input.campbells)
-    made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
+    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files))}
     write_dataset(gather_blades(params.blades, files), output.campbell, made)
 
 
@@ -61,9 +61,8 @@ def response(input: Any, output: Any, params: Any) -> None:
 
 def sweep_dataset(input: Any, output: Any, params: Any) -> None:
     """Join one kind of result. Inputs: responses, of all runs. Params: kind, runs, fidelity. Output: dataset (nc)."""
-    files = as_list(input.responses)
-    made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
-    write_sweep_dataset(params.kind, dict(zip(map(tuple, params.runs), files, strict=True)), output.dataset, made)
+    responses = dict(zip(map(tuple, params.runs), as_list(input.responses), strict=True))
+    write_sweep_dataset(params.kind, responses, output.dataset, {"fidelity": params.fidelity})
 
 
 def coincidences(input: Any, output: Any, params: Any) -> None:

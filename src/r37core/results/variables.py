@@ -1,16 +1,18 @@
-"""What the sweep's datasets hold: name, dimensions beyond blade, scene and speed, units, meaning.
+"""Variables of the sweep's datasets: name, dimensions beyond blade, scene and speed, units, meaning.
 
 Later revolutions are those of the last half of a run, or the last 100 of one that goes on until it settles.
 """
 
 from r37core.base.dataset_file import SPEED, Variable
 from r37core.stress.statistic import HIGH
+from r37core.time_integration.settling import MotionAtEnd
+from r37core.time_integration.status import MotionKind, RunStatus
 
 _TIP = ("tip_point",)
 _OF_REVOLUTIONS = "largest von Mises stress of each of the later revolutions"
 
-_STATUS = {
-    "status": Variable((), "1", "how the run ended", "i1"),
+STATUS = {
+    "status": Variable((), "1", "how the run ended", "i1", RunStatus),
     "diverged_revolution": Variable((), "1", "revolution at which the run diverged"),
 }
 
@@ -20,7 +22,7 @@ _MOTION = {
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
         for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
     },
-    "motion_at_end": Variable((), "1", "state of the motion at the end of the run", "i1"),
+    "motion_at_end": Variable((), "1", "state of the motion at the end of the run", "i1", MotionAtEnd),
     "settled_revolution": Variable((), "1", "revolution after which the run ended as it had settled, NaN where it did not"),
     "time_step": Variable((), "s", "step of the time integration that was taken"),
     "clearance": Variable(("contact_node",), "m", "clearance of the round casing at the contact nodes, leading edge first"),
@@ -37,7 +39,7 @@ _MOTION = {
 }
 
 OF_KIND = {
-    "motion_kind": Variable((), "1", "kind of the motion that goes on after the run", "i1"),
+    "motion_kind": Variable((), "1", "kind of the motion that goes on after the run", "i1", MotionKind),
     "lyapunov_exponent": Variable((), "1", "largest Lyapunov exponent per revolution of the motion after the run"),
     "lyapunov_exponent_error": Variable((), "1", "standard error of the Lyapunov exponent"),
     "recurrence": Variable((), "1", "distance of the state from that a period before, as a share of its size"),
@@ -106,7 +108,7 @@ _WAVES = {
     "casing_energy": Variable(("casing_mode",), "J", "mean energy of the casing's modes over the later revolutions", "f4"),
 }
 
-VARIABLES = _STATUS | _MOTION | OF_KIND | _GIVEN_MOTION | _SPECTRUM | _STRESS | _GOODMAN | _OF_NODES | _WEAR | _WAVES
+VARIABLES = STATUS | _MOTION | OF_KIND | _GIVEN_MOTION | _SPECTRUM | _STRESS | _GOODMAN | _OF_NODES | _WEAR | _WAVES
 """Variables over the speeds of a response."""
 
 OF_LINING = {
@@ -177,4 +179,4 @@ DATASETS = {
 """Dataset -> its variables, where a response has them; each also carries those of FLAGS. Nodes differ from blade to blade: what
 they have stays in the response."""
 
-FLAGS = tuple(_STATUS)
+FLAGS = tuple(STATUS)

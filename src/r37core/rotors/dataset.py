@@ -9,9 +9,10 @@ import xarray as xr
 
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted, largest_stress_text
+from r37core.results.joining import Along
 from r37core.results.measures import range_above_yield
-from r37core.results.netcdf import state_flags
 from r37core.results.table_file import read_table
+from r37core.results.variables import STATUS
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
@@ -36,7 +37,7 @@ VARIABLES = {
         "1",
         "share of the blades' motion, normal and tangential, that runs round the rotor as a wave of so many nodal diameters",
     ),
-    "status": Variable((), "1", "how the run ended", "i1"),
+    "status": STATUS["status"],
     "diverged_revolution": Variable((), "1", "revolution at which the first blade diverged"),
     "blade_angle": Variable(_BLADES, "rad", "angle at which the blade stands"),
     "blade_frequency_factor": Variable(_BLADES, "1", "frequencies of the blade over those of the model"),
@@ -47,6 +48,9 @@ VARIABLES = {
 
 OF_ALL_SPEEDS = ("blade_angle", "blade_frequency_factor", "blade_longer", "yield_stress")
 """Variables that no speed changes."""
+
+RUNS = Along(rows="run", dim="speed", names=(*VARIABLES, "speed"), coordinates=("blade", "scene", "speed"))
+"""Rotors of all blades and scenes: each speed is a run; NaN where a rotor has fewer blades."""
 
 AXES = {
     "blade_number": Variable(_BLADES, "1", "number of the blade", "i4"),
@@ -70,9 +74,7 @@ def rotor_dataset(files: Iterable[Path | str], speeds: Sequence[float], yield_st
     speed_variables = {name: variable for name, variable in VARIABLES.items() if name not in OF_ALL_SPEEDS}
     still = {name: (VARIABLES[name].dims, rows[0][name], VARIABLES[name].attributes) for name in OF_ALL_SPEEDS}
     values = data | coordinates | {"speed": speeds}
-    dataset = dataset_of(speed_variables, values, {"speed": SPEED, **AXES}, {}, ("speed",)).assign(still)
-    dataset["status"].attrs |= state_flags("status")
-    return dataset
+    return dataset_of(speed_variables, values, {"speed": SPEED, **AXES}, {}, ("speed",)).assign(still)
 
 
 def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarray]:
@@ -93,17 +95,6 @@ def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarra
 def _ends(values: np.ndarray, span: np.ndarray, revolutions: int) -> np.ndarray:
     """Last revolution of each span; the last one ends with the run."""
     return revolutions - np.arange(values.shape[-1])[::-1] * int(span)
-
-
-def gather_rotors(files: Mapping[tuple[str, str], Path | str]) -> xr.Dataset:
-    """All (blade, scene) along the dimension `run`, a row for each speed; NaN where a rotor has fewer blades."""
-    parts = []
-    for (blade, scene), file in files.items():
-        dataset = read_dataset(file).rename_dims(speed="run").reset_index("speed").reset_coords("speed_rpm", drop=True)
-        spread = {name: dataset[name].expand_dims(run=dataset.sizes["run"]) for name in OF_ALL_SPEEDS}
-        labels = {name: ("run", [label] * dataset.sizes["run"]) for name, label in (("blade", blade), ("scene", scene))}
-        parts.append(dataset.assign(spread).assign_coords(labels))
-    return xr.concat(parts, "run", join="outer", combine_attrs="drop_conflicts")
 
 
 def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:

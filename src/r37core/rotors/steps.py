@@ -2,11 +2,12 @@
 
 from typing import Any
 
-from r37core.base.dataset_file import hash_of_parts, write_dataset
+from r37core.base.dataset_file import write_dataset
 from r37core.base.io import as_list
+from r37core.results.joining import join_runs
 from r37core.results.table_file import write_table
 
-from .dataset import gather_rotors, rotor_dataset, rotor_table
+from .dataset import RUNS, rotor_dataset, rotor_table
 
 
 def rotor_of_run(input: Any, output: Any, params: Any) -> None:
@@ -18,7 +19,5 @@ def rotor_of_run(input: Any, output: Any, params: Any) -> None:
 def join(input: Any, output: Any, params: Any) -> None:
     """Join all rotors in one dataset and table. Inputs: rotors. Params: runs, fidelity. Outputs: dataset (nc), table (csv)."""
     files = as_list(input.rotors)
-    run_files = dict(zip(map(tuple, params.runs), files, strict=True))
-    made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
-    write_dataset(gather_rotors(run_files), output.dataset, made)
-    write_table(rotor_table(run_files), output.table, digits=6)
+    join_runs(files, params.runs, RUNS, output.dataset, params.fidelity)
+    write_table(rotor_table(dict(zip(map(tuple, params.runs), files, strict=True))), output.table, digits=6)

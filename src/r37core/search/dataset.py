@@ -12,7 +12,7 @@ from r37core.base.dataset_file import about, read_dataset
 from r37core.base.io import write_text
 from r37core.base.rounding import rounded_to
 from r37core.base.units import shown_unit
-from r37core.base.varied_number import BLADE, SCENE, values_of, with_value
+from r37core.base.varied_number import VariedNumber, with_value
 from r37core.base.yaml_file import yaml_text
 from r37core.results.closing import counted
 
@@ -139,36 +139,14 @@ def search_table(search: xr.Dataset) -> pd.DataFrame:
     return table
 
 
-_BLADES_HEADER = """\
+BLADES_HEADER = """\
 # The best designs of a search: entries to paste into your blades.yaml, or a file of its own with the blades they start from. To
 # run them at another level, with tolerances or in other scenes:
 #   snakemake all_blades --configfile config/config.yaml --config blades_file={file} blades='[{names}]' \\
 #     fidelity=standard run='{{name: best}}'
 """
 
-
-def entries_of(search: xr.Dataset, designs: Sequence[str], start: str, entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Name (`start` with _best1, _best2, ...) -> entry of some designs, the best first, made of the `entries` of the start."""
-    made: dict[str, Any] = {}
-    for place, design in enumerate(designs, 1):
-        content = dict(entries[start])
-        for key, value in values_of(BLADE, _values(search, design)).items():
-            content = with_value(content, key, value)
-        made[f"{start}_best{place}"] = content
-    return made
-
-
-def write_entries(
-    search: xr.Dataset, made: Mapping[str, Any], designs: Sequence[str], entries: Mapping[str, Any], file: Path | str
-) -> None:
-    """Write the entries of the `designs` as YAML, each with what it gave, after those that they start at."""
-    parts = [_BLADES_HEADER.format(file=file, names=", ".join([list(entries)[-1], *made])), yaml_text(dict(entries))]
-    for (name, content), design in zip(made.items(), designs, strict=True):
-        parts.append(f"{_gave(search, design)}{yaml_text({name: content})}")
-    write_text("\n".join(parts), file)
-
-
-_SCENES_HEADER = """\
+SCENES_HEADER = """\
 # The scenes of a search and of its best designs, as a file of their own. To run these, with the blade of the search or, where
 # that varies, those of blades.yaml next to this file:
 #   snakemake all_blades --configfile config/config.yaml --config blades_file=FILE blades='[BLADE]' \\
@@ -176,39 +154,34 @@ _SCENES_HEADER = """\
 """
 
 
-def write_scenes(
+def write_entries(
     search: xr.Dataset,
     designs: Sequence[str],
     entries: Mapping[str, Any],
     varied: Mapping[str, Sequence[str]],
+    header: str,
     file: Path | str,
-) -> None:
-    """Write the scenes of the `designs`, the best first, as YAML (name_best1, name_best2, ...) after those that they start at.
+) -> list[str]:
+    """Write the `designs`, the best first, as YAML (name_best1, name_best2, ...) after the entries that they start at.
 
-    `entries`: of the scenes of the search; `varied`: scene -> variables of the search that it has. One without is the start's.
+    `entries`: of the blade with its bases, or of the scenes; `varied`: name of an entry that is searched -> variables of the
+    search that it has. One without is the start's. Names of the new entries.
     """
-    parts, names = [yaml_text(dict(entries))], list(entries)
+    parts = [yaml_text(dict(entries))]
+    names: list[str] = []
     for place, design in enumerate(designs, 1):
-        values, made = _values(search, design), {}
-        for scene, keys in varied.items():
-            content = dict(entries[scene])
-            for key, value in values_of(SCENE, {key: values[key] for key in keys}).items():
-                content = with_value(content, key, value)
+        values = dict(zip(search["variable"].values.tolist(), search["value"].sel(design=design).values.tolist(), strict=True))
+        made = {}
+        for name, keys in varied.items():
+            content = dict(entries[name])
+            for key in keys:
+                content = with_value(content, VariedNumber.named(key).key, values[key])
             if keys:
-                made[f"{scene}_best{place}"] = content
+                made[f"{name}_best{place}"] = content
         names += made
-        parts.append(f"{_gave(search, design)}{yaml_text(made)}")
-    write_text("\n".join([_SCENES_HEADER.format(file=file, names=", ".join(names)), *parts]), file)
-
-
-def _values(search: xr.Dataset, design: str) -> dict[str, float]:
-    values = search["value"].sel(design=design).values
-    return {str(key): float(value) for key, value in zip(search["variable"].values, values, strict=True)}
-
-
-def _gave(search: xr.Dataset, design: str) -> str:
-    """A comment: objectives of a design and of the start."""
-    return f"# {design}: {_objectives(search, design)}; the start: {_objectives(search, START)}\n"
+        parts.append(f"# {design}: {_objectives(search, design)}; the start: {_objectives(search, START)}\n{yaml_text(made)}")
+    write_text("\n".join([header.format(file=file, names=", ".join([*varied, *names])), *parts]), file)
+    return names
 
 
 def _objectives(search: xr.Dataset, design: str) -> str:

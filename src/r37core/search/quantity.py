@@ -9,28 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from r37core.base.units import unit_of
+from r37core.results.columns import MINIMISED
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator
 
 if TYPE_CHECKING:
     # the workflow imports it before it knows whether there is a search
     import xarray as xr
-
-CONTACT_MEASURES = (
-    "exceedance_integral_rad_s",
-    "exceedance_integral_operating_rad_s",
-    "goodman_integral_rad_s",
-    "goodman_integral_operating_rad_s",
-    "length_certain_rad_s",
-    "length_certain_operating_rad_s",
-    "length_possible_rad_s",
-    "widest_range_rad_s",
-    "largest_median_stress_pa",
-    "largest_goodman_share",
-    "largest_rms_m",
-    "diverged_runs",
-)
-"""Columns of ranking.csv, which are read off the responses of a scene."""
 
 STRUCTURE_MEASURES = {
     "mass_kg": "mass of the blade",
@@ -42,11 +28,11 @@ STRUCTURE_MEASURES = {
 }
 """Measure that needs no simulation -> what it is, in words."""
 
-MEASURES = (*CONTACT_MEASURES, *STRUCTURE_MEASURES)
+MEASURES = (*MINIMISED, *STRUCTURE_MEASURES)
 """All measures."""
 
 NEEDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    **dict.fromkeys(CONTACT_MEASURES, (("scenes",), ())),
+    **dict.fromkeys(MINIMISED, (("scenes",), ())),
     "mass_kg": ((), ()),
     "frequency_hz": (("mode",), ("speed_rad_s",)),
     "frequency_margin_percent": (("mode", "engine_order", "speed_rad_s"), ()),
@@ -56,10 +42,10 @@ NEEDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 """Measure -> keys that have to stand beside it, and those that may."""
 
-FATIGUE_MEASURES = tuple(name for name in CONTACT_MEASURES if "goodman" in name)
+FATIGUE_MEASURES = tuple(name for name in MINIMISED if "goodman" in name)
 """Measures that need fatigue among a scene's results."""
 
-IN_OPERATION = tuple(name for name in CONTACT_MEASURES if "operating" in name)
+IN_OPERATION = tuple(name for name in MINIMISED if "operating" in name)
 """Measures that need an operating range."""
 
 OF_ENDED_RUNS = ("largest_median_stress_pa", "largest_rms_m", "largest_goodman_share")
@@ -85,13 +71,12 @@ class Quantity:
     @property
     def needs_contact(self) -> bool:
         """True if it needs simulations."""
-        return self.measure in CONTACT_MEASURES
+        return self.measure in MINIMISED
 
     @property
     def unit(self) -> str:
         """Unit of the values, as the name of the measure ends."""
-        ends = {"_rad_s": "rad s-1", "_pa": "Pa", "_kg": "kg", "_hz": "Hz", "_m": "m", "_percent": "percent"}
-        return next((unit for end, unit in ends.items() if self.measure.endswith(end)), "1")
+        return unit_of(self.measure)
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,9 @@ from pydantic import AfterValidator, Field, model_validator
 
 from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
 from r37core.config.spread import Bounds, MemberCount, Number, Spreads
-from r37core.results.operating_range import INTEGRAL
+from r37core.results.columns import MINIMISED
 
-from .quantity import CONTACT_MEASURES, MEASURES, NEEDS, STRUCTURE_MEASURES, Quantity
+from .quantity import MEASURES, NEEDS, STRUCTURE_MEASURES, Quantity
 
 COLUMNS = ("design", "round", "feasible", "not_dominated", "order", "refused")
 """Columns of search.csv next to those of variables, objectives and constraints."""
@@ -41,7 +41,7 @@ class QuantitySection(Section):
 
     def quantity(self, is_flown: bool) -> Quantity:
         """The quantity that is computed; without a measure that over the operating range, where there is one."""
-        measure = INTEGRAL if is_flown and "measure" not in self.model_fields_set else self.measure
+        measure = "exceedance_integral_operating_rad_s" if is_flown and "measure" not in self.model_fields_set else self.measure
         scenes, quantile = tuple(self.scenes or ()), getattr(self, "quantile", None)
         return Quantity(measure, scenes, self.mode, self.engine_order, self.speed_rad_s, quantile)
 
@@ -55,8 +55,8 @@ class ObjectiveSection(QuantitySection):
 
     @model_validator(mode="after")
     def _has_members(self) -> Self:
-        if self.quantile is not None and self.measure not in CONTACT_MEASURES:
-            raise refused(("quantile",), f"a quantile of {self.measure}", f"one of {', '.join(CONTACT_MEASURES)}")
+        if self.quantile is not None and self.measure not in MINIMISED:
+            raise refused(("quantile",), f"a quantile of {self.measure}", f"one of {', '.join(MINIMISED)}")
         return self
 
 

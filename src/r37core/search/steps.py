@@ -10,6 +10,7 @@ import numpy as np
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list, read_json, write_json
 from r37core.base.plain import from_plain
+from r37core.base.varied_number import BLADE, VariedNumber
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.geometry_file import read_geometry
 from r37core.exchange.step_file import write_step
@@ -21,7 +22,7 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.rom.reduction_choice import StressSubmesh
 from r37core.stress.operator import read_stress_operator
 
-from .dataset import entries_of, search_dataset, search_table, write_entries, write_scenes
+from .dataset import BLADES_HEADER, SCENES_HEADER, search_dataset, search_table, write_entries
 from .problem import SearchChoice
 from .quantity import DesignStructure, Quantity, contact_value, static_stress, structure_value
 from .rounds import first_round, progress, read_round, round_after, tried_after, write_round
@@ -123,10 +124,12 @@ def best(input: Any, output: Any, params: Any) -> None:
     designs = ordered["design"].values[: params.number].tolist()
     folder.mkdir(parents=True)
     if params.scenes:
-        write_scenes(search, designs, params.scenes, params.varied_in_scenes, folder / "scenes.yaml")
+        scenes = params.scenes, params.varied_in_scenes
+        write_entries(search, designs, *scenes, SCENES_HEADER, folder / "scenes.yaml")
     if params.entries:
-        made = entries_of(search, designs, list(params.entries)[-1], params.entries)
-        write_entries(search, made, designs, params.entries, folder / "blades.yaml")
+        numbers = map(VariedNumber.named, search["variable"].values.tolist())
+        varied = {list(params.entries)[-1]: [number.key for number in numbers if number.kind == BLADE]}
+        names = write_entries(search, designs, params.entries, varied, BLADES_HEADER, folder / "blades.yaml")
         files = {Path(file).parent.parent.name: file for file in as_list(input.shapes)}
-        for name, design in zip(made, designs, strict=True):
+        for name, design in zip(names, designs, strict=True):
             write_step(read_geometry(files[design]), folder / f"{name}.step")

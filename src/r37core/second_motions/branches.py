@@ -35,7 +35,7 @@ _MOST_CORRECTIONS, _EASY, _HALVINGS = 12, 4, 6
 
 
 class Event(StrEnum):
-    """What happens to a branch between two of its orbits: see `events_of`."""
+    """Change of a branch between two of its orbits: see `events_of`."""
 
     FOLD = "fold"
     PERIOD_DOUBLING = "period_doubling"
@@ -127,7 +127,7 @@ def _followed(blade: PeriodicBlade, start: Orbit, direction: float, first: float
 
 
 def lies_on(orbits: list[Orbit], speed: float, size: float, tolerance: float) -> bool:
-    """Whether a motion of this size (m), normal and tangential rms, at a speed (rad/s) lies on the line through some orbits.
+    """True if a motion of this size (m), normal and tangential rms, at a speed (rad/s) lies on the line through some orbits.
 
     `tolerance`: relative difference of the size.
     """
@@ -221,7 +221,7 @@ def events_of(blade: PeriodicBlade, orbits: list[Orbit]) -> list[Bifurcation]:
 
 
 def _turns(orbits: list[Orbit], number: int) -> bool:
-    """Whether a branch turns in the speed at the orbit of this number."""
+    """True if a branch turns in the speed at the orbit of this number."""
     if not 0 < number < len(orbits) - 1:
         return False
     before, here, after = orbits[number - 1 : number + 2]
@@ -257,7 +257,7 @@ def _turn(blade: PeriodicBlade, orbits: list[Orbit]) -> float:
 
 
 def _passing(blade: PeriodicBlade, before: Orbit, after: Orbit) -> tuple[Event, float]:
-    """What passes the unit circle between a stable orbit and one that is not, and at which speed (rad/s)."""
+    """Event by which a multiplier passes the unit circle between a stable and an unstable orbit, and its speed (rad/s)."""
     inner, outer = (before, after) if before.stable else (after, before)
     for _ in range(_HALVINGS):
         middle = _between(blade, inner, outer, 0.5)

@@ -67,14 +67,3 @@ def second_motions_dataset(
 
 def _over_motions(response: xr.Dataset) -> list[str]:
     return [str(name) for name in response.data_vars if name not in OF_ALL]
-
-
-def join_pairs(files: Mapping[tuple[str, str], Path | str], along: str) -> xr.Dataset:
-    """Datasets of each blade and scene one after another `along` a dimension, with both as labels. Raises InputFileError."""
-    parts = []
-    for (blade, scene), file in files.items():
-        part = read_dataset(file)
-        for name, label in (("blade", blade), ("scene", scene)):
-            part[name] = along, np.full(part.sizes[along], label, dtype=object), about("1", f"name of the {name}")
-        parts.append(part)
-    return xr.concat(parts, along, combine_attrs="drop_conflicts")

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 
@@ -29,8 +30,17 @@ _SIZES = 0.2, 2.0
 """Sizes of random states, as a share of that of the largest motion."""
 
 
+VERDICT = ("high", "low", "share_of_time_high", "high_revolutions", "low_revolutions", "random_starts_high")
+"""Columns of what becomes of the high and the low motion, the high one's share of the time, and how long each is held.
+
+Share: of a long time, by the times for which both are held; NaN where neither is left, and of a lined blade. Revolutions: mean
+time until it is left, infinite where it is never left, NaN where it is never there. `random_starts_high`: share of the random
+starts that end in the high one.
+"""
+
+
 class Lasting(StrEnum):
-    """What becomes of a motion while the blade dwells: see `judged`."""
+    """Fate of a motion while the blade dwells: see `judged`."""
 
     LASTING = "lasting"
     SWITCHING = "switching"
@@ -109,25 +119,8 @@ def finish_revolution(simulation: Simulation, state: SimulationState) -> None:
         simulation.advance_samples(state, left)
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What becomes of the `high` and the `low` motion, the high one's `share` of the time, and how long each is held.
-
-    `share`: of a long time, by the times for which both are held; NaN where neither is left, and of a lined blade.
-    `high_revolutions`, `low_revolutions`: mean time until it is left, infinite where it is never left, NaN where it is never
-    there. `high_starts`: share of the random starts that end in the high one.
-    """
-
-    high: Lasting
-    low: Lasting
-    share: float
-    high_revolutions: float
-    low_revolutions: float
-    high_starts: float
-
-
-def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float, *, lined: bool) -> Verdict:
-    """Verdict on motions by the `rms` (m) of each revolution of dwells that start HIGH, LOW and at RANDOM.
+def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float, *, lined: bool) -> dict[str, Any]:
+    """Verdict on motions by the `rms` (m) of each revolution of dwells that start HIGH, LOW and at RANDOM, as VERDICT.
 
     `high`, `low` (m): their levels. A motion that is left and come back to is switching. One that is left and never come back
     to is a transient, one that is never left lasts. Random starts count from the first time that they go over to the other
@@ -157,11 +150,12 @@ def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float, *, 
         times = {HIGH: _held(above, left[HIGH]), LOW: _held(below, left[LOW])}
     verdicts |= {start: Lasting.DIVERGED for start, gone in lost.items() if gone}
     share = np.nan if lined or any(lost.values()) else _share(times[HIGH], times[LOW])
-    return Verdict(verdicts[HIGH], verdicts[LOW], share, times[HIGH], times[LOW], float(np.mean(ended)) if ended else np.nan)
+    values = (verdicts[HIGH], verdicts[LOW], share, times[HIGH], times[LOW], float(np.mean(ended)) if ended else np.nan)
+    return dict(zip(VERDICT, values, strict=True))
 
 
 def _settled(held: np.ndarray) -> np.ndarray:
-    """What a random start holds from its first change on; all of it where it has none."""
+    """Motions that a random start holds from its first change on; all of them where it has none."""
     changes = np.flatnonzero(held[:-1] != held[1:])
     return held[changes[0] + 1 :] if len(changes) else held
 
@@ -183,7 +177,7 @@ def _share(high: float, low: float) -> float:
 
 
 def is_high(rms: np.ndarray, high: float, low: float) -> np.ndarray:
-    """Whether a motion is the high one, revolution by revolution after SETTLING, of dwells by their `rms` (m).
+    """True where a motion is the high one, revolution by revolution after SETTLING, of dwells by their `rms` (m).
 
     By the rms of the last WINDOW revolutions: it becomes the high one above two thirds of the way from `low` to `high` (m), on
     a logarithmic scale, and the low one below a third of it.

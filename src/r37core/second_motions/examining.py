@@ -1,4 +1,4 @@
-"""What is done with the motions that sweeps have found: dwells where they differ, branches where they recur."""
+"""Examination of the motions that sweeps have found: dwells where they differ, branches where they recur."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -129,5 +129,5 @@ def _orbit(carried: CarriedSweep, speed: float, motion: CarriedMotion) -> tuple[
 
 
 def _known(branches: list[tuple[list[Orbit], list[Bifurcation]]], speed: float, rms: float) -> bool:
-    """Whether a motion of this rms (m) at a speed (rad/s) is one of the branches that there are."""
+    """True if a motion of this rms (m) at a speed (rad/s) is one of the branches that there are."""
     return any(lies_on(orbits, speed, rms, _SAME) for orbits, _ in branches)

@@ -1,16 +1,16 @@
 """Files of the sweeps, dwells and branches of one blade and scene."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import Variable, about
+from r37core.base.dataset_file import Variable, dataset_of
 from r37core.base.io import atomic_write, readable
-from r37core.results.netcdf import state_flags
-from r37core.results.variables import OF_KIND
+from r37core.results.variables import AXES, OF_KIND
 from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
@@ -73,6 +73,8 @@ def levels_of(states: Mapping[str, SweptStates]) -> MotionLevels:
 
 
 OF_DWELLS = {
+    "start": Variable((), "1", "where the dwell starts: in the high, the low or a random motion", "O"),
+    "motion": Variable((), "1", "motion of the sweeps that it starts in, or number of the state", "O"),
     "speed": Variable((), "rad s-1", "angular speed of the rotor"),
     "level_high": Variable((), "m", "level of the largest motion of the sweeps there: mean rms of a revolution"),
     "level_low": Variable((), "m", "level of the smallest motion of the sweeps there"),
@@ -83,64 +85,47 @@ OF_DWELLS = {
     ),
 }
 
+OF_ORBITS = {
+    "branch": Variable((), "1", "number of the branch", "i4"),
+    "speed": Variable((), "rad s-1", "angular speed of the rotor"),
+    "rms_normal": Variable((), "m", "rms of the leading edge's normal displacement"),
+    "rms_tangential": Variable((), "m", "rms of its tangential displacement"),
+    "peak_normal": Variable((), "m", "largest normal displacement"),
+    "period": Variable((), "1", "period in revolutions"),
+    "multiplier_real": Variable((), "1", "largest Floquet multiplier, real part"),
+    "multiplier_imaginary": Variable((), "1", "largest Floquet multiplier, imaginary part"),
+    "event": Variable((), "1", "what happens just before the orbit", "O"),
+    "event_speed": Variable((), "rad s-1", "speed at which it happens"),
+}
 
-def dwell_dataset(rows: Sequence[tuple[Mapping[str, Any], Dwell]], revolutions: int) -> xr.Dataset:
+
+def dwell_dataset(dwells: Sequence[tuple[Mapping[str, Any], Dwell]], revolutions: int) -> xr.Dataset:
     """Dataset of the dwells of one blade and scene: labels and levels of each, and what it found."""
-    columns: dict[str, list[Any]] = {name: [] for name in ("start", "motion", *OF_DWELLS)}
-    for labels, dwell in rows:
-        values = {**labels, **dwell.kind.values, "revolution_rms": dwell.rms}
-        for name, column in columns.items():
-            column.append(values[name])
-    labels = {name: np.array(columns.pop(name), dtype=object) for name in ("start", "motion")}
-    shapes = {name: (len(rows), revolutions) if OF_DWELLS[name].dims else (len(rows),) for name in columns}
-    dataset = xr.Dataset(
-        {
-            name: (
-                ("dwell", *variable.dims),
-                np.array(columns[name], variable.dtype).reshape(shapes[name]),
-                variable.attributes,
-            )
-            for name, variable in OF_DWELLS.items()
-        }
-        | {
-            "start": ("dwell", labels["start"], about("1", "where the dwell starts: in the high, the low or a random motion")),
-            "motion": ("dwell", labels["motion"], about("1", "motion of the sweeps that it starts in, or number of the state")),
-        },
-        {"revolution": ("revolution", np.arange(1, revolutions + 1), about("1", "number of the revolution"))},
-    )
-    dataset["motion_kind"].attrs |= state_flags("motion_kind")
-    return dataset
+    rows = [{**labels, **dwell.kind.values, "revolution_rms": dwell.rms} for labels, dwell in dwells]
+    values: dict[str, Any] = {name: [row[name] for row in rows] for name in OF_DWELLS}
+    values["revolution_rms"] = np.reshape(values["revolution_rms"], (-1, revolutions))
+    values["revolution"] = np.arange(1, revolutions + 1)
+    return dataset_of(OF_DWELLS, values, {"revolution": replace(AXES["revolution"], dtype="i8")}, {}, ("dwell",))
 
 
 def orbit_dataset(branches: Sequence[tuple[Sequence[Orbit], Sequence[Bifurcation]]], revolution: int) -> xr.Dataset:
     """Dataset of the orbits of branches, one after another along each, with `revolution` samples in a revolution."""
-    rows = [
-        (number, orbit, next((event for event in events if event.orbit == place), None))
-        for number, (orbits, events) in enumerate(branches, 1)
-        for place, orbit in enumerate(orbits)
-    ]
-
-    def column(values: list[Any], units: str, long_name: str, dtype: Any = float) -> tuple[str, np.ndarray, dict[str, str]]:
-        return "orbit", np.array(values, dtype), about(units, long_name)
-
-    orbits = [orbit for _, orbit, _ in rows]
-    first = [orbit.multipliers[0] for orbit in orbits]
-    events = [event for _, _, event in rows]
-    return xr.Dataset(
-        {
-            "branch": column([number for number, _, _ in rows], "1", "number of the branch", "i4"),
-            "speed": column([orbit.speed for orbit in orbits], "rad s-1", "angular speed of the rotor"),
-            "rms_normal": column([orbit.rms[0] for orbit in orbits], "m", "rms of the leading edge's normal displacement"),
-            "rms_tangential": column([orbit.rms[1] for orbit in orbits], "m", "rms of its tangential displacement"),
-            "peak_normal": column([orbit.peak for orbit in orbits], "m", "largest normal displacement"),
-            "period": column([orbit.samples / revolution for orbit in orbits], "1", "period in revolutions"),
-            "multiplier_real": column([value.real for value in first], "1", "largest Floquet multiplier, real part"),
-            "multiplier_imaginary": column([value.imag for value in first], "1", "largest Floquet multiplier, imaginary part"),
-            "event": column(
-                [event.event.value if event else "" for event in events], "1", "what happens just before the orbit", object
-            ),
-            "event_speed": column(
-                [event.speed if event else np.nan for event in events], "rad s-1", "speed at which it happens"
-            ),
-        }
-    )
+    rows = []
+    for branch, (orbits, bifurcations) in enumerate(branches, 1):
+        events = {bifurcation.orbit: bifurcation for bifurcation in bifurcations[::-1]}
+        for place, orbit in enumerate(orbits):
+            event = events.get(place)
+            row = {
+                "branch": branch,
+                "speed": orbit.speed,
+                "rms_normal": orbit.rms[0],
+                "rms_tangential": orbit.rms[1],
+                "peak_normal": orbit.peak,
+                "period": orbit.samples / revolution,
+                "multiplier_real": orbit.multipliers[0].real,
+                "multiplier_imaginary": orbit.multipliers[0].imag,
+                "event": event.event.value if event else "",
+                "event_speed": event.speed if event else np.nan,
+            }
+            rows.append(row)
+    return dataset_of(OF_ORBITS, {name: [row[name] for row in rows] for name in OF_ORBITS}, {}, {}, ("orbit",))

@@ -71,7 +71,7 @@ class Orbit:
 
     @property
     def stable(self) -> bool:
-        """Whether all multipliers are within the unit circle, or on it where nothing is damped."""
+        """True if all multipliers are within the unit circle, or on it where nothing is damped."""
         return bool(abs(self.multipliers[0]) < UNIT_CIRCLE)
 
 

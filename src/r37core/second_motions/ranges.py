@@ -70,7 +70,7 @@ class MotionLevels:
 
 
 def motions_differ(mean: np.ndarray, scatter: np.ndarray, clearance: float) -> np.ndarray:
-    """Whether some two motions differ at each speed, shape (speeds,), by their `mean` and `scatter` (m); see MotionLevels.
+    """True at speeds where some two motions differ, shape (speeds,), by their `mean` and `scatter` (m); see MotionLevels.
 
     They do where their means differ by more than SCATTERS of their common standard deviation and by more than SAME, and the
     larger one is above the `clearance` (m): within it the blade is quiet, as in settling.motion_at_end. One that diverged

@@ -50,7 +50,7 @@ class SecondMotionSection(Section):
 
     @property
     def asked(self) -> bool:
-        """Whether there is something to sweep."""
+        """True if there is something to sweep."""
         return self.from_rad_s is not None or self.from_rpm is not None
 
     def sweep(self) -> SweepChoice:

@@ -8,6 +8,7 @@ from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
+from r37core.results.joining import Along, join_runs
 from r37core.results.response import write_response
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model
@@ -15,7 +16,7 @@ from r37core.stress.operator import read_stress_operator
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import DOWN, MOTIONS, BranchChoice, DwellChoice, SweepChoice
-from .dataset import join_pairs, second_motions_dataset
+from .dataset import second_motions_dataset
 from .examining import branches_of, dwells_of
 from .motion_files import SweptStates, dwell_dataset, orbit_dataset, write_states
 from .sweeping import CarriedSweep, discard
@@ -82,8 +83,8 @@ def join(input: Any, output: Any, params: Any) -> None:
 
 def join_parts(input: Any, output: Any, params: Any) -> None:
     """Join dwells, or orbits, of all blades and scenes. Inputs: parts. Output: dataset (nc). Params: pairs, along, fidelity."""
-    parts = dict(zip(map(tuple, params.pairs), as_list(input.parts), strict=True))
-    write_dataset(join_pairs(parts, params.along), output.dataset, {"fidelity": params.fidelity})
+    along = Along(rows=params.along, dim=params.along)
+    join_runs(as_list(input.parts), params.pairs, along, output.dataset, params.fidelity)
 
 
 def tabulate(input: Any, output: Any, params: Any) -> None:

@@ -13,7 +13,7 @@ from r37core.results.table_file import read_table
 from r37core.time_integration.status import MotionKind
 
 from .choice import MOTIONS, REST
-from .dwelling import HIGH, LOW, STARTS, Lasting, judged
+from .dwelling import HIGH, LOW, STARTS, VERDICT, Lasting, judged
 from .periodic import UNIT_CIRCLE
 from .ranges import MotionLevels
 
@@ -41,12 +41,7 @@ DWELL_COLUMNS = (
     "speed_rad_s",
     "level_high_m",
     "level_low_m",
-    "high",
-    "low",
-    "share_of_time_high",
-    "high_revolutions",
-    "low_revolutions",
-    "random_starts_high",
+    *VERDICT,
     *(
         f"{what}_{which}"
         for which in (HIGH, LOW)
@@ -75,15 +70,7 @@ def dwell_table(dwells: xr.Dataset) -> pd.DataFrame:
         row: dict[str, Any] = {"blade": blade, "scene": scene, "speed_rad_s": speed, "level_high_m": high, "level_low_m": low}
         if high > low > 0.0:
             several = {start: list(rms[starts == start]) for start in STARTS}
-            verdict = judged(several, high, low, lined=bool(group["lined"][0]))
-            row |= {
-                "high": str(verdict.high),
-                "low": str(verdict.low),
-                "share_of_time_high": verdict.share,
-                "high_revolutions": verdict.high_revolutions,
-                "low_revolutions": verdict.low_revolutions,
-                "random_starts_high": verdict.high_starts,
-            }
+            row |= judged(several, high, low, lined=bool(group["lined"][0]))
         for which in (HIGH, LOW) if HIGH in starts and LOW in starts else ():
             dwell = group.isel(dwell=int(np.flatnonzero(starts == which)[0]))
             kind = MotionKind(int(dwell["motion_kind"]))

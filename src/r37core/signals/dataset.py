@@ -1,16 +1,15 @@
 """signals.nc: signals of one blade and scene, and of all."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 
-import netCDF4
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import SPEED, SPEED_RPM, Variable, dataset_of, new_netcdf, open_dataset, read_dataset
+from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted
-from r37core.results.netcdf import create_axis, create_labels, create_variable, state_flags
+from r37core.results.joining import Along
+from r37core.results.variables import STATUS
 from r37core.rom.reduced_model import RecoveryNodes
 from r37core.time_integration.simulate import TIP_POINTS
 
@@ -31,9 +30,12 @@ VARIABLES = {
         "m",
         "tangential displacement that the arrival tells: radius times speed times its lateness",
     ),
-    "status": Variable((), "1", "how the run ended", "i1"),
+    "status": STATUS["status"],
 }
 """Dimensions are those beyond the run."""
+
+RUNS = Along(rows="run", dim="speed", coordinates=("blade", "scene", "speed", "speed_rpm", "interaction"))
+"""Signals of all blades and scenes: those of each speed are a run; NaN where fewer revolutions are kept."""
 
 _BLADE_AXES = ("x", "y", "z")
 AXES = {
@@ -95,54 +97,6 @@ def _arrivals(
         arrivals.append(arrived)
         displacements.append(radius * speed * (arrived - rigid))
     return np.array(arrivals), np.array(displacements)
-
-
-def gather_signals(files: Mapping[tuple[str, str], Path | str], file: Path | str, provenance: Mapping[str, object]) -> None:
-    """Join the signals of all (blade, scene) along the dimension `run`; one is in memory at a time.
-
-    Runs that kept fewer revolutions have NaN before and after them. Raises InputFileError for a file that cannot be read.
-    """
-    axes = _union(files)
-    with new_netcdf(file, provenance) as target:
-        create_labels(target, "tip_point", TIP_POINTS)
-        create_labels(target, "axis", _BLADE_AXES)
-        for name, values in axes.items():
-            if name == "gauge":
-                create_labels(target, name, list(values))
-            else:
-                create_axis(target, name, values, AXES[name])
-        target.createDimension("run", None)
-        for name in ("blade", "scene", "interaction"):
-            target.createVariable(name, str, ("run",))
-        for name, variable in {"speed": SPEED, "speed_rpm": SPEED_RPM}.items():
-            create_variable(target, name, replace(variable, dims=()), ("run",))
-        for name, variable in VARIABLES.items():
-            if set(variable.dims) <= {"tip_point", "axis", *axes}:
-                create_variable(target, name, variable, ("run",), coordinates="blade scene speed speed_rpm interaction")
-        target["status"].setncatts(state_flags("status"))
-        for (blade, scene), source in files.items():
-            dataset = read_dataset(source)
-            if dataset.sizes["speed"]:
-                _append(target, dataset, blade, scene, axes)
-
-
-def _union(files: Mapping[tuple[str, str], Path | str]) -> dict[str, np.ndarray]:
-    axes: dict[str, np.ndarray] = {}
-    for source in files.values():
-        with open_dataset(source) as dataset:
-            for name in (axis for axis in ("gauge", *AXES) if axis in dataset.dims):
-                axes[name] = np.union1d(axes[name], dataset[name].values) if name in axes else dataset[name].values
-    return axes
-
-
-def _append(target: netCDF4.Dataset, dataset: xr.Dataset, blade: str, scene: str, axes: Mapping[str, np.ndarray]) -> None:
-    start, count = target.dimensions["run"].size, dataset.sizes["speed"]
-    labels = {"blade": [blade] * count, "scene": [scene] * count, "interaction": dataset["interaction"].values}
-    for name, texts in labels.items():
-        target[name][start : start + count] = np.array(texts, dtype=object)
-    whole = dataset.reindex({name: values for name, values in axes.items() if name in dataset.dims})
-    for name in ("speed", "speed_rpm", *(variable for variable in VARIABLES if variable in whole)):
-        target[name][start : start + count] = whole[name].values
 
 
 def closing(results: Path) -> str:

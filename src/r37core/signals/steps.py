@@ -2,17 +2,18 @@
 
 from typing import Any
 
-from r37core.base.dataset_file import hash_of_parts, read_dataset, write_dataset
+from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
+from r37core.results.joining import join_runs
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.integration_choice import IntegrationChoice
 
-from .dataset import gather_signals, signals_dataset
+from .dataset import RUNS, signals_dataset
 from .gauges import Gauge, gauge_points, gauge_rows
 from .record import record_signals
 
@@ -44,6 +45,4 @@ def record(input: Any, output: Any, params: Any) -> None:
 
 def gather(input: Any, output: Any, params: Any) -> None:
     """Join signals. Inputs: signals, of each blade and scene. Params: runs, fidelity. Output: dataset (nc)."""
-    files = as_list(input.signals)
-    made = {"fidelity": params.fidelity, "input_hash": hash_of_parts(files)}
-    gather_signals(dict(zip(map(tuple, params.runs), files, strict=True)), output.dataset, made)
+    join_runs(as_list(input.signals), params.runs, RUNS, output.dataset, params.fidelity)

@@ -9,12 +9,11 @@ import xarray as xr
 
 from r37core.base.dataset_file import SPEED_RPM, Variable, about, read_dataset
 from r37core.base.io import readable
-from r37core.base.units import RPM
+from r37core.base.units import RPM, si_name
 from r37core.plans.member_values import is_of_sample, number_of
+from r37core.results.columns import ENDS
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
-from r37core.results.netcdf import state_flags
-from r37core.results.ranges import ENDS
-from r37core.results.ranking import MEASURES_RANKED_BY, robustness
+from r37core.results.ranking import RANKED_BY, robustness
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 
@@ -37,7 +36,7 @@ MEASURES = {
     "largest_median_stress": Variable((), "Pa", "largest over all speeds of the median over the revolutions"),
     "largest_goodman_share": Variable((), "1", "largest share of the Goodman line over all speeds"),
 }
-"""What is read off each member over all its speeds; all but the first need the stress."""
+"""Measures of each member over all its speeds; all but the first need the stress."""
 
 INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
 """Measures for which the numbers are ranked."""
@@ -85,13 +84,13 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
         above, (largest, _) = speeds_above_yield(response), largest_stress(response)
         measures |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
         ranked = robustness(response, chance_scatter=False)
-        measures |= {measure: ranked[column] for column, measure in MEASURES_RANKED_BY.items()}
+        measures |= {si_name(column)[0]: ranked[column] for column in RANKED_BY}
         measures["largest_goodman_share"] = ranked["largest_goodman_share"]
     return measures
 
 
 def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:
-    """What stays of one member."""
+    """Curves and measures of one member."""
     edge = leading_edge(response)
     kept = [name for name in ("status", *_CURVES, "yield_stress", "share_of_revolutions_above_yield", "lined") if name in edge]
     member = edge[kept].drop_vars("speed_rpm", errors="ignore")
@@ -105,7 +104,6 @@ def _pair_dataset(
 ) -> xr.Dataset:
     """One blade in one scene."""
     sample = xr.concat(members, "member", join="exact", combine_attrs="override").drop_attrs(deep=False)
-    sample["status"].attrs.update(state_flags("status"))
     diverged = sample["status"] == RunStatus.DIVERGED
     for name in _CURVES:
         if name not in sample:

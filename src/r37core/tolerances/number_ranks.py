@@ -30,7 +30,7 @@ class Ranking:
 
     @property
     def known(self) -> np.ndarray:
-        """Whether a number moves the measure at all: zero is not in its interval."""
+        """True for a number that moves the measure at all: zero is not in its interval."""
         return self.low * self.high > 0.0
 
     @property
@@ -87,7 +87,7 @@ SOBOL_RANKS = 32
 
 
 def remarks_on_rankings(members: int, numbers: int, sensitivity: bool) -> list[str]:
-    """What a run should say before it starts where its members are too few to rank so many numbers."""
+    """Remarks before a run whose members are too few to rank so many numbers."""
     lines, where = [], "(docs/tolerances.md#how-many-members)"
     if numbers < 2:
         return []

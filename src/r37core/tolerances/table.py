@@ -9,8 +9,9 @@ import pandas as pd
 
 from r37core.base.dataset_file import open_dataset
 from r37core.results.closing import counted
+from r37core.results.columns import ENDS, RANGED, names
 from r37core.results.interactions import Interaction, InteractionChoice
-from r37core.results.ranges import COLUMNS, ENDS, RANGED
+from r37core.results.ranges import COLUMNS
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
 
@@ -29,7 +30,7 @@ class _Found:
 
     def speed(self) -> float:
         rows = (*filter(None, [self.nominal]), *self.members.values())
-        return float(np.median([row.peak.peak_speed_rad_s for row in rows]))
+        return float(np.median([row["peak_speed_rad_s"] for row in rows]))
 
     def any(self) -> Interaction:
         return self.nominal or next(iter(self.members.values()))
@@ -46,7 +47,7 @@ def ranges(
     Two are the same where mode and engine order are; those that no crossing explains where one crossing could hold both.
     `speeds`: first and last (rad/s) of the members; what the nominal run shows beyond them no member could.
     """
-    within = [row for row in nominal if speeds[0] <= row.peak.peak_speed_rad_s <= speeds[1]]
+    within = [row for row in nominal if speeds[0] <= row["peak_speed_rad_s"] <= speeds[1]]
     return [_row(match, len(members)) for match in sorted(_matched(within, members, choice), key=_Found.speed)]
 
 
@@ -59,29 +60,29 @@ def _matched(
         for row in interactions:
             fits = [match for match in matches if name not in match.members and _same(row, match, choice)]
             if fits:
-                min(fits, key=lambda match: abs(match.speed() - row.peak.peak_speed_rad_s)).members[name] = row
+                min(fits, key=lambda match: abs(match.speed() - row["peak_speed_rad_s"])).members[name] = row
             else:
                 matches.append(_Found(members={name: row}))
     return matches
 
 
 def _same(row: Interaction, match: _Found, choice: InteractionChoice) -> bool:
-    known = match.any().crossing
-    if (row.crossing.mode, row.crossing.engine_order) != (known.mode, known.engine_order):
+    known = match.any()
+    if (row["mode"], row["engine_order"]) != (known["mode"], known["engine_order"]):
         return False
-    low, high = sorted((row.peak.peak_speed_rad_s, match.speed()))
-    return bool(row.crossing.mode) or high <= choice.span * low
+    low, high = sorted((row["peak_speed_rad_s"], match.speed()))
+    return bool(row["mode"]) or high <= choice.span * low
 
 
 def _row(match: _Found, members: int) -> dict[str, object]:
-    known, share = match.any().crossing, len(match.members) / members
-    row: dict[str, object] = {"mode": known.mode, "engine_order": known.engine_order, "members": members}
+    known, share = match.any(), len(match.members) / members
+    row: dict[str, object] = {"mode": known["mode"], "engine_order": known["engine_order"], "members": members}
     row |= {"share_of_members": share, "robust": share >= ROBUST}
-    for name in RANGED:
-        values = np.array([member.columns[name] for member in match.members.values()], float)
+    for name in names(RANGED):
+        values = np.array([member[name] for member in match.members.values()], float)
         values = values[np.isfinite(values)]
         quantiles = np.quantile(values, list(ENDS.values()), method="inverted_cdf") if len(values) else [np.nan] * len(ENDS)
-        row[name] = match.nominal.columns[name] if match.nominal else np.nan
+        row[name] = match.nominal[name] if match.nominal else np.nan
         row |= {f"{name}_{end}": float(value) for end, value in zip(ENDS, quantiles, strict=True)}
     return row
 

@@ -1,0 +1,282 @@
+"""Columns of summary.csv and ranking.csv, each declared once: tables, docs/results.md and explorer follow from them.
+
+Light: the configuration imports it.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from r37core.base.units import shown_unit, si_name, unit_of
+
+CERTAIN, POSSIBLE = 0.5, 0.05
+"""Shares of the revolutions above which a speed counts as above yield in most, and in some, revolutions."""
+
+DROP_WITHIN = 24.0
+"""Speeds (rad/s) above a peak over which its motion counts as dropped."""
+
+ENDS = {"low": 0.05, "median": 0.5, "high": 0.95}
+"""End of a column's name -> quantile of the members: nine tenths of them lie between the outer two."""
+
+CHANCE = "chance_better_than_"
+"""Begin of columns of ranking.csv that compare a blade with another one, whose name follows."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """Column of a table: its `name`, which ends with its SI unit, and its `meaning`; `words`: title that is not the name.
+
+    `place`: order in the explorer's table of interactions, 0 for one that is not there; `percent`: whether a share is shown in
+    percent; `scatter`: whether its standard deviation by chance follows it; `minimised`: whether searches can minimise it.
+    """
+
+    name: str
+    meaning: str
+    words: str = ""
+    place: int = 0
+    percent: bool = False
+    scatter: bool = False
+    minimised: bool = False
+
+    @property
+    def title(self) -> str:
+        """Short name in words."""
+        return self.words or self.measure.replace("_", " ")
+
+    @property
+    def unit(self) -> str:
+        """Unit in which values are shown, empty for a plain number."""
+        return "%" if self.percent else shown_unit(unit_of(self.name))[0]
+
+    @property
+    def factor(self) -> float:
+        """Factor from the SI unit to the shown one."""
+        return 100.0 if self.percent else shown_unit(unit_of(self.name))[1]
+
+    @property
+    def digits(self) -> int:
+        """Digits with which the explorer shows values."""
+        return 5 if "speed" in self.name else 4
+
+    @property
+    def measure(self) -> str:
+        """Name without its unit: the variable of datasets that hold the same number."""
+        return si_name(self.name)[0]
+
+    @property
+    def scatter_name(self) -> str:
+        """Name of the column with the standard deviation by chance."""
+        return f"{self.measure}_scatter{self.name.removeprefix(self.measure)}"
+
+    @property
+    def range_names(self) -> list[str]:
+        """Names of the columns with the range over the members."""
+        return [f"{self.name}_{end}" for end in ENDS]
+
+
+def names(columns: Iterable[Column]) -> list[str]:
+    """Names of the columns in a table, each followed by that of its scatter."""
+    return [name for column in columns for name in (column.name, *([column.scatter_name] if column.scatter else []))]
+
+
+_REVOLUTIONS = "later revolutions"
+"""Revolutions in the second half of a run; the last hundred of one that goes on until it settles."""
+
+_POSSIBLE = f"more than {POSSIBLE:.0%} of the {_REVOLUTIONS} exceed yield"
+_CERTAIN = f"more than {CERTAIN:.0%} of the {_REVOLUTIONS} exceed yield"
+_MEDIAN = f"largest median of the von Mises stress over the {_REVOLUTIONS}"
+_MOST, _SOME = "above yield in most revolutions", "above yield in some revolutions"
+_LOST = f"share of the amplitude lost within {DROP_WITHIN:g} rad/s above the peak"
+_GOODMAN = "largest share of the Goodman line"
+
+INTERACTIONS = (
+    Column("blade", "name of the blade", place=10),
+    Column("scene", "name of the scene", place=20),
+    Column("mode", "mode of the crossing that explains the peak: 1B, 1T, 2B or empty"),
+    Column("engine_order", "engine order of that crossing, or else the strongest order of the spectrum"),
+    Column("direction", "direction of the peak: normal to the casing, tangential or both", place=30),
+    Column("campbell_speed_rad_s", "speed of that crossing in the Campbell diagram", "Campbell speed", place=40),
+    Column("peak_speed_rad_s", "speed at which the leading edge moves most", place=50),
+    Column("shift_rad_s", "peak speed minus Campbell speed", place=70),
+    Column("peak_rms_normal_m", "rms normal to the casing at the peak speed", "normal rms", place=80),
+    Column("peak_rms_tangential_m", "tangential rms at the peak speed", "tangential rms"),
+    Column("drop", _LOST, "amplitude lost above the peak", place=90, percent=True),
+    Column("first_yield_speed_rad_s", "lowest speed with stress above yield", "first speed above yield"),
+    Column("width_above_yield_rad_s", "distance from the first to the last speed above yield, ends interpolated", place=100),
+    Column(
+        "share_above_yield",
+        "share of this width that is above yield: chaotic motion leaves gaps",
+        "part of the width above yield",
+        percent=True,
+    ),
+    Column("max_von_mises_pa", "largest von Mises stress of the last revolution", "largest stress, last revolution", place=150),
+    Column("max_von_mises_speed_rad_s", "speed of the largest stress", "at speed", place=160),
+    Column("stress_region", "part of the blade where stress is evaluated"),
+    Column("max_wear_m", "largest wear of the lining", "largest wear", place=180),
+    Column(
+        "worn_through_share",
+        "largest share of the circumference where the tip has reached the casing behind the lining",
+        "worn through",
+        place=190,
+        percent=True,
+    ),
+    Column(
+        "sufficient_thickness_m",
+        "lining thickness that the interaction uses, elastic part included, where it wears; a lower bound where a run is worn "
+        "through or diverged",
+        place=200,
+    ),
+    Column("largest_penetration_m", "largest penetration of the tip's edge into the casing (behind a lining)", place=270),
+    Column("status", "`completed`, or `diverged` if any run of the interaction did", place=280),
+    Column(
+        "motion_at_end",
+        "at the peak speed: `growing`, `lasting`, `cut_free` (has decayed or lost contact) or `quiet` (within the clearance)",
+        "motion at the end",
+        place=210,
+    ),
+    Column(
+        "lasting_share",
+        "share of the interaction's speeds whose motion lasts or grows at the end",
+        "lasting",
+        place=220,
+        percent=True,
+    ),
+    Column("width_ever_above_yield_rad_s", f"width above yield if any of the {_REVOLUTIONS} counts"),
+    Column("possible_from_rad_s", f"lowest speed at which {_POSSIBLE}", f"{_SOME} from", place=110, scatter=True),
+    Column("possible_to_rad_s", "highest such speed", f"{_SOME} to", place=120, scatter=True),
+    Column("certain_from_rad_s", f"lowest speed at which {_CERTAIN}", f"{_MOST} from", scatter=True),
+    Column("certain_to_rad_s", "highest such speed", f"{_MOST} to", scatter=True),
+    Column("certain_length_rad_s", f"length of all speeds at which {_CERTAIN}", _MOST, place=130),
+    Column("median_von_mises_pa", _MEDIAN, "median stress", place=140),
+    Column("high_von_mises_pa", f"largest 90% quantile of the von Mises stress over the {_REVOLUTIONS}", "high stress"),
+    Column("largest_goodman_share", _GOODMAN, "Goodman share", place=170),
+    Column("peak_motion_m", "normal and tangential rms together, at the peak speed", "rms, both directions", scatter=True),
+    Column("fall_speed_rad_s", "speed above the peak at which the motion falls below half of it", "falls at", scatter=True),
+    Column("note", "reason for empty columns, and where the lining is worn through"),
+)
+"""Columns of summary.csv in their order.
+
+What is named peak is at the peak speed, what is named max the largest within the interaction. What ends in scatter is the
+standard deviation by chance of what stands before it (results.exceedance). NaN is what a scene does not compute.
+"""
+
+_WITH_RANGE = ("peak_speed_rad_s", "width_above_yield_rad_s", "first_yield_speed_rad_s", "max_von_mises_pa")
+RANGED = tuple(column for name in _WITH_RANGE for column in INTERACTIONS if column.name == name)
+"""Columns to which tolerances add a range over the members."""
+
+MEMBERS_SHOWING = (
+    Column("share_of_members", "share of the members that show the interaction", "members", place=60, percent=True),
+    Column("robust", "whether at least half of the members show it"),
+)
+"""Columns that tolerances add to summary.csv, before the ranges of RANGED."""
+
+SECOND_MOTIONS = (
+    Column("second_motion", "motion, carried `up` or `down`, that is most above that from rest", place=230),
+    Column("second_motion_speed_rad_s", "its speed", "speed of the second motion", place=240),
+    Column("second_motion_rms_normal_m", "its normal rms", "normal rms of the second motion", place=250),
+    Column("second_motion_rest_rms_normal_m", "normal rms from rest at that speed", "normal rms from rest there", place=260),
+)
+"""Columns that second motions add to summary.csv."""
+
+SUMMARY = (*INTERACTIONS, *SECOND_MOTIONS, *MEMBERS_SHOWING)
+"""All columns that summary.csv may have."""
+
+ROBUSTNESS = (
+    Column("length_certain_rad_s", f"length of all speeds at which {_CERTAIN}", _MOST, scatter=True, minimised=True),
+    Column("length_possible_rad_s", f"length of all speeds at which {_POSSIBLE}", _SOME, scatter=True, minimised=True),
+    Column("length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", "ever above yield"),
+    Column("length_lasting_rad_s", "the same where the motion lasts or grows at the end", f"{_MOST}, lasting"),
+    Column(
+        "exceedance_integral_rad_s",
+        f"integral over speed of the share of {_REVOLUTIONS} that exceed yield",
+        "integral above yield",
+        scatter=True,
+        minimised=True,
+    ),
+    Column("largest_goodman_share", _GOODMAN, "Goodman share", minimised=True),
+    Column(
+        "length_goodman_rad_s",
+        "length of all speeds above the Goodman line in most revolutions",
+        "above the Goodman line in most revolutions",
+    ),
+    Column(
+        "goodman_integral_rad_s",
+        "integral over speed of the share of revolutions above the Goodman line",
+        "integral above the Goodman line",
+        minimised=True,
+    ),
+    Column("largest_median_stress_pa", _MEDIAN, minimised=True),
+    Column("first_certain_rad_s", f"lowest speed at which {_CERTAIN}", f"first speed {_MOST}"),
+    Column("first_possible_rad_s", f"lowest speed at which {_POSSIBLE}", f"first speed {_SOME}"),
+    Column("widest_range_rad_s", "width of the widest of these ranges", f"widest range {_MOST}", minimised=True),
+    Column(
+        "largest_rms_m",
+        "largest normal and tangential rms of the leading edge together",
+        "largest rms, both directions",
+        minimised=True,
+    ),
+    Column("largest_rms_speed_rad_s", "its speed", "speed of the largest rms"),
+    Column("drop", _LOST, "amplitude lost above the peak", percent=True),
+    Column("largest_gap_rad_s", "largest distance of neighbouring speeds: it can hide a narrower interaction"),
+    Column("diverged_runs", "diverged runs", "diverged", minimised=True),
+)
+"""Measures of a response, the same for blades, designs and members."""
+
+OPERATING = (
+    Column(
+        "length_certain_operating_rad_s", "this length inside the operating range", f"{_MOST}, in operation", minimised=True
+    ),
+    Column(
+        "exceedance_integral_operating_rad_s",
+        "the integral over the operating range, weighted by its dwells",
+        "integral above yield, in operation",
+        scatter=True,
+        minimised=True,
+    ),
+    Column(
+        "goodman_integral_operating_rad_s",
+        "the same of the share of revolutions above the Goodman line",
+        "integral above Goodman, in operation",
+        minimised=True,
+    ),
+)
+"""Measures of a response inside the operating range."""
+
+WORST_MOTION = (
+    Column("length_certain_rest_rad_s", "this length from rest, at the speeds of sweeps", f"{_MOST}, from rest"),
+    Column("length_certain_worst_rad_s", "this length by the worst motion up, down and from rest", f"{_MOST}, worst motion"),
+    Column("largest_rms_worst_m", "largest rms of these motions", "largest rms, worst motion"),
+    Column("rank_worst", "place by the worst motion", "rank by the worst motion"),
+)
+"""Columns that second motions add to ranking.csv."""
+
+RANKING = (
+    Column("rank", "place in the scene: by length above yield in most, then in some revolutions, diverged runs, stress"),
+    *ROBUSTNESS,
+    *WORST_MOTION,
+    Column("members", "members of the sample"),
+    *OPERATING,
+    Column("rank_operating", "place by this integral", "rank in operation"),
+)
+"""All columns that ranking.csv may have next to blade, scene, ranges over members and chances."""
+
+MINIMISED = tuple(column.name for column in (*ROBUSTNESS, *OPERATING) if column.minimised)
+"""Measures that searches can minimise."""
+
+
+def column_named(name: str, columns: Iterable[Column]) -> Column | None:
+    """The column of this name: one of `columns`, the scatter or range over members of one, a chance; None for any other."""
+    if name.startswith(CHANCE):
+        other = name.removeprefix(CHANCE)
+        meaning = f"share of the members in which the blade is better than {other}"
+        return Column(name, meaning, f"chance to be better than {other}", percent=True)
+    for column in columns:
+        if name == column.name:
+            return column
+        if name == column.scatter_name:
+            meaning = f"standard deviation by chance of: {column.meaning}"
+            return replace(column, words=f"{column.title}, scatter", meaning=meaning)
+        if name in column.range_names:
+            quantile = ENDS[name.removeprefix(f"{column.name}_")]
+            end = "median" if quantile == 0.5 else f"{quantile:.0%}"
+            return replace(column, words=f"{column.title}, {end}", meaning=f"{end} of the members: {column.meaning}")
+    return None
