@@ -1,20 +1,7 @@
 """A project in a folder whose name a shell would take apart; tests/test_workflow.py runs a whole sweep in one."""
 
-import re
-
 import pytest
 from workflow_runs import copy_odd_project, run_in_odd_project
-
-
-def test_rules_quote_what_a_shell_sees(root):
-    commands = [
-        command
-        for file in [root / "Snakefile", *(root / "workflow").rglob("*.smk")]
-        for command in re.findall(r"^ +shell:\n((?: +(?:[rf]*\".*|#.*)\n)+)", file.read_text(), re.MULTILINE)
-    ]
-    assert commands
-    for command in commands:
-        assert all(field.endswith(":q}") for field in re.findall(r"\{.*?\}", command)), command
 
 
 @pytest.mark.slow
