@@ -47,7 +47,7 @@ class Calculation:
 
     @cached_property
     def made(self) -> Provenance:
-        """What its files say about their making."""
+        """Provenance of its files."""
         return Provenance(self.settings)
 
     def path(self, file: str) -> str:
@@ -62,7 +62,7 @@ class Calculation:
         parallel_results([partial(run_step, stage.step, files, outputs, params)], 1)
 
     def models(self) -> None:
-        """What simulations start from. Raises what making it raises."""
+        """The reduced model and the contact model of this call. Raises what making them raises."""
         run, tip_line = self.run, self.settings.scenes[self.run.scene].tip_line
         wanted = {self.sweep.contact_model(run): recipe(self.settings, run.blade, "contact_model", tip_line)}
         for file in self.sweep.stress_operator(run):

@@ -1,26 +1,28 @@
-"""What a call asks for: its blades and scenes, with what else of config.yaml it says."""
+"""Settings of a call: its blades and scenes, with other keys of config.yaml."""
 
 from __future__ import annotations
 
 import inspect
 import os
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from pathlib import Path
-from typing import Any, TypedDict
+from typing import Any, TypedDict, TypeVar
 
 from r37core.config import ConfigError, Document, Settings
 from r37core.config.remarks import remarks_on_input, remarks_on_points
 
-from .arguments import finite
+from .arguments import finite, sequence_of
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, Choice, SceneChoice
 
+T = TypeVar("T", bound=Choice)
+
 
 class OneOptions(TypedDict, total=False):
-    """What every call of one blade in a scene takes by name, as of `r37.simulate`."""
+    """Options of every call of one blade in a scene, as of `r37.simulate`."""
 
     fidelity: str | None
     results: Sequence[str] | None
@@ -48,17 +50,22 @@ class Call:
         for kind, several in (("blades", self.blades), ("scenes", self.scenes)):
             if several:
                 changes |= {kind: [choice.name for choice in several], f"{kind}_file": _one_file(kind, several)}
-        return self.configuration.settings(changes, self.name, self.blades_above, above(self.scenes), self.whole)
+        return self.configuration.settings(changes, self.name, above(self.blades), above(self.scenes), self.whole)
 
     @property
     def configuration(self) -> Configuration:
-        """What the keys lie on, with names of files as those of the blades start from."""
+        """The configuration below the keys; names of files in it start from the folder that those of the blades start from."""
         return Configuration(self.base.document, self.blades[0].configuration.root) if self.blades else self.base
 
     @property
-    def blades_above(self) -> Document | None:
-        """What is changed of blades, on top of their file."""
-        return above(self.blades)
+    def told(self) -> dict[str, str]:
+        """Attributes of a dataset with the changes of blades and scenes."""
+        return {name: text for choice in (*self.blades, *self.scenes) for name, text in choice.told.items()}
+
+    def tell_remarks(self) -> None:
+        """Warn of what the settings may not mean."""
+        changed = [scene.name for scene in self.scenes if scene.changes_clearance]
+        tell([*remarks_on_input(self.settings, changed), *remarks_on_points(self.settings)])
 
 
 def chosen_blade(blade: BladeChoice | str, config: Path | str | None) -> BladeChoice:
@@ -87,8 +94,21 @@ def chosen_scene(scene: SceneChoice | str, base: Configuration, results: Sequenc
 
 
 def base_of(blades: Sequence[BladeChoice], config: Path | str | None) -> Configuration:
-    """What structure and levels are of: the configuration `config`, else that of the blades."""
+    """The configuration of structure and levels: `config`, else that of the blades."""
     return blades[0].configuration if blades and config is None else read_configuration(config)
+
+
+def call_of(
+    caller: str,
+    blades: Sequence[BladeChoice],
+    scenes: Sequence[SceneChoice],
+    keys: Mapping[str, Any],
+    options: Mapping[str, Any],
+    whole: bool = False,
+) -> Call:
+    """The call of these blades in these scenes; `options` as of OneOptions. Raises ConfigError."""
+    level = {} if options.get("fidelity") is None else {"fidelity": options["fidelity"]}
+    return Call(caller, base_of(blades, options.get("config")), blades, scenes, {**keys, **level}, whole)
 
 
 def call_of_one(
@@ -99,26 +119,32 @@ def call_of_one(
     options: Mapping[str, Any],
 ) -> Call:
     """The call of one blade, in one scene or none; `options` as of OneOptions. Raises ConfigError."""
-    config = options.get("config")
-    chosen = chosen_blade(blade, config)
-    base = base_of([chosen], config)
-    rubs_on = [chosen_scene(scene, base, options.get("results")) for scene in scenes]
-    return Call(caller, base, [chosen], rubs_on, {**keys, **level(options.get("fidelity"))})
+    chosen = chosen_blade(blade, options.get("config"))
+    base = base_of([chosen], options.get("config"))
+    return call_of(caller, [chosen], [chosen_scene(scene, base, options.get("results")) for scene in scenes], keys, options)
 
 
-def level(fidelity: str | None) -> dict[str, Any]:
-    """The key of an accuracy level, where one is given."""
-    return {} if fidelity is None else {"fidelity": fidelity}
+def several_blades(blades: Any, config: Path | str | None) -> list[BladeChoice]:
+    """The blades of a run: one or a list of them. Raises ConfigError."""
+    return _several(blades, BladeChoice, lambda blade: chosen_blade(blade, config))
 
 
-def names_of_their_own(several: Sequence[Choice]) -> None:
-    """ConfigError for changed entries without a name where names stand in tables, and for two of one name."""
-    names: set[str] = set()
+def several_scenes(scenes: Any, base: Configuration, results: Sequence[str] | None = None) -> list[SceneChoice]:
+    """The scenes of a run: one or a list of them, as of chosen_scene. Raises ConfigError."""
+    return _several(scenes, SceneChoice, lambda scene: chosen_scene(scene, base, results))
+
+
+def _several(given: Any, kind: type[Choice], chosen: Callable[[Any], T]) -> list[T]:
+    """Choices of which names stand in tables. ConfigError for changed ones without a name, and for two of one name."""
+    word = kind.kind
+    entries = sequence_of(given, kind | str, f"{word}s", f"the name of a {word}, or what r37.{word} gives")
+    several, names = [chosen(entry) for entry in entries], set()
     for choice in several:
         if (choice.changes and not choice.base) or choice.name in names:
-            example = f'r37.{choice.kind}("{choice.base or choice.name}", ..., name="Mine")'
-            raise ConfigError(f"{choice.kind}s: found {choice.label}; allowed: names that differ, as of {example}")
+            example = f'r37.{word}("{choice.base or choice.name}", ..., name="Mine")'
+            raise ConfigError(f"{word}s: found {choice.label}; allowed: names that differ, as of {example}")
         names.add(choice.name)
+    return several
 
 
 def _one_file(key: str, several: Sequence[Choice]) -> str:
@@ -138,12 +164,6 @@ def above(several: Sequence[Choice]) -> Document | None:
 
 
 _PACKAGE = str(Path(__file__).parent) + os.sep
-
-
-def remarks_of(call: Call) -> list[str]:
-    """Remarks of a run that does what a call asks for."""
-    changed = [scene.name for scene in call.scenes if scene.changes_clearance]
-    return [*remarks_on_input(call.settings, changed), *remarks_on_points(call.settings)]
 
 
 def tell(remarks: Iterable[str]) -> None:

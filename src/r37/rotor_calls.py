@@ -15,7 +15,7 @@ from r37core.rotors.plan import ROTOR_OF_RUN
 
 from .arguments import Speeds, speed_keys
 from .call_configuration import Configuration
-from .call_settings import base_of, chosen_blade, chosen_scene
+from .call_settings import base_of, call_of, chosen_blade, chosen_scene
 from .choices import BladeChoice, SceneChoice
 from .runs import SweepOptions, run_of
 from .stages import checked_call
@@ -77,10 +77,9 @@ def rotor(
     """
     chosen = chosen_blade(blade, options.get("config"))
     rubs_on = _rotor_scene(scene, base_of([chosen], options.get("config")), rotor, options.get("results"))
-    file = fill(ROTOR_OF_RUN, blade=chosen.name, scene=rubs_on.name)
-    keys = speed_keys(speeds, options.get("speeds_rpm"))
-    results = run_of("r37.rotor", [chosen], [rubs_on], keys, options, file)
-    return results.rotor(chosen.name, rubs_on.name).assign_attrs(chosen.told | rubs_on.told)
+    call = call_of("r37.rotor", [chosen], [rubs_on], speed_keys(speeds, options.get("speeds_rpm")), options)
+    results = run_of(call, options, fill(ROTOR_OF_RUN, blade=chosen.name, scene=rubs_on.name))
+    return results.rotor(chosen.name, rubs_on.name).assign_attrs(call.told)
 
 
 def _rotor_scene(

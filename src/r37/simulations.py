@@ -19,7 +19,7 @@ from r37core.time_integration.initial_motion import InitialMotion, InitialMotion
 
 from .arguments import Speeds, speed_key, speed_keys
 from .calculation import Calculation
-from .call_settings import Call, OneOptions, call_of_one, remarks_of, tell
+from .call_settings import Call, OneOptions, call_of_one, tell
 from .choices import BladeChoice, SceneChoice
 from .jobs import check_cores, parallel_results
 from .stages import checked_call
@@ -27,7 +27,7 @@ from .structure_files import recipe
 
 
 class SimulateOptions(OneOptions, total=False):
-    """What `simulate` takes by name."""
+    """Options of `simulate`."""
 
     speed_rpm: float | None
     initial_displacement: ArrayLike | None
@@ -35,7 +35,7 @@ class SimulateOptions(OneOptions, total=False):
 
 
 class SpeedsOptions(OneOptions, total=False):
-    """What `sweep` takes by name."""
+    """Options of `sweep`."""
 
     speeds_rpm: Speeds | None
     cores: int
@@ -233,11 +233,11 @@ def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> x
 
 def _response(call: Call, cores: int, motion: InitialMotion | None = None) -> xr.Dataset:
     """The response of the call's one blade in its one scene, at the speeds of its settings, from rest or in `motion`."""
-    tell(remarks_of(call))
+    call.tell_remarks()
     (blade,), (scene,) = call.blades, call.scenes
     with scratch_folder() as folder:
         response = read_dataset(Calculation(call.settings, folder, cores).response(motion))
     # free flight is what a start in motion may be for
     if motion is None:
         tell(remarks_on_contact([(f"{blade.label} in {scene.label}", response["largest_normal_force"].values)]))
-    return response.assign_attrs(blade.told | scene.told)
+    return response.assign_attrs(call.told)

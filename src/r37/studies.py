@@ -11,17 +11,17 @@ from r37core.config import ConfigError
 from r37core.designs.compared import SCENE_KEY
 
 from .arguments import Speeds, mapping, plain_value, speed_keys
-from .call_settings import chosen_blade
+from .call_settings import base_of, call_of, chosen_blade, several_scenes
 from .choices import BladeChoice
 from .run_results import RunResults
-from .runs import Blades, Scenes, SweepOptions, named_run, run_of, scenes_of_run
+from .runs import Blades, Scenes, SweepOptions, named_run, run_of
 from .stages import checked_call
 
 _SPREAD = 'dotted keys and how each spreads, as in {"friction.coefficient": {"uniform_percent": 5}}'
 
 
 class DesignOptions(SweepOptions, total=False):
-    """What `designs` takes by name."""
+    """Options of `designs`."""
 
     combine: str
     name: str
@@ -30,7 +30,7 @@ class DesignOptions(SweepOptions, total=False):
 
 
 class ToleranceOptions(SweepOptions, total=False):
-    """What `tolerances` takes by name."""
+    """Options of `tolerances`."""
 
     of_scenes: Mapping[str, Any]
     of_blades: Mapping[str, Any]
@@ -135,10 +135,11 @@ def designs(
     chosen = chosen_blade(blade, options.get("config"))
     family = chosen.family(options.get("name", "Design"), entry) if entry else chosen
     sections = {key: plain_value(section) for key, section in options.items() if key in ("operating", "requirements")}
-    keys, several = {**speed_keys(speeds, options.get("speeds_rpm")), **sections}, scenes_of_run(scenes, [family], options)
+    keys = {**speed_keys(speeds, options.get("speeds_rpm")), **sections}
+    several = several_scenes(scenes, base_of([family], options.get("config")), options.get("results"))
     if scene_entry:
         several = [scene.family(f"{scene.name}-varied", scene_entry) for scene in several]
-    return run_of("r37.designs", [family], several, keys, options)
+    return run_of(call_of("r37.designs", [family], several, keys, options), options)
 
 
 @checked_call

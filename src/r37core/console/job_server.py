@@ -154,7 +154,7 @@ def _fork_for_clients(listener: socket.socket, prepare: Callable[[list[str]], ob
 
 
 class _Job(NamedTuple):
-    """What a client asks for: its folder, its environment, script and arguments, and the files that its output goes to."""
+    """Request of a client: its folder, its environment, script and arguments, and the files that its output goes to."""
 
     folder: str
     environment: dict[str, str]
@@ -275,7 +275,7 @@ def _answer(client: socket.socket, job: _Job) -> NoReturn:
 
 
 def _status_of(script: str) -> int:
-    """What the script would exit with by itself."""
+    """Exit status that the script would have by itself."""
     try:
         runpy.run_path(script, run_name="__main__")
     except SystemExit as end:

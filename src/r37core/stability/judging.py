@@ -25,7 +25,7 @@ _FINITE = ("rms_normal", "rms_tangential", "peak_normal")
 
 
 def numbers(response: xr.Dataset) -> dict[str, Any]:
-    """What a case is judged by: columns of the table, whether a run of it diverged, and what is `unsound`."""
+    """Numbers of a case: columns of the table, whether a run of it diverged, and what is `unsound`."""
     diverged = bool(response["status"].any())
     return {
         "time_step_s": float(response["time_step"].mean()),

@@ -94,7 +94,7 @@ def cases(settings: Settings) -> dict[str, Case]:
 
 
 def words(name: str) -> dict[str, str]:
-    """What is extreme, its value and the scene, of the name of a case."""
+    """Columns of the table from the name of a case: what is extreme, its value and the scene."""
     extreme, _, scene = name.partition("__")
     what, _, value = extreme.rpartition("_")
     return {"what": what, "value": value, "scene": scene}
