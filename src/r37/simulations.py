@@ -21,9 +21,9 @@ from .arguments import Speeds, speed_key, speed_keys
 from .calculation import Calculation
 from .call_settings import Call, OneOptions, call_of_one, tell
 from .choices import BladeChoice, SceneChoice
-from .jobs import check_cores, parallel_results
+from .jobs import check_cores
 from .stages import checked_call
-from .structure_files import recipe
+from .structure_files import structure_file
 
 
 class SimulateOptions(OneOptions, total=False):
@@ -226,7 +226,7 @@ def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> x
     """A dataset of the structure of the call's one blade."""
     settings, (blade,) = call.settings, call.blades
     tell(remarks_on_materials(settings))
-    (file,) = parallel_results([recipe(settings, blade.name, stage, tip_line).file], 1)
+    file = structure_file(settings, blade.name, stage, tip_line)
     made = Provenance(settings).structure(Named(blade=blade.name))
     return read_dataset(file).assign_attrs(FILE_ATTRIBUTES | dict(made) | blade.told)
 

@@ -22,7 +22,7 @@ from r37core.plans.samples import NOMINAL
 from r37core.plans.stages import Stage, structure_stages
 from r37core.plans.structure_plan import Structure
 
-from .jobs import run_step
+from .jobs import parallel_results, run_step
 from .stages import LOGGER
 
 _FILES = {
@@ -92,6 +92,12 @@ def recipe(settings: Settings, blade: str, stage: str, tip_line: str | None = No
         return Recipe(blade, stages[name], _FILES[stage], inputs, stages[name].values(wildcards))
 
     return of(stage)
+
+
+def structure_file(settings: Settings, blade: str, stage: str, tip_line: str | None = None) -> Path:
+    """The file of a recipe, with the numbers that one thread of linear algebra gives. Raises what making it raises."""
+    (file,) = parallel_results([recipe(settings, blade, stage, tip_line).file], 1)
+    return file
 
 
 def cache_folder() -> Path:

@@ -20,7 +20,11 @@ from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 from .case import OWN_MESH, Case, ModelChoice, model_of_name
 
-MODEL_FILE = "<results>/cases/{blade}/{model}/{file}"
+MODEL_FILES = {
+    "rom": "<results>/cases/{blade}/{model}/rom.nc",
+    "contact": "<results>/cases/{blade}/{model}/contact.npz",
+    "cost": "<results>/cases/{blade}/{model}/cost.json",
+}
 
 _OF_A_MESH = ("model.", "choice.snapshots_per_revolution")
 """Fields of a case, by the first part of their paths, that matrices decide: they have contact nodes and no stress."""
@@ -151,17 +155,15 @@ class Cases:
         if case.scene is None:
             return {}
         if isinstance(case.model, str):
+            patterns = {"rom": paths.REDUCED_MODEL, "contact": paths.CONTACT_MODEL}
             where = {"blade": case.blade, "tip_line": case.model}
-            files = {"rom": paths.fill(paths.REDUCED_MODEL, **where), "contact": paths.fill(paths.CONTACT_MODEL, **where)}
         else:
-            where = {"blade": case.blade, "model": case.model.name}
-            names = {"rom": "rom.nc", "contact": "contact.npz", "cost": "cost.json"}
-            files = {kind: paths.fill(MODEL_FILE, **where, file=name) for kind, name in names.items()}
+            patterns, where = dict(MODEL_FILES), {"blade": case.blade, "model": case.model.name}
         if "stress" not in case.results:
-            del files["rom"]
+            del patterns["rom"]
         if case.crossing:
-            files["campbell"] = paths.fill(paths.CAMPBELL, blade=case.blade)
-        return files
+            patterns["campbell"] = paths.CAMPBELL
+        return {kind: paths.fill(pattern, **where) for kind, pattern in patterns.items()}
 
 
 def shape_of_model(wildcards: Any) -> dict[str, str]:
