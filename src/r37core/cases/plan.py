@@ -141,10 +141,6 @@ class Cases:
         """Responses of all cases."""
         return [paths.fill(self.file, case=name) for name in self._made()]
 
-    def names(self, wildcards: Any) -> list[str]:
-        """Names of the cases, in the order of their files."""
-        return list(self._made())
-
     def case(self, wildcards: Any) -> dict[str, Any]:
         """A case as plain values."""
         return to_plain(self._made()[wildcards.case])

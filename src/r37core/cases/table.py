@@ -1,6 +1,7 @@
 """The table of cases: a row for each, from which the tables of the extensions follow."""
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,10 @@ from r37core.base.dataset_file import read_dataset
 from r37core.base.io import as_list
 
 
-def read_cases(input: Any, params: Any) -> dict[str, xr.Dataset]:
-    """Responses of all cases by name. Input: cases, their files; params: cases, their names, in the same order."""
-    return {name: read_dataset(file) for name, file in zip(params.cases, as_list(input.cases), strict=True)}
+def read_cases(input: Any, output: Any) -> dict[str, xr.Dataset]:
+    """Responses of all cases by name. Input: cases, their files, in the folder that is called like the output `table`."""
+    folder = Path(output.table).with_suffix("")
+    return {str(Path(file).relative_to(folder).with_suffix("")): read_dataset(file) for file in as_list(input.cases)}
 
 
 def case_table(responses: Mapping[str, xr.Dataset], numbers: Callable[[xr.Dataset], Mapping[str, Any]]) -> pd.DataFrame:

@@ -9,6 +9,6 @@ from .projection import numbers, projected_costs, time_start_up
 
 
 def report(input: Any, output: Any, params: Any) -> None:
-    """Project the cost. Inputs: cases, their responses. Output: table (csv). Params: cases, their names; values."""
-    costs = projected_costs(case_table(read_cases(input, params), numbers), start_up=time_start_up(), **params.values)
+    """Project the cost. Inputs: cases, their responses. Output: table (csv). Params: values."""
+    costs = projected_costs(case_table(read_cases(input, output), numbers), start_up=time_start_up(), **params.values)
     write_table(costs, output.table, digits=6)

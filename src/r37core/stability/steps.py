@@ -14,8 +14,8 @@ COLUMNS = ("what", "value", "scene", "outcome", "detail", "time_step_s", "rms_m"
 
 
 def report(input: Any, output: Any, params: Any) -> None:
-    """Judge every extreme. Inputs: cases, their responses. Output: table (csv). Params: cases, their names."""
-    cases = case_table(read_cases(input, params), numbers).to_dict("index")
+    """Judge every extreme. Inputs: cases, their responses. Output: table (csv)."""
+    cases = case_table(read_cases(input, output), numbers).to_dict("index")
     rows = []
     for name in [name for name in cases if not name.endswith(HALF)]:
         outcome, detail = judge(cases[name], cases[f"{name}{HALF}"])

@@ -14,10 +14,10 @@ from .tables import level_table, parameter_table
 def report(input: Any, output: Any, params: Any) -> None:
     """Compare all cases. Inputs: cases, their responses. Outputs: dataset (nc), table, levels, growth (csv).
 
-    Params: cases, their names; values, as of tradeoff.plan.values.
+    Params: values, as of tradeoff.plan.values.
     """
     values = params.values
-    together = gather_cases(read_cases(input, params), values["places"], values["references"])
+    together = gather_cases(read_cases(input, output), values["places"], values["references"])
     table = parameter_table(together, values["references"])
     attributes = {name: values[name] for name in ("blade", "base_level", "left_out")}
     write_dataset(together, output.dataset, attributes)
