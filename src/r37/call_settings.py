@@ -134,10 +134,10 @@ def several_scenes(scenes: Any, base: Configuration, results: Sequence[str] | No
     return _several(scenes, SceneChoice, lambda scene: chosen_scene(scene, base, results))
 
 
-def _several(given: Any, kind: type[Choice], chosen: Callable[[Any], T]) -> list[T]:
+def _several(value: Any, kind: type[Choice], chosen: Callable[[Any], T]) -> list[T]:
     """Choices of which names stand in tables. ConfigError for changed ones without a name, and for two of one name."""
     word = kind.kind
-    entries = sequence_of(given, kind | str, f"{word}s", f"the name of a {word}, or what r37.{word} gives")
+    entries = sequence_of(value, kind | str, f"{word}s", f"the name of a {word}, or what r37.{word} gives")
     several, names = [chosen(entry) for entry in entries], set()
     for choice in several:
         if (choice.changes and not choice.base) or choice.name in names:
