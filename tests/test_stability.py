@@ -13,6 +13,7 @@ from test_cases import case_of
 from workflow_runs import snakemake
 
 from r37core.base.dataset_file import read_dataset
+from r37core.cases.case import HALF_STEP
 from r37core.cases.plan import Cases
 from r37core.cases.runner import run_case
 from r37core.cases.table import case_table
@@ -23,6 +24,7 @@ from r37core.product.reading import read_settings
 from r37core.stability import judging, plan
 from r37core.stability.figures import COLOURS, draw_stability
 from r37core.stability.judging import OUTCOMES, judge
+from r37core.stability.steps import words
 
 
 def test_every_extreme_has_a_name_of_its_own_and_says_what_the_configuration_refuses(settings):
@@ -30,8 +32,8 @@ def test_every_extreme_has_a_name_of_its_own_and_says_what_the_configuration_ref
     # direct contact has no lining
     assert "bars_10__abradable" in planned and "bars_10__direct" not in planned
     assert len(planned) > 200
-    words = {"what": "speed_over_crossing", "value": "0.05", "scene": "direct"}
-    assert plan.words("speed_over_crossing_0.05__direct") == words
+    expected = {"what": "speed_over_crossing", "value": "0.05", "scene": "direct"}
+    assert words("speed_over_crossing_0.05__direct") == expected
     refused = [case.refused for case in planned.values() if case.scene is None]
     assert 0 < len(refused) < len(planned)
     assert all("found" in text and "allowed" in text for text in refused)
@@ -47,7 +49,7 @@ def test_extremes_that_are_chosen(root):
     few = {"stability": {"extremes": ["lobes"], "scenes": ["direct"], "base": "draft"}}
     settings = read_settings(root, command_line_document(few))
     cases = plan.cases(settings)
-    names = [name for name in cases if not name.endswith(plan.HALF)]
+    names = [name for name in cases if not name.endswith(HALF_STEP)]
     assert names == ["lobes_1__direct", "lobes_5__direct", "lobes_20__direct"]
     assert cases["lobes_1__direct"].model.nodes == 5000
     # another blade is run: there is nothing to make

@@ -8,6 +8,9 @@ from r37core.contact.scene import Scene
 from r37core.fem.material import Material
 from r37core.time_integration.integration_choice import IntegrationChoice
 
+HALF_STEP = "__half_step"
+"""End of the name of a case that is another one with half its time step."""
+
 OWN_MESH = 0
 """Number of nodes that stands for the mesh of the run, as for a blade of another program."""
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import Field
 
-from r37core.cases.case import Case
+from r37core.cases.case import HALF_STEP, Case
 from r37core.cases.plan import BaseCase, CasesSection
 from r37core.config import ConfigError, Settings, checked_scene, plain
 from r37core.config.families import changed_content
@@ -15,9 +15,6 @@ from r37core.config.section import AllOrNames, ExtensionSection
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
-
-HALF = "__half_step"
-"""End of the name of an extreme's second case."""
 
 
 class StabilitySection(CasesSection):
@@ -89,15 +86,8 @@ def cases(settings: Settings) -> dict[str, Case]:
             of_entry, of_case = changes(value)
             if all("." not in key or key.split(".")[0] in entry for key in of_entry):
                 case, name = _case(base, _changed(entry, of_entry), of_case), f"{what}_{value:g}__{scene}"
-                planned |= {name: case, f"{name}{HALF}": replace(case, half_step=True)}
+                planned |= {name: case, f"{name}{HALF_STEP}": replace(case, half_step=True)}
     return planned
-
-
-def words(name: str) -> dict[str, str]:
-    """Columns of the table from the name of a case: what is extreme, its value and the scene."""
-    extreme, _, scene = name.partition("__")
-    what, _, value = extreme.rpartition("_")
-    return {"what": what, "value": value, "scene": scene}
 
 
 def _case(base: BaseCase, entry: Mapping[str, Any], changes: Mapping[str, Any]) -> Case:
