@@ -5,11 +5,11 @@ from __future__ import annotations
 import inspect
 import os
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar
+from typing import Any, TypedDict
 
 from r37core.config import ConfigError, Document, Settings
 from r37core.config.remarks import remarks_on_input, remarks_on_points
@@ -17,8 +17,6 @@ from r37core.config.remarks import remarks_on_input, remarks_on_points
 from .arguments import finite, sequence_of
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, Choice, SceneChoice
-
-T = TypeVar("T", bound=Choice)
 
 
 class OneOptions(TypedDict, total=False):
@@ -47,9 +45,9 @@ class Call:
     def settings(self) -> Settings:
         """Checked settings. Raises ConfigError."""
         changes = dict(self.keys)
-        for kind, several in (("blades", self.blades), ("scenes", self.scenes)):
-            if several:
-                changes |= {kind: [choice.name for choice in several], f"{kind}_file": _one_file(kind, several)}
+        for kind, choices in (("blades", self.blades), ("scenes", self.scenes)):
+            if choices:
+                changes |= {kind: [choice.name for choice in choices], f"{kind}_file": _one_file(kind, choices)}
         return self.configuration.settings(changes, self.name, above(self.blades), above(self.scenes), self.whole)
 
     @property
@@ -100,55 +98,44 @@ def base_of(blades: Sequence[BladeChoice], config: Path | str | None) -> Configu
 
 def call_of(
     caller: str,
-    blades: Sequence[BladeChoice],
-    scenes: Sequence[SceneChoice],
+    blades: Iterable[BladeChoice | str],
+    scenes: Iterable[SceneChoice | str],
     keys: Mapping[str, Any],
     options: Mapping[str, Any],
+    *,
+    named: bool = False,
     whole: bool = False,
 ) -> Call:
-    """The call of these blades in these scenes; `options` as of OneOptions. Raises ConfigError."""
-    level = {} if options.get("fidelity") is None else {"fidelity": options["fidelity"]}
-    return Call(caller, base_of(blades, options.get("config")), blades, scenes, {**keys, **level}, whole)
+    """The call of these blades in these scenes, whose names stand in tables if `named`; `options` as of OneOptions.
+
+    Raises ConfigError.
+    """
+    config, fidelity = options.get("config"), options.get("fidelity")
+    chosen = [chosen_blade(blade, config) for blade in blades]
+    base = base_of(chosen, config)
+    rubs_on = [chosen_scene(scene, base, options.get("results")) for scene in scenes]
+    for choices in (chosen, rubs_on) if named else ():
+        names_of_their_own(choices)
+    return Call(caller, base, chosen, rubs_on, {**keys, **({} if fidelity is None else {"fidelity": fidelity})}, whole)
 
 
-def call_of_one(
-    caller: str,
-    blade: BladeChoice | str,
-    scenes: Sequence[SceneChoice | str],
-    keys: Mapping[str, Any],
-    options: Mapping[str, Any],
-) -> Call:
-    """The call of one blade, in one scene or none; `options` as of OneOptions. Raises ConfigError."""
-    chosen = chosen_blade(blade, options.get("config"))
-    base = base_of([chosen], options.get("config"))
-    return call_of(caller, [chosen], [chosen_scene(scene, base, options.get("results")) for scene in scenes], keys, options)
+def several(value: Any, kind: type[Choice]) -> list[Any]:
+    """One blade or scene, or several of them, as a list. Raises ConfigError for others and for none."""
+    return sequence_of(value, kind | str, f"{kind.kind}s", f"the name of a {kind.kind}, or what r37.{kind.kind} gives")
 
 
-def several_blades(blades: Any, config: Path | str | None) -> list[BladeChoice]:
-    """The blades of a run: one or a list of them. Raises ConfigError."""
-    return _several(blades, BladeChoice, lambda blade: chosen_blade(blade, config))
-
-
-def several_scenes(scenes: Any, base: Configuration, results: Sequence[str] | None = None) -> list[SceneChoice]:
-    """The scenes of a run: one or a list of them, as of chosen_scene. Raises ConfigError."""
-    return _several(scenes, SceneChoice, lambda scene: chosen_scene(scene, base, results))
-
-
-def _several(value: Any, kind: type[Choice], chosen: Callable[[Any], T]) -> list[T]:
-    """Choices of which names stand in tables. ConfigError for changed ones without a name, and for two of one name."""
-    word = kind.kind
-    entries = sequence_of(value, kind | str, f"{word}s", f"the name of a {word}, or what r37.{word} gives")
-    several, names = [chosen(entry) for entry in entries], set()
-    for choice in several:
+def names_of_their_own(choices: Sequence[Choice]) -> None:
+    """ConfigError for changed entries without a name where names stand in tables, and for two of one name."""
+    names: set[str] = set()
+    for choice in choices:
         if (choice.changes and not choice.base) or choice.name in names:
-            example = f'r37.{word}("{choice.base or choice.name}", ..., name="Mine")'
-            raise ConfigError(f"{word}s: found {choice.label}; allowed: names that differ, as of {example}")
+            example = f'r37.{choice.kind}("{choice.base or choice.name}", ..., name="Mine")'
+            raise ConfigError(f"{choice.kind}s: found {choice.label}; allowed: names that differ, as of {example}")
         names.add(choice.name)
-    return several
 
 
-def _one_file(key: str, several: Sequence[Choice]) -> str:
-    files = list(dict.fromkeys(choice.file for choice in several))
+def _one_file(key: str, choices: Sequence[Choice]) -> str:
+    files = list(dict.fromkeys(choice.file for choice in choices))
     if len(files) > 1:
         together = (
             f'write them into one: r37 init <folder> gives the shipped ones in config/; then file="<folder>/config/{key}.yaml"'
@@ -157,9 +144,9 @@ def _one_file(key: str, several: Sequence[Choice]) -> str:
     return files[0]
 
 
-def above(several: Sequence[Choice]) -> Document | None:
+def above(choices: Sequence[Choice]) -> Document | None:
     """The changes of some entries as one document."""
-    documents = [choice.above for choice in several if choice.above]
+    documents = [choice.above for choice in choices if choice.above]
     return reduce(Document.overlaid, documents) if documents else None
 
 

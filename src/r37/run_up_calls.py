@@ -16,7 +16,7 @@ from r37core.run_ups.plan import RUN_UP, RunUps
 
 from .arguments import mapping
 from .calculation import Calculation
-from .call_settings import Call, OneOptions, call_of_one
+from .call_settings import Call, OneOptions, call_of
 from .choices import BladeChoice, SceneChoice
 from .runs import RunOptions, run_of
 from .stages import checked_call
@@ -142,7 +142,7 @@ def _call(
 ) -> Call:
     """The call of these run-ups of a blade in a scene."""
     entries = {name: mapping(entry, f"run_ups.{name}", "the keys of a run-up") for name, entry in several.items()}
-    call = call_of_one(caller, blade, [scene], {"run_ups": entries}, options)
+    call = call_of(caller, [blade], [scene], {"run_ups": entries}, options)
     # a run-up's own speeds are checked by its section
     return replace(call, keys={**call.keys, "speeds": [call.base.checked.structure.maximum_speed_rad_s]})
 

@@ -10,7 +10,7 @@ from r37core.base.io import temporary_folder
 from r37core.product.extensions import EXTENSIONS
 
 from .arguments import Speeds, plain_value, speed_keys
-from .call_settings import Call, OneOptions, base_of, call_of, several_blades, several_scenes
+from .call_settings import Call, OneOptions, base_of, call_of, chosen_blade, several
 from .choices import BladeChoice, SceneChoice, scenes_named
 from .jobs import check_cores
 from .run_folder import run_folder, write_run
@@ -100,16 +100,15 @@ def run(
     keys = {name: plain_value(section) for name, section in sections.items()}
     if speeds is not None or speeds_rpm is not None:
         keys |= speed_keys(speeds, speeds_rpm)
-    options: RunOptions = {"fidelity": fidelity, "config": config, "cores": cores, "folder": folder}
-    chosen = [] if blades is None else several_blades(blades, config)
-    base = base_of(chosen, config)
+    options: RunOptions = {"fidelity": fidelity, "results": results, "config": config, "cores": cores, "folder": folder}
+    chosen = [] if blades is None else [chosen_blade(blade, config) for blade in several(blades, BladeChoice)]
     if scenes is None and results is not None:
         # results are a key of each scene
-        scenes = scenes_named(base)
-    rubs_on = [] if scenes is None else several_scenes(scenes, base, results)
+        scenes = scenes_named(base_of(chosen, config))
     made_on_request = [extension.name for extension in EXTENSIONS if extension.made_on_request and extension.name in sections]
     wanted = ["tables", *made_on_request] if targets is None else targets
-    return run_of(call_of("r37.run", chosen, rubs_on, keys, options, whole=True), options, wanted)
+    rubs_on = [] if scenes is None else several(scenes, SceneChoice)
+    return run_of(call_of("r37.run", chosen, rubs_on, keys, options, named=True, whole=True), options, wanted)
 
 
 def run_of(call: Call, options: Mapping[str, Any], targets: str | Sequence[str] = "tables") -> RunResults:
@@ -124,17 +123,14 @@ def run_of(call: Call, options: Mapping[str, Any], targets: str | Sequence[str] 
     return RunResults(place / "results", temporary)
 
 
-def named_run(
+def named_call(
     caller: str,
     blades: Blades,
     scenes: Scenes,
     speeds: Speeds | None,
     options: Mapping[str, Any],
     keys: Mapping[str, Any] | None = None,
-    targets: str | Sequence[str] = "tables",
-) -> RunResults:
-    """A run of a call by another name; `options` as of SweepOptions."""
-    chosen = several_blades(blades, options.get("config"))
-    rubs_on = several_scenes(scenes, base_of(chosen, options.get("config")), options.get("results"))
+) -> Call:
+    """The call of blades and scenes whose names stand in tables; `options` as of SweepOptions. Raises ConfigError."""
     keys = {**(keys or {}), **speed_keys(speeds, options.get("speeds_rpm"))}
-    return run_of(call_of(caller, chosen, rubs_on, keys, options), options, targets)
+    return call_of(caller, several(blades, BladeChoice), several(scenes, SceneChoice), keys, options, named=True)

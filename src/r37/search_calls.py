@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Unpack
 
 from r37core.search.designs import FOLDER
 from r37core.search.plan import BEST, DATASET, TABLE
 
 from .arguments import Speeds, mapping, plain_value
-from .call_settings import several_blades
 from .choices import BladeChoice
 from .run_results import RunResults
-from .runs import Scenes, SweepOptions, named_run
+from .runs import Scenes, SweepOptions, named_call, run_of
 from .stages import checked_call
 
 _BOUNDS = 'dotted keys of blades.yaml, or scene.KEY of scenes.yaml, and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
@@ -106,6 +106,7 @@ def search(
     own = {name: value for name, value in options.items() if name not in SweepOptions.__annotations__ and value is not None}
     entry = {"objectives": objectives, **own}
     entry |= {name: mapping(entry[name], name, allowed) for name, allowed in _MAPPINGS.items() if name in entry}
-    (chosen,) = several_blades(blade, options.get("config"))
+    call = named_call("r37.search", blade, scenes, speeds, options)
+    (chosen,) = call.blades
     section = {"blade": chosen.name, "variables": mapping(variables, "variables", _BOUNDS), **plain_value(entry)}
-    return named_run("r37.search", chosen, scenes, speeds, options, {FOLDER: section}, (DATASET, TABLE, BEST))
+    return run_of(replace(call, keys={FOLDER: section, **call.keys}), options, (DATASET, TABLE, BEST))

@@ -19,7 +19,7 @@ from r37core.time_integration.initial_motion import InitialMotion, InitialMotion
 
 from .arguments import Speeds, speed_key, speed_keys
 from .calculation import Calculation
-from .call_settings import Call, OneOptions, call_of_one, tell
+from .call_settings import Call, OneOptions, call_of, tell
 from .choices import BladeChoice, SceneChoice
 from .jobs import check_cores
 from .stages import checked_call
@@ -76,7 +76,7 @@ def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: P
     >>> 1600 < crossing < 1750
     True
     """
-    call = call_of_one("r37.campbell", blade, [], {}, {"fidelity": fidelity, "config": config})
+    call = call_of("r37.campbell", [blade], [], {}, {"fidelity": fidelity, "config": config})
     return _structure_dataset(call, "campbell_of_blade")
 
 
@@ -117,7 +117,7 @@ def reduced_model(
     True
     """
     scenes = [] if scene is None else [scene]
-    call = call_of_one("r37.reduced_model", blade, scenes, {}, {"fidelity": fidelity, "config": config})
+    call = call_of("r37.reduced_model", [blade], scenes, {}, {"fidelity": fidelity, "config": config})
     tip_line = call.settings.scenes[call.scenes[0].name].tip_line if call.scenes else None
     return _structure_dataset(call, "reduced_model", tip_line)
 
@@ -168,7 +168,7 @@ def simulate(
     >>> response.rms_normal.sel(tip_point="leading_edge").item() > 0.0  # m
     True
     """
-    call = call_of_one("r37.simulate", blade, [scene], speed_key(speed, options.get("speed_rpm")), options)
+    call = call_of("r37.simulate", [blade], [scene], speed_key(speed, options.get("speed_rpm")), options)
     try:
         _ = call.settings
     except ConfigError as error:
@@ -219,7 +219,7 @@ def sweep(
     """
     check_cores(cores := options.get("cores", 1))
     keys = speed_keys(speeds, options.get("speeds_rpm"))
-    return _response(call_of_one("r37.sweep", blade, [scene], keys, options), cores)
+    return _response(call_of("r37.sweep", [blade], [scene], keys, options), cores)
 
 
 def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> xr.Dataset:

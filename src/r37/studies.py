@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, Unpack
 
 import pandas as pd
@@ -11,10 +12,10 @@ from r37core.config import ConfigError
 from r37core.designs.compared import SCENE_KEY
 
 from .arguments import Speeds, mapping, plain_value, speed_keys
-from .call_settings import base_of, call_of, chosen_blade, several_scenes
-from .choices import BladeChoice
+from .call_settings import call_of, names_of_their_own, several
+from .choices import BladeChoice, SceneChoice
 from .run_results import RunResults
-from .runs import Blades, Scenes, SweepOptions, named_run, run_of
+from .runs import Blades, Scenes, SweepOptions, named_call, run_of
 from .stages import checked_call
 
 _SPREAD = 'dotted keys and how each spreads, as in {"friction.coefficient": {"uniform_percent": 5}}'
@@ -67,7 +68,7 @@ def compare(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **opti
     >>> sorted(results.ranking.blade)
     ['CS100', 'Ref']
     """
-    return named_run("r37.compare", blades, scenes, speeds, options)
+    return run_of(named_call("r37.compare", blades, scenes, speeds, options), options)
 
 
 @checked_call
@@ -132,14 +133,15 @@ def designs(
         entry = {"vary": blade_keys, "combine": combine} if blade_keys else {}
         inner = {key.removeprefix(SCENE_KEY): values for key, values in varied.items() if key.startswith(SCENE_KEY)}
         scene_entry = {"vary": inner, "combine": combine} if inner else {}
-    chosen = chosen_blade(blade, options.get("config"))
-    family = chosen.family(options.get("name", "Design"), entry) if entry else chosen
     sections = {key: plain_value(section) for key, section in options.items() if key in ("operating", "requirements")}
     keys = {**speed_keys(speeds, options.get("speeds_rpm")), **sections}
-    several = several_scenes(scenes, base_of([family], options.get("config")), options.get("results"))
+    call = call_of("r37.designs", [blade], several(scenes, SceneChoice), keys, options)
+    names_of_their_own(call.scenes)
+    if entry:
+        call = replace(call, blades=[chosen.family(options.get("name", "Design"), entry) for chosen in call.blades])
     if scene_entry:
-        several = [scene.family(f"{scene.name}-varied", scene_entry) for scene in several]
-    return run_of(call_of("r37.designs", [family], several, keys, options), options)
+        call = replace(call, scenes=[scene.family(f"{scene.name}-varied", scene_entry) for scene in call.scenes])
+    return run_of(call, options)
 
 
 @checked_call
@@ -183,4 +185,4 @@ def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **o
     section = {name: plain_value(value) for name, value in options.items() if name not in SweepOptions.__annotations__}
     for name in ("of_scenes", "of_blades"):
         section[name] = mapping(section.get(name, {}), name, _SPREAD)
-    return named_run("r37.tolerances", blades, scenes, speeds, options, {"tolerances": section})
+    return run_of(named_call("r37.tolerances", blades, scenes, speeds, options, {"tolerances": section}), options)
