@@ -83,9 +83,9 @@ def cases(settings: Settings) -> dict[str, Case]:
     for what in EXTREMES if chosen == "all" else chosen:
         values, changes = EXTREMES[what]
         for value, (scene, entry) in product(values, entries.items()):
-            of_entry, of_case = changes(value)
-            if all("." not in key or key.split(".")[0] in entry for key in of_entry):
-                case, name = _case(base, _changed(entry, of_entry), of_case), f"{what}_{value:g}__{scene}"
+            scene_changes, case_changes = changes(value)
+            if all("." not in key or key.split(".")[0] in entry for key in scene_changes):
+                case, name = _case(base, _changed(entry, scene_changes), case_changes), f"{what}_{value:g}__{scene}"
                 planned |= {name: case, f"{name}{HALF_STEP}": replace(case, half_step=True)}
     return planned
 
