@@ -16,7 +16,7 @@ from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import Named, read_json
 from r37core.base.plain import from_plain, to_plain
 from r37core.cases import runner
-from r37core.cases.case import MODEL_NAME, OWN_MESH, Case, Crossing, ModelChoice, model_of_name
+from r37core.cases.case import MODEL_NAME, OWN_MESH, Case, ModelChoice, model_of_name
 from r37core.cases.runner import crossing_speed, run_case, run_case_of_files
 from r37core.cases.steps import model as model_step
 from r37core.mesh.mesh_files import write_vtu
@@ -42,15 +42,18 @@ def test_cases_are_planned_without_what_runs_them():
 
 def test_a_case_is_plain_data():
     lined = replace(ABRADABLE, friction=None)
-    case = case_of(IntegrationChoice(2e-7, 4, 62), lined, crossing=Crossing("1B", None), history_speeds=None)
-    for each in (case, replace(case, model=ModelChoice(5000, 8, 10, False, "camber", True), scene=None, refused="why")):
+    case = case_of(IntegrationChoice(2e-7, 4, 62), lined, crossing=("1B", None), history_speeds=(1500.0,))
+    for each in (
+        case,
+        replace(case, model=ModelChoice(5000, 8, 10, "submesh", "camber", "corners"), scene=None, refused="why"),
+    ):
         assert from_plain(Case, json.loads(json.dumps(to_plain(each)))) == each
     with pytest.raises(ValueError, match="allowed: ascending, none twice"):
         replace(case, speeds=(1.0, 0.9))
 
 
 def test_a_model_has_the_name_of_its_choice():
-    for values in ((5000, 8, 0, False, "pressure_edge", True), (OWN_MESH, 2, 10, True, "camber", False)):
+    for values in ((5000, 8, 0, "submesh", "pressure_edge", "corners"), (OWN_MESH, 2, 10, "whole", "camber", "inside")):
         choice = ModelChoice(*values)
         assert re.fullmatch(MODEL_NAME, choice.name) and model_of_name(choice.name) == choice
 
@@ -61,7 +64,7 @@ def test_a_case_of_a_model_that_the_mesh_cannot_have_is_refused(mesh, steel, cho
     write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
 
     def make(nodes):
-        wanted = ModelChoice(OWN_MESH, nodes, 3, False, "pressure_edge", corners=True)
+        wanted = ModelChoice(OWN_MESH, nodes, 3, "submesh", "pressure_edge", "corners")
         params = {"choice": to_plain(wanted), "reduction": to_plain(choice), "material": to_plain(steel), "provenance": {}}
         model_step(Named(mesh=str(tmp_path / "mesh.vtu")), Named(**files), Named(**params))
 
@@ -88,22 +91,22 @@ def diagram(*speeds):
 
 def test_without_an_order_the_fastest_crossing_inside_the_diagram_counts():
     crossings = diagram(np.nan, 1990.0, 1600.0, 1200.0)
-    assert crossing_speed(crossings, Crossing("1B", 5), 1.0) == 1200.0
-    assert crossing_speed(crossings, Crossing("1B", None), 1.0) == 1990.0
-    assert crossing_speed(crossings, Crossing("1B", None), 1.1) == 1600.0
+    assert crossing_speed(crossings, "1B", 5, 1.0) == 1200.0
+    assert crossing_speed(crossings, "1B", None, 1.0) == 1990.0
+    assert crossing_speed(crossings, "1B", None, 1.1) == 1600.0
     # the only ones, though the speeds above them lie outside
-    assert crossing_speed(diagram(np.nan, 1990.0), Crossing("1B", None), 1.1) == 1990.0
+    assert crossing_speed(diagram(np.nan, 1990.0), "1B", None, 1.1) == 1990.0
 
 
 def test_a_crossing_that_is_not_there_is_named(tmp_path):
     """A blade may have none with an engine order."""
     write_dataset(diagram(np.nan, np.nan), tmp_path / "campbell.nc", {})
-    case = case_of(IntegrationChoice(2e-7, 4, 62), speeds=(1.0,), crossing=Crossing("1B", 3))
+    case = case_of(IntegrationChoice(2e-7, 4, 62), speeds=(1.0,), crossing=("1B", 3))
     files = {"campbell": str(tmp_path / "campbell.nc")}
     with pytest.raises(ValueError, match=r"1B of Ref does not cross engine order 3 below .*; choose another engine_order"):
         run_case_of_files(case, files, tmp_path / "case.nc")
     with pytest.raises(ValueError, match="does not cross any engine order"):
-        run_case_of_files(replace(case, crossing=Crossing("1B", None)), files, tmp_path / "case.nc")
+        run_case_of_files(replace(case, crossing=("1B", None)), files, tmp_path / "case.nc")
 
 
 def test_a_run_that_diverged_has_no_stress_at_instants(contact, model, steel, tmp_path):

@@ -1,5 +1,6 @@
 """The estimate: a sample of a sweep's runs, and the cost of all of them."""
 
+import pandas as pd
 import pytest
 
 from r37.command import main
@@ -45,8 +46,10 @@ def test_the_estimate_and_the_check_count_the_same_simulations(root, tmp_path, c
 
 
 def test_projection_by_hand(tmp_path):
-    samples = [{"time integration": 10.0, "reduction": 1.0, "runs": 4}, {"time integration": 30.0, "reduction": 2.0, "runs": 6}]
-    costs = projected_costs(samples, start_up=0.1, workflow_per_job=0.05, cores=2).set_index("part")
+    columns = {"refused": "", "run_cpu_s": [2.5, 5.0], "run_reduction_cpu_s": [0.2, 0.25], "recovery_cpu_s": [0.2, 0.5]}
+    cases = pd.DataFrame(columns, index=["Ref__direct", "L50__direct"])
+    runs = {"Ref__direct": 4, "L50__direct": 6}
+    costs = projected_costs(cases, runs, start_up=0.1, workflow_per_job=0.05, cores=2).set_index("part")
     assert costs.loc["total", "core_hours"] == pytest.approx((40.0 + 3.0 + 10 * 0.15) / 3600.0)
     assert costs.loc["total", "wall_hours"] == pytest.approx(0.5 * costs.loc["total", "core_hours"])
     assert costs.loc["time integration", "core_s_per_simulation"] == 4.0

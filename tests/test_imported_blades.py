@@ -13,15 +13,15 @@ from r37core.base.plain import to_plain
 from r37core.cases.plan import Cases, shape_of_model
 from r37core.config import ConfigError
 from r37core.exchange.orientation import OURS
-from r37core.exports.extension import Exports
-from r37core.exports.extension import targets as exported_targets
+from r37core.exports.plan import Exports
+from r37core.exports.plan import targets as exported_targets
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
 from r37core.plans.structure_plan import Imported, Structure
 from r37core.plans.sweep_plan import Datasets, Simulations, Sweep
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
-from r37core.signals.extension import Signals
+from r37core.signals.plan import Signals
 from r37core.stability import plan as stability
 from r37core.tradeoff import plan as tradeoff
 
@@ -75,7 +75,7 @@ def test_a_blade_of_another_program_has_modes_and_signals_at_its_interactions(se
         assert wanted[pattern] == runs
     for pattern in ("<results>/shapes/{blade}/modes", "<results>/figures/shapes_{blade}.png"):
         assert wanted[pattern] == [{"blade": blade} for blade in modes]
-    recorded = Signals(Imported(sweep.settings), sweep)
+    recorded = Signals(sweep)
     if not config:
         inputs = recorded.inputs(SimpleNamespace(blade="Fan", scene="direct", member=""))
         assert recorded.speeds == [] and inputs["response"] == "<results>/Fan/direct/response.nc"
@@ -247,9 +247,9 @@ def test_what_is_varied_of_a_mesh(settings_with):
 
 
 def test_plan_of_exports(three):
-    imported, sweep = three
+    _, sweep = three
     config = sweep.settings.config.model_copy(update={"speeds": [900.0, 950.5]})
-    exports = Exports(imported, replace(sweep, settings=replace(sweep.settings, config=config)))
+    exports = Exports(replace(sweep, settings=replace(sweep.settings, config=config)))
     files = {file.removeprefix("<results>/exports/") for file in filled(exported_targets(exports.sweep))}
     assert {"Ref/surface.step", "Ref/modes", "Fan/mesh.med", "Fan/stress_direct", "Given/matrices"} <= files
     assert not files & {"Fan/surface.step", "Given/mesh.med", "Given/modes", "Given/stress_direct"}

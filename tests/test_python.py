@@ -484,7 +484,7 @@ def test_an_interrupted_command_says_so_in_a_line(monkeypatch, capsys):
     def interrupted(**_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("r37.choices.blades", interrupted)
+    monkeypatch.setattr("r37.blades", interrupted)
     assert main(["blades"]) == 130
     assert capsys.readouterr().err == "r37: interrupted\n"
 

@@ -166,7 +166,7 @@ def test_rpm_taken_for_rad_s_are_told(finished, monkeypatch):
 @pytest.mark.parametrize(
     ("stage", "call"),
     [
-        ("simulations.parallel_results", lambda blade: r37.campbell(blade)),
+        ("simulations.structure_file", lambda blade: r37.campbell(blade)),
         ("simulations.Calculation", lambda blade: r37.sweep(blade, "abradable", [9])),
         ("run_up_calls.Calculation", lambda blade: r37.run_up(blade, "abradable", from_rad_s=90, to_rad_s=95, revolutions=4)),
         ("runs.write_run", lambda blade: r37.run(blade, "abradable", [9])),

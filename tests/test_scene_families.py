@@ -213,7 +213,7 @@ def test_each_family_has_a_map_in_the_explorer():
 def test_designs_of_scenes_from_python(monkeypatch):
     """Each scene is a family of its own; without keys of the blade that is as it is."""
     asked = []
-    monkeypatch.setattr(studies, "run_of", lambda caller, blades, scenes, keys, options: asked.append((blades, scenes)))
+    monkeypatch.setattr(studies, "run_of", lambda call, options: asked.append((call.blades, call.scenes)))
     r37.designs("Ref", ["abradable", "direct"], [1150], vary={"scene.casing.clearance_m": [3e-4, 4e-4]})
     r37.designs("S100", "direct", [1150], vary={"scene.damping_ratio": [0.001], "sweep_percent": [50, 100]})
     ((blades, scenes), (families, others)) = asked

@@ -10,8 +10,7 @@ from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import SpeedPlan, exact_text, plan_speeds
 from r37core.config import ConfigError, command_line_document
-from r37core.exports.extension import Exports
-from r37core.plans.structure_plan import Imported
+from r37core.exports.plan import Exports
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import load_settings, read_settings
 
@@ -107,7 +106,7 @@ def test_refusals(root, changes, message):
 
 def test_exports_name_speeds_in_rpm(root):
     settings = on_command_line(root, speeds_rpm=[8000, 9000], exports={"stress_speeds_rpm": [9000]})
-    exported = Exports(Imported(settings), Sweep(settings))
+    exported = Exports(Sweep(settings))
     assert not exported.only_worst(PLACE)
     assert exported.speed_files(PLACE) == [f"<results>/Ref/direct/speed_{exact_text(9000 * RAD_S)}.npz"]
 

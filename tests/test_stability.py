@@ -13,8 +13,10 @@ from test_cases import case_of
 from workflow_runs import snakemake
 
 from r37core.base.dataset_file import read_dataset
+from r37core.cases.case import HALF_STEP
 from r37core.cases.plan import Cases
 from r37core.cases.runner import run_case
+from r37core.cases.table import case_table
 from r37core.config import command_line_document
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
@@ -22,15 +24,16 @@ from r37core.product.reading import read_settings
 from r37core.stability import judging, plan
 from r37core.stability.figures import COLOURS, draw_stability
 from r37core.stability.judging import OUTCOMES, judge
+from r37core.stability.steps import words
 
 
 def test_every_extreme_has_a_name_of_its_own_and_says_what_the_configuration_refuses(settings):
-    names = [extreme.name for extreme in plan.extremes(settings)]
-    assert len(names) == len(set(names)) > 90
-    # direct contact has no lining
-    assert "bars_10__abradable" in names and "bars_10__direct" not in names
     planned = plan.cases(settings)
+    # direct contact has no lining
+    assert "bars_10__abradable" in planned and "bars_10__direct" not in planned
     assert len(planned) > 200
+    expected = {"what": "speed_over_crossing", "value": "0.05", "scene": "direct"}
+    assert words("speed_over_crossing_0.05__direct") == expected
     refused = [case.refused for case in planned.values() if case.scene is None]
     assert 0 < len(refused) < len(planned)
     assert all("found" in text and "allowed" in text for text in refused)
@@ -45,21 +48,26 @@ def test_an_extreme_is_run_from_what_it_needs(settings):
 def test_extremes_that_are_chosen(root):
     few = {"stability": {"extremes": ["lobes"], "scenes": ["direct"], "base": "draft"}}
     settings = read_settings(root, command_line_document(few))
-    assert [each.name for each in plan.extremes(settings)] == ["lobes_1__direct", "lobes_5__direct", "lobes_20__direct"]
-    assert plan.cases(settings)["lobes_1__direct"].model.nodes == 5000
+    cases = plan.cases(settings)
+    names = [name for name in cases if not name.endswith(HALF_STEP)]
+    assert names == ["lobes_1__direct", "lobes_5__direct", "lobes_20__direct"]
+    assert cases["lobes_1__direct"].model.nodes == 5000
     # another blade is run: there is nothing to make
     settings = read_settings(root, command_line_document({"blades": ["L50"], "stability": {"blade": "Ref"}}))
-    assert filled(plan.targets(Sweep(settings))) == [] and plan.extremes(settings) == []
+    assert filled(plan.targets(Sweep(settings))) == [] and plan.cases(settings) == {}
 
 
 @pytest.fixture
 def judged(contact, tmp_path):
-    """Outcome of a case, run with its own step and with half of it."""
+    """The row of a case, run with its own step and with half of it, with its outcome."""
 
     def judge_case(case):
         for name, each in (("case", case), ("half", replace(case, half_step=True))):
             run_case(each, contact, None, tmp_path / f"{name}.nc")
-        return judge(*(read_dataset(tmp_path / f"{name}.nc") for name in ("case", "half")))
+        responses = {name: read_dataset(tmp_path / f"{name}.nc") for name in ("case", "half")}
+        rows = case_table(responses, judging.numbers).to_dict("index")
+        outcome, detail = judge(rows["case"], rows["half"])
+        return {**rows["case"], "outcome": outcome, "detail": detail}
 
     return judge_case
 

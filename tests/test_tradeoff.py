@@ -90,13 +90,17 @@ def test_parameters_vary_what_they_are_called():
     assert set(CHANGES) == set(Parameters.model_fields)
     choice = IntegrationChoice(1e-7, 10, 62)
     lined, direct = case_of(choice, ABRADABLE), case_of(choice)
-    assert CHANGES["bars"](lined, "300").scene.lining.bars == 300
-    assert CHANGES["central_difference_step"](lined, "2e-08").choice.time_step == 2e-8
-    exact = CHANGES["exact_modal_step"](lined, "8e-07").choice
+
+    def changed(case, parameter, value):
+        return case.changed(CHANGES[parameter](value))
+
+    assert changed(lined, "bars", 300).scene.lining.bars == 300
+    assert changed(lined, "central_difference_step", 2e-8).choice.time_step == 2e-8
+    exact = changed(lined, "exact_modal_step", 8e-7).choice
     assert exact == replace(choice, time_step=8e-7, integrator="exact_modal")
-    assert CHANGES["friction_form"](lined, "constant").scene.friction.vector is False
-    assert CHANGES["highest_frequency"](direct, "2e4") == replace(direct, choice=replace(choice, highest_frequency=2e4))
-    assert CHANGES["bars"](direct, "300") == CHANGES["level"](direct, "draft") == direct
+    assert changed(lined, "friction_form", "constant").scene.friction.vector is False
+    assert changed(direct, "highest_frequency", 2e4) == replace(direct, choice=replace(choice, highest_frequency=2e4))
+    assert changed(direct, "bars", 300) == changed(direct, "level", "draft") == direct
 
 
 def test_there_is_a_case_for_every_value(settings):

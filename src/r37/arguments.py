@@ -1,4 +1,4 @@
-"""What speeds and other numbers may be as arguments of a call."""
+"""Speeds and other numbers as arguments of a call."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def finite(several: Iterable[Any], key: str) -> list[Any]:
 
 
 def mapping(value: Any, key: str, allowed: str) -> dict[str, Any]:
-    """What has keys and values, of plain types. Raises ConfigError."""
+    """A mapping from Python, of plain types. Raises ConfigError."""
     if not isinstance(value, Mapping) or not all(isinstance(name, str) for name in value):
         raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: {allowed}")
     return {name: plain_value(entry) for name, entry in value.items()}

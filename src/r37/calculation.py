@@ -23,7 +23,7 @@ from r37core.time_integration.speed_job import run_job
 
 from .jobs import parallel_results, run_step
 from .stages import LOGGER, simulations_in_words
-from .structure_files import Recipe, recipe
+from .structure_files import structure_file
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Calculation:
 
     @cached_property
     def made(self) -> Provenance:
-        """What its files say about their making."""
+        """Provenance of its files."""
         return Provenance(self.settings)
 
     def path(self, file: str) -> str:
@@ -62,21 +62,21 @@ class Calculation:
         parallel_results([partial(run_step, stage.step, files, outputs, params)], 1)
 
     def models(self) -> None:
-        """What simulations start from. Raises what making it raises."""
-        run, tip_line = self.run, self.settings.scenes[self.run.scene].tip_line
-        wanted = {self.sweep.contact_model(run): recipe(self.settings, run.blade, "contact_model", tip_line)}
-        for file in self.sweep.stress_operator(run):
-            wanted[file] = recipe(self.settings, run.blade, "stress_operator", tip_line)
-        for name, made in wanted.items():
+        """The reduced model and the contact model of this call. Raises what making them raises."""
+        tip_line = self.settings.scenes[self.run.scene].tip_line
+        # without the second one where no stress is wanted
+        for name, stage in zip(self.sweep.models(self.run), ("contact_model", "stress_operator"), strict=False):
             link = Path(self.path(name))
             link.parent.mkdir(parents=True, exist_ok=True)
-            link.symlink_to(_kept(made))
+            link.symlink_to(self._kept(stage, tip_line))
 
     def campbell(self) -> None:
         """The Campbell diagram, that adaptive speeds and crossings begin with. Raises what making it raises."""
-        file = _kept(recipe(self.settings, self.run.blade, "campbell_of_blade"))
         output = self.path(paths.fill(paths.CAMPBELL, blade=self.run.blade))
-        write_dataset(read_dataset(file), output, self.made.structure(self.run))
+        write_dataset(read_dataset(self._kept("campbell_of_blade")), output, self.made.structure(self.run))
+
+    def _kept(self, stage: str, tip_line: str | None = None) -> Path:
+        return structure_file(self.settings, self.run.blade, stage, tip_line)
 
     def response(self, motion: InitialMotion | None = None) -> str:
         """All simulations and the file of their response. Raises what they raise. `motion`: that the blade starts in."""
@@ -111,9 +111,3 @@ class Calculation:
         (output,) = map(self.path, paths.speed_files(NOMINAL, self.run, [speed]))
         about, models = str(self.made.sweep(self.run)), [self.path(file) for file in self.sweep.models(self.run)]
         return partial(run_job, text, output, task, about, *models, motion=motion)
-
-
-def _kept(made: Recipe) -> Path:
-    """The file of a recipe, with the numbers that one thread of linear algebra gives."""
-    (file,) = parallel_results([made.file], 1)
-    return file

@@ -1,4 +1,4 @@
-"""What a call asks for: its blades and scenes, with what else of config.yaml it says."""
+"""Settings of a call: its blades and scenes, with other keys of config.yaml."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from typing import Any, TypedDict
 from r37core.config import ConfigError, Document, Settings
 from r37core.config.remarks import remarks_on_input, remarks_on_points
 
-from .arguments import finite
+from .arguments import finite, sequence_of
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, Choice, SceneChoice
 
 
 class OneOptions(TypedDict, total=False):
-    """What every call of one blade in a scene takes by name, as of `r37.simulate`."""
+    """Options of every call of one blade in a scene, as of `r37.simulate`."""
 
     fidelity: str | None
     results: Sequence[str] | None
@@ -45,20 +45,25 @@ class Call:
     def settings(self) -> Settings:
         """Checked settings. Raises ConfigError."""
         changes = dict(self.keys)
-        for kind, several in (("blades", self.blades), ("scenes", self.scenes)):
-            if several:
-                changes |= {kind: [choice.name for choice in several], f"{kind}_file": _one_file(kind, several)}
-        return self.configuration.settings(changes, self.name, self.blades_above, above(self.scenes), self.whole)
+        for kind, choices in (("blades", self.blades), ("scenes", self.scenes)):
+            if choices:
+                changes |= {kind: [choice.name for choice in choices], f"{kind}_file": _one_file(kind, choices)}
+        return self.configuration.settings(changes, self.name, above(self.blades), above(self.scenes), self.whole)
 
     @property
     def configuration(self) -> Configuration:
-        """What the keys lie on, with names of files as those of the blades start from."""
+        """The configuration below the keys; names of files in it start from the folder that those of the blades start from."""
         return Configuration(self.base.document, self.blades[0].configuration.root) if self.blades else self.base
 
     @property
-    def blades_above(self) -> Document | None:
-        """What is changed of blades, on top of their file."""
-        return above(self.blades)
+    def told(self) -> dict[str, str]:
+        """Attributes of a dataset with the changes of blades and scenes."""
+        return {name: text for choice in (*self.blades, *self.scenes) for name, text in choice.told.items()}
+
+    def tell_remarks(self) -> None:
+        """Warn of what the settings may not mean."""
+        changed = [scene.name for scene in self.scenes if scene.changes_clearance]
+        tell([*remarks_on_input(self.settings, changed), *remarks_on_points(self.settings)])
 
 
 def chosen_blade(blade: BladeChoice | str, config: Path | str | None) -> BladeChoice:
@@ -87,42 +92,50 @@ def chosen_scene(scene: SceneChoice | str, base: Configuration, results: Sequenc
 
 
 def base_of(blades: Sequence[BladeChoice], config: Path | str | None) -> Configuration:
-    """What structure and levels are of: the configuration `config`, else that of the blades."""
+    """The configuration of structure and levels: `config`, else that of the blades."""
     return blades[0].configuration if blades and config is None else read_configuration(config)
 
 
-def call_of_one(
+def call_of(
     caller: str,
-    blade: BladeChoice | str,
-    scenes: Sequence[SceneChoice | str],
+    blades: Iterable[BladeChoice | str],
+    scenes: Iterable[SceneChoice | str],
     keys: Mapping[str, Any],
     options: Mapping[str, Any],
+    *,
+    named: bool = False,
+    whole: bool = False,
 ) -> Call:
-    """The call of one blade, in one scene or none; `options` as of OneOptions. Raises ConfigError."""
-    config = options.get("config")
-    chosen = chosen_blade(blade, config)
-    base = base_of([chosen], config)
+    """The call of these blades in these scenes, whose names stand in tables if `named`; `options` as of OneOptions.
+
+    Raises ConfigError.
+    """
+    config, fidelity = options.get("config"), options.get("fidelity")
+    chosen = [chosen_blade(blade, config) for blade in blades]
+    base = base_of(chosen, config)
     rubs_on = [chosen_scene(scene, base, options.get("results")) for scene in scenes]
-    return Call(caller, base, [chosen], rubs_on, {**keys, **level(options.get("fidelity"))})
+    for choices in (chosen, rubs_on) if named else ():
+        names_of_their_own(choices)
+    return Call(caller, base, chosen, rubs_on, {**keys, **({} if fidelity is None else {"fidelity": fidelity})}, whole)
 
 
-def level(fidelity: str | None) -> dict[str, Any]:
-    """The key of an accuracy level, where one is given."""
-    return {} if fidelity is None else {"fidelity": fidelity}
+def several(value: Any, kind: type[Choice]) -> list[Any]:
+    """One blade or scene, or several of them, as a list. Raises ConfigError for others and for none."""
+    return sequence_of(value, kind | str, f"{kind.kind}s", f"the name of a {kind.kind}, or what r37.{kind.kind} gives")
 
 
-def names_of_their_own(several: Sequence[Choice]) -> None:
+def names_of_their_own(choices: Sequence[Choice]) -> None:
     """ConfigError for changed entries without a name where names stand in tables, and for two of one name."""
     names: set[str] = set()
-    for choice in several:
+    for choice in choices:
         if (choice.changes and not choice.base) or choice.name in names:
             example = f'r37.{choice.kind}("{choice.base or choice.name}", ..., name="Mine")'
             raise ConfigError(f"{choice.kind}s: found {choice.label}; allowed: names that differ, as of {example}")
         names.add(choice.name)
 
 
-def _one_file(key: str, several: Sequence[Choice]) -> str:
-    files = list(dict.fromkeys(choice.file for choice in several))
+def _one_file(key: str, choices: Sequence[Choice]) -> str:
+    files = list(dict.fromkeys(choice.file for choice in choices))
     if len(files) > 1:
         together = (
             f'write them into one: r37 init <folder> gives the shipped ones in config/; then file="<folder>/config/{key}.yaml"'
@@ -131,19 +144,13 @@ def _one_file(key: str, several: Sequence[Choice]) -> str:
     return files[0]
 
 
-def above(several: Sequence[Choice]) -> Document | None:
+def above(choices: Sequence[Choice]) -> Document | None:
     """The changes of some entries as one document."""
-    documents = [choice.above for choice in several if choice.above]
+    documents = [choice.above for choice in choices if choice.above]
     return reduce(Document.overlaid, documents) if documents else None
 
 
 _PACKAGE = str(Path(__file__).parent) + os.sep
-
-
-def remarks_of(call: Call) -> list[str]:
-    """Remarks of a run that does what a call asks for."""
-    changed = [scene.name for scene in call.scenes if scene.changes_clearance]
-    return [*remarks_on_input(call.settings, changed), *remarks_on_points(call.settings)]
 
 
 def tell(remarks: Iterable[str]) -> None:

@@ -34,6 +34,8 @@ class Choice:
     base: str | None = None
 
     kind: ClassVar[str]
+    checked: ClassVar[str]
+    """Name of the attribute that checks the entry."""
 
     @property
     def label(self) -> str:
@@ -55,12 +57,15 @@ class Choice:
         """Name of the file with the entry."""
         return getattr(self.configuration.checked, f"{self.kind}s_file")
 
+    @property
+    def _keys(self) -> Mapping[str, Any]:
+        """Dotted keys that lie on top of the entry, and their values."""
+        return self.changes
+
     @cached_property
     def above(self) -> Document | None:
         """The changes as a document that lies on top of the file. Raises ConfigError."""
-        return self._above(self.changes)
-
-    def _above(self, changes: Mapping[str, Any]) -> Document | None:
+        changes = self._keys
         if not changes and not self.base:
             return None
         original, file = self.base or self.name, read_document(Path(self.file).parent, self.file)
@@ -75,10 +80,10 @@ class Choice:
             return changed
         if self.name in entries:
             raise ConfigError(f"{place}: name: found '{self.name}', which {file.name} has; allowed: another name")
-        content = self._copied(entries[original], original, changes)
+        content = self._copied(entries[original], original)
         return command_line_document({self.name: content}, f"{file.name}: {original}").overlaid(changed)
 
-    def _copied(self, entry: Any, original: str, changes: Mapping[str, Any]) -> Any:
+    def _copied(self, entry: Any, original: str) -> Any:
         """The content of an entry under another name."""
         return entry
 
@@ -88,10 +93,13 @@ class Choice:
 
     def check(self) -> None:
         """Raises ConfigError for what the entry cannot be."""
-        raise NotImplementedError
+        try:
+            getattr(self, self.checked)
+        except ConfigError as error:
+            raise self._refusal(error) from None
 
-    def refusal(self, error: ConfigError) -> ConfigError:
-        """What was refused, and how a value inside a section is written in Python, where one stands in place of the section."""
+    def _refusal(self, error: ConfigError) -> ConfigError:
+        """The error, with how a value inside a section is written in Python where one stands in place of the section."""
         for key, value in self.changes.items():
             _, replaced, keys = str(error).partition(f".{key}: found {plain_value(value)!r}; allowed: mapping with the keys ")
             for inner in map(str.strip, keys.split(",")) if replaced else ():
@@ -114,6 +122,7 @@ class BladeChoice(Choice):
     """
 
     kind: ClassVar[str] = "blade"
+    checked: ClassVar[str] = "settings"
 
     @cached_property
     def document(self) -> Document:
@@ -125,23 +134,16 @@ class BladeChoice(Choice):
     def settings(self) -> BladeSettings:
         """Shape and material of the blade, in SI units. Raises ConfigError."""
         root = self.configuration.root
-        try:
-            designs = _designs(self.document, root)
-            if self.name not in designs.entries:
-                raise _unknown(self.kind, self.name, designs.entries, self.document.name)
-            return blade_settings(self.name, designs.entries, root, designs.document)
-        except ConfigError as error:
-            raise self.refusal(error) from None
+        designs = _designs(self.document, root)
+        if self.name not in designs.entries:
+            raise _unknown(self.kind, self.name, designs.entries, self.document.name)
+        return blade_settings(self.name, designs.entries, root, designs.document)
 
-    def check(self) -> None:
-        """Raises ConfigError for what the blade cannot be."""
-        _ = self.settings
-
-    def _copied(self, entry: Any, original: str, changes: Mapping[str, Any]) -> Any:
+    def _copied(self, entry: Any, original: str) -> Any:
         if not isinstance(entry, Mapping) or "stacking_table" not in entry:
             return entry
         # the table has its row under the original name
-        varied = {key.split(".")[0] for key in (*changes, *changes.get("vary", {}))}
+        varied = {key.split(".")[0] for key in (*self.changes, *self.changes.get("vary", {}))}
         for key in (*SHARES, *SECTION_KEYS):
             if key in varied and key in entry:
                 has = "whose table has a share already" if key in SHARES else "which has a value of it already"
@@ -158,11 +160,12 @@ class SceneChoice(Choice):
     """
 
     kind: ClassVar[str] = "scene"
+    checked: ClassVar[str] = "entry"
     results: tuple[str, ...] | None = None
 
-    def check(self) -> None:
-        """Raises ConfigError for what the scene cannot be."""
-        _ = self.entry
+    @property
+    def _keys(self) -> Mapping[str, Any]:
+        return self.changes if self.results is None else {**self.changes, "results": list(self.results)}
 
     def _left_out(self, entry: Any) -> Any:
         # what the base has is not there any more, either
@@ -170,25 +173,17 @@ class SceneChoice(Choice):
         return None if has_base else Without.KEY
 
     @cached_property
-    def above(self) -> Document | None:
-        """Changes as a document that lies on top of the file, the results among them. Raises ConfigError."""
-        return self._above(self.changes if self.results is None else {**self.changes, "results": list(self.results)})
-
-    @cached_property
     def entry(self) -> SceneEntry:
         """The scene's keys, in the units of their names, or those of a family of scenes. Raises ConfigError."""
-        try:
-            document, entries = checked_scenes(read_document(Path(self.file).parent, self.file), self.above)
-            designs = expanded_families(entries, self.configuration.root, document)
-        except ConfigError as error:
-            raise self.refusal(error) from None
+        document, entries = checked_scenes(read_document(Path(self.file).parent, self.file), self.above)
+        designs = expanded_families(entries, self.configuration.root, document)
         if self.name not in designs.names:
             raise _unknown(self.kind, self.name, designs.names, document.name)
         return designs.entries.get(self.name) or entries[self.name]
 
     @property
     def changes_clearance(self) -> bool:
-        """Whether the changes give the scene another clearance than its file does."""
+        """True where the changes give the scene another clearance than its file does."""
         if not self.changes:
             return False
         with contextlib.suppress(ConfigError):
@@ -360,7 +355,7 @@ def _scenes_in(file: str) -> dict[str, SceneEntry]:
 
 
 def _named(entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> Any:
-    """What a choice is made of. Raises ConfigError for what is no name."""
+    """The arguments of a choice. Raises ConfigError for what is no name."""
     for key, value in (("name_of_entry", entry), ("name", name)):
         if not isinstance(value, str | None):
             raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: a name")

@@ -1,6 +1,6 @@
 """The command r37: a folder for a study, a Campbell diagram, a response, a look at a configuration, without writing Python.
 
-What computes is imported when it is asked for, so that a word that computes nothing answers at once.
+The calls are imported when they are first used, so that a word that computes nothing answers at once.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from r37core import __version__
+import r37
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -43,9 +43,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    # imported here, and below: --version and --help need neither
-    from r37core.base.io import InputFileError
-
     logger = logging.getLogger("r37")
     level = logger.level
     try:
@@ -55,7 +52,7 @@ def _run(options: argparse.Namespace) -> int:
             if options.quiet:
                 logger.setLevel(logging.WARNING)
             options.run(options)
-    except (ValueError, InputFileError) as refusal:
+    except (ValueError, r37.InputFileError) as refusal:
         print(f"r37: {refusal}", file=sys.stderr)
         return 1
     finally:
@@ -66,7 +63,7 @@ def _run(options: argparse.Namespace) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="r37", description="blade-tip rubbing in a compressor")
     parser.set_defaults(quiet=False)
-    parser.add_argument("--version", action="version", version=f"r37 {__version__}", help="print the version and end")
+    parser.add_argument("--version", action="version", version=f"r37 {r37.__version__}", help="print the version and end")
     parser.add_argument(
         "--print-completion", action=_Completion, metavar="SHELL", help="print completions for bash, zsh, tcsh or fish"
     )
@@ -111,38 +108,30 @@ class _Completion(argparse.Action):
 
 
 def _names(options: argparse.Namespace) -> None:
-    from . import choices
-
-    print("\n".join(getattr(choices, options.listed)(file=options.file, config=options.config)))
+    print("\n".join(getattr(r37, options.listed)(file=options.file, config=options.config)))
 
 
 def _init(options: argparse.Namespace) -> None:
-    from .study_folder import init
-
-    init(options.folder)
+    r37.init(options.folder)
     print(f"{options.folder}: edit config/, then, in that folder: snakemake all_blades --cores 2")
 
 
 def _campbell(options: argparse.Namespace) -> None:
-    from r37core.config import ConfigError
-
-    from .choices import blade, blades
-    from .simulations import campbell
-
     is_file = options.blade.endswith((".yaml", ".yml"))
     if is_file and options.blades is not None:
-        raise ConfigError(f"--blades: found {options.blades} beside the file {options.blade}; allowed: one of them")
+        raise r37.ConfigError(f"--blades: found {options.blades} beside the file {options.blade}; allowed: one of them")
     file = options.blade if is_file else options.blades
     _check_output(options.output)
-    names = blades(file=file, config=options.config) if is_file else [options.blade]
+    names = r37.blades(file=file, config=options.config) if is_file else [options.blade]
     if options.output is not None and len(names) > 1:
-        raise ConfigError(
+        raise r37.ConfigError(
             f"--output: found {len(names)} blades in {file}; allowed: one, as in: r37 campbell {names[0]} --blades {file}"
         )
     for name in names:
         if len(names) > 1:
             print(name)
-        dataset = campbell(blade(name, file=file, config=options.config), fidelity=options.fidelity, config=options.config)
+        chosen = r37.blade(name, file=file, config=options.config)
+        dataset = r37.campbell(chosen, fidelity=options.fidelity, config=options.config)
         _show(_campbell_table(dataset))
         _write(dataset, options.output)
 
@@ -167,14 +156,11 @@ def _simulate(options: argparse.Namespace) -> None:
     from r37core.base.units import RAD_S
     from r37core.time_integration.status import RunStatus
 
-    from .choices import blade
-    from .simulations import sweep
-
     _check_output(options.output)
-    chosen = blade(options.blade, file=options.blades, config=options.config)
+    chosen = r37.blade(options.blade, file=options.blades, config=options.config)
     unit = "rpm" if options.rpm else "rad/s"
     speeds = [RAD_S[unit] * speed for speed in options.speeds]
-    dataset = sweep(chosen, options.scene, speeds, fidelity=options.fidelity, config=options.config)
+    dataset = r37.sweep(chosen, options.scene, speeds, fidelity=options.fidelity, config=options.config)
     edge, rad_s = dataset.sel(tip_point="leading_edge"), dataset["speed"].values
     table = pd.DataFrame(index=pd.Index(rad_s / RAD_S[unit], name=f"speed ({unit})"))
     if options.rpm:
@@ -219,21 +205,19 @@ def _show(table: pd.DataFrame) -> None:
 
 def _check_output(file: Path | None) -> None:
     """ConfigError for a file that cannot be written, before what takes minutes."""
-    from r37core.config import ConfigError
-
     if file is None:
         return
     allowed = "allowed: a file in a folder that is there and can be written"
     try:
         if not file.name or file.is_dir():
-            raise ConfigError(f"--output: found {str(file)!r}, a folder; {allowed}")
+            raise r37.ConfigError(f"--output: found {str(file)!r}, a folder; {allowed}")
         # what is moved into the place of a device or a pipe takes it away from others
         if file.exists() and not file.is_file():
-            raise ConfigError(f"--output: found {file}, a device or a pipe; {allowed}")
+            raise r37.ConfigError(f"--output: found {file}, a device or a pipe; {allowed}")
         with tempfile.NamedTemporaryFile(dir=file.parent, prefix=f".{file.name[:100]}"):
             pass
     except OSError as error:
-        raise ConfigError(f"--output: found {file}, which cannot be written ({error.strerror}); {allowed}") from None
+        raise r37.ConfigError(f"--output: found {file}, which cannot be written ({error.strerror}); {allowed}") from None
 
 
 def _write(dataset: xr.Dataset, file: Path | None) -> None:

@@ -27,7 +27,7 @@ def check_cores(cores: int) -> None:
 
 
 def parallel_results(calls: Sequence[Callable[[], Result]], cores: int, what: str = "", unit: str = "") -> list[Result]:
-    """What the calls give, in their order, on so many processes. Raises what one of them raises.
+    """Results of the calls, in their order, on so many processes. Raises what one of them raises.
 
     Each has one thread of the linear algebra library, so that the numbers are the workflow's to the last bit. With a `unit`,
     that they are counted by, a bar says how far they are.
@@ -65,8 +65,15 @@ _POOL = threading.Lock()
 """Held by the thread that the worker processes work for: joblib has one set of them."""
 
 
+def function_named(name: str) -> Callable[..., Any]:
+    """A function of r37core by its name as rules have it, as `fem.steps.mesh`; its module is imported now.
+
+    Some bring gmsh and VTK, which take seconds to load.
+    """
+    module, function = f"{r37core.__name__}.{name}".rsplit(".", 1)
+    return getattr(import_module(module), function)
+
+
 def run_step(step: str, input: Mapping[str, Any], output: Mapping[str, Any], params: Mapping[str, Any]) -> Any:
-    """Do a step: a function of a `steps.py` of r37core, by its name as rules have it. Gives and raises what it does."""
-    module, function = f"{r37core.__name__}.{step}".rsplit(".", 1)
-    # imported here: some bring gmsh and VTK, which take seconds to load
-    return getattr(import_module(module), function)(Named(**input), Named(**output), Named(**params))
+    """Do a step: a function of a `steps.py`. Gives and raises what it does."""
+    return function_named(step)(Named(**input), Named(**output), Named(**params))

@@ -5,15 +5,15 @@ Matplotlib's parameters and backend stay those of the caller.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
 from r37core.base.plain import to_plain
 from r37core.config import ConfigError
+from r37core.designs.table import compared_in
 
+from .jobs import function_named
 from .run_results import RunResults
 from .stages import checked_call
 
@@ -49,10 +49,7 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
     'Campbell diagram, blade Ref'
     """
     _check("campbell", campbell, "frequency", "r37.campbell")
-    with _style():
-        from r37core.figures.campbell_diagram import draw_campbell
-
-        return draw_campbell(campbell, title or _label(campbell, "blade"))
+    return _drawn("figures.campbell_diagram.draw_campbell", campbell, title or _label(campbell, "blade"))
 
 
 @checked_call
@@ -92,10 +89,8 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
     scenes = response.drop_vars("scene", errors="ignore").expand_dims(scene=[_label(response, "scene")])
     if "speed" not in scenes.dims:
         scenes = scenes.expand_dims("speed")
-    with _style():
-        from r37core.figures.response_curves import draw_response
-
-        return draw_response(name, campbell, scenes, scenes if "max_von_mises" in scenes else None)
+    stress = scenes if "max_von_mises" in scenes else None
+    return _drawn("figures.response_curves.draw_response", name, campbell, scenes, stress)
 
 
 @checked_call
@@ -129,10 +124,7 @@ def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
     if "run" in rotor.dims:
         raise ConfigError("rotor: found several runs; allowed: one, as results.rotor(blade, scene) of r37.open_results has it")
     several = rotor if "speed" in rotor.dims else rotor.expand_dims("speed")
-    with _style():
-        from r37core.rotors.figures import draw_rotor
-
-        return draw_rotor(several, title or f"{_label(rotor, 'blade')}, {_label(rotor, 'scene')}")
+    return _drawn("rotors.figures.draw_rotor", several, title or f"{_label(rotor, 'blade')}, {_label(rotor, 'scene')}")
 
 
 @checked_call
@@ -171,10 +163,7 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
     if len(pairs) > 1:
         raise ConfigError(f"run_ups: found runs of {', '.join(map(' in '.join, pairs))}; allowed: of one blade in one scene")
     ((blade, scene),) = pairs
-    with _style():
-        from r37core.run_ups.figures import draw_run_ups
-
-        return draw_run_ups(several, title or f"{blade}, {scene}", blade=blade, scene=scene)
+    return _drawn("run_ups.figures.draw_run_ups", several, title or f"{blade}, {scene}", blade=blade, scene=scene)
 
 
 @checked_call
@@ -213,11 +202,8 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
     if blade not in tolerances["blade"].values or scene not in tolerances["scene"].values:
         known = f"{', '.join(map(str, tolerances['blade'].values))} in {', '.join(map(str, tolerances['scene'].values))}"
         raise ConfigError(f"tolerances: found none of {blade} in {scene}; allowed: {known}")
-    with _style():
-        from r37core.tolerances.figures import draw_tolerances
-
-        spread = tolerances.sel(blade=blade, scene=scene)
-        return draw_tolerances(spread, results.response(blade, scene), title or f"{blade}, {scene}")
+    spread, response = tolerances.sel(blade=blade, scene=scene), results.response(blade, scene)
+    return _drawn("tolerances.figures.draw_tolerances", spread, response, title or f"{blade}, {scene}")
 
 
 @checked_call
@@ -251,24 +237,17 @@ def plot_designs(results: RunResults, title: str | None = None, *, family: str |
     """
     if not isinstance(results, RunResults) or "designs" not in results.tables:
         raise ConfigError("results: found none of designs; allowed: what r37.designs gives")
-    with _style():
-        from r37core.designs.figures import draw_designs
-        from r37core.designs.maps import draw_design_map
-        from r37core.designs.table import compared_in
-
-        table = results.tables["designs"]
-        families = compared_in(table)
-        name = next(iter(families)) if family is None else family
-        if name not in families:
-            raise ConfigError(f"family: found {name!r}; allowed: {', '.join(families)}")
-        compared = families[name]
-        draw = draw_design_map if len(compared.keys) == 2 else draw_designs
-        return draw(title or name, table, to_plain(compared))
+    table = results.tables["designs"]
+    families = compared_in(table)
+    name = next(iter(families)) if family is None else family
+    if name not in families:
+        raise ConfigError(f"family: found {name!r}; allowed: {', '.join(families)}")
+    draw = "maps.draw_design_map" if len(families[name].keys) == 2 else "figures.draw_designs"
+    return _drawn(f"designs.{draw}", title or name, table, to_plain(families[name]))
 
 
-@contextmanager
-def _style() -> Iterator[None]:
-    """While it lasts, figures are drawn in the workflow's style."""
+def _drawn(drawing: str, *arguments: Any, **more: Any) -> Figure:
+    """The figure of a drawing function, by its name as rules have it, in the workflow's style."""
     import matplotlib
     import matplotlib.pyplot as plt
 
@@ -278,7 +257,7 @@ def _style() -> Iterator[None]:
         from r37core.figures.style import PARAMETERS
 
         plt.rcParams.update(PARAMETERS)
-        yield
+        return function_named(drawing)(*arguments, **more)
 
 
 def _check(argument: str, dataset: xr.Dataset, needed: str, call: str) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Unpack
 
@@ -14,8 +14,7 @@ from r37core.plans.paths import fill
 from r37core.rotors.plan import ROTOR_OF_RUN
 
 from .arguments import Speeds, speed_keys
-from .call_configuration import Configuration
-from .call_settings import base_of, chosen_blade, chosen_scene
+from .call_settings import call_of, chosen_scene
 from .choices import BladeChoice, SceneChoice
 from .runs import SweepOptions, run_of
 from .stages import checked_call
@@ -75,24 +74,14 @@ def rotor(
     >>> all_blades.leader.sel(speed=1550).item() in (1, 2, 3)
     True
     """
-    chosen = chosen_blade(blade, options.get("config"))
-    rubs_on = _rotor_scene(scene, base_of([chosen], options.get("config")), rotor, options.get("results"))
-    file = fill(ROTOR_OF_RUN, blade=chosen.name, scene=rubs_on.name)
-    keys = speed_keys(speeds, options.get("speeds_rpm"))
-    results = run_of("r37.rotor", [chosen], [rubs_on], keys, options, file)
-    return results.rotor(chosen.name, rubs_on.name).assign_attrs(chosen.told | rubs_on.told)
-
-
-def _rotor_scene(
-    scene: SceneChoice | str, base: Configuration, rotor: Mapping[str, Any] | None, results: Sequence[str] | None
-) -> SceneChoice:
-    """The scene, with the rotor where one is given. Raises ConfigError."""
-    if rotor is None:
-        chosen = chosen_scene(scene, base, results)
-        if chosen.entry.rotor is None:
-            raise ConfigError(f'scene: found {chosen.label}, without a rotor; allowed: one with it, or rotor={{"blades": 36}}')
-        return chosen
-    single = chosen_scene(scene, base)
-    if results is None:
-        results = [result for result in single.entry.results if result not in OF_ONE_BLADE]
-    return chosen_scene(replace(single, changes={**single.changes, "rotor": rotor}), base, results)
+    call = call_of("r37.rotor", [blade], [scene], speed_keys(speeds, options.get("speeds_rpm")), options)
+    (single,), results = call.scenes, options.get("results")
+    if rotor is not None:
+        if results is None:
+            results = [result for result in single.entry.results if result not in OF_ONE_BLADE]
+        all_blades = replace(single, changes={**single.changes, "rotor": rotor})
+        call = replace(call, scenes=[chosen_scene(all_blades, call.base, results)])
+    elif single.entry.rotor is None:
+        raise ConfigError(f'scene: found {single.label}, without a rotor; allowed: one with it, or rotor={{"blades": 36}}')
+    names = {"blade": call.blades[0].name, "scene": single.name}
+    return run_of(call, options, fill(ROTOR_OF_RUN, **names)).rotor(**names).assign_attrs(call.told)

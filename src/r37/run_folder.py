@@ -15,7 +15,7 @@ from r37core.base.yaml_file import yaml_text
 from r37core.config import ConfigError, read_document
 from r37core.config.section import Without
 
-from .call_settings import Call
+from .call_settings import Call, above
 from .study_folder import add_workflow
 
 _CONFIG = "config/config.yaml"
@@ -48,7 +48,8 @@ def write_run(call: Call, folder: Path) -> None:
     settings, root = call.settings, call.configuration.root
     documents, config = settings.documents, dict(settings.documents.config.content)
     blades = read_document(root, settings.config.blades_file)
-    blades = blades.overlaid(call.blades_above) if call.blades_above else blades
+    changes = above(call.blades)
+    blades = blades.overlaid(changes) if changes else blades
     tables: dict[str, Path] = {}
     files = {
         "blades": {name: _local_entry(entry, root, tables) for name, entry in blades.content.items()},

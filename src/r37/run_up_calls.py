@@ -16,14 +16,14 @@ from r37core.run_ups.plan import RUN_UP, RunUps
 
 from .arguments import mapping
 from .calculation import Calculation
-from .call_settings import Call, OneOptions, call_of_one, remarks_of, tell
+from .call_settings import Call, OneOptions, call_of
 from .choices import BladeChoice, SceneChoice
 from .runs import RunOptions, run_of
 from .stages import checked_call
 
 
 class RunUpOptions(OneOptions, total=False):
-    """What `run_up` takes by name: keys of a run-up, and what other calls of one blade take."""
+    """Options of `run_up`: keys of a run-up, and those of other calls of one blade."""
 
     from_rad_s: float
     to_rad_s: float
@@ -82,7 +82,7 @@ def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack
     """
     entry = {key: value for key, value in options.items() if key not in OneOptions.__annotations__ and value is not None}
     call = _call("r37.run_up", blade, scene, {"run_up": entry}, options)
-    tell(remarks_of(call))
+    call.tell_remarks()
     with scratch_folder() as folder:
         calculation = Calculation(call.settings, folder, 1)
         planned, run = RunUps(calculation.sweep), Named(**vars(calculation.run), run_up="run_up")
@@ -133,7 +133,7 @@ def run_ups(
     if not isinstance(several, Mapping) or not several:
         raise ConfigError(f"run_ups: found {several!r}; allowed: names and what each run-up is")
     call = _call("r37.run_ups", blade, scene, several, options)
-    results = run_of(call.name, call.blades, call.scenes, call.keys, options, "<results>/run_ups.nc")
+    results = run_of(call, options, "<results>/run_ups.nc")
     return _labelled(results["run_ups"], call)
 
 
@@ -142,7 +142,7 @@ def _call(
 ) -> Call:
     """The call of these run-ups of a blade in a scene."""
     entries = {name: mapping(entry, f"run_ups.{name}", "the keys of a run-up") for name, entry in several.items()}
-    call = call_of_one(caller, blade, [scene], {"run_ups": entries}, options)
+    call = call_of(caller, [blade], [scene], {"run_ups": entries}, options)
     # a run-up's own speeds are checked by its section
     return replace(call, keys={**call.keys, "speeds": [call.base.checked.structure.maximum_speed_rad_s]})
 
@@ -151,4 +151,4 @@ def _labelled(dataset: xr.Dataset, call: Call) -> xr.Dataset:
     """The dataset with what was changed of blade and scene in the place of their names."""
     (blade,), (scene,) = call.blades, call.scenes
     labels = {name: ("run", [choice.label] * dataset.sizes["run"]) for name, choice in (("blade", blade), ("scene", scene))}
-    return dataset.assign_coords(labels).assign_attrs(blade.told | scene.told)
+    return dataset.assign_coords(labels).assign_attrs(call.told)

@@ -9,8 +9,8 @@ from typing import Any
 from r37core.base.io import temporary_folder
 from r37core.product.extensions import EXTENSIONS
 
-from .arguments import Speeds, plain_value, sequence_of, speed_keys
-from .call_settings import Call, OneOptions, base_of, chosen_blade, chosen_scene, level, names_of_their_own, remarks_of, tell
+from .arguments import Speeds, plain_value, speed_keys
+from .call_settings import Call, OneOptions, base_of, call_of, chosen_blade, several
 from .choices import BladeChoice, SceneChoice, scenes_named
 from .jobs import check_cores
 from .run_folder import run_folder, write_run
@@ -23,14 +23,14 @@ Scenes = SceneChoice | str | Sequence[SceneChoice | str]
 
 
 class RunOptions(OneOptions, total=False):
-    """What every call of many runs takes by name; see `run`."""
+    """Options of every call of many runs; see `run`."""
 
     cores: int
     folder: Path | str | None
 
 
 class SweepOptions(RunOptions, total=False):
-    """What a call of many runs with speeds takes by name."""
+    """Options of a call of many runs with speeds."""
 
     speeds_rpm: Speeds | None
 
@@ -101,35 +101,21 @@ def run(
     if speeds is not None or speeds_rpm is not None:
         keys |= speed_keys(speeds, speeds_rpm)
     options: RunOptions = {"fidelity": fidelity, "results": results, "config": config, "cores": cores, "folder": folder}
-    chosen = [] if blades is None else blades_of(blades, options)
+    chosen = [] if blades is None else [chosen_blade(blade, config) for blade in several(blades, BladeChoice)]
     if scenes is None and results is not None:
-        # what is wanted is a key of each scene
+        # results are a key of each scene
         scenes = scenes_named(base_of(chosen, config))
-    rubs_on = [] if scenes is None else scenes_of_run(scenes, chosen, options)
     made_on_request = [extension.name for extension in EXTENSIONS if extension.made_on_request and extension.name in sections]
     wanted = ["tables", *made_on_request] if targets is None else targets
-    return run_of("r37.run", chosen, rubs_on, keys, options, wanted, whole=True)
+    rubs_on = [] if scenes is None else several(scenes, SceneChoice)
+    return run_of(call_of("r37.run", chosen, rubs_on, keys, options, named=True, whole=True), options, wanted)
 
 
-def run_of(
-    caller: str,
-    blades: Sequence[BladeChoice],
-    scenes: Sequence[SceneChoice],
-    keys: Mapping[str, Any],
-    options: Mapping[str, Any],
-    targets: str | Sequence[str] = "tables",
-    *,
-    whole: bool = False,
-) -> RunResults:
-    """The `targets` of a run with these `keys` of config.yaml; `options` as of RunOptions, without speeds.
-
-    `whole`: what the configuration says of a run counts, too.
-    """
+def run_of(call: Call, options: Mapping[str, Any], targets: str | Sequence[str] = "tables") -> RunResults:
+    """The `targets` of a run of the call; `options` as of RunOptions. Raises what its first failed job raises."""
     check_cores(cores := options.get("cores", 1))
     wanted = snakemake_targets(targets)
-    base = base_of(blades, options.get("config"))
-    call = Call(caller, base, blades, scenes, {**keys, **level(options.get("fidelity"))}, whole)
-    tell(remarks_of(call))
+    call.tell_remarks()
     temporary = temporary_folder() if options.get("folder") is None else None
     place = Path(temporary.name) if temporary else run_folder(options["folder"])
     write_run(call, place)
@@ -137,33 +123,14 @@ def run_of(
     return RunResults(place / "results", temporary)
 
 
-def blades_of(blades: Blades, options: Mapping[str, Any]) -> list[BladeChoice]:
-    """The blades of a run. Raises ConfigError."""
-    several = sequence_of(blades, BladeChoice | str, "blades", "the name of a blade, or what r37.blade gives")
-    chosen = [chosen_blade(blade, options.get("config")) for blade in several]
-    names_of_their_own(chosen)
-    return chosen
-
-
-def scenes_of_run(scenes: Scenes, blades: Sequence[BladeChoice], options: Mapping[str, Any]) -> list[SceneChoice]:
-    """The scenes of a run of these blades. Raises ConfigError."""
-    base = base_of(blades, options.get("config"))
-    several = sequence_of(scenes, SceneChoice | str, "scenes", "the name of a scene, or what r37.scene gives")
-    chosen = [chosen_scene(scene, base, options.get("results")) for scene in several]
-    names_of_their_own(chosen)
-    return chosen
-
-
-def named_run(
+def named_call(
     caller: str,
     blades: Blades,
     scenes: Scenes,
     speeds: Speeds | None,
     options: Mapping[str, Any],
     keys: Mapping[str, Any] | None = None,
-    targets: str | Sequence[str] = "tables",
-) -> RunResults:
-    """A run of a call by another name; `options` as of SweepOptions."""
-    several = blades_of(blades, options)
+) -> Call:
+    """The call of blades and scenes whose names stand in tables; `options` as of SweepOptions. Raises ConfigError."""
     keys = {**(keys or {}), **speed_keys(speeds, options.get("speeds_rpm"))}
-    return run_of(caller, several, scenes_of_run(scenes, several, options), keys, options, targets)
+    return call_of(caller, several(blades, BladeChoice), several(scenes, SceneChoice), keys, options, named=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Unpack
 
 from r37core.search.designs import FOLDER
@@ -11,7 +12,7 @@ from r37core.search.plan import BEST, DATASET, TABLE
 from .arguments import Speeds, mapping, plain_value
 from .choices import BladeChoice
 from .run_results import RunResults
-from .runs import Scenes, SweepOptions, blades_of, named_run
+from .runs import Scenes, SweepOptions, named_call, run_of
 from .stages import checked_call
 
 _BOUNDS = 'dotted keys of blades.yaml, or scene.KEY of scenes.yaml, and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
@@ -23,7 +24,7 @@ _MAPPINGS = {
 
 
 class SearchOptions(SweepOptions, total=False):
-    """What `search` takes by name."""
+    """Options of `search`."""
 
     constraints: Mapping[str, Any] | None
     designs: int
@@ -105,6 +106,7 @@ def search(
     own = {name: value for name, value in options.items() if name not in SweepOptions.__annotations__ and value is not None}
     entry = {"objectives": objectives, **own}
     entry |= {name: mapping(entry[name], name, allowed) for name, allowed in _MAPPINGS.items() if name in entry}
-    (chosen,) = blades_of(blade, options)
+    call = named_call("r37.search", blade, scenes, speeds, options)
+    (chosen,) = call.blades
     section = {"blade": chosen.name, "variables": mapping(variables, "variables", _BOUNDS), **plain_value(entry)}
-    return named_run("r37.search", chosen, scenes, speeds, options, {FOLDER: section}, (DATASET, TABLE, BEST))
+    return run_of(replace(call, keys={FOLDER: section, **call.keys}), options, (DATASET, TABLE, BEST))

@@ -19,15 +19,15 @@ from r37core.time_integration.initial_motion import InitialMotion, InitialMotion
 
 from .arguments import Speeds, speed_key, speed_keys
 from .calculation import Calculation
-from .call_settings import Call, OneOptions, call_of_one, remarks_of, tell
+from .call_settings import Call, OneOptions, call_of, tell
 from .choices import BladeChoice, SceneChoice
-from .jobs import check_cores, parallel_results
+from .jobs import check_cores
 from .stages import checked_call
-from .structure_files import recipe
+from .structure_files import structure_file
 
 
 class SimulateOptions(OneOptions, total=False):
-    """What `simulate` takes by name."""
+    """Options of `simulate`."""
 
     speed_rpm: float | None
     initial_displacement: ArrayLike | None
@@ -35,7 +35,7 @@ class SimulateOptions(OneOptions, total=False):
 
 
 class SpeedsOptions(OneOptions, total=False):
-    """What `sweep` takes by name."""
+    """Options of `sweep`."""
 
     speeds_rpm: Speeds | None
     cores: int
@@ -76,7 +76,7 @@ def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: P
     >>> 1600 < crossing < 1750
     True
     """
-    call = call_of_one("r37.campbell", blade, [], {}, {"fidelity": fidelity, "config": config})
+    call = call_of("r37.campbell", [blade], [], {}, {"fidelity": fidelity, "config": config})
     return _structure_dataset(call, "campbell_of_blade")
 
 
@@ -117,7 +117,7 @@ def reduced_model(
     True
     """
     scenes = [] if scene is None else [scene]
-    call = call_of_one("r37.reduced_model", blade, scenes, {}, {"fidelity": fidelity, "config": config})
+    call = call_of("r37.reduced_model", [blade], scenes, {}, {"fidelity": fidelity, "config": config})
     tip_line = call.settings.scenes[call.scenes[0].name].tip_line if call.scenes else None
     return _structure_dataset(call, "reduced_model", tip_line)
 
@@ -168,7 +168,7 @@ def simulate(
     >>> response.rms_normal.sel(tip_point="leading_edge").item() > 0.0  # m
     True
     """
-    call = call_of_one("r37.simulate", blade, [scene], speed_key(speed, options.get("speed_rpm")), options)
+    call = call_of("r37.simulate", [blade], [scene], speed_key(speed, options.get("speed_rpm")), options)
     try:
         _ = call.settings
     except ConfigError as error:
@@ -219,25 +219,25 @@ def sweep(
     """
     check_cores(cores := options.get("cores", 1))
     keys = speed_keys(speeds, options.get("speeds_rpm"))
-    return _response(call_of_one("r37.sweep", blade, [scene], keys, options), cores)
+    return _response(call_of("r37.sweep", [blade], [scene], keys, options), cores)
 
 
 def _structure_dataset(call: Call, stage: str, tip_line: str | None = None) -> xr.Dataset:
     """A dataset of the structure of the call's one blade."""
     settings, (blade,) = call.settings, call.blades
     tell(remarks_on_materials(settings))
-    (file,) = parallel_results([recipe(settings, blade.name, stage, tip_line).file], 1)
+    file = structure_file(settings, blade.name, stage, tip_line)
     made = Provenance(settings).structure(Named(blade=blade.name))
     return read_dataset(file).assign_attrs(FILE_ATTRIBUTES | dict(made) | blade.told)
 
 
 def _response(call: Call, cores: int, motion: InitialMotion | None = None) -> xr.Dataset:
     """The response of the call's one blade in its one scene, at the speeds of its settings, from rest or in `motion`."""
-    tell(remarks_of(call))
+    call.tell_remarks()
     (blade,), (scene,) = call.blades, call.scenes
     with scratch_folder() as folder:
         response = read_dataset(Calculation(call.settings, folder, cores).response(motion))
     # free flight is what a start in motion may be for
     if motion is None:
         tell(remarks_on_contact([(f"{blade.label} in {scene.label}", response["largest_normal_force"].values)]))
-    return response.assign_attrs(blade.told | scene.told)
+    return response.assign_attrs(call.told)

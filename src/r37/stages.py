@@ -1,4 +1,4 @@
-"""What a call writes while it works: a line for each stage, a bar for many simulations; and the check of its arguments.
+"""Progress of a call: a line for each stage, a bar for many simulations; and the check of its arguments.
 
 The lines go to the logger `r37` of the standard library. Where nobody listens to it and a person watches, on a terminal or in a
 notebook, they are written there, and bars beside them. `logging.getLogger("r37").setLevel("WARNING")` silences both.
@@ -26,7 +26,7 @@ T = TypeVar("T")
 
 
 def _watched() -> bool:
-    """Whether a person sees what is written now, and has not asked for quiet."""
+    """True where a person sees what is written now, and has not asked for quiet."""
     if LOGGER.level > logging.INFO or sys.stderr is None:
         return False
     return sys.stderr.isatty() or type(sys.stderr).__module__.startswith("ipykernel")

@@ -22,7 +22,7 @@ from r37core.plans.samples import NOMINAL
 from r37core.plans.stages import Stage, structure_stages
 from r37core.plans.structure_plan import Structure
 
-from .jobs import run_step
+from .jobs import parallel_results, run_step
 from .stages import LOGGER
 
 _FILES = {
@@ -36,7 +36,7 @@ _FILES = {
 """Stage -> name of the file that others read, also of what a blade of another program has in its place."""
 
 _IMPORTED = {MeshSource: {"mesh": "imported_mesh"}, MatricesSource: {"reduced_model": "imported_matrices"}}
-"""What a blade of another program has in place of a stage."""
+"""Stages of a blade of another program in place of others."""
 
 _MAKING = threading.RLock()
 """Held by the thread that makes structures: gmsh, and what reads meshes of others, serve one at a time."""
@@ -57,7 +57,7 @@ class Recipe:
 
     @cached_property
     def made_of(self) -> list[Any]:
-        """What its content follows from, as plain values; Attributes do not count."""
+        """Parameters that determine the content of the file, as plain values; Attributes do not count."""
         counting = {key: value for key, value in self.params.items() if not isinstance(value, Attributes)}
         return to_plain([_code(self.stage.step), [part.made_of for part in self.inputs.values()], counting])
 
@@ -92,6 +92,12 @@ def recipe(settings: Settings, blade: str, stage: str, tip_line: str | None = No
         return Recipe(blade, stages[name], _FILES[stage], inputs, stages[name].values(wildcards))
 
     return of(stage)
+
+
+def structure_file(settings: Settings, blade: str, stage: str, tip_line: str | None = None) -> Path:
+    """The file of a recipe, with the numbers that one thread of linear algebra gives. Raises what making it raises."""
+    (file,) = parallel_results([recipe(settings, blade, stage, tip_line).file], 1)
+    return file
 
 
 def cache_folder() -> Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, Unpack
 
 import pandas as pd
@@ -11,17 +12,17 @@ from r37core.base.varied_number import KINDS, values_of
 from r37core.config import ConfigError
 
 from .arguments import Speeds, mapping, plain_value, speed_keys
-from .call_settings import chosen_blade
-from .choices import BladeChoice
+from .call_settings import call_of, names_of_their_own, several
+from .choices import BladeChoice, SceneChoice
 from .run_results import RunResults
-from .runs import Blades, Scenes, SweepOptions, named_run, run_of, scenes_of_run
+from .runs import Blades, Scenes, SweepOptions, named_call, run_of
 from .stages import checked_call
 
 _SPREAD = 'dotted keys and how each spreads, as in {"friction.coefficient": {"uniform_percent": 5}}'
 
 
 class DesignOptions(SweepOptions, total=False):
-    """What `designs` takes by name."""
+    """Options of `designs`."""
 
     combine: str
     name: str
@@ -30,7 +31,7 @@ class DesignOptions(SweepOptions, total=False):
 
 
 class ToleranceOptions(SweepOptions, total=False):
-    """What `tolerances` takes by name."""
+    """Options of `tolerances`."""
 
     of_scenes: Mapping[str, Any]
     of_blades: Mapping[str, Any]
@@ -67,7 +68,7 @@ def compare(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **opti
     >>> sorted(results.ranking.blade)
     ['CS100', 'Ref']
     """
-    return named_run("r37.compare", blades, scenes, speeds, options)
+    return run_of(named_call("r37.compare", blades, scenes, speeds, options), options)
 
 
 @checked_call
@@ -130,13 +131,15 @@ def designs(
             raise ConfigError(f"vary: found nothing that varies; allowed: {example}")
         families = (values_of(kind, varied) for kind in KINDS)
         entry, scene_entry = ({"vary": values, "combine": combine} if values else {} for values in families)
-    chosen = chosen_blade(blade, options.get("config"))
-    family = chosen.family(options.get("name", "Design"), entry) if entry else chosen
     sections = {key: plain_value(section) for key, section in options.items() if key in ("operating", "requirements")}
-    keys, several = {**speed_keys(speeds, options.get("speeds_rpm")), **sections}, scenes_of_run(scenes, [family], options)
+    keys = {**speed_keys(speeds, options.get("speeds_rpm")), **sections}
+    call = call_of("r37.designs", [blade], several(scenes, SceneChoice), keys, options)
+    names_of_their_own(call.scenes)
+    if entry:
+        call = replace(call, blades=[chosen.family(options.get("name", "Design"), entry) for chosen in call.blades])
     if scene_entry:
-        several = [scene.family(f"{scene.name}-varied", scene_entry) for scene in several]
-    return run_of("r37.designs", [family], several, keys, options)
+        call = replace(call, scenes=[scene.family(f"{scene.name}-varied", scene_entry) for scene in call.scenes])
+    return run_of(call, options)
 
 
 @checked_call
@@ -180,4 +183,4 @@ def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **o
     section = {name: plain_value(value) for name, value in options.items() if name not in SweepOptions.__annotations__}
     for name in ("of_scenes", "of_blades"):
         section[name] = mapping(section.get(name, {}), name, _SPREAD)
-    return named_run("r37.tolerances", blades, scenes, speeds, options, {"tolerances": section})
+    return run_of(named_call("r37.tolerances", blades, scenes, speeds, options, {"tolerances": section}), options)

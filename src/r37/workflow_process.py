@@ -71,7 +71,7 @@ def _environment(events: int) -> dict[str, str]:
 
 
 def _lines(process: subprocess.Popen[bytes], events: int) -> Iterator[tuple[str, str]]:
-    """What the process says, line by line, until it has ended: `event` or `text`."""
+    """Lines of the process until it has ended, each an `event` or a `text`."""
     assert process.stderr is not None
     with selectors.DefaultSelector() as selector:
         selector.register(events, selectors.EVENT_READ, "event")
@@ -101,7 +101,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 
 class _Report:
-    """What a run has told so far: shown where somebody watches, and the error that it ends with."""
+    """Events of a run so far: shown where somebody watches, and the error that it ends with."""
 
     def __init__(self, settings: Settings):
         self._settings = settings
@@ -148,7 +148,7 @@ class _Report:
             LOGGER.info("%s", line)
 
     def error(self, folder: Path) -> Exception:
-        """What the run has failed of; without a message its last twenty lines tell."""
+        """The error that the run has ended with; without a message its last twenty lines."""
         if self._failures:
             return error_of(self._failures[0])
         text = "\n".join(dict.fromkeys(self._messages)) or "\n".join(self._texts[-20:]) or "Snakemake ended without a word"

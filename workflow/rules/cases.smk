@@ -1,7 +1,7 @@
 # Models of cases: runs of one blade beside the sweep, each with a model, scene or time integration of its own (r37core.cases). The
 # cases themselves are rules of the extensions that plan them.
 from r37core.cases.case import MODEL_NAME
-from r37core.cases.plan import MODEL_FILE, Cases, choice_of_model, shape_of_model
+from r37core.cases.plan import MODEL_FILES, Cases, choice_of_model, shape_of_model
 
 
 # the pattern of the extensions' cases, never run by itself
@@ -16,11 +16,9 @@ use rule step as case_model with:
     input:
         unpack(shape_of_model),
     output:
-        rom=MODEL_FILE.replace("{file}", "rom.nc"),
-        contact=MODEL_FILE.replace("{file}", "contact.npz"),
-        cost=MODEL_FILE.replace("{file}", "cost.json"),
+        **MODEL_FILES,
     log:
-        MODEL_FILE.replace("{file}", "model.log").replace("<results>", "<logs>"),
+        "<logs>/cases/{blade}/{model}/model.log",
     wildcard_constraints:
         model=MODEL_NAME,
     priority: 2

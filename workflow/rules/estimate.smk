@@ -24,7 +24,6 @@ use rule step as estimate_table with:
         "<logs>/estimate_table.log",
     params:
         **step("estimate.steps.report"),
-        cases=estimate_cases.names,
         values=lambda wildcards: estimate_plan.values(settings, samples),
 
 

@@ -1,7 +1,7 @@
 # Results for other programs: mesh, surface, modes, worst stress, matrices. Not part of all_blades: snakemake exports
-from r37core.exports import extension as exports_plan
+from r37core.exports import plan as exports_plan
 
-exported = exports_plan.Exports(imported, sweep)
+exported = exports_plan.Exports(sweep)
 
 
 use rule step as exported_mesh with:

@@ -1,6 +1,6 @@
 # Shapes to look at: modes, and the worst instant of each interaction, for scenes with `shapes` among their results.
 from r37core.shapes import PARTS as SHAPE_PARTS
-from r37core.shapes.extension import MODE_SHAPES, WORST_SHAPES, Shapes
+from r37core.shapes.plan import MODE_SHAPES, WORST_SHAPES, Shapes
 
 shown_shapes = Shapes(sweep)
 

@@ -1,7 +1,7 @@
 # Time signals of chosen speeds, each a run of its own: edges of the tip, strain gauges, tip timing.
-from r37core.signals.extension import SIGNALS_OF_RUN, Signals
+from r37core.signals.plan import SIGNALS_OF_RUN, Signals
 
-recorded = Signals(imported, sweep)
+recorded = Signals(sweep)
 
 
 use rule step as signals_of_run with:

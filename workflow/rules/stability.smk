@@ -24,8 +24,6 @@ use rule step as stability_table with:
         "<logs>/stability_table.log",
     params:
         **step("stability.steps.report"),
-        cases=stability_cases.names,
-        extremes=lambda wildcards: stability_plan.values(settings),
 
 
 use rule figure as stability_figure with:

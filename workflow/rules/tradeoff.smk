@@ -27,7 +27,6 @@ use rule step as tradeoff_tables with:
         "<logs>/tradeoff_tables.log",
     params:
         **step("tradeoff.steps.report"),
-        cases=tradeoff_cases.names,
         values=lambda wildcards: tradeoff_plan.values(settings),
 
 

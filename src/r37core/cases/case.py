@@ -1,11 +1,15 @@
 """A case: what one job runs, as plain data. Light: the workflow imports it."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass, replace
+from typing import Any
 
 from r37core.contact.scene import Scene
 from r37core.fem.material import Material
 from r37core.time_integration.integration_choice import IntegrationChoice
+
+HALF_STEP = "__half_step"
+"""End of the name of a case that is another one with half its time step."""
 
 OWN_MESH = 0
 """Number of nodes that stands for the mesh of the run, as for a blade of another program."""
@@ -15,24 +19,22 @@ OWN_MESH = 0
 class ModelChoice:
     """A model of a blade made for some cases: nodes of the mesh (or OWN_MESH) and of the tip line, fixed-interface modes.
 
-    `boundary_nodes`: number of contact nodes, 0 for as many as the mesh has room for by default.
-
-    `whole_blade_stress`: stress is recovered on the whole blade, else on the submesh of this run.
+    - `boundary_nodes`: number of contact nodes, 0 for as many as the mesh has room for by default.
+    - `stress_region`: `whole` blade or `submesh` of this run, on which stress is recovered.
+    - `tip_ends`: contact nodes reach the `corners` of the tip line, or lie `inside`.
     """
 
     nodes: int
     boundary_nodes: int
     fixed_interface_modes: int
-    whole_blade_stress: bool
+    stress_region: str
     tip_line: str
-    corners: bool
+    tip_ends: str
 
     @property
     def name(self) -> str:
-        """Folder of the model; each part is a wildcard of the rule that makes it."""
-        region, ends = "whole" if self.whole_blade_stress else "submesh", "corners" if self.corners else "inside"
-        numbers = f"{self.nodes}_{self.boundary_nodes}_{self.fixed_interface_modes}"
-        return f"{numbers}_{region}_{self.tip_line}_{ends}"
+        """Folder of the model."""
+        return "_".join(map(str, astuple(self)))
 
 
 MODEL_NAME = r"\d+_\d+_\d+_(submesh|whole)_(pressure_edge|camber|suction_edge)_(corners|inside)"
@@ -42,15 +44,7 @@ MODEL_NAME = r"\d+_\d+_\d+_(submesh|whole)_(pressure_edge|camber|suction_edge)_(
 def model_of_name(name: str) -> ModelChoice:
     """The choice of this name."""
     nodes, boundary_nodes, modes, region, *line, ends = name.split("_")
-    return ModelChoice(int(nodes), int(boundary_nodes), int(modes), region == "whole", "_".join(line), ends == "corners")
-
-
-@dataclass(frozen=True)
-class Crossing:
-    """Where a mode crosses an engine order in the Campbell diagram of the run; without an order at the highest speed."""
-
-    mode: str
-    engine_order: int | None
+    return ModelChoice(int(nodes), int(boundary_nodes), int(modes), region, "_".join(line), ends)
 
 
 @dataclass(frozen=True)
@@ -59,13 +53,13 @@ class Case:
 
     - `model`: made for the case, or this run's own on the tip line of this name.
     - `scene`: None where the case is refused; `refused` has the reason.
-    - `speeds`: rad/s, ascending. With a `crossing` they are shares of its speed.
+    - `speeds`: rad/s, ascending. With a `crossing` they are shares of its speed in the Campbell diagram of the run.
+    - `crossing`: mode and engine order; without an order the one at the highest speed.
     - `results`: as of a scene, and `instants`, the stress at each instant of the last revolution.
     - `kept`: how much of spectrum and wear, as run_speed takes it.
-    - `history_speeds`: speeds whose stress is kept for every revolution; None: all.
+    - `history_speeds`: speeds whose stress is kept for every revolution.
     - `share_of_limit`: the time step is this share of the blade's stability limit under central differences.
     - `half_step`: half the step that would be taken otherwise.
-    - `what`: words for the result's attributes.
     """
 
     blade: str
@@ -76,13 +70,29 @@ class Case:
     results: tuple[str, ...]
     material: Material | None
     kept: Mapping[str, int]
-    crossing: Crossing | None = None
-    history_speeds: tuple[float, ...] | None = ()
+    crossing: tuple[str, int | None] | None = None
+    history_speeds: tuple[float, ...] = ()
     share_of_limit: float | None = None
     half_step: bool = False
     refused: str = ""
-    what: str = ""
 
     def __post_init__(self) -> None:
         if list(self.speeds) != sorted(set(self.speeds)):
             raise ValueError(f"speeds of a case: found {self.speeds}; allowed: ascending, none twice")
+
+    def changed(self, changes: Mapping[str, Any]) -> "Case":
+        """The case with the fields at dotted paths changed; a part that it does not have stays away."""
+        case = self
+        for path, value in changes.items():
+            case = _changed(case, path.split("."), value)
+        return case
+
+
+def _changed(part: Any, path: Sequence[str], value: Any) -> Any:
+    if not path:
+        return value
+    # a bare casing has no lining, matrices have no model but their own
+    if part is None or isinstance(part, str):
+        return part
+    first, *rest = path
+    return replace(part, **{first: _changed(getattr(part, first), rest, value)})

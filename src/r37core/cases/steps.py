@@ -15,39 +15,42 @@ from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.contact_model import write_contact_model
 from r37core.rom.reduce import reduce_blade
-from r37core.rom.reduced_model import contact_model
+from r37core.rom.reduced_model import ReducedModel, contact_model
 from r37core.rom.reduction_choice import EVERYWHERE, BoundaryError, ReductionChoice
 from r37core.rom.rom_file import write_reduced_model
 
 from .case import OWN_MESH, Case, ModelChoice
-from .runner import Stopwatch, peak_memory, run_case_of_files
+from .runner import peak_memory, run_case_of_files, timed
 
 
 def model(input: Any, output: Any, params: Any) -> None:
     """Mesh, assemble and reduce for some cases. Input: geometry or mesh. Outputs: rom, contact, cost.
 
-    The cost has CPU and wall time (s) and memory (bytes), or why the mesh cannot have the boundary nodes: the other files are
-    empty then. Params: choice, reduction (what the choice leaves open), material, provenance.
+    The cost has CPU and wall time (s) and memory (bytes), or the reason why the mesh cannot have the boundary nodes: the other
+    files are empty then. Params: choice, reduction (what the choice leaves open), material, provenance.
     """
     choice = from_plain(ModelChoice, params.choice)
     base, material = from_plain(ReductionChoice, params.reduction), from_plain(Material, params.material)
+    nodes, corners = choice.boundary_nodes or None, choice.tip_ends == "corners"
     reduction = replace(
         base,
-        boundary=replace(base.boundary, tip_line=choice.tip_line, nodes=choice.boundary_nodes or None, corners=choice.corners),
+        boundary=replace(base.boundary, tip_line=choice.tip_line, nodes=nodes, corners=corners),
         fixed_interface_modes=choice.fixed_interface_modes,
-        stress_submesh=EVERYWHERE if choice.whole_blade_stress else base.stress_submesh,
+        stress_submesh=EVERYWHERE if choice.stress_region == "whole" else base.stress_submesh,
     )
-    clock = Stopwatch()
+
+    def reduced_model() -> ReducedModel:
+        mesh = read_vtu(input.mesh) if choice.nodes == OWN_MESH else _meshed(input.geometry, choice.nodes)
+        return reduce_blade(mesh, assemble(mesh, material), reduction)
+
     try:
-        with clock:
-            mesh = read_vtu(input.mesh) if choice.nodes == OWN_MESH else _meshed(input.geometry, choice.nodes)
-            reduced = reduce_blade(mesh, assemble(mesh, material), reduction)
+        reduced, cpu, wall = timed(reduced_model)
     except BoundaryError as error:
         write_json({"refused": str(error)}, output.cost)
         for file in (output.rom, output.contact):
             write_text("", file)
         return
-    write_json({"cpu_s": clock.cpu, "wall_s": clock.wall, "peak_memory_bytes": peak_memory()}, output.cost)
+    write_json({"cpu_s": cpu, "wall_s": wall, "peak_memory_bytes": peak_memory()}, output.cost)
     write_reduced_model(reduced, output.rom, params.provenance)
     write_contact_model(contact_model(reduced, choice.tip_line), output.contact)
 

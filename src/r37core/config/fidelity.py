@@ -110,6 +110,11 @@ class TimeIntegration(Section):
         return self.time_step_s
 
     @property
+    def kept(self) -> dict[str, int]:
+        """How much of the spectrum and of the wear a simulation keeps."""
+        return {"spectrum_highest_order": self.spectrum_highest_order, "wear_angles": self.wear_angles}
+
+    @property
     def wording(self) -> str:
         """The largest steps."""
         steps = self.largest_time_step_s

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from .section import LeftOut, Names, Rpm, Section, Speed, left_out, refused
+from .section import LeftOut, Names, Rpm, Section, Speed, Unique, left_out, refused
 
 UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
@@ -64,6 +64,13 @@ class SpeedRule(Section):
         if self.speeds is None and self.speeds_rpm is None:
             raise refused((), "neither speeds nor speeds_rpm", "one of them")
         return self
+
+
+def word_or_speeds(*words: str) -> Any:
+    """Type of a key with speeds (rad/s), or one of some words in their place."""
+    word = Annotated[Literal[words], Tag("word")]  # type: ignore[valid-type]
+    speeds = Annotated[Unique[Speed], Tag("speeds")]
+    return Annotated[word | speeds, Discriminator(lambda value: "speeds" if isinstance(value, list) else "word")]
 
 
 def refuse_both_units(first: str, second: str) -> None:

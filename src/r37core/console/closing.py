@@ -1,4 +1,4 @@
-"""What a finished run says: what was found, where to look, how long it took."""
+"""Last lines of a finished run: what was found, where to look, how long it took."""
 
 import csv
 from collections.abc import Iterable
@@ -19,7 +19,7 @@ MOST_SCENES = 12
 def closing_lines(
     results: Path, began: float, ended: float, remarks: Iterable[str] = (), extension_lines: Iterable[str] = ()
 ) -> list[str]:
-    """What the folder `results` has: interactions, runs that diverged, `remarks` on them, where to look, and how long it took.
+    """Last lines of a run: interactions of the folder `results`, diverged runs, `remarks` on them, where to look, time taken.
 
     Of what is older than the run's start nothing is said. `began` and `ended`: times in s, as file times are.
     `extension_lines`: what the extensions have made in the run.

@@ -1,4 +1,4 @@
-"""What went wrong in the jobs of a run, or was warned of, kept so that the run can end with it. Light: every job imports it."""
+"""Failures and warnings of the jobs of a run, kept so that the run can end with them. Light: every job imports it."""
 
 import base64
 import contextlib
@@ -106,7 +106,7 @@ def error_of(failure: dict[str, str]) -> Exception:
 
 
 def notes() -> list[dict[str, str]]:
-    """What is kept of this run, in the order of time: each line, with its error if it has one. It is not kept any longer."""
+    """Lines kept of this run, in the order of time, each with its error if it has one. They are not kept any longer."""
     file = _file()
     if file is None or not file.exists():
         return []

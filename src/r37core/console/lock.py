@@ -46,7 +46,7 @@ def _lift_stale(others: list[Path]) -> list[str]:
 
 
 def _may_live(record: str) -> bool:
-    """Whether the process of a record is alive, or cannot be asked."""
+    """True where the process of a record is alive, or cannot be asked."""
     pid, _, host = (*record.split("_", 2), "", "")[:3]
     return not pid.isdecimal() or host != socket.gethostname() or record == _identity(int(pid))
 

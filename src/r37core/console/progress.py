@@ -20,7 +20,7 @@ from r37core.time_integration.speed_file import read_status
 from r37core.time_integration.status import RunStatus
 
 QUIET_EVENTS = frozenset({"job_info", "job_started", "job_finished", "progress", "shellcmd", "resources_info"})
-"""What Snakemake says of every job; failures and warnings are none of these."""
+"""Messages of Snakemake about every job; failures and warnings are none of these."""
 
 HANDLER = "DefaultStreamHandler"
 """Name of Snakemake's handler of messages on the terminal."""
@@ -60,7 +60,7 @@ class Progress(logging.Filter):
     _open: bool = False
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Whether Snakemake's own handler should write the record."""
+        """True where Snakemake's own handler should write the record."""
         event = str(getattr(record, "event", None) or "")
         self._take(event, record)
         message = record.getMessage().strip()
@@ -89,7 +89,7 @@ class Progress(logging.Filter):
             self._write(immediately=record.done == record.total, last=record.done == record.total)  # type: ignore[attr-defined]
 
     def line(self) -> str:
-        """What there is to say now."""
+        """The line of progress now."""
         spent = self.clock() - (self.clock() if self._began is None else self._began)
         rate = self._done / spent if spent > 0.0 else 0.0
         parts = [f"jobs {self._done} of {self._known}"] if self._known else []

@@ -32,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def configuration_of(results: Path) -> Mapping[str, Any]:
-    """What config.yaml and the command line said of the run in the folder `results`; ValueError where no run lies there."""
+    """Settings of the run in the folder `results`, of config.yaml and command line; ValueError where no run lies there."""
     file = results / CONFIGURATION
     try:
         config: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))["config"]

@@ -1,1 +1,1 @@
-"""What a whole sweep will cost: a sample of its runs, timed."""
+"""Cost of a whole sweep: a sample of its runs, timed."""

@@ -6,7 +6,6 @@ from typing import Any
 from pydantic import Field
 
 from r37core.cases.case import Case
-from r37core.cases.plan import kept_of
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection, Section
 from r37core.plans import paths
@@ -52,7 +51,7 @@ def _case(settings: Settings, blade: str, scene: str) -> Case:
         speeds,
         results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
         material=settings.blades[blade].material,
-        kept=kept_of(settings.fidelity),
+        kept=settings.fidelity.time_integration.kept,
         history_speeds=tuple(speed for speed in speeds if speed in chosen.stress_history_speeds),
     )
 
@@ -62,7 +61,7 @@ def values(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> d
     section = settings.section(SECTION)
     return {
         "runs": {"__".join(pair): extent.at_most for pair, extent in extents(settings, beside).items()},
-        "workflow_s_per_job": section.workflow_s_per_job,
+        "workflow_per_job": section.workflow_s_per_job,
         "cores": section.cores,
     }
 

@@ -1,10 +1,10 @@
-"""What a whole sweep will cost, projected from a sample of its runs."""
+"""Cost of a whole sweep, projected from a sample of its runs."""
 
 import os
 import statistics
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 import pandas as pd
@@ -14,22 +14,14 @@ from r37core.results.closing import counted
 from r37core.results.table_file import read_table
 
 _IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
-"""What the script of a simulation imports."""
+"""Imports of the script of a simulation."""
 
 
-def sample_of(response: xr.Dataset, number: int) -> dict[str, float]:
-    """CPU seconds that `number` runs of a blade and scene take, projected from those of a case.
-
-    `time integration`: everything a job does after its imports; `reduction`: of all runs to one file, and `runs`. Raises
-    ValueError for a case that was refused.
-    """
-    if "refused" in response.attrs:
-        raise ValueError(f"estimate: {response.attrs['refused']}")
-    share = number / response.sizes["speed"]
-    costs = response.attrs
-    per_run = float((response["cpu_s"] + response["file_cpu_s"]).sum()) + response.sizes["speed"] * costs["reading_cpu_s"]
-    reduction = costs["recovery_cpu_s"] + share * costs["reduction_cpu_s"]
-    return {"time integration": share * per_run, "reduction": reduction, "runs": number}
+def numbers(response: xr.Dataset) -> dict[str, float]:
+    """CPU seconds of a run of a case, with everything a job does after its imports, and of its share of the reduction."""
+    runs, costs = response.sizes["speed"], response.attrs
+    own = float((response["cpu_s"] + response["file_cpu_s"]).sum()) / runs
+    return {"run_cpu_s": own + costs["reading_cpu_s"], "run_reduction_cpu_s": costs["reduction_cpu_s"] / runs}
 
 
 def time_start_up() -> float:
@@ -44,23 +36,28 @@ def time_start_up() -> float:
 
 
 def projected_costs(
-    samples: Sequence[Mapping[str, float]], start_up: float, workflow_per_job: float, cores: int
+    cases: pd.DataFrame, runs: Mapping[str, int], start_up: float, workflow_per_job: float, cores: int
 ) -> pd.DataFrame:
-    """A row for each part and one of all: core hours, core seconds of a simulation, simulations, and hours on `cores`."""
-    runs = sum(sample["runs"] for sample in samples)
+    """A row for each part and one of all: core hours, core seconds of a simulation, simulations, and hours on `cores`.
+
+    `cases`: the table of cases; `runs`: number of simulations that each stands for. Raises ValueError for a refused case.
+    """
+    for reason in filter(None, cases["refused"]):
+        raise ValueError(f"estimate: {reason}")
+    number = pd.Series(runs)[cases.index]
     seconds = {
-        "time integration": sum(sample["time integration"] for sample in samples),
-        "start-up": start_up * runs,
-        "workflow": workflow_per_job * runs,
-        "reduction": sum(sample["reduction"] for sample in samples),
+        "time integration": (number * cases["run_cpu_s"]).sum(),
+        "start-up": start_up * number.sum(),
+        "workflow": workflow_per_job * number.sum(),
+        "reduction": (cases["recovery_cpu_s"] + number * cases["run_reduction_cpu_s"]).sum(),
     }
     seconds["total"] = sum(seconds.values())
     return pd.DataFrame(
         {
             "part": part,
             "core_hours": spent / 3600.0,
-            "core_s_per_simulation": spent / runs,
-            "simulations": int(runs),
+            "core_s_per_simulation": spent / number.sum(),
+            "simulations": number.sum(),
             "cores": cores,
             "wall_hours": spent / 3600.0 / cores,
         }

@@ -114,8 +114,7 @@ class Sweep:
     @property
     def kept(self) -> dict[str, int]:
         """How much of the spectrum and of the wear a simulation keeps."""
-        integration = self.settings.fidelity.time_integration
-        return {key: getattr(integration, key) for key in ("spectrum_highest_order", "wear_angles")}
+        return self.settings.fidelity.time_integration.kept
 
     @property
     def kinds(self) -> list[str]:

@@ -34,7 +34,7 @@ def _run_leftovers(results: Path, settings: Settings) -> Iterator[Path]:
 
 
 def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
-    """What fits a pattern of what the rules make, and is not planned; the folder of a named run is no blade's."""
+    """Files that fit a pattern of what the rules make, and are not planned; the folder of a named run is no blade's."""
     patterns = _planned(settings)
     planned = {results / file.removeprefix("<results>/") for file in paths.filled(patterns)}
     for pattern in patterns:

@@ -65,7 +65,7 @@ def _read(folder: Path, entry: Mapping[str, Any]) -> Any:
 
 
 class _View(NamedTuple):
-    """What is shown of a shape: colours, their label and largest value, and the field that moves it, times a factor."""
+    """Drawing of a shape: colours, their label and largest value, and the field that moves it, times a factor."""
 
     values: np.ndarray
     label: str

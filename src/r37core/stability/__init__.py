@@ -1,1 +1,1 @@
-"""What happens at extremes of the configuration: each is run with its own step and with half of it."""
+"""Extremes of the configuration: each is run with its own step and with half of it."""

@@ -1,12 +1,13 @@
-"""What happens at extremes: every case is a real run, judged against itself with half the step."""
+"""Outcomes at extremes: every case is a real run, judged against itself with half the step."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from r37core.cases.runner import energy_share
+from r37core.cases.table import energy_share
 from r37core.results.closing import counted
 from r37core.results.measures import leading_edge, motion
 from r37core.results.table_file import read_table
@@ -23,41 +24,39 @@ COMPLEMENTARITY_WITHIN = 1e-8
 _FINITE = ("rms_normal", "rms_tangential", "peak_normal")
 
 
-def judge(case: xr.Dataset, half: xr.Dataset) -> dict[str, Any]:
-    """Outcome, detail and numbers of a case, from its response and that with half the step."""
-    if "refused" in case.attrs:
-        return {"outcome": REFUSED, "detail": case.attrs["refused"]}
-    numbers = {
-        "time_step_s": float(case["time_step"].mean()),
-        "rms_m": _mean_motion(case),
-        "share_in_contact": float(case["share_of_time_in_contact"].mean()),
+def numbers(response: xr.Dataset) -> dict[str, Any]:
+    """Numbers of a case: columns of the table, whether a run of it diverged, and what is `unsound`."""
+    diverged = bool(response["status"].any())
+    return {
+        "time_step_s": float(response["time_step"].mean()),
+        # mean over the speeds of the leading edge's normal and tangential motion together
+        "rms_m": np.nan if diverged else float(motion(response).mean()),
+        "share_in_contact": float(response["share_of_time_in_contact"].mean()),
+        "diverged": diverged,
+        "unsound": unsound(response),
     }
-    outcome, detail = _compared(case, half)
-    return {"outcome": outcome, "detail": detail, **numbers}
 
 
-def _compared(case: xr.Dataset, half: xr.Dataset) -> tuple[str, str]:
-    if wrong := unsound(case):
-        return UNSOUND, wrong
-    if "refused" in half.attrs:
-        return DEGRADED, f"half the step is refused: {half.attrs['refused']}"
-    if wrong := unsound(half):
-        return UNSOUND, f"half the step: {wrong}"
-    if case["status"].any():
-        also = "so does half the step" if half["status"].any() else "half the step does not"
+def judge(case: Mapping[str, Any], half: Mapping[str, Any]) -> tuple[str, str]:
+    """Outcome and detail of a case, from its row in the table of cases and from that with half the step."""
+    if case["refused"]:
+        return REFUSED, case["refused"]
+    if case["unsound"]:
+        return UNSOUND, case["unsound"]
+    if half["refused"]:
+        return DEGRADED, f"half the step is refused: {half['refused']}"
+    if half["unsound"]:
+        return UNSOUND, f"half the step: {half['unsound']}"
+    if case["diverged"]:
+        also = "so does half the step" if half["diverged"] else "half the step does not"
         return DIVERGED, f"{also}; recorded as diverged"
-    if half["status"].any():
+    if half["diverged"]:
         return DEGRADED, "half the step diverges"
-    mine, theirs = _mean_motion(case), _mean_motion(half)
+    mine, theirs = case["rms_m"], half["rms_m"]
     if theirs == 0.0 and mine == 0.0:
         return ACCURATE, "nothing touches"
     change = abs(mine - theirs) / theirs
     return ACCURATE if change < ACCURATE_WITHIN else DEGRADED, f"mean rms changes by {100 * change:.2g}% with half the step"
-
-
-def _mean_motion(response: xr.Dataset) -> float:
-    """Mean over the speeds of the rms (m) of the leading edge's normal and tangential motion together; NaN if one diverged."""
-    return np.nan if response["status"].any() else float(motion(response).mean())
 
 
 def unsound(response: xr.Dataset) -> str:

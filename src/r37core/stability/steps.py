@@ -4,17 +4,27 @@ from typing import Any
 
 import pandas as pd
 
-from r37core.base.dataset_file import read_dataset
-from r37core.base.io import as_list
+from r37core.cases.case import HALF_STEP
+from r37core.cases.table import case_table, read_cases
 from r37core.results.table_file import write_table
 
-from .judging import judge
+from .judging import judge, numbers
 
 COLUMNS = ("what", "value", "scene", "outcome", "detail", "time_step_s", "rms_m", "share_in_contact")
 
 
 def report(input: Any, output: Any, params: Any) -> None:
-    """Judge every extreme. Inputs: cases, their responses. Output: table (csv). Params: cases, their names; extremes."""
-    files = dict(zip(params.cases, as_list(input.cases), strict=True))
-    rows = [{**each, **judge(read_dataset(files[each["case"]]), read_dataset(files[each["half"]]))} for each in params.extremes]
+    """Judge every extreme. Inputs: cases, their responses. Output: table (csv)."""
+    cases = case_table(read_cases(input, output), numbers).to_dict("index")
+    rows = []
+    for name in [name for name in cases if not name.endswith(HALF_STEP)]:
+        outcome, detail = judge(cases[name], cases[f"{name}{HALF_STEP}"])
+        rows.append({**words(name), **cases[name], "outcome": outcome, "detail": detail})
     write_table(pd.DataFrame(rows, columns=list(COLUMNS)), output.table, digits=6)
+
+
+def words(name: str) -> dict[str, str]:
+    """Columns of the table from the name of a case: what is extreme, its value and the scene."""
+    extreme, _, scene = name.partition("__")
+    what, _, value = extreme.rpartition("_")
+    return {"what": what, "value": value, "scene": scene}

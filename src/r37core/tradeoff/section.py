@@ -72,7 +72,7 @@ DEFAULTS = Parameters.model_validate(
         "friction_form": {"values": ["constant", "vector"], "reference": "constant"},
     }
 )
-"""What is varied without a section of one's own, next to all fidelity levels, of which the last is the reference."""
+"""Parameters varied without a section of one's own, next to all fidelity levels, of which the last is the reference."""
 
 
 class PlaceSection(Section):

@@ -1,9 +1,8 @@
 """The tables of the trade-off: every value of every parameter, and the fidelity levels."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 import xarray as xr
 
@@ -21,63 +20,39 @@ def parameter_table(together: xr.Dataset, references: Mapping[str, str]) -> pd.D
     Errors are relative differences of means over neighbouring speeds from the reference value of the parameter. A value that
     was refused has the reason in `refused`, and no numbers.
     """
-    return pd.DataFrame(list(_rows(together, references)))
-
-
-def _rows(together: xr.Dataset, references: Mapping[str, str]) -> Iterator[dict[str, object]]:
-    for number, (parameter, value) in enumerate(zip(together["parameter"].values, together["value"].values, strict=True)):
-        for scene in together["scene"].values:
-            case = together.isel(case=number).sel(scene=scene)
-            peak_row, off = (case["error"].sel(at=place) for place in ("peak", "off_resonance"))
-            yield {
-                "parameter": parameter,
-                "value": value,
-                "reference": references[parameter],
-                "scene": scene,
-                "refused": str(case["refused"].item()),
-                **{f"error_{name}": float(peak_row.sel(quantity=name)) for name in QUANTITIES},
-                "error_peak_speed": float(case["peak_speed_error"]),
-                "error_rms_normal_off_resonance": float(off.sel(quantity="rms_normal")),
-                **{name: float(case[name]) for name in (*COSTS, *COSTS_OF_MODEL)},
-            }
-
-
-LEVEL_COLUMNS = (
-    "level",
-    "reference",
-    "error",
-    "error_of_largest_values",
-    "cpu_s_per_run",
-    "model_cpu_s",
-    "tolerance",
-    "recommended",
-)
+    peak, off = (together["error"].sel(at=place, drop=True) for place in ("peak", "off_resonance"))
+    columns = {
+        "parameter": together["parameter"],
+        "value": together["value"],
+        "reference": ("case", [references[name] for name in together["parameter"].values]),
+        "scene": together["scene"],
+        "refused": together["refused"],
+        **{f"error_{name}": peak.sel(quantity=name, drop=True) for name in QUANTITIES},
+        "error_peak_speed": together["peak_speed_error"],
+        "error_rms_normal_off_resonance": off.sel(quantity="rms_normal", drop=True),
+        **{name: together[name] for name in (*COSTS, *COSTS_OF_MODEL)},
+    }
+    table = xr.Dataset(columns).to_dataframe(dim_order=["case", "scene"])
+    return table.reset_index()[list(columns)]
 
 
 def level_table(table: pd.DataFrame, tolerance: float) -> pd.DataFrame:
     """The fidelity levels: largest error at the peak over scenes, costs, and which one is the cheapest within the tolerance."""
-    levels = table[table["parameter"] == LEVEL]
-    rows = [
-        {
-            "level": name,
-            "reference": level["reference"].iloc[0],
-            "error": level_error(level),
-            "error_of_largest_values": level_error(level, MAXIMA),
-            "cpu_s_per_run": level["cpu_s"].mean(),
-            "model_cpu_s": level["model_cpu_s"].iloc[0],
-            "tolerance": tolerance,
-        }
-        for name, level in levels.groupby("value", sort=False)
-    ]
-    errors = {row["level"]: row["error"] for row in rows if np.isfinite(row["error"])}
-    chosen = recommended_level(errors, {row["level"]: row["cpu_s_per_run"] for row in rows}, tolerance)
-    recommended = ({"recommended": "yes" if row["level"] == chosen else "no"} for row in rows)
-    return pd.DataFrame([row | more for row, more in zip(rows, recommended, strict=True)], columns=list(LEVEL_COLUMNS))
-
-
-def level_error(level: pd.DataFrame, quantities: Mapping[str, str] = CONVERGING) -> float:
-    """Error of a fidelity level: the largest at the peak, over scenes and `quantities`."""
-    return float(level[[f"error_{name}" for name in quantities]].max(axis=None))
+    levels = table[table["parameter"] == LEVEL].groupby("value", sort=False)
+    errors, largest = (levels[[f"error_{name}" for name in several]].max().max(axis=1) for several in (CONVERGING, MAXIMA))
+    costs = levels["cpu_s"].mean()
+    best = recommended_level(errors.dropna().to_dict(), costs.to_dict(), tolerance)
+    columns = {
+        "level": list(errors.index),
+        "reference": levels["reference"].first(),
+        "error": errors,
+        "error_of_largest_values": largest,
+        "cpu_s_per_run": costs,
+        "model_cpu_s": levels["model_cpu_s"].first(),
+        "tolerance": tolerance,
+        "recommended": ["yes" if name == best else "no" for name in errors.index],
+    }
+    return pd.DataFrame(columns, index=errors.index)
 
 
 def closing(results: Path) -> str:

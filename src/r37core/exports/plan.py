@@ -1,0 +1,100 @@
+"""The plan of the exports: which files, from what, with which numbers."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from r37core.base.plain import to_plain
+from r37core.base.speeds import exact_text
+from r37core.blade.definition import BladeDefinition
+from r37core.config import Settings, si_fields
+from r37core.exchange.importing.source import MeshSource
+from r37core.exchange.orientation import OURS
+from r37core.plans import paths
+from r37core.plans.structure_plan import Imported
+from r37core.plans.sweep_plan import Sweep
+
+from .section import SECTION, ExportSection
+
+EXPORTED_MESH = "<results>/exports/{blade}/mesh.{format}"
+EXPORTED_SURFACE = "<results>/exports/{blade}/surface.step"
+EXPORTED_MODES = "<results>/exports/{blade}/modes"
+EXPORTED_STRESS = "<results>/exports/{blade}/stress_{scene}"
+EXPORTED_MATRICES = "<results>/exports/{blade}/matrices"
+
+
+@dataclass(frozen=True)
+class Exports:
+    """Plan of the exports. Methods with `wildcards` are inputs and parameters of rules."""
+
+    sweep: Sweep
+
+    @property
+    def _section(self) -> ExportSection:
+        return self.sweep.settings.section(SECTION)
+
+    @property
+    def choice(self) -> dict[str, Any]:
+        """The section of config.yaml, with the speeds (rad/s) of modes and matrices."""
+        exported, highest = self._section, self.sweep.settings.structure.maximum_speed_rad_s
+        return {
+            "formats": tuple(exported.result_formats),
+            "modes": exported.modes,
+            "mode_speeds": si_fields(exported).get("mode_speeds", (0.0, highest)),
+            "matrix_speeds": (0.0, 0.5 * highest, highest),
+        }
+
+    def orientation(self, wildcards: Any) -> Any:
+        """Axes and unit in which results are written: those of an imported mesh, or the blade's own frame."""
+        definition = self.sweep.settings.blades[wildcards.blade].definition
+        return to_plain(definition.orientation if isinstance(definition, MeshSource) else OURS)
+
+    def matrix_files(self, wildcards: Any) -> dict[str, str]:
+        """Files that matrices are written from: the reduced model, and the mesh where full ones are wanted."""
+        settings = self.sweep.settings
+        tip_line = settings.structure.boundary.tip_line
+        files = {"rom": paths.fill(paths.REDUCED_MODEL, blade=wildcards.blade, tip_line=tip_line)}
+        if self._section.full_matrices and wildcards.blade in Imported(settings).meshed_blades:
+            files |= {"mesh": paths.fill(paths.MESH, blade=wildcards.blade)}
+        return files
+
+    def only_worst(self, wildcards: Any) -> bool:
+        """True where the speed with the largest stress is written alone."""
+        return self._section.stress_speeds() is None and self._section.stress_speeds_rad_s == "worst"
+
+    def speed_files(self, wildcards: Any) -> list[str]:
+        """The simulations among which worst instants are looked for."""
+        files = self.sweep.speed_files(wildcards)
+        chosen = self._section.stress_speeds()
+        if chosen is None:
+            return files
+        wanted = {f"speed_{exact_text(speed)}.npz" for speed in chosen}
+        return [file for file in files if Path(file).name in wanted]
+
+
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """Files and folders that this run's configuration asks for."""
+    settings = sweep.settings
+    imported, formats = Imported(settings), settings.section(SECTION).mesh_formats
+    return {
+        EXPORTED_MESH: [{"blade": blade, "format": name} for blade in imported.meshed_blades for name in formats],
+        EXPORTED_MODES: paths.of("blade", imported.meshed_blades),
+        EXPORTED_SURFACE: paths.of("blade", imported.given_by(BladeDefinition)),
+        EXPORTED_MATRICES: paths.of("blade", settings.blades),
+        EXPORTED_STRESS: paths.run_keys(sweep.runs_with("stress")),
+    }
+
+
+def exported_speeds_are_run(settings: Settings) -> None:
+    """Speeds of `exports` are simulated whatever is found, and within the reduced model's basis."""
+    exported, highest, document = settings.section(SECTION), settings.structure.maximum_speed_rad_s, settings.documents.config
+    run = {speed for plan in settings.speed_plans.values() for speed in plan.certain}
+    key = "stress_speeds_rad_s" if exported.stress_speeds_rpm is None else "stress_speeds_rpm"
+    allowed = "speeds that are simulated whatever a range refines to; name it under speeds, too"
+    for number, speed in enumerate(exported.stress_speeds() or []):
+        if speed not in run:
+            raise document.refusal(("exports", key, number), f"{getattr(exported, key)[number]:g}", allowed)
+    for number, speed in enumerate(exported.mode_speeds_rad_s or []):
+        if speed > highest:
+            allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
+            raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)

@@ -1,0 +1,71 @@
+"""signals of config.yaml: time signals of chosen blades, scenes and speeds."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, Field, model_validator
+
+from r37core.config import si_fields
+from r37core.config.declaring import declared_by
+from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Rpm, Section, Unique, refused
+from r37core.config.speed_section import refuse_both_units, word_or_speeds
+
+from .gauge import Gauge
+
+SignalSpeeds: Any = word_or_speeds("interactions")
+Degrees = Annotated[float, Field(ge=0, lt=360)]
+
+
+def _each_probe_once(probes: list[float]) -> list[float]:
+    for number, probe in enumerate(probes):
+        if probe in probes[:number]:
+            raise refused((number,), f"a probe at {probe:g} degrees twice", "each angle once")
+    return probes
+
+
+@declared_by(Gauge)
+class GaugeEntry(Section):
+    """A strain gauge on the blade's surface."""
+
+
+class SignalSection(Section):
+    """Kept signals; without speeds those of imported blades alone."""
+
+    imported: bool = Field(
+        default=True, description="Signals of imported blades at the speeds of interactions, where no speeds are named"
+    )
+    blades: AllOrNames = Field(default="all", description="Blades with signals")
+    speeds_rad_s: SignalSpeeds | LeftOut = Field(
+        default=None, description="Speeds with signals; interactions: the peak speeds in summary.csv; each other speed is a run"
+    )
+    speeds_rpm: Unique[Rpm] | LeftOut = Field(default=None, description="The same speeds in revolutions per minute")
+    revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = Field(
+        default=None, description="Revolutions kept at the end; all without it"
+    )
+    gauges: dict[Name, GaugeEntry] = Field(default={}, description="Strain gauges by name")
+    probes_deg: Annotated[list[Degrees], AfterValidator(_each_probe_once)] = Field(
+        default=[], description="Casing angles of tip-timing probes, towards growing theta"
+    )
+
+    @model_validator(mode="after")
+    def _has_speeds(self) -> SignalSection:
+        if self.speeds_rad_s is not None and self.speeds_rpm is not None:
+            refuse_both_units("speeds_rad_s", "speeds_rpm")
+        for key in ("gauges", "probes_deg"):
+            if getattr(self, key) and self.speeds() is None:
+                raise refused((key,), f"{key} without speeds", "speeds_rad_s beside them")
+        return self
+
+    @property
+    def key_of_speeds(self) -> str:
+        """The key that speeds are given with."""
+        return "speeds_rad_s" if self.speeds_rpm is None else "speeds_rpm"
+
+    def speeds(self) -> list[float] | Literal["interactions"] | None:
+        """Speeds (rad/s), ascending, or the word for those of interactions; None where none are named."""
+        speeds = si_fields(self).get("speeds")
+        return sorted(speeds) if speeds else "interactions" if self.speeds_rad_s else None
+
+
+SECTION = ExtensionSection("signals", SignalSection, SignalSection())
