@@ -16,8 +16,8 @@ from workflow_runs import copy_project
 from r37core.explorer import FOLDER, page_parts, write_page
 from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
 from r37core.results.table_file import read_table
-from r37core.rotors.extension import EXTENSION
 from r37core.rotors.panel import rotor_contents
+from r37core.rotors.plan import EXTENSION
 from r37core.time_integration.status import RunStatus
 
 datasets = pytest.fixture(scope="module")(sweep)

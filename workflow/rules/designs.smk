@@ -1,7 +1,7 @@
 # Families of designs, of blades and of scenes: how robust each is, next to what it is.
-from r37core.designs.plan import Families
+from r37core.designs.plan import TABLE, Families
 
-families = Families(settings)
+families = settings.made(Families)
 
 
 use rule step as design_table with:
@@ -11,7 +11,7 @@ use rule step as design_table with:
         summary=rules.summary.output[0],
         geometry=expand(paths.nominal(paths.GEOMETRY), blade=families.densities),
     output:
-        table=shown("<results>/designs.csv", PACKAGE / "designs/report.rst", "Families", "table of designs"),
+        table=shown(TABLE, PACKAGE / "designs/report.rst", "Families", "table of designs"),
     log:
         "<logs>/designs.log",
     params:
@@ -21,30 +21,3 @@ use rule step as design_table with:
         families=families.names,
         densities=families.densities,
         operating=operating,
-
-
-use rule figure as design_figure with:
-    input:
-        table=rules.design_table.output[0],
-    output:
-        **pictures("designs_{family}", "Families", EVERY_SCENE, "{family}"),
-    log:
-        "<logs>/figures/designs_{family}.log",
-    wildcard_constraints:
-        family="|".join(families.figures) or "none",
-    params:
-        **drawing("designs.figures.draw_designs", "designs", compared=families.compared),
-
-
-use rule figure as design_map with:
-    input:
-        **offered("verdict", sweep),
-        table=rules.design_table.output[0],
-    output:
-        **pictures("map_{family}", "Families", EVERY_SCENE, "map of {family}"),
-    log:
-        "<logs>/figures/map_{family}.log",
-    wildcard_constraints:
-        family="|".join(families.maps) or "none",
-    params:
-        **drawing("designs.maps.draw_design_map", "map", compared=families.mapped),

@@ -19,20 +19,9 @@ use rule step as estimate_table with:
     input:
         cases=estimate_cases.files,
     output:
-        table="<results>/estimate.csv",
+        table=estimate_plan.TABLE,
     log:
         "<logs>/estimate_table.log",
     params:
         **step("estimate.steps.report"),
         values=lambda wildcards: estimate_plan.values(settings, samples),
-
-
-use rule figure as estimate_figure with:
-    input:
-        table=rules.estimate_table.output.table,
-    output:
-        **pictures("estimate", TOGETHER, EVERY_SCENE, "cost of the sweep"),
-    log:
-        "<logs>/figures/estimate.log",
-    params:
-        **drawing("estimate.figures.draw_estimate", "estimate"),

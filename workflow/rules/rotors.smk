@@ -1,5 +1,5 @@
 # Whole rotors: what the simulations of a scene with a rotor have of every blade.
-from r37core.rotors.plan import ROTOR_OF_RUN, rotor_runs
+from r37core.rotors.plan import DATASET, ROTOR_OF_RUN, TABLE, rotor_runs
 
 
 use rule step as rotor_of_run with:
@@ -20,22 +20,11 @@ use rule step as rotors_dataset with:
     input:
         rotors=paths.filled({ROTOR_OF_RUN: paths.run_keys(rotor_runs(sweep))}),
     output:
-        dataset="<results>/rotor.nc",
-        table=shown("<results>/rotors.csv", PACKAGE / "rotors/report.rst", TOGETHER, "whole rotors"),
+        dataset=DATASET,
+        table=shown(TABLE, PACKAGE / "rotors/report.rst", TOGETHER, "whole rotors"),
     log:
         "<logs>/rotors_dataset.log",
     params:
         **step("rotors.steps.join"),
         runs=rotor_runs(sweep),
         fidelity=settings.fidelity_name,
-
-
-use rule figure as rotor_figure with:
-    input:
-        rotor=rules.rotor_of_run.output.rotor,
-    output:
-        **pictures("rotor_{blade}__{scene}", "{blade}", "{scene}", "rotor"),
-    log:
-        "<logs>/figures/rotor_{blade}__{scene}.log",
-    params:
-        **drawing("rotors.figures.draw_rotor", "rotor"),

@@ -1,5 +1,5 @@
 # Run-ups and run-downs: the speed changes while the blade rubs; each is a run of its own.
-from r37core.run_ups.plan import RUN_UP, RunUps, entries
+from r37core.run_ups.plan import DATASET, RATES, RUN_UP, SECTION, TABLE, RunUps
 
 run_ups = RunUps(sweep)
 
@@ -12,7 +12,7 @@ use rule step as run_up with:
     log:
         "<logs>/{blade}/{scene}/run_up_{run_up}.log",
     wildcard_constraints:
-        run_up="|".join(entries(settings)) or "none",
+        run_up="|".join(settings.section(SECTION)) or "none",
     params:
         **stage(run_ups.stage(made)),
 
@@ -21,7 +21,7 @@ use rule step as run_ups_dataset with:
     input:
         run_ups=paths.filled({RUN_UP: run_ups.files}),
     output:
-        dataset="<results>/run_ups.nc",
+        dataset=DATASET,
     log:
         "<logs>/run_ups_dataset.log",
     params:
@@ -32,33 +32,11 @@ use rule step as run_ups_dataset with:
 
 use rule step as run_up_tables with:
     input:
-        dataset=rules.run_ups_dataset.output.dataset,
+        dataset=DATASET,
     output:
-        runs=shown("<results>/run_ups.csv", PACKAGE / "run_ups/report.rst", TOGETHER, "run-ups"),
-        rates="<results>/run_up_rates.csv",
+        runs=shown(TABLE, PACKAGE / "run_ups/report.rst", TOGETHER, "run-ups"),
+        rates=RATES,
     log:
         "<logs>/run_up_tables.log",
     params:
         **step("run_ups.steps.tables"),
-
-
-use rule figure as run_up_figure with:
-    input:
-        run_ups=rules.run_ups_dataset.output[0],
-    output:
-        **pictures("run_ups_{blade}__{scene}", "{blade}", "{scene}", "run-ups"),
-    log:
-        "<logs>/figures/run_ups_{blade}__{scene}.log",
-    params:
-        **drawing("run_ups.figures.draw_run_ups", "run_ups", blade="{blade}", scene="{scene}"),
-
-
-use rule figure as run_up_rates_figure with:
-    input:
-        runs=rules.run_up_tables.output.runs,
-    output:
-        **pictures("run_up_rates_{scene}", TOGETHER, "{scene}", "rates"),
-    log:
-        "<logs>/figures/run_up_rates_{scene}.log",
-    params:
-        **drawing("run_ups.figures.draw_rates", "run_up_rates", scene="{scene}"),

@@ -115,25 +115,3 @@ use rule step as search_best with:
         scenes=search.scene_entries,
         varied_in_scenes=search.varied_in_scenes,
         number=lambda wildcards: search.designs.entry.best,
-
-
-use rule figure as search_designs_figure with:
-    input:
-        search=rules.search_dataset.output.dataset,
-    output:
-        **pictures("search_designs", "Search", EVERY_SCENE, "designs"),
-    log:
-        "<logs>/figures/search_designs.log",
-    params:
-        **drawing("search.figures.draw_designs", "search_designs"),
-
-
-use rule figure as search_slices_figure with:
-    input:
-        search=rules.search_dataset.output.dataset,
-    output:
-        **pictures("search_slices", "Search", EVERY_SCENE, "slices"),
-    log:
-        "<logs>/figures/search_slices.log",
-    params:
-        **drawing("search.figures.draw_slices", "search_slices"),

@@ -1,5 +1,15 @@
 # Motions that a start from rest does not show: sweeps up and down with the state carried on, dwells, branches of periodic motions.
-from r37core.second_motions.plan import DATASET, DWELLS, ORBITS, RESPONSE, STATES, SecondMotions
+from r37core.second_motions.plan import (
+    ALL_DWELLS,
+    ALL_ORBITS,
+    BIFURCATIONS,
+    DATASET,
+    DWELL_TABLE,
+    DWELLS,
+    ORBITS,
+    TABLE,
+)
+from r37core.second_motions.plan import RESPONSE, STATES, SecondMotions
 
 second_motions = SecondMotions(sweep)
 
@@ -60,7 +70,7 @@ use rule step as second_motions_all_dwells with:
     input:
         parts=paths.filled({DWELLS: paths.run_keys(second_motions.pairs)}),
     output:
-        dataset="<results>/second_motions_dwells.nc",
+        dataset=ALL_DWELLS,
     log:
         "<logs>/second_motions_all_dwells.log",
     params:
@@ -74,7 +84,7 @@ use rule step as second_motions_all_orbits with:
     input:
         parts=paths.filled({ORBITS: paths.run_keys(second_motions.bare)}),
     output:
-        dataset="<results>/second_motions_orbits.nc",
+        dataset=ALL_ORBITS,
     log:
         "<logs>/second_motions_all_orbits.log",
     params:
@@ -87,10 +97,10 @@ use rule step as second_motions_all_orbits with:
 use rule step as second_motions_tables with:
     input:
         dataset=DATASET,
-        dwells=rules.second_motions_all_dwells.output.dataset,
+        dwells=ALL_DWELLS,
     output:
-        ranges=shown("<results>/second_motions.csv", PACKAGE / "second_motions/report.rst", TOGETHER, "second motions"),
-        dwells="<results>/second_motions_dwells.csv",
+        ranges=shown(TABLE, PACKAGE / "second_motions/report.rst", TOGETHER, "second motions"),
+        dwells=DWELL_TABLE,
     log:
         "<logs>/second_motions_tables.log",
     params:
@@ -99,38 +109,10 @@ use rule step as second_motions_tables with:
 
 use rule step as second_motions_bifurcations with:
     input:
-        orbits=rules.second_motions_all_orbits.output.dataset,
+        orbits=ALL_ORBITS,
     output:
-        table="<results>/second_motions_bifurcations.csv",
+        table=BIFURCATIONS,
     log:
         "<logs>/second_motions_bifurcations.log",
     params:
         **step("second_motions.steps.tabulate_branches"),
-
-
-use rule figure as second_motions_figure with:
-    input:
-        motions=DATASET,
-        dwells=rules.second_motions_tables.output.dwells,
-    output:
-        **pictures("second_motions_{blade}__{scene}", "{blade}", "{scene}", "second motions"),
-    log:
-        "<logs>/figures/second_motions_{blade}__{scene}.log",
-    params:
-        **drawing(
-            "second_motions.figures.draw_second_motions",
-            "second_motions",
-            blade="{blade}",
-            scene="{scene}",
-        ),
-
-
-use rule figure as second_motions_overview with:
-    input:
-        motions=DATASET,
-    output:
-        **pictures("second_motions_{scene}", TOGETHER, "{scene}", "second motions of all"),
-    log:
-        "<logs>/figures/second_motions_{scene}.log",
-    params:
-        **drawing("second_motions.figures.draw_overview", "second_motions_of_all"),

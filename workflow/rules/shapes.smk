@@ -1,6 +1,6 @@
 # Shapes to look at: modes, and the worst instant of each interaction, for scenes with `shapes` among their results.
 from r37core.shapes import PARTS as SHAPE_PARTS
-from r37core.shapes.plan import MODE_SHAPES, WORST_SHAPES, Shapes
+from r37core.shapes.plan import MODE_SHAPES, PAGE, WORST_SHAPES, Shapes
 
 shown_shapes = Shapes(sweep)
 
@@ -43,7 +43,7 @@ use rule step as shapes_page with:
         modes=rules.mode_shapes.output.folder,
         worst=shown_shapes.worst_shapes,
     output:
-        page=shown("<results>/shapes/{blade}.html", PACKAGE / "shapes/report.rst", "{blade}", "moving shapes"),
+        page=shown(PAGE, PACKAGE / "shapes/report.rst", "{blade}", "moving shapes"),
     log:
         "<logs>/shapes/{blade}_page.log",
     params:
@@ -51,26 +51,3 @@ use rule step as shapes_page with:
         blade="{blade}",
         scenes=shown_shapes.scenes,
         parts=parts_hash(SHAPE_PARTS),
-
-
-use rule step as modes_figure with:
-    input:
-        folder=rules.mode_shapes.output.folder,
-    output:
-        **pictures("shapes_{blade}", "{blade}", EVERY_SCENE, "first modes"),
-    log:
-        "<logs>/figures/shapes_{blade}.log",
-    params:
-        **step("shapes.steps.figure"),
-        caption=captioned("mode_shapes"),
-
-
-use rule modes_figure as worst_shapes_figure with:
-    input:
-        folder=rules.worst_shapes.output.folder,
-    output:
-        **pictures("shapes_{blade}__{scene}", "{blade}", "{scene}", "worst instants"),
-    log:
-        "<logs>/figures/shapes_{blade}__{scene}.log",
-    params:
-        caption=captioned("worst_shapes"),

@@ -1,5 +1,5 @@
 # Time signals of chosen speeds, each a run of its own: edges of the tip, strain gauges, tip timing.
-from r37core.signals.plan import SIGNALS_OF_RUN, Signals
+from r37core.signals.plan import DATASET, SIGNALS_OF_RUN, Signals
 
 recorded = Signals(sweep)
 
@@ -28,43 +28,10 @@ use rule step as signals_dataset with:
     input:
         signals=paths.filled({rules.signals_of_run.output[0]: paths.run_keys(recorded.runs)}),
     output:
-        dataset="<results>/signals.nc",
+        dataset=DATASET,
     log:
         "<logs>/signals.log",
     params:
         **step("signals.steps.gather"),
         runs=recorded.runs,
         fidelity=settings.fidelity_name,
-
-
-use rule figure as spectrogram_figure with:
-    input:
-        signals=rules.signals_of_run.output[0],
-    output:
-        **pictures("spectrogram_{blade}__{scene}", "{blade}", "{scene}", "spectrograms"),
-    log:
-        "<logs>/figures/spectrogram_{blade}__{scene}.log",
-    params:
-        **drawing("signals.figures.draw_spectrograms", "spectrogram"),
-
-
-use rule figure as contact_force_figure with:
-    input:
-        signals=rules.signals_of_run.output[0],
-    output:
-        **pictures("contact_force_{blade}__{scene}", "{blade}", "{scene}", "contact force"),
-    log:
-        "<logs>/figures/contact_force_{blade}__{scene}.log",
-    params:
-        **drawing("signals.figures.draw_contact_forces", "contact_force"),
-
-
-use rule figure as orders_figure with:
-    input:
-        signals=rules.signals_of_run.output[0],
-    output:
-        **pictures("orders_{blade}__{scene}", "{blade}", "{scene}", "engine orders over time"),
-    log:
-        "<logs>/figures/orders_{blade}__{scene}.log",
-    params:
-        **drawing("signals.figures.draw_orders", "orders"),

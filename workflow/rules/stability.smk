@@ -19,19 +19,8 @@ use rule step as stability_table with:
     input:
         cases=stability_cases.files,
     output:
-        table="<results>/stability.csv",
+        table=stability_plan.TABLE,
     log:
         "<logs>/stability_table.log",
     params:
         **step("stability.steps.report"),
-
-
-use rule figure as stability_figure with:
-    input:
-        table=rules.stability_table.output.table,
-    output:
-        **pictures("stability", TOGETHER, EVERY_SCENE, "extremes"),
-    log:
-        "<logs>/figures/stability.log",
-    params:
-        **drawing("stability.figures.draw_stability", "stability"),

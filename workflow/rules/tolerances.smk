@@ -35,15 +35,3 @@ use rule step as tolerance_table with:
         **step("tolerances.steps.table"),
         members=tolerances.runs_of_sample,
         choice=plain(settings.config.interactions),
-
-
-use rule figure as tolerance_figure with:
-    input:
-        tolerances=DATASET,
-        nominal=paths.nominal(paths.RESPONSE),
-    output:
-        **pictures("tolerances_{blade}__{scene}", "{blade}", "{scene}", "tolerances"),
-    log:
-        "<logs>/figures/tolerances_{blade}__{scene}.log",
-    params:
-        **drawing("tolerances.figures.draw_tolerances", "tolerances"),

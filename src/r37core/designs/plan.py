@@ -13,9 +13,12 @@ from r37core.blade.definition import BladeDefinition
 from r37core.config import Settings
 from r37core.config.families import Family
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure, Panel
 from r37core.plans.sweep_plan import Sweep
 
 from .compared import BOTH, Compared
+
+TABLE = "<results>/designs.csv"
 
 
 @dataclass(frozen=True)
@@ -105,16 +108,59 @@ class Families:
 
 def tables_of_maps(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The table of designs, in a run with a map of them."""
-    return {"<results>/designs.csv": [{}] if Families(sweep.settings).maps else []}
+    return {TABLE: [{}] if sweep.settings.made(Families).maps else []}
 
 
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The table of all designs, a figure of each family, and maps over two keys."""
-    families = Families(sweep.settings)
-    figures, maps = paths.of("family", families.figures), paths.of("family", families.maps)
-    table: paths.Wildcards = [{}] if figures else []
-    return {
-        "<results>/designs.csv": table,
-        **paths.pictures("map_{family}", maps),
-        **paths.pictures("designs_{family}", figures),
-    }
+def families_have_shapes(settings: Settings) -> None:
+    """No family is of an imported blade: what is compared of designs needs their shape."""
+    for name, family in Families(settings).families[BLADE].items():
+        members = [settings.blades[design] for design in family.designs if design in settings.blades]
+        if any(not blade.has_profiles for blade in members):
+            raise settings.documents.blades.refusal(
+                (name,), "a family of an imported blade", "families of blades with profiles"
+            )
+
+
+def families_differ_in_name(settings: Settings) -> None:
+    """No family of scenes is called like one of blades: figures have their names."""
+    taken = {name.lower() for name in settings.designs.families}
+    for name in settings.scene_designs.families:
+        if name.lower() in taken:
+            raise settings.documents.scenes.refusal((name,), f"'{name}', which is a family of blades, too", "another name")
+
+
+EXTENSION = Extension(
+    name="designs",
+    checks=(families_have_shapes, families_differ_in_name),
+    targets=lambda sweep: {TABLE: [{}] if sweep.settings.made(Families).figures else []},
+    figures=(
+        Figure(
+            rule="design_figure",
+            name="designs_{family}",
+            runs=lambda sweep: paths.of("family", sweep.settings.made(Families).figures),
+            draw="designs.figures.draw_designs",
+            files={"table": TABLE},
+            label="{family}",
+            caption="Family {family}: what each design is and how robust, over what varies. Of blades frequencies and largest "
+            "loss of clearance as the tip swings along free modes; where interactions lie, speeds above yield in most and in "
+            "some revolutions, largest stress.",
+            category="Families",
+            arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
+        ),
+        Figure(
+            rule="design_map",
+            name="map_{family}",
+            runs=lambda sweep: paths.of("family", sweep.settings.made(Families).maps),
+            draw="designs.maps.draw_design_map",
+            files={"table": TABLE},
+            label="map of {family}",
+            caption="Family {family} over two numbers that vary. Colour: length of the speeds above yield in most "
+            "revolutions, in the operating range where there is one. Lines: where a requirement is just met.",
+            category="Families",
+            arguments=lambda sweep: {"compared": sweep.settings.made(Families).mapped},
+            offered="verdict",
+        ),
+    ),
+    closing="designs.table.closing",
+    panel=Panel(tables_of_maps, "designs.panel.contents", "designs/panel.js"),
+)

@@ -8,10 +8,9 @@ from pydantic import Field
 from r37core.cases.case import Case
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection, Section
-from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.extent import extents
 from r37core.plans.samples import Pair, Sample
-from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.speed_run import OF_RUNS
 
 
@@ -28,6 +27,8 @@ class EstimateSection(Section):
 
 
 SECTION = ExtensionSection("estimate", EstimateSection, EstimateSection())
+
+TABLE = "<results>/estimate.csv"
 
 
 def sample(speeds: Sequence[float], every: int) -> list[float]:
@@ -66,6 +67,21 @@ def values(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> d
     }
 
 
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The table and the figure."""
-    return {"<results>/estimate.csv": [{}], **paths.pictures("estimate", [{}])}
+EXTENSION = Extension(
+    name="estimate",
+    section=SECTION,
+    targets=lambda _: {TABLE: [{}]},
+    figures=(
+        Figure(
+            rule="estimate_figure",
+            name="estimate",
+            runs=lambda _: [{}],
+            draw="estimate.figures.draw_estimate",
+            files={"table": TABLE},
+            label="cost of the sweep",
+            caption="Core hours of the whole sweep, projected from a sample of its runs, by what they are spent on.",
+        ),
+    ),
+    closing="estimate.projection.closing",
+    made_on_request=True,
+)

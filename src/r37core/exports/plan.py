@@ -11,6 +11,7 @@ from r37core.config import Settings, si_fields
 from r37core.exchange.importing.source import MeshSource
 from r37core.exchange.orientation import OURS
 from r37core.plans import paths
+from r37core.plans.extension import Extension
 from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 
@@ -98,3 +99,13 @@ def exported_speeds_are_run(settings: Settings) -> None:
         if speed > highest:
             allowed = f"up to structure.maximum_speed_rad_s, {highest:g}"
             raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
+
+
+EXTENSION = Extension(
+    name="exports",
+    section=SECTION,
+    checks=(exported_speeds_are_run,),
+    targets=targets,
+    look_at="<results>/exports",
+    made_on_request=True,
+)

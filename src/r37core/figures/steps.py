@@ -1,5 +1,9 @@
 """Steps of the workflow (docs/architecture.md): figures."""
 
+from collections.abc import Callable
+from functools import partial
+from inspect import signature
+from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
 
@@ -23,11 +27,12 @@ def draw(input: Any, output: Any, params: Any) -> None:
     arguments = dict(params.items())
     operating = arguments.pop("operating", None)
     function, caption, of, *_ = (arguments.pop(name) for name in ("draw", "caption", "of", "step", "code"))
-    # a table, or the part of a dataset that is of the figure's blade and scene
-    arguments |= {name: read_table(file) if file.endswith(".csv") else read_dataset(file, of) for name, file in input.items()}
-    if of:
-        arguments["title"] = ", ".join(of.values())
-    figure = resolve_name(function)(**arguments)
+    # a table, the part of a dataset that is of the figure's blade and scene, or a folder
+    readers: dict[str, Callable[[str], Any]] = {".csv": read_table, ".nc": partial(read_dataset, part=of), "": Path}
+    arguments |= {name: readers[Path(file).suffix](file) for name, file in input.items()}
+    drawing = resolve_name(function)
+    names = of | ({"title": ", ".join(of.values())} if of else {})
+    figure = drawing(**arguments, **{name: names[name] for name in names.keys() & signature(drawing).parameters})
     if operating:
         mark_operating(figure, from_plain(OperatingRange, operating))
     save(figure, [output.png, output.pdf], caption)

@@ -1,14 +1,15 @@
 """An extension: what one capability adds to the pipeline, as plain data. `r37core.product.extensions` names all of them."""
 
+import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection
 
-from .paths import Wildcards
+from .paths import Wildcards, pictures
 from .samples import Pair, Sample, Sampling
 from .sweep_plan import Sweep
 
@@ -31,6 +32,35 @@ class Panel:
 
 
 @dataclass(frozen=True)
+class Figure:
+    """Figure of an extension, from which its rule, its targets and its entry in the report follow.
+
+    `rule`: name of its rule; `name`: of its files, with wildcards in braces; `runs`: these wildcards.
+    `draw`: function, as `folder.module.function`, that takes what the `files` hold and `arguments`, which may be functions of
+    wildcards; of title, blade, scene and family those that it names.
+    `label`: name in the report; `caption`: what is seen, with names (blade, scene, family) in braces.
+    `category`: in the report; without one its blade, or all of them.
+    `offered`: file of another extension that it takes, too (product.targets.offered).
+    """
+
+    rule: str
+    name: str
+    runs: Callable[[Sweep], Wildcards]
+    draw: str
+    files: Mapping[str, str]
+    label: str
+    caption: str
+    category: str = ""
+    arguments: Callable[[Sweep], Mapping[str, Any]] = lambda _: {}
+    offered: Literal["verdict", ""] = ""
+
+    def constraints(self, sweep: Sweep) -> dict[str, str]:
+        """Patterns of the wildcards that are neither blade nor scene."""
+        names = [name for name in re.findall(r"{(\w+)}", self.name) if name not in ("blade", "scene")]
+        return {name: "|".join(run[name] for run in self.runs(sweep)) or "none" for name in names}
+
+
+@dataclass(frozen=True)
 class Extension:
     """One capability: a folder of this package, a file of rules, and a line in the registry.
 
@@ -46,7 +76,7 @@ class Extension:
     stands in summary, ranking and the figures of the response.
     `verdict`: a table of requirements and whether blades meet them, none in a run without it; maps of designs show it.
     `remarks`: what a run should say of it before it starts.
-    `captions`: kind of figure -> what is seen in it, with names (blade, scene) in braces.
+    `figures`: what is drawn of them, made with the targets.
     `panel`: what the explorer shows of it.
     `closing`: function of the folder of the results, as `folder.module.function`, that says in a line what was found; without
     one, how many files were made is said.
@@ -64,7 +94,7 @@ class Extension:
     motions: Targets = lambda _: {}
     verdict: Targets = lambda _: {}
     remarks: Callable[[Settings], list[str]] = lambda _: []
-    captions: Mapping[str, str] = field(default_factory=dict)
+    figures: tuple[Figure, ...] = ()
     panel: Panel | None = None
     closing: str = ""
     look_at: str = ""
@@ -72,4 +102,5 @@ class Extension:
 
     def all_targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """All that a run makes of it."""
-        return {**self.simulated(sweep), **self.targets(sweep)}
+        figures = {file: runs for each in self.figures for file, runs in pictures(each.name, each.runs(sweep)).items()}
+        return {**self.simulated(sweep), **self.targets(sweep), **figures}

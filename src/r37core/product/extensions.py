@@ -24,7 +24,7 @@ _FOLDERS = (
 )
 """Folders of the extensions, in the order of their sections in docs/configuration.md."""
 
-EXTENSIONS: tuple[Extension, ...] = tuple(import_module(f"r37core.{folder}.extension").EXTENSION for folder in _FOLDERS)
+EXTENSIONS: tuple[Extension, ...] = tuple(import_module(f"r37core.{folder}.plan").EXTENSION for folder in _FOLDERS)
 """All extensions."""
 
 

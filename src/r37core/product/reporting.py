@@ -37,8 +37,8 @@ def _title_parts(wildcards: Any) -> dict[str, str]:
     return {name: values[name] for name in ("family", "blade", "scene") if name in values}
 
 
-CAPTIONS: dict[str, str] = captions.CAPTIONS | {figure: text for each in EXTENSIONS for figure, text in each.captions.items()}
-"""Kind of figure -> text."""
+CAPTIONS: dict[str, str] = captions.CAPTIONS | {figure.rule: figure.caption for each in EXTENSIONS for figure in each.figures}
+"""Kind of figure, of an extension the name of its rule -> text."""
 
 
 def caption(figure: str, **names: str) -> str:

@@ -4,12 +4,12 @@ from r37core.config import Settings, operating_range
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.rom.naming import mode_names
 
-from .plan import requirements_of
+from .section import SECTION
 
 
 def can_be_judged(settings: Settings) -> None:
     """Requirements have an operating range, and their crossings are in the Campbell diagram."""
-    requirements, document = requirements_of(settings), settings.documents.config
+    requirements, document = settings.section(SECTION).requirements(), settings.documents.config
     if not requirements.any:
         return
     operating = operating_range(settings)

@@ -6,19 +6,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from r37core.base.plain import to_plain
-from r37core.config import Settings, operating_range
+from r37core.config import operating_range
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Panel
 from r37core.plans.sweep_plan import Sweep
 
-from .choice import Requirements
+from .checks import can_be_judged, remarks
 from .section import SECTION
 
 VERDICT = "<results>/verdict.csv"
-
-
-def requirements_of(settings: Settings) -> Requirements:
-    """The requirements that config.yaml has."""
-    return settings.section(SECTION).requirements()
 
 
 @dataclass(frozen=True)
@@ -30,7 +26,7 @@ class Judged:
     @property
     def requirements(self) -> dict[str, Any]:
         """The requirements, as plain values."""
-        return to_plain(requirements_of(self.sweep.settings))
+        return to_plain(self.sweep.settings.section(SECTION).requirements())
 
     @property
     def volumes(self) -> list[str]:
@@ -66,5 +62,17 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 def verdict(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The verdict."""
-    judged = operating_range(sweep.settings) and requirements_of(sweep.settings).any
+    judged = operating_range(sweep.settings) and sweep.settings.section(SECTION).requirements().any
     return {VERDICT: [{}] if judged else []}
+
+
+EXTENSION = Extension(
+    name="requirements",
+    section=SECTION,
+    checks=(can_be_judged,),
+    targets=targets,
+    verdict=verdict,
+    remarks=remarks,
+    closing="requirements.table.closing",
+    panel=Panel(verdict, "requirements.panel.contents", "requirements/panel.js"),
+)

@@ -3,9 +3,11 @@
 from r37core.config import Settings
 from r37core.contact.scene import Rotor
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure, Panel
 from r37core.plans.sweep_plan import Sweep
 
 ROTOR_OF_RUN = "<results>/{blade}/{scene}/rotor.nc"
+DATASET, TABLE = "<results>/rotor.nc", "<results>/rotors.csv"
 
 
 def scene_rotors(settings: Settings) -> dict[str, Rotor]:
@@ -20,14 +22,7 @@ def rotor_runs(sweep: Sweep) -> list[tuple[str, str]]:
 
 def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset of all rotors."""
-    return {"<results>/rotor.nc": [{}] if rotor_runs(sweep) else []}
-
-
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The dataset, the table and a figure of each blade and scene."""
-    runs = paths.run_keys(rotor_runs(sweep))
-    together = {f"<results>/{name}": runs and [{}] for name in ("rotor.nc", "rotors.csv")}
-    return together | paths.pictures("rotor_{blade}__{scene}", runs)
+    return {DATASET: [{}] if rotor_runs(sweep) else []}
 
 
 def remarks(settings: Settings) -> list[str]:
@@ -37,3 +32,25 @@ def remarks(settings: Settings) -> list[str]:
         "tables are those of the worst blade (docs/rotor.md)"
         for name, rotor in scene_rotors(settings).items()
     ]
+
+
+EXTENSION = Extension(
+    name="rotors",
+    targets=lambda sweep: dict.fromkeys((DATASET, TABLE), [{}] if rotor_runs(sweep) else []),
+    remarks=remarks,
+    figures=(
+        Figure(
+            rule="rotor_figure",
+            name="rotor_{blade}__{scene}",
+            runs=lambda sweep: paths.run_keys(rotor_runs(sweep)),
+            draw="rotors.figures.draw_rotor",
+            files={"rotor": ROTOR_OF_RUN},
+            label="rotor",
+            caption="Blade {blade} in scene {scene}, a whole rotor on one lining. Above: motion of every blade's leading "
+            "edge, normal and tangential together, over speed, and the largest stress of any blade; red crosses: the blade "
+            "that diverged first. Below: growth of all blades at the speed of the largest motion, and nodal diameters there.",
+        ),
+    ),
+    closing="rotors.dataset.closing",
+    panel=Panel(joined_dataset, "rotors.panel.rotor_contents", "rotors/panel.js"),
+)

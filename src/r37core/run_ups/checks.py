@@ -9,14 +9,13 @@ from r37core.config.document import ConfigRefusals
 from r37core.config.speed_choice import length_of_run
 
 from .choice import RunUpError, check_highest
-from .plan import entries
-from .section import RunUpEntry
+from .section import SECTION, RunUpEntry
 
 
 def run_ups_can_be_done(settings: Settings) -> None:
     """Run-ups name blades, scenes and orders that are there, wear a lining, and change little from sample to sample."""
     refusals = ConfigRefusals()
-    for name, entry in entries(settings).items():
+    for name, entry in settings.section(SECTION).items():
         refusals.of(_can_be_done, settings, name, entry)
     refusals.tell()
 
@@ -43,7 +42,7 @@ def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
 
 def slowest_speeds_can_be_run(settings: Settings) -> None:
     """Neither the run-up nor a revolution at its slowest speed, whose steps all have, has too many steps."""
-    for name, entry in entries(settings).items():
+    for name, entry in settings.section(SECTION).items():
         if entry.crossing is not None:
             continue
         choice = entry.choice(settings.fidelity.time_integration.revolutions)
@@ -59,7 +58,7 @@ def slowest_speeds_can_be_run(settings: Settings) -> None:
 def no_rotors(settings: Settings) -> None:
     """Run-ups are wanted of single blades."""
     rotors = [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is not None]
-    for name, entry in entries(settings).items():
+    for name, entry in settings.section(SECTION).items():
         for scene in [scene for scene in scenes_named(settings, entry.scenes) if scene in rotors]:
             raise settings.documents.config.refusal(
                 ("run_ups", name, "scenes"),
@@ -70,7 +69,7 @@ def no_rotors(settings: Settings) -> None:
 
 def no_coriolis(settings: Settings) -> None:
     """The Coriolis force is wanted of runs at constant speed alone."""
-    for name in entries(settings) if settings.structure.coriolis else ():
+    for name in settings.section(SECTION) if settings.structure.coriolis else ():
         raise settings.documents.config.refusal(
             ("run_ups", name), "a run-up with structure.coriolis: true", "none; run-ups do not carry the Coriolis force yet"
         )

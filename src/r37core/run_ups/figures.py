@@ -22,7 +22,7 @@ _LININGS = {"new": "o", "worn": "x"}
 _RANGE = ["low_speed_rad_s", "high_speed_rad_s"]
 
 
-def draw_run_ups(run_ups: xr.Dataset, title: str, *, blade: str, scene: str) -> Figure:
+def draw_run_ups(run_ups: xr.Dataset, title: str, blade: str, scene: str) -> Figure:
     """Leading edge's rms, stress and wear of every revolution, over its speed and over the revolutions since the change began.
 
     Colour is the rate, dashes are run-downs, crosses a lining that was worn before.
@@ -90,7 +90,7 @@ def _keys(runs: Iterable[xr.Dataset], colours: Mapping[float, Any]) -> dict[str,
     return keys
 
 
-def draw_rates(runs: pd.DataFrame, title: str, *, scene: str) -> Figure:
+def draw_rates(runs: pd.DataFrame, title: str, scene: str) -> Figure:
     """Largest stress of each run-up of a scene against its rate, run-ups beside run-downs; blades in their colours."""
     styles = style.blade_styles(dict.fromkeys(runs["blade"]))
     runs = runs[(runs["scene"] == scene) & (runs["rate_rad_s2"] > 0.0)].sort_values("rate_rad_s2", kind="stable")

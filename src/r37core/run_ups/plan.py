@@ -10,20 +10,18 @@ from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.remarks import elastic_casings, remark_on_overtaken_waves
 from r37core.config.speed_choice import fastest_of
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Simulations, Sweep
 from r37core.time_integration.integration_choice import IntegrationChoice
 
+from .checks import no_coriolis, no_rotors, run_ups_can_be_done, slowest_speeds_can_be_run
 from .choice import RunUpChoice
-from .section import SECTION, RunUpEntry
+from .section import SECTION
 
 RUN_UP = "<results>/{blade}/{scene}/run_up_{run_up}.npz"
-
-
-def entries(settings: Settings) -> dict[str, RunUpEntry]:
-    """The section of config.yaml."""
-    return settings.section(SECTION)
+DATASET, TABLE, RATES = "<results>/run_ups.nc", "<results>/run_ups.csv", "<results>/run_up_rates.csv"
 
 
 @dataclass(frozen=True)
@@ -49,7 +47,7 @@ class RunUps:
         pair_choices: dict[tuple[str, str], dict[str, RunUpChoice]] = {
             (blade, scene): {} for blade in settings.blade_names for scene in settings.scene_names
         }
-        for name, entry in entries(settings).items():
+        for name, entry in settings.section(SECTION).items():
             blades, scenes = blades_named(settings, entry.blades), scenes_named(settings, entry.scenes)
             choices = {scene: entry.choice(settings.scenes[scene].revolutions) for scene in scenes if scene in settings.scenes}
             for blade, (scene, choice) in product(blades, choices.items()):
@@ -102,19 +100,8 @@ class RunUps:
         return replace(choice, revolutions=before, until_settled=False, snapshot_revolutions=snapshot_revolutions)
 
 
-def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The run-ups themselves."""
-    return {RUN_UP: RunUps(sweep).files}
-
-
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The dataset, the tables and the figures of the run-ups."""
-    pairs = paths.run_keys(pair for pair, named in RunUps(sweep).choices.items() if named)
-    return {
-        **{f"<results>/{name}": pairs and [{}] for name in ("run_ups.nc", "run_ups.csv", "run_up_rates.csv")},
-        **paths.pictures("run_ups_{blade}__{scene}", pairs),
-        **paths.pictures("run_up_rates_{scene}", paths.of("scene", dict.fromkeys(run["scene"] for run in pairs))),
-    }
+def _pairs(sweep: Sweep) -> paths.Wildcards:
+    return paths.run_keys(pair for pair, named in RunUps(sweep).choices.items() if named)
 
 
 def remarks(settings: Settings) -> list[str]:
@@ -127,3 +114,38 @@ def remarks(settings: Settings) -> list[str]:
         if fastest > fastest_of(settings, name):
             lines.append(remark_on_overtaken_waves(name, casing, fastest))
     return [line for line in lines if line]
+
+
+EXTENSION = Extension(
+    name="run_ups",
+    section=SECTION,
+    checks=(run_ups_can_be_done, slowest_speeds_can_be_run, no_coriolis, no_rotors),
+    simulated=lambda sweep: {RUN_UP: RunUps(sweep).files},
+    targets=lambda sweep: dict.fromkeys((DATASET, TABLE, RATES), [{}] if _pairs(sweep) else []),
+    remarks=remarks,
+    figures=(
+        Figure(
+            rule="run_up_figure",
+            name="run_ups_{blade}__{scene}",
+            runs=_pairs,
+            draw="run_ups.figures.draw_run_ups",
+            files={"run_ups": DATASET},
+            label="run-ups",
+            caption="Blade {blade} in scene {scene}, run up (solid) and down (dashed) at several rates, the slowest dark. "
+            "Crosses: the lining was worn before. Of every revolution over its mean speed: rms of the leading edge's motion "
+            "normal to the casing and tangential, largest von Mises stress, and largest wear so far. Dashed line: yield "
+            "stress; above it (tinted) the blade is outside the linear model.",
+        ),
+        Figure(
+            rule="run_up_rates_figure",
+            name="run_up_rates_{scene}",
+            runs=lambda sweep: paths.of("scene", dict.fromkeys(run["scene"] for run in _pairs(sweep))),
+            draw="run_ups.figures.draw_rates",
+            files={"runs": TABLE},
+            label="rates",
+            caption="Largest von Mises stress of every run-up (left) and run-down (right) in scene {scene} against its rate, "
+            "for every blade. Tinted: above yield.",
+        ),
+    ),
+    closing="run_ups.tables.closing",
+)

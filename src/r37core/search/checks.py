@@ -13,9 +13,8 @@ from r37core.config.document import Document
 from r37core.config.messages import did_you_mean, single_line
 from r37core.rom.naming import mode_names
 
-from .designs import SearchDesigns
+from .designs import SearchDesigns, choice_of, designs_of, is_asked
 from .gaussian_processes import SearchPackageMissing, library
-from .plan import choice_of, designs_of, is_asked
 from .quantity import FATIGUE_MEASURES, IN_OPERATION
 from .section import SECTION
 

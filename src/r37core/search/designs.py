@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, values_of
-from r37core.config import BladeSettings, Settings, plain
+from r37core.config import BladeSettings, Settings, operating_range, plain
 from r37core.config.blades import SHARES, BladeEntry, blade_settings
 from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
 from r37core.config.families import design_entry
@@ -13,7 +13,7 @@ from r37core.config.section_laws import SECTION_KEYS, neutral_value
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, path_part
 
-from .problem import START, SearchVariable
+from .problem import START, Constraint, SearchChoice, SearchVariable
 from .section import SECTION, SearchSection
 
 FOLDER = SECTION.name
@@ -157,3 +157,27 @@ def start_value(entry: BladeEntry, key: str) -> float | None:
     if getattr(entry, first, None) is None and (first in SECTION_KEYS or key in SHARES):
         return neutral_value(key)
     return value_at(plain(entry), key)
+
+
+def choice_of(settings: Settings) -> SearchChoice:
+    """Search that the section of config.yaml asks for."""
+    designs = designs_of(settings)
+    entry, is_flown = designs.entry, operating_range(settings) is not None
+    constraints = {
+        name: Constraint(each.quantity(is_flown), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
+        for name, each in entry.constraints.items()
+    }
+    objectives = {name: each.quantity(is_flown) for name, each in entry.objectives.items()}
+    start = tuple(designs.start_values)
+    return SearchChoice(designs.variables, objectives, constraints, entry.method, entry.seed, start)
+
+
+def designs_of(settings: Settings) -> SearchDesigns:
+    """Designs of the search of these settings, made once."""
+    return settings.made(SearchDesigns)
+
+
+def is_asked(settings: Settings) -> bool:
+    """True if this run has a search: a part of the blades may be without the one that it starts at."""
+    entry = settings.section(SECTION)
+    return entry is not None and entry.blade in settings.blade_names

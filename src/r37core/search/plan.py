@@ -10,15 +10,17 @@ from typing import Any
 from r37core.base.io import read_json
 from r37core.base.plain import to_plain
 from r37core.blade.profile_tables import stacking_table_rows
-from r37core.config import ConfigError, Settings, operating_range
+from r37core.config import ConfigError, Settings
 from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.config.speed_choice import most_runs
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure, Panel
 from r37core.plans.samples import NOMINAL, Pair, Sample, path_part
 from r37core.plans.sweep_plan import Sweep
 
-from .designs import FOLDER, SearchDesigns, member_part
-from .problem import START, Constraint, SearchChoice
+from .checks import search_can_be_run
+from .designs import FOLDER, SearchDesigns, choice_of, designs_of, is_asked, member_part
+from .problem import START
 from .rounds import SearchRound, read_round
 from .section import SECTION
 
@@ -184,24 +186,6 @@ class Search:
         }
 
 
-def choice_of(settings: Settings) -> SearchChoice:
-    """Search that the section of config.yaml asks for."""
-    designs = designs_of(settings)
-    entry, is_flown = designs.entry, operating_range(settings) is not None
-    constraints = {
-        name: Constraint(each.quantity(is_flown), each.at_least, each.at_most, each.at_least_percent, each.at_most_percent)
-        for name, each in entry.constraints.items()
-    }
-    objectives = {name: each.quantity(is_flown) for name, each in entry.objectives.items()}
-    start = tuple(designs.start_values)
-    return SearchChoice(designs.variables, objectives, constraints, entry.method, entry.seed, start)
-
-
-def designs_of(settings: Settings) -> SearchDesigns:
-    """Designs of the search of these settings, made once."""
-    return settings.made(SearchDesigns)
-
-
 def samples_of(settings: Settings, results: Path) -> Callable[[str], Mapping[Pair, Sample]]:
     """Design -> its runs, in the settings' search: of one that a round in `results` has proposed, or of the start."""
     # a round that is made anew may give the name to other values
@@ -228,24 +212,15 @@ def _round_of(file: str, _time: int) -> SearchRound:
     return read_round(file)
 
 
-def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The dataset of all designs."""
-    return {DATASET: [{}] if is_asked(sweep.settings) else []}
+def _once(sweep: Sweep) -> paths.Wildcards:
+    return [{}] if is_asked(sweep.settings) else []
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The dataset, the table, the best designs and the figures."""
-    wildcards: paths.Wildcards = [{}] if is_asked(sweep.settings) else []
+    """The dataset, the table and the best designs."""
     # files that an earlier search has left
-    left = () if wildcards else (ROUND, BUILT, SHAPE, MEASURES)
-    together = dict.fromkeys((DATASET, TABLE, BEST, *left), wildcards)
-    return together | paths.pictures("search_designs", wildcards) | paths.pictures("search_slices", wildcards)
-
-
-def is_asked(settings: Settings) -> bool:
-    """True if this run has a search: a part of the blades may be without the one that it starts at."""
-    entry = settings.section(SECTION)
-    return entry is not None and entry.blade in settings.blade_names
+    left = () if is_asked(sweep.settings) else (ROUND, BUILT, SHAPE, MEASURES)
+    return dict.fromkeys((DATASET, TABLE, BEST, *left), _once(sweep))
 
 
 def remarks(settings: Settings) -> list[str]:
@@ -258,3 +233,44 @@ def remarks(settings: Settings) -> list[str]:
     runs = members * sum(most_runs(settings, entry.blade, scene) for scene in designs.scenes)
     words = f"{entry.designs} designs of '{entry.blade}' in rounds of {entry.batch}"
     return [f"search: {words}, at most {runs} simulations of each, beside those of the sweep (docs/better_blade.md)"]
+
+
+EXTENSION = Extension(
+    name=FOLDER,
+    section=SECTION,
+    checks=(search_can_be_run,),
+    later=samples_of,
+    targets=targets,
+    remarks=remarks,
+    figures=(
+        Figure(
+            rule="search_designs_figure",
+            name="search_designs",
+            runs=_once,
+            draw="search.figures.draw_designs",
+            files={"search": DATASET},
+            label="designs",
+            caption="Designs of the search; small is good. Left: the best value of each objective so far among designs that "
+            "keep all constraints, over the number of designs. Dashed: the start; dotted: the end of the first, quasi-random "
+            "designs. Right: the objectives against each other, or a single one over the rounds. Designs that break a "
+            "constraint are pale. Of those in orange no other that keeps the constraints is better in all objectives. Bars: "
+            "standard deviation by chance.",
+            category="Search",
+        ),
+        Figure(
+            rule="search_slices_figure",
+            name="search_slices",
+            runs=_once,
+            draw="search.figures.draw_slices",
+            files={"search": DATASET},
+            label="slices",
+            caption="Each objective along each variable. The line is the mean of the surrogate, the band two standard "
+            "deviations; the other variables are those of the best design. Points are the designs, which differ in the other "
+            "variables, too. Above: share of the surrogate's variance in which the variable has a part. Beside: Q2, the share "
+            "of the designs' variance that the surrogate predicts at designs left out.",
+            category="Search",
+        ),
+    ),
+    closing="search.dataset.closing",
+    panel=Panel(lambda sweep: {DATASET: _once(sweep)}, "search.panel.search_contents", "search/panel.js"),
+)

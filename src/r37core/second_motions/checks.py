@@ -6,7 +6,7 @@ from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
 from r37core.config.speed_choice import length_of_run
 
-from .plan import pairs_of, section_of
+from .section import SECTION, pairs_of
 
 MOST_SPEEDS = 20_000
 """Speeds of a sweep: one job runs all of them."""
@@ -14,7 +14,7 @@ MOST_SPEEDS = 20_000
 
 def can_be_swept(settings: Settings) -> None:
     """Blades and scenes are there, without rotor or Coriolis force, and the speeds within the model's and not too many."""
-    section, document = section_of(settings), settings.documents.config
+    section, document = settings.section(SECTION), settings.documents.config
     if not section.asked:
         return
     names_are_there(settings, ("second_motions",), section)

@@ -18,7 +18,7 @@ LINES = {UP: "-", DOWN: "-", REST: ":"}
 MARKERS = {Lasting.LASTING: "o", Lasting.SWITCHING: "D", Lasting.TRANSIENT: "x", Lasting.DIVERGED: "P"}
 
 
-def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, *, blade: str, scene: str) -> Figure:
+def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, blade: str, scene: str) -> Figure:
     """One blade in one scene: motion and stress of the three motions, and what becomes of the larger one in dwells."""
     pair = swept(motions)
     stress = "max_von_mises_median" in pair and bool(pair["max_von_mises_median"].notnull().any())

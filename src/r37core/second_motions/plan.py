@@ -5,40 +5,26 @@ from functools import cached_property
 from typing import Any
 
 from r37core.base.plain import to_plain
-from r37core.config import Settings, blades_named, scenes_named
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure, Panel
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Simulations, Sweep
 
+from .checks import can_be_swept
 from .choice import MOTIONS
-from .section import SECTION, SecondMotionSection
+from .section import SECTION, SecondMotionSection, pairs_of
 
 RESPONSE = "<results>/{blade}/{scene}/second_motions_{motion}.nc"
 STATES = "<results>/{blade}/{scene}/second_motions_{motion}.npz"
 DWELLS = "<results>/{blade}/{scene}/second_motions_dwells.nc"
 ORBITS = "<results>/{blade}/{scene}/second_motions_orbits.nc"
-DATASET = "<results>/second_motions.nc"
+DATASET, TABLE = "<results>/second_motions.nc", "<results>/second_motions.csv"
+ALL_DWELLS, DWELL_TABLE = "<results>/second_motions_dwells.nc", "<results>/second_motions_dwells.csv"
+ALL_ORBITS, BIFURCATIONS = "<results>/second_motions_orbits.nc", "<results>/second_motions_bifurcations.csv"
 
 KEPT = ("stress", "static_stress", "wear", "energy", "casing", "motion_kind")
 """Results of a scene that its sweeps keep, too."""
-
-
-def section_of(settings: Settings) -> SecondMotionSection:
-    """The section of config.yaml."""
-    return settings.section(SECTION)
-
-
-def pairs_of(settings: Settings) -> list[tuple[str, str]]:
-    """Pairs of blade and scene that are swept; of all scenes those without a rotor."""
-    section = section_of(settings)
-    if not section.asked:
-        return []
-    single = [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is None]
-    scenes = single if section.scenes == "all" else [n for n in scenes_named(settings, section.scenes) if n in settings.scenes]
-    return [
-        (blade, scene) for blade in blades_named(settings, section.blades) if blade in settings.blade_names for scene in scenes
-    ]
 
 
 @dataclass(frozen=True)
@@ -56,7 +42,7 @@ class SecondMotions:
     def bare(self) -> list[tuple[str, str]]:
         """Pairs whose casing is bare and rigid: their periodic motions are followed."""
         scenes = {name: chosen.scene for name, chosen in self.sweep.settings.scenes.items()}
-        if not section_of(self.sweep.settings).followed().number:
+        if not self._section.followed().number:
             return []
         return [pair for pair in self.pairs if scenes[pair[1]].lining is None and not scenes[pair[1]].casing.ring]
 
@@ -101,7 +87,7 @@ class SecondMotions:
 
     @property
     def _section(self) -> SecondMotionSection:
-        return section_of(self.sweep.settings)
+        return self.sweep.settings.section(SECTION)
 
     def _common(self, made: Provenance) -> dict[str, Any]:
         return {
@@ -125,22 +111,49 @@ def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """Datasets, tables and figures."""
+    """Datasets and tables."""
     plan = SecondMotions(sweep)
     once: paths.Wildcards = [{}] if plan.pairs else []
     followed: paths.Wildcards = [{}] if plan.bare else []
-    return {
-        **dataset(sweep),
-        "<results>/second_motions.csv": once,
-        "<results>/second_motions_dwells.nc": once,
-        "<results>/second_motions_dwells.csv": once,
-        "<results>/second_motions_orbits.nc": followed,
-        "<results>/second_motions_bifurcations.csv": followed,
-        **paths.pictures("second_motions_{blade}__{scene}", paths.run_keys(plan.pairs)),
-        **paths.pictures("second_motions_{scene}", paths.of("scene", dict.fromkeys(scene for _, scene in plan.pairs))),
-    }
+    return dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), once) | dict.fromkeys((ALL_ORBITS, BIFURCATIONS), followed)
 
 
 def dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The dataset of all sweeps."""
     return {DATASET: [{}] if pairs_of(sweep.settings) else []}
+
+
+EXTENSION = Extension(
+    name="second_motions",
+    section=SECTION,
+    checks=(can_be_swept,),
+    simulated=simulated,
+    targets=targets,
+    motions=dataset,
+    figures=(
+        Figure(
+            rule="second_motions_figure",
+            name="second_motions_{blade}__{scene}",
+            runs=lambda sweep: paths.run_keys(pairs_of(sweep.settings)),
+            draw="second_motions.figures.draw_second_motions",
+            files={"motions": DATASET, "dwells": DWELL_TABLE},
+            label="second motions",
+            caption="Blade {blade} in scene {scene}, carried up and down the speeds, and from rest. Motion of the leading "
+            "edge, normal and tangential together, with its scatter over the revolutions. Shaded: the motions differ by more "
+            "than they scatter. Then the median stress, the largest motion's share of a long time, and Lyapunov exponents.",
+        ),
+        Figure(
+            rule="second_motions_overview",
+            name="second_motions_{scene}",
+            runs=lambda sweep: paths.of("scene", dict.fromkeys(scene for _, scene in pairs_of(sweep.settings))),
+            draw="second_motions.figures.draw_overview",
+            files={"motions": DATASET},
+            label="second motions of all",
+            caption="All blades in scene {scene}, carried up and down through the speeds, and from rest. Shaded: the motions "
+            "differ by more than they scatter.",
+        ),
+    ),
+    closing="second_motions.tables.closing",
+    look_at=TABLE,
+    panel=Panel(dataset, "second_motions.panel.contents", "second_motions/panel.js"),
+)

@@ -4,6 +4,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
+from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import AllOrNames, ExtensionSection, Section, Speed, refused
 
@@ -74,3 +75,15 @@ SECTION: ExtensionSection[SecondMotionSection] = ExtensionSection(
         default=SecondMotionSection(), description="Sweeps up and down the speeds, and what becomes of the motions they find"
     ),
 )
+
+
+def pairs_of(settings: Settings) -> list[tuple[str, str]]:
+    """Pairs of blade and scene that are swept; of all scenes those without a rotor."""
+    section = settings.section(SECTION)
+    if not section.asked:
+        return []
+    single = [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is None]
+    scenes = single if section.scenes == "all" else [n for n in scenes_named(settings, section.scenes) if n in settings.scenes]
+    return [
+        (blade, scene) for blade in blades_named(settings, section.blades) if blade in settings.blade_names for scene in scenes
+    ]

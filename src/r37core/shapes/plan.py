@@ -8,6 +8,7 @@ from pydantic import Field
 from r37core.config.section import ExtensionSection, Section
 from r37core.exchange.importing.source import MeshSource
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep
 
@@ -23,6 +24,7 @@ SECTION = ExtensionSection("shapes", ShapeSection, ShapeSection())
 
 MODE_SHAPES = "<results>/shapes/{blade}/modes"
 WORST_SHAPES = "<results>/shapes/{blade}/stress_{scene}"
+PAGE = "<results>/shapes/{blade}.html"
 
 
 @dataclass(frozen=True)
@@ -57,13 +59,39 @@ class Shapes:
         return [paths.fill(WORST_SHAPES, blade=wildcards.blade, scene=scene) for scene in self.scenes(wildcards)]
 
 
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """Folders of shapes, the page of each blade, and the figures."""
-    runs, blades = paths.run_keys(Shapes(sweep).runs), paths.of("blade", Shapes(sweep).blades)
-    return {
-        MODE_SHAPES: blades,
-        WORST_SHAPES: runs,
-        "<results>/shapes/{blade}.html": blades,
-        **paths.pictures("shapes_{blade}", blades),
-        **paths.pictures("shapes_{blade}__{scene}", runs),
-    }
+def _runs(sweep: Sweep) -> paths.Wildcards:
+    return paths.run_keys(Shapes(sweep).runs)
+
+
+def _blades(sweep: Sweep) -> paths.Wildcards:
+    return paths.of("blade", Shapes(sweep).blades)
+
+
+EXTENSION = Extension(
+    name="shapes",
+    section=SECTION,
+    targets=lambda sweep: {MODE_SHAPES: _blades(sweep), WORST_SHAPES: _runs(sweep), PAGE: _blades(sweep)},
+    figures=(
+        Figure(
+            rule="modes_figure",
+            name="shapes_{blade}",
+            runs=_blades,
+            draw="shapes.stills.draw_shapes",
+            files={"folder": MODE_SHAPES},
+            label="first modes",
+            caption="The first modes of blade {blade} at rest, each moved by its shape from the blade as it is (black "
+            "outline). Colours above: displacement as a share of its largest; below: von Mises stress for 1 mm of it. The "
+            "page of the blade's shapes moves them.",
+        ),
+        Figure(
+            rule="worst_shapes_figure",
+            name="shapes_{blade}__{scene}",
+            runs=_runs,
+            draw="shapes.stills.draw_shapes",
+            files={"folder": WORST_SHAPES},
+            label="worst instants",
+            caption="Blade {blade} in scene {scene} at the worst instant of each interaction, displaced as the title says "
+            "(black outline: as it is). Colours are the von Mises stress, each on a scale of its own.",
+        ),
+    ),
+)

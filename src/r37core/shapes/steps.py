@@ -10,7 +10,6 @@ from r37core.base.plain import from_plain
 from r37core.exchange.fields import worst_instants
 from r37core.explorer import write_page
 from r37core.fem.material import Material
-from r37core.figures.style import save
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
 from r37core.rom.rom_file import read_reduced_model
@@ -18,7 +17,6 @@ from r37core.stress.recovery import stress_operator
 
 from . import PARTS, shapes_contents
 from .moving import write_mode_shapes, write_worst_shapes
-from .stills import draw_shapes
 
 
 def modes(input: Any, output: Any, params: Any) -> None:
@@ -52,8 +50,3 @@ def page(input: Any, output: Any, params: Any) -> None:
     file = Path(output.page)
     explorer = str(params.address(file.parents[1] / "explorer.html"))
     write_page(shapes_contents(folders, explorer), f"Shapes of {params.blade}", file, PARTS)
-
-
-def figure(input: Any, output: Any, params: Any) -> None:
-    """Draw a folder of shapes. Input: folder. Params: caption. Outputs: png, pdf."""
-    save(draw_shapes(Path(input.folder)), [output.png, output.pdf], params.caption)

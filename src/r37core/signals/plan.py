@@ -8,6 +8,7 @@ from r37core.config import Settings, si_form
 from r37core.config.cross_checks import slow_run_can_be_done
 from r37core.config.speed_choice import length_of_run
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.structure_plan import Imported, Structure
 from r37core.plans.sweep_plan import Sweep
 
@@ -15,6 +16,7 @@ from .gauge import Gauge
 from .section import SECTION, SignalSection
 
 SIGNALS_OF_RUN = "<results>/{blade}/{scene}/signals.nc"
+DATASET = "<results>/signals.nc"
 
 
 @dataclass(frozen=True)
@@ -76,20 +78,8 @@ class Signals:
         return self.sweep.settings.scenes[wildcards.scene].tip_line
 
 
-def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """Signals of each blade and scene."""
-    return {SIGNALS_OF_RUN: paths.run_keys(Signals(sweep).runs)}
-
-
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """All signals in one file, and the figures."""
-    runs = paths.run_keys(Signals(sweep).runs)
-    return {
-        "<results>/signals.nc": runs and [{}],
-        **paths.pictures("spectrogram_{blade}__{scene}", runs),
-        **paths.pictures("orders_{blade}__{scene}", runs),
-        **paths.pictures("contact_force_{blade}__{scene}", runs),
-    }
+def _runs(sweep: Sweep) -> paths.Wildcards:
+    return paths.run_keys(Signals(sweep).runs)
 
 
 def signals_have_runs(settings: Settings) -> None:
@@ -117,3 +107,47 @@ def signals_have_runs(settings: Settings) -> None:
         if wanted.revolutions is not None and wanted.revolutions > scene.revolutions:
             allowed = f"at most those of a run, {scene.revolutions} in '{name}'"
             raise documents.config.refusal(("signals", "revolutions"), f"{wanted.revolutions}", allowed)
+
+
+EXTENSION = Extension(
+    name="signals",
+    section=SECTION,
+    checks=(signals_have_runs,),
+    simulated=lambda sweep: {SIGNALS_OF_RUN: _runs(sweep)},
+    targets=lambda sweep: {DATASET: [{}] if _runs(sweep) else []},
+    figures=(
+        Figure(
+            rule="spectrogram_figure",
+            name="spectrogram_{blade}__{scene}",
+            runs=_runs,
+            draw="signals.figures.draw_spectrograms",
+            files={"signals": SIGNALS_OF_RUN},
+            label="spectrograms",
+            caption="Blade {blade} in scene {scene}: engine orders of the leading edge's motion and of strain gauges over the "
+            "revolutions since the start, at each speed; Hann windows of eight revolutions.",
+        ),
+        Figure(
+            rule="orders_figure",
+            name="orders_{blade}__{scene}",
+            runs=_runs,
+            draw="signals.figures.draw_orders",
+            files={"signals": SIGNALS_OF_RUN},
+            label="engine orders over time",
+            caption="Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions "
+            "since the start, at each speed. Beside them, where there are probes: the leading edge's displacement that tip "
+            "timing tells.",
+        ),
+        Figure(
+            rule="contact_force_figure",
+            name="contact_force_{blade}__{scene}",
+            runs=_runs,
+            draw="signals.figures.draw_contact_forces",
+            files={"signals": SIGNALS_OF_RUN},
+            label="contact force",
+            caption="Blade {blade} in scene {scene}: normal force on the tip, all contact nodes together, over the casing "
+            "angle of its leading edge, at each speed. Grey: clearance of the undeformed leading edge, which lobes make "
+            "smaller.",
+        ),
+    ),
+    closing="signals.dataset.closing",
+)

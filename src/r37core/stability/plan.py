@@ -12,7 +12,8 @@ from r37core.cases.case import HALF_STEP, Case
 from r37core.cases.plan import BaseCase, CasesSection
 from r37core.config import ConfigError, Settings, checked_scene, plain
 from r37core.config.section import AllOrNames, ExtensionSection
-from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure
+from r37core.plans.paths import Wildcards
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
@@ -25,6 +26,7 @@ class StabilitySection(CasesSection):
 
 SECTION = ExtensionSection("stability", StabilitySection, StabilitySection())
 
+TABLE = "<results>/stability.csv"
 
 Changes = Callable[[Any], tuple[dict[str, Any], dict[str, Any]]]
 """Changes to the scene's entry and to the case, from an extreme's value."""
@@ -118,10 +120,8 @@ def _changed(entry: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any
     return entry
 
 
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The table and the figure."""
-    made: paths.Wildcards = [{}] if BaseCase(sweep.settings, SECTION).scenes else []
-    return {"<results>/stability.csv": made, **paths.pictures("stability", made)}
+def _once(sweep: Sweep) -> Wildcards:
+    return [{}] if BaseCase(sweep.settings, SECTION).scenes else []
 
 
 def can_be_run(settings: Settings) -> None:
@@ -132,3 +132,26 @@ def can_be_run(settings: Settings) -> None:
         if name not in EXTREMES:
             path = ("stability", "extremes", number)
             raise settings.documents.config.refusal(path, f"'{name}'", f"all, or some of {', '.join(EXTREMES)}")
+
+
+EXTENSION = Extension(
+    name="stability",
+    section=SECTION,
+    checks=(can_be_run,),
+    targets=lambda sweep: {TABLE: _once(sweep)},
+    figures=(
+        Figure(
+            rule="stability_figure",
+            name="stability",
+            runs=_once,
+            draw="stability.figures.draw_stability",
+            files={"table": TABLE},
+            label="extremes",
+            caption="Extremes of the configuration, each run with its own time step and with half of it. Accurate: both have "
+            "the same mean rms within 5%. Degraded: they have not. Diverged: the status of the run reports it. Refused: not "
+            "run. Unsound: a wrong number that no status reports.",
+        ),
+    ),
+    closing="stability.judging.closing",
+    made_on_request=True,
+)

@@ -6,12 +6,13 @@ from functools import cached_property
 from r37core.base.varied_number import VariedNumber
 from r37core.config import BladeSettings, Settings
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.extent import extent_of
 from r37core.plans.member_values import is_of_sample
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, Sampling, path_part
 from r37core.plans.sweep_plan import Sweep
 
-from .members import Members, members_of
+from .members import Members, members_can_be_drawn, members_of
 from .number_ranks import remarks_on_rankings
 from .section import SECTION
 
@@ -114,19 +115,10 @@ def samples(settings: Settings) -> dict[Pair, Sample]:
     return settings.made(Tolerances).samples
 
 
-SAMPLING = Sampling(samples, ranges=TABLE, dataset=DATASET)
-
-
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The responses of the members, and first rounds where their speeds are adaptive."""
     planned = sweep.settings.made(Tolerances)
     return {RESPONSE_OF_MEMBER: planned.runs, _FIRST_ROUND: planned.adaptive}
-
-
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The dataset, the table and the figures of the members."""
-    pairs = paths.run_keys(members_of(sweep.settings).pairs)
-    return dict.fromkeys((DATASET, TABLE), pairs and [{}]) | paths.pictures("tolerances_{blade}__{scene}", pairs)
 
 
 def remarks(settings: Settings) -> list[str]:
@@ -152,3 +144,29 @@ def _without_width(members: Members) -> list[str]:
         for number, of in values.items()
         if len(of) == 1
     ]
+
+
+EXTENSION = Extension(
+    name=FOLDER,
+    section=SECTION,
+    checks=(members_can_be_drawn,),
+    sampling=Sampling(samples, ranges=TABLE, dataset=DATASET),
+    simulated=simulated,
+    targets=lambda sweep: dict.fromkeys((DATASET, TABLE), [{}] if members_of(sweep.settings).pairs else []),
+    remarks=remarks,
+    figures=(
+        Figure(
+            rule="tolerance_figure",
+            name="tolerances_{blade}__{scene}",
+            runs=lambda sweep: paths.run_keys(members_of(sweep.settings).pairs),
+            draw="tolerances.figures.draw_tolerances",
+            files={"tolerances": DATASET, "nominal": paths.nominal(paths.RESPONSE)},
+            label="tolerances",
+            caption="Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, "
+            "and the nominal run (dashed). Then the share of the members above yield, with the interval of the chance. Last, "
+            "by how much each number moves three measures, with intervals: rank coefficients, and where asked for Sobol's "
+            "total indices. Above the bars stands the place in the ranking; pale ones have none.",
+        ),
+    ),
+    closing="tolerances.table.closing",
+)

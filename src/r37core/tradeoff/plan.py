@@ -10,10 +10,14 @@ from r37core.cases.case import Case
 from r37core.cases.plan import BaseCase
 from r37core.config import Settings
 from r37core.plans import paths
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 from .section import DEFAULTS, SECTION, Parameter, TradeoffSection
+
+DATASET, TABLE = "<results>/tradeoff.nc", "<results>/tradeoff.csv"
+LEVELS, GROWTH = "<results>/tradeoff_levels.csv", "<results>/tradeoff_growth.csv"
 
 LEVEL = "level"
 """The parameter that changes everything at once: the fidelity level."""
@@ -143,17 +147,8 @@ def _text(value: float | str) -> str:
     return value if isinstance(value, str) else exact_text(value)
 
 
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The dataset, the tables and the figures."""
-    parameters = varied(sweep.settings)
-    made: paths.Wildcards = [{}] if parameters else []
-    files = ("tradeoff.nc", "tradeoff.csv", "tradeoff_levels.csv", "tradeoff_growth.csv")
-    return {
-        **{f"<results>/{name}": made for name in files},
-        **paths.pictures("tradeoff", made),
-        **paths.pictures("tradeoff_growth", made),
-        **paths.pictures("tradeoff_{parameter}", paths.of("parameter", parameters)),
-    }
+def _once(sweep: Sweep) -> paths.Wildcards:
+    return [{}] if varied(sweep.settings) else []
 
 
 def can_be_run(settings: Settings) -> None:
@@ -169,3 +164,46 @@ def can_be_run(settings: Settings) -> None:
             path = ("tradeoff", "parameters", "stress_instants", "values", number)
             allowed = f"divisors of {samples}, the samples in a revolution of level {base.level}"
             raise settings.documents.config.refusal(path, f"{instants}", allowed)
+
+
+EXTENSION = Extension(
+    name="tradeoff",
+    section=SECTION,
+    checks=(can_be_run,),
+    targets=lambda sweep: dict.fromkeys((DATASET, TABLE, LEVELS, GROWTH), _once(sweep)),
+    figures=(
+        Figure(
+            rule="tradeoff_figure",
+            name="tradeoff",
+            runs=_once,
+            draw="tradeoff.figures.draw_tradeoff",
+            files={"table": TABLE},
+            label="accuracy and cost",
+            caption="Error of the normal rms at the peak over the CPU time of a run, for every value of every parameter. Each "
+            "is compared with the reference value of its parameter. Stars: fidelity levels.",
+        ),
+        Figure(
+            rule="tradeoff_growth_figure",
+            name="tradeoff_growth",
+            runs=_once,
+            draw="tradeoff.figures.draw_growth",
+            files={"table": TABLE, "growth": GROWTH},
+            label="growth of costs",
+            caption="Growth of a cost with a parameter. Dashed: power law, fitted to the more expensive half of the values.",
+        ),
+        Figure(
+            rule="tradeoff_parameter_figure",
+            name="tradeoff_{parameter}",
+            runs=lambda sweep: paths.of("parameter", varied(sweep.settings)),
+            draw="tradeoff.figures.draw_parameter",
+            files={"table": TABLE},
+            label="{parameter}",
+            caption="One parameter varied. Above: relative errors of the means over the speeds at the peak, against the "
+            "reference value. Below: CPU time of a run.",
+            arguments=lambda _: {"parameter": "{parameter}"},
+        ),
+    ),
+    closing="tradeoff.tables.closing",
+    look_at="<results>/figures/tradeoff.png",
+    made_on_request=True,
+)
