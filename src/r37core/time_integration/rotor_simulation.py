@@ -135,9 +135,6 @@ class RotorSimulation:
 
 
 def _beside_each_other(problems: Sequence[Problem]) -> list[Simulation]:
-    """Simulations, one for each problem; that of the most modes is made first, so that the others have room in its capacity."""
-    largest = int(np.argmax([len(problem.blade.frequencies) for problem in problems]))
-    first = Simulation.build(problems[largest])
-    return [
-        first if place == largest else Simulation.build(problem, beside=first.engine) for place, problem in enumerate(problems)
-    ]
+    """Simulations, one for each problem, with the capacity and the casing's tables of that of the most modes."""
+    largest = Simulation.build(max(problems, key=lambda problem: len(problem.blade.frequencies)))
+    return [Simulation.build(problem, beside=largest.engine) for problem in problems]

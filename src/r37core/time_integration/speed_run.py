@@ -81,7 +81,9 @@ def run_speed(
 
 def simulation_of(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Simulation | RotorSimulation:
     """Simulation of a blade at one speed (rad/s), or of all blades of the scene's rotor. Raises what these raise."""
-    return (Simulation if scene.rotor is None else RotorSimulation)(model, speed, scene, choice)
+    if scene.rotor is None:
+        return Simulation(model, speed, scene, choice)
+    return RotorSimulation(model, speed, scene, choice)
 
 
 def numbers_of_run(
