@@ -10,12 +10,12 @@ from .settling import Ending
 from .state import SimulationRecord, SimulationState
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class FinishedRun:
     """A run that is done: the problem of each blade, its state at the end and its record, and how the run ended.
 
-    `initial_energy`, `energy_change`, `contact_work` (J): of all blades together, see Simulation. This is the run of a single
-    blade; that of a rotor is a RotorRun.
+    `initial_energy`, `energy_change`, `contact_work` (J): of all blades together, see Simulation. `frequency_factors`: of the
+    blades' frequencies. This is the run of a single blade; that of a rotor is a RotorRun.
     """
 
     problems: Sequence[Problem]
@@ -25,6 +25,7 @@ class FinishedRun:
     initial_energy: float
     energy_change: float
     contact_work: float
+    frequency_factors: Sequence[float] = (1.0,)
 
     @property
     def problem(self) -> Problem:
@@ -36,11 +37,6 @@ class FinishedRun:
         """Place of the blade that diverged first, None where none did; the others end within a revolution after it."""
         samples = {place: len(part.samples) for place, part in enumerate(self.records) if part.diverged}
         return min(samples, key=samples.__getitem__, default=None)
-
-    @property
-    def frequency_factors(self) -> Sequence[float]:
-        """Factors of the blades' frequencies."""
-        return (1.0,)
 
     def leader(self, statistic: Sequence[np.ndarray]) -> int:
         """Place of the blade whose spectrum is kept, by the displacement (m) of each in the statistic, see numbers_of_run."""

@@ -15,7 +15,7 @@ MOST_GROWTH = 200
 """Spans of revolutions whose largest motion and stress are kept of each blade: a file stays small with many blades."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class RotorRun(FinishedRun):
     """A run of a `rotor` that is done, and where the samples of its blades lie in time.
 
@@ -26,11 +26,6 @@ class RotorRun(FinishedRun):
     rotor: Rotor
     late: np.ndarray
     worn: np.ndarray
-
-    @property
-    def frequency_factors(self) -> Sequence[float]:
-        """Factors of the blades' frequencies."""
-        return self.rotor.frequency_factors
 
     def leader(self, statistic: Sequence[np.ndarray]) -> int:
         """Place of the blade with the largest motion in the statistic; of a diverged run, of the one that diverged first."""

@@ -79,18 +79,18 @@ class RotorSimulation:
             done, worn = self._pass_by_pass(states, outs, starts)
             late = np.array([start.late for start in starts])
         records = [blade.recorded(0, out, reached) for blade, out, reached in zip(self.blades, outs, done, strict=True)]
-        work = sum(blade.work(state) for blade, state in zip(self.blades, states, strict=True))
         return RotorRun(
-            [simulation.problem for simulation in self.blades],
-            states,
-            records,
-            Ending(revolutions),
-            energy,
-            self.energy(states) - energy,
-            work,
-            self.rotor,
-            late,
-            np.array(worn),
+            problems=[simulation.problem for simulation in self.blades],
+            states=states,
+            records=records,
+            ending=Ending(revolutions),
+            initial_energy=energy,
+            energy_change=self.energy(states) - energy,
+            contact_work=sum(blade.work(state) for blade, state in zip(self.blades, states, strict=True)),
+            frequency_factors=self.rotor.frequency_factors,
+            rotor=self.rotor,
+            late=late,
+            worn=np.array(worn),
         )
 
     def energy(self, states: list[SimulationState]) -> float:

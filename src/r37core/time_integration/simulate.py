@@ -91,8 +91,15 @@ class Simulation:
         if choice.until_settled:
             instants = choice.snapshots_per_revolution * choice.snapshot_revolutions
             record = replace(record, snapshots=record.snapshots[max(len(record.snapshots) - instants, 0) :])
-        ending = Ending(state.samples // per_revolution, settled, growth, steps)
-        return FinishedRun([problem], [state], [record], ending, energy, self.energy(state) - energy, self.work(state))
+        return FinishedRun(
+            problems=[problem],
+            states=[state],
+            records=[record],
+            ending=Ending(state.samples // per_revolution, settled, growth, steps),
+            initial_energy=energy,
+            energy_change=self.energy(state) - energy,
+            contact_work=self.work(state),
+        )
 
     def parts(
         self, state: SimulationState, samples: Iterable[int], out: SimulationRecord | None = None

@@ -33,7 +33,7 @@ class ReferenceEngine:
 
     angle = 0.0
     worn = 0.0
-    """What the blade has worn off the lining (m3)."""
+    """Wear (m3) of the lining by the blade."""
 
     def __init__(
         self, problem: Problem, segments: Segments, before: ReferenceEngine | None = None, beside: ReferenceEngine | None = None
