@@ -1,9 +1,9 @@
 """The time integration of the blades of a rotor, which meet one casing and wear one lining.
 
-They are coupled by the bars that they wear, and by nothing else. So what counts is the order in which they pass
-a bar. A blade passes the casing from angle 0 to angle 0 in one go, and then the blade behind it does: every bar is then met in
-the order of time, by every node that has a ring of bars of its own. Each blade is at the same steps of its revolution as a
-single one; it starts with its first sample after time 0, at rest, where the casing is still round.
+They are coupled by the bars that they wear, and by nothing else. So what counts is the order in which they pass a bar. A blade
+passes the casing from angle 0 to angle 0 in one go, and then the blade behind it does: every bar is then met in the order of
+time, by every node that has a ring of bars of its own. Each blade is at the same steps of its revolution as a single one; it
+starts with its first sample after time 0, at rest, where the casing is still round.
 
 In an elastic casing that is not so: all blades move it at once. There all go step by step together, each at its angle.
 """
@@ -17,7 +17,7 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
 from .carrying import CarriedMotion
-from .compiled.engine import Passage, Start, advance_in_lockstep, go_on
+from .compiled.engine import Passage, advance_in_lockstep, go_on
 from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
 from .problem import Problem
@@ -77,7 +77,7 @@ class RotorSimulation:
         else:
             starts = [self._start(angle) for angle in self.rotor.angles]
             done, worn = self._pass_by_pass(states, outs, starts)
-            late = np.array([start.late for start in starts])
+            late = np.array([share for _, share in starts])
         records = [blade.recorded(0, out, reached) for blade, out, reached in zip(self.blades, outs, done, strict=True)]
         return RotorRun(
             problems=[simulation.problem for simulation in self.blades],
@@ -101,28 +101,31 @@ class RotorSimulation:
             total += simulation.energy(replace(state, displacement=state.displacement * own, increment=state.increment * own))
         return total
 
-    def _start(self, angle: float) -> Start:
-        """Start of a blade that stands at an angle (rad) at time 0: the whole samples before it passes angle 0."""
+    def _start(self, angle: float) -> tuple[int, float]:
+        """Samples since a blade that stands at an angle (rad) has passed angle 0 when it starts, and the share that it is late.
+
+        It starts with its first whole sample after time 0.
+        """
         per_revolution = self.problem.choice.samples_per_revolution
         # an angle that is a whole number of samples but for rounding has no share of one
         left = np.mod(angle, 2.0 * np.pi) / (2.0 * np.pi) * per_revolution
         left = float(np.round(left)) if abs(left - np.round(left)) < 1e-9 * per_revolution else float(left)
         whole = int(left)
-        return Start((per_revolution - whole) % per_revolution, left - whole)
+        return (per_revolution - whole) % per_revolution, left - whole
 
     def _pass_by_pass(
-        self, states: list[SimulationState], outs: list[SimulationRecord], starts: list[Start]
+        self, states: list[SimulationState], outs: list[SimulationRecord], starts: list[tuple[int, float]]
     ) -> tuple[list[int], list[float]]:
         """Let blade after blade pass the casing in the rotor's order; returns the samples done of each, and its wear (m3)."""
         per_revolution, total = self.problem.choice.samples_per_revolution, len(outs[0].samples)
         passages = [
-            Passage(simulation.engine, state, out, start=start)
+            Passage(simulation.engine, state, out, None, *start)
             for simulation, state, out, start in zip(self.blades, states, outs, starts, strict=True)
         ]
         # the first part of those that have not passed angle 0 yet, whole passes, and what is left
         for number in range(self.problem.choice.revolutions + 1):
             for place in self.rotor.order:
-                until = min(total, number * per_revolution + (-starts[place].samples) % per_revolution)
+                until = min(total, number * per_revolution + (-starts[place][0]) % per_revolution)
                 blocks = until - passages[place].done
                 if blocks > 0:
                     go_on([passages[place]], blocks)

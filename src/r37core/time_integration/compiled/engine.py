@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -56,19 +55,10 @@ class CompiledEngine(LaidOutProblem):
         return int(self._advance(addresses.ctypes.data, len(addresses)))
 
 
-class Start(NamedTuple):
-    """Start of a run: `samples` after the blade has last passed angle 0, and `late`, a share of a sample, after time 0."""
-
-    samples: int = 0
-    late: float = 0.0
-
-
-AT_ONCE = Start()
-
-
 class Passage:
     """Blocks of steps from a `state` on, as a `schedule` says, with samples and snapshots into `out`; `done`: how many.
 
+    The run starts so many samples after the blade has last `passed` angle 0, and `late`, a share of a sample, after time 0.
     The state is laid into the record once, and read at the `end`. Without a schedule it goes on in parts at the first speed,
     and the largest wear is not kept: other blades wear the lining.
     """
@@ -79,11 +69,12 @@ class Passage:
         state: SimulationState,
         out: SimulationRecord,
         schedule: Schedule | None = None,
-        start: Start = AT_ONCE,
+        passed: int = 0,
+        late: float = 0.0,
     ):
         self.engine, self._state, self._out, self._in_parts = engine, state, out, schedule is None
         self._schedule = schedule or Schedule([0], [0], len(state.displacement))
-        self._grid, self._start = engine.problem.grid, start
+        self._grid, self._passed = engine.problem.grid, passed
         # where nothing pads the vectors the program writes into `out` itself
         padded = out.snapshots.shape[1] != engine.snapshot_width or not isinstance(engine.mode_columns, slice)
         self._snapshots = np.empty((len(out.snapshots), engine.snapshot_width)) if padded else out.snapshots
@@ -110,8 +101,8 @@ class Passage:
             m["call"][name] = 0 if array is None else array.ctypes.data
         self._samples_at, self._snapshots_at = int(m["call"]["samples"]), int(m["call"]["snapshots"])
         # steps are counted from the last pass of angle 0 on
-        m["samples_before_snapshots"] = self._grid.samples_before_snapshots + start.samples
-        m["call"]["ahead"] = (start.late - start.samples) * self._grid.steps_per_sample
+        m["samples_before_snapshots"] = self._grid.samples_before_snapshots + passed
+        m["call"]["ahead"] = (late - passed) * self._grid.steps_per_sample
 
     def blocks_at_once(self, blades: int) -> int:
         """Blocks of one call in which so many blades go on: about STEPS_AT_ONCE up to the end of a revolution.
@@ -121,13 +112,13 @@ class Passage:
         if not self._in_parts:
             return len(self._out.samples)
         grid, per_revolution = self._grid, self._grid.choice.samples_per_revolution
-        passed = (self._state.samples + self._start.samples + self.done) % per_revolution
-        return revolutions_at_once(blades * grid.steps_per_revolution) * per_revolution - passed
+        since = (self._state.samples + self._passed + self.done) % per_revolution
+        return revolutions_at_once(blades * grid.steps_per_revolution) * per_revolution - since
 
     def ask(self, blocks: int) -> None:
         """Have the record say that so many more are to be done."""
         call, first = self.engine.record[0]["call"], self._state.samples
-        call["first_step"] = (first + self._start.samples + self.done) * self._grid.steps_per_sample
+        call["first_step"] = (first + self._passed + self.done) * self._grid.steps_per_sample
         call["blocks"] = blocks
         if self.done:
             kept = self._grid.snapshots_after(first + self.done) - self._grid.snapshots_after(first)
