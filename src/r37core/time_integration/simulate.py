@@ -108,11 +108,11 @@ class Simulation:
 
         Yields the record of each; with `out`, the room for all of them, they lie there one after another.
         """
-        first = state.samples
+        first, grid = state.samples, self.problem.grid
         for count in samples:
             done, room = state.samples - first, None
             if out is not None:
-                snapshots = slice(self._snapshots(first, done), self._snapshots(first, done + count))
+                snapshots = slice(*(len(grid.snapshots_between(first, first + end)) for end in (done, done + count)))
                 room = SimulationRecord(out.samples[done : done + count], out.snapshots[snapshots])
             record = self.advance_samples(state, count, room=room)
             yield record
@@ -139,23 +139,19 @@ class Simulation:
     def room(self, first: int, samples: int) -> SimulationRecord:
         """Room for what an engine leaves behind in so many samples after the `first`."""
         outputs, numbers = self.problem.contact.output_operator.shape
-        return SimulationRecord(np.empty((samples, outputs)), np.empty((self._snapshots(first, samples), numbers)))
+        snapshots = len(self.problem.grid.snapshots_between(first, first + samples))
+        return SimulationRecord(np.empty((samples, outputs)), np.empty((snapshots, numbers)))
 
     def recorded(self, first: int, out: SimulationRecord, done: int) -> SimulationRecord:
         """Record of what an engine has left in the room `out` when it has `done` so many samples."""
         tip_outputs = len(TIP_POINTS) * len(DIRECTIONS)
         casing = None if self.problem.casing.ring is None else out.samples[:done, tip_outputs:]
-        return SimulationRecord(
-            out.samples[:done, :tip_outputs], out.snapshots[: self._snapshots(first, done)], self.diverged(out, done), casing
-        )
+        snapshots = out.snapshots[: len(self.problem.grid.snapshots_between(first, first + done))]
+        return SimulationRecord(out.samples[:done, :tip_outputs], snapshots, self.diverged(out, done), casing)
 
     def diverged(self, out: SimulationRecord, done: int) -> bool:
         """True where the last of `done` samples is beyond the limit, or is NaN."""
         return done > 0 and not np.abs(out.samples[done - 1]).max() < self.problem.scene.divergence_limit
-
-    def _snapshots(self, first: int, samples: int) -> int:
-        """Number of snapshots in so many samples after the `first`."""
-        return self.problem.grid.snapshots_after(first + samples) - self.problem.grid.snapshots_after(first)
 
     def energy(self, state: SimulationState) -> float:
         """Energy (J) of the vibration, that of the static modes in it; see Recursion."""
