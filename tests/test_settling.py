@@ -16,7 +16,7 @@ from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.initial_motion import InitialMotion
-from r37core.time_integration.rotor_simulation import BladesSimulation
+from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.settling import NO_WEAR, MotionAtEnd, has_settled, motion_at_end, parts_of_run, revolution_rms
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
@@ -177,7 +177,7 @@ def test_a_run_that_diverges_has_not_settled():
 def test_a_rotor_does_not_settle():
     rotor = Rotor((1, 2), (0.0, 3.0), (1.0, 1.0), (0.0, 0.0))
     with pytest.raises(ValueError, match="until: settled in a scene with a rotor; allowed: until: revolutions"):
-        BladesSimulation(oscillator(6400.0), SPEED, replace(LINED, rotor=rotor), CHOICE)
+        RotorSimulation(oscillator(6400.0), SPEED, replace(LINED, rotor=rotor), CHOICE)
 
 
 def test_stress_of_a_settled_run_is_that_of_its_last_revolutions(tmp_path):

@@ -95,8 +95,8 @@ def test_any_number_of_nodes(nodes, name, integrator):
 def test_a_run_in_many_calls_is_the_run_in_one(contact, scene, monkeypatch):
     choice = IntegrationChoice(2e-7, 4, 62, snapshots_per_revolution=31, snapshot_revolutions=3)
     simulation, whole, record = whole_run(contact, 1000.0, scene, choice)
-    calls, advance, state = [], simulation.engine.advance, simulation.start()
-    monkeypatch.setattr(simulation.engine, "advance", lambda *arguments: calls.append(1) or advance(*arguments))
+    calls, call, state = [], simulation.engine.call, simulation.start()
+    monkeypatch.setattr(simulation.engine, "call", lambda *arguments: calls.append(1) or call(*arguments))
     monkeypatch.setattr(integration_choice, "STEPS_AT_ONCE", 1)
     # also from a sample inside of a revolution
     parts = [simulation.advance_samples(state, count) for count in (20, 4 * 62 - 20)]
