@@ -40,7 +40,7 @@ TESTS = {
     "rom/reduced_model.py": "test_rom.py test_time_integration.py",
     "rom/craig_bampton.py": "test_rom.py",
     "config/rotor_section.py": "test_rotor_section.py",
-    "speeds.py": "test_results.py test_config.py",
+    "base/speeds.py": "test_results.py test_config.py",
     "cases/runner.py": "test_cases.py",
     "time_integration/integrators.py": "test_integrators.py test_time_integration.py "
     "test_contact_steps.py test_initial_motion.py",
@@ -49,7 +49,7 @@ TESTS = {
     "time_integration/rotor_numbers.py": "test_rotor_numbers.py test_rotor.py",
     "time_integration/problem.py": "test_run_statistics.py test_time_integration.py",
     "time_integration/speed_run.py": "test_run_statistics.py",
-    "console/leftovers.py": "test_reliability.py",
+    "product/leftovers.py": "test_reliability.py",
     "plans/sweep_plan.py": "test_workflow_plans.py",
     "results/": "test_results.py test_exceedance.py test_interactions.py test_measures.py test_campbell.py "
     "test_elastic_casing.py test_explorer_tables.py test_tolerances.py",
