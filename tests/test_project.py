@@ -7,6 +7,7 @@ import re
 import subprocess
 import tomllib
 from collections import Counter
+from functools import cache
 from graphlib import TopologicalSorter
 from importlib.metadata import PackageNotFoundError, version
 from itertools import chain
@@ -93,6 +94,7 @@ def test_the_shipped_configuration_is_that_of_the_tests():
     assert edited_configuration() == []
 
 
+@cache
 def imports_of(file):
     """Absolute names of what a file imports, functions' own imports included."""
     names = []
