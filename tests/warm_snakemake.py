@@ -173,12 +173,21 @@ def _fork_job_servers():
             os.setsid()
             for channel, _ in [*waiting, (ours, None)]:
                 channel.close()
-            fork_server.serve(theirs)
+            with suppress(EOFError):
+                os.environ.update(theirs.recv())
+                fork_server.serve(theirs)
             os._exit(0)
         theirs.close()
         kill = partial(os.kill, number, signal.SIGKILL)
         waiting.append((ours, SimpleNamespace(pid=number, kill=kill, wait=lambda _, number=number: os.waitpid(number, 0))))
-    executor.start_server = waiting.pop
+
+    def start_server():
+        channel, process = waiting.pop()
+        # what Snakemake has set since
+        channel.send(dict(os.environ))
+        return channel, process
+
+    executor.start_server = start_server
 
 
 def _write_jobs(file):
