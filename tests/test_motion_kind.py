@@ -71,6 +71,7 @@ def test_the_twin_s_forces_are_brought_back_with_its_motion(hopping):
     np.testing.assert_array_equal(state.contact_force, 10.0)
 
 
+@pytest.mark.slow
 def test_the_engines_agree_on_a_kind(hopping, monkeypatch):
     monkeypatch.setattr(kinds, "COUNTED", 10)
     monkeypatch.setattr(kinds, "MOST_PERIODS", 2)
