@@ -19,6 +19,8 @@ QUIET = ("gpu", "quic", "background-networking", "component-update", "sync")
 SOFTWARE_GRAPHICS = ("--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
 """For pages that draw in three dimensions, without a graphics card."""
 
+LONGEST = 600_000
+"""What is waited for (ms), however busy the machine is."""
 
 PLACE = "R37_BROWSER_OF_TESTS"
 """Environment variable with a folder of this run of the tests, for its processes."""
@@ -70,6 +72,7 @@ def opened(file, viewport, kept=lambda message: True, place="", **more):
     with sync_api.sync_playwright() as playwright:
         browser = playwright.chromium.connect(_address())
         page = browser.new_page(viewport=viewport, **more)
+        page.set_default_timeout(LONGEST)
         page.problems = []
 
         def note(text):

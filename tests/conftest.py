@@ -13,6 +13,7 @@ from pathlib import Path
 import browser
 import pytest
 from hypothesis import settings
+from warm_snakemake import start_for_call
 from workflow_runs import copy_finished, copy_project
 
 # a busy machine is no error
@@ -39,14 +40,18 @@ def edited_configuration():
     return sorted(files.difference(filecmp.cmpfiles(*folders, files, shallow=False)[0]))
 
 
+CACHE = "R37_CACHE"
+"""Environment variable with the user's cache folder."""
+
+
 class Terminal(io.StringIO):
     def isatty(self):
         return True
 
 
-LONGEST = ("workflow", "coriolis", "tradeoff", "refined_runs", "slurm", "your_blade", "reruns", "clearance", "run_ups")
-LONGEST += ("time_integration", "contact_steps")
-"""Files that take minutes. The first two need different programs, so that no two workers compile the same one at once."""
+LONGEST = ("workflow", "time_integration", "python", "slurm", "runs", "python_calls", "refined_runs", "tradeoff")
+LONGEST += ("search_calls", "your_blade", "native", "examples", "explorer", "reruns", "edge", "elastic_casing")
+"""Files that take a minute. The second needs other programs than the first, which makes the sweep that others wait for."""
 
 
 def pytest_collection_modifyitems(items):
@@ -57,15 +62,17 @@ def pytest_collection_modifyitems(items):
 
 
 def pytest_configure(config):
-    # processes of this run that start later have it from their environment
+    # processes of this run that start later have them from their environment: one browser, and one cache of structures
     if not hasattr(config, "workerinput"):
-        os.environ[browser.PLACE] = tempfile.mkdtemp(prefix="r37_browser_")
+        for name in (browser.PLACE, CACHE):
+            os.environ[name] = tempfile.mkdtemp(prefix="r37_tests_")
 
 
 def pytest_unconfigure(config):
     if not hasattr(config, "workerinput"):
         browser.close()
-        shutil.rmtree(os.environ[browser.PLACE])
+        for name in (browser.PLACE, CACHE):
+            shutil.rmtree(os.environ[name])
 
 
 def pytest_terminal_summary(terminalreporter):
@@ -190,6 +197,22 @@ def small_sweep(root, compiled, tmp_path_factory):
     from shared_sweep import made_once, make_sweep
 
     return made_once(tmp_path_factory, "small_sweep", lambda folder: make_sweep(root, folder))
+
+
+@pytest.fixture(scope="session")
+def config(root, tmp_path_factory):
+    """The config.yaml of a project with the small sweep of which nothing is made, to be read."""
+    folder = tmp_path_factory.mktemp("small")
+    copy_project(root, folder)
+    return folder / "config/config.yaml"
+
+
+@pytest.fixture(scope="session")
+def warm_calls():
+    """Calls of r37 that run the workflow fork Snakemake: see tests/warm_snakemake.py."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("r37.workflow_process.start", start_for_call)
+        yield
 
 
 @pytest.fixture

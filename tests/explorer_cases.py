@@ -5,6 +5,7 @@ from contextlib import contextmanager
 import numpy as np
 import pandas as pd
 import xarray as xr
+from browser import LONGEST
 
 from r37core.explorer import PARTS, write_page
 from r37core.time_integration.status import RunStatus
@@ -75,7 +76,8 @@ def beside(page, contents, file, size=(1500, 1400), place="", parts=PARTS, **mor
     """Another page in the browser of a page, made of other `parts` where an extension has panels."""
     write_page(contents, "r37", file, parts)
     other = page.context.browser.new_page(viewport={"width": size[0], "height": size[1]}, **more)
+    other.set_default_timeout(LONGEST)
     other.goto(file.as_uri() + place)
-    other.wait_for_selector("html[data-ready]", timeout=60_000)
+    other.wait_for_selector("html[data-ready]")
     yield other
     other.close()

@@ -12,7 +12,7 @@ from r37core.contact.scene import Rotor
 from r37core.machine_code import native
 from r37core.rom.contact_model import ContactModel
 from r37core.time_integration.integrators import EXACT_MODAL
-from r37core.time_integration.rotor_simulation import BladesSimulation
+from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
 
 FUSED = platform.machine() != "x86_64" or "+fma" in native.processor()[1]
@@ -140,9 +140,8 @@ def bits_of_programs():
         state = simulation.start()
         bits[name] = _hash_of([simulation.advance(state, choice.revolutions)], [state])
     blades = Rotor((1, 2), (0.0, np.pi), (1.0, 1.0), (0.0, 0.0), True)
-    rotor = BladesSimulation(blade, 12_000.0, Scene(ring, LINING, Friction(0.15), rotor=blades), choice)
-    states = rotor.start()
-    return bits | {"rotor in an elastic casing": _hash_of(rotor.run(states).blades, states)}
+    run = RotorSimulation(blade, 12_000.0, Scene(ring, LINING, Friction(0.15), rotor=blades), choice).run()
+    return bits | {"rotor in an elastic casing": _hash_of(run.records, run.states)}
 
 
 def _hash_of(records, states):

@@ -162,6 +162,7 @@ SCENES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("integrator", ["exact_modal", "central_difference"])
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 def test_compiled_engine_is_the_reference(scene, integrator):

@@ -258,6 +258,7 @@ STEPS_LOADED = ("time_integration.speed_job.prepare", "results.steps.response", 
 STEPS_LOADED += ("time_integration.speed_job.simulate", "tradeoff.steps.report", "run_ups.steps.record", "exports.steps.stress")
 
 
+@pytest.mark.slow
 def test_the_closure_has_all_that_python_loads(root):
     # as Python names the files: `src` is a link
     core = (root / "src/r37core").resolve()

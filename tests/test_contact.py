@@ -163,6 +163,7 @@ def test_complementarity_against_brute_force(seed, n, skew):
         np.testing.assert_allclose(multipliers, expected, rtol=1e-7, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_more_nodes_than_a_vector_holds():
     generator = np.random.default_rng(5)
     factor = generator.standard_normal((19, 40))

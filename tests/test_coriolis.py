@@ -64,7 +64,7 @@ def moving(simulation, displacement, velocity):
 def test_foucault_pendulum(jumps, engine):
     """In the fixed frame it is a plain oscillator; the rotor's frame turns under it, hundreds of turns."""
     frequency, speed = 5000.0, 1300.0
-    choice = replace(CHOICE, time_step=2e-5, revolutions=300 if engine == "compiled" else 30, jumps=jumps, engine=engine)
+    choice = replace(CHOICE, time_step=2e-5, revolutions=300 if engine == "compiled" else 10, jumps=jumps, engine=engine)
     simulation = Simulation(with_static_modes(pendulum([frequency, frequency], per_square=-1.0), STATIC), speed, FREE, choice)
     start, velocity = np.array([1e-3, 2e-3]), np.array([3.0, -1.0])
     state = moving(simulation, start, velocity)

@@ -27,10 +27,9 @@ def test_they_are_numbered_and_stand_on_a_page(root):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("file", EXAMPLES, ids=lambda file: file.stem)
-def test_an_example_runs(shipped, tmp_path_factory, monkeypatch, file):
+def test_an_example_runs(shipped, warm_calls, monkeypatch, file):
     monkeypatch.setattr("r37.call_configuration._PACKAGE", shipped)
     monkeypatch.setattr("r37.study_folder._PACKAGE", shipped)
-    monkeypatch.setenv("R37_CACHE", str(tmp_path_factory.getbasetemp() / "cache_of_examples"))
     text = file.read_text()
     small = text.replace('fidelity="draft"', 'fidelity="tiny"').replace("fidelity: draft", "fidelity: tiny")
     assert small != text

@@ -173,7 +173,7 @@ def page(request, datasets, interactions, tolerances, ranged, tmp_path_factory):
     contents = explorer_contents(*given, [("Ref", "abradable")])
     write_page(contents, "r37 <trial>", file)
     with opened(file, viewport={"width": 1500, "height": 1400}) as page:
-        page.wait_for_selector("html[data-ready]", timeout=60_000)
+        page.wait_for_selector("html[data-ready]")
         yield page
         assert page.problems == []
 

@@ -40,7 +40,7 @@ def page(rows, tmp_path_factory):
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
     write_page(explorer_contents(sweep(), rows, ranking=RANKING), "r37", file)
     with opened(file, viewport={"width": 1400, "height": 1000}) as page:
-        page.wait_for_selector("html[data-ready]", timeout=60_000)
+        page.wait_for_selector("html[data-ready]")
         yield page
         assert page.problems == []
 

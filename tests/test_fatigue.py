@@ -24,7 +24,7 @@ from r37core.stress.cycles import StressCycles, largest_cycles, stress_cycles
 from r37core.stress.goodman import Strengths, goodman_statistic
 from r37core.stress.operator import StressOperator, von_mises
 from r37core.stress.recovery import stress_operator
-from r37core.time_integration.rotor_simulation import BladesSimulation
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import numbers_of_run, run_speed
 
@@ -115,22 +115,18 @@ def test_numbers_of_known_revolutions():
 
 @pytest.fixture(scope="module")
 def a_run(contact, model, steel):
-    """The simulation of a run, its record, and the numbers kept of it."""
-    simulation = BladesSimulation(contact, 1340.0, DIRECT, CHOICE)
-    states = simulation.start()
-    record = simulation.run(states)
-    stress = stress_operator(model, steel)
-    numbers = numbers_of_run(simulation, states, record, ("stress", "fatigue"), 0.0, stress=stress, **KEPT)
-    return simulation, record, numbers
+    """A run that is done, and the numbers kept of it."""
+    run = Simulation(contact, 1340.0, DIRECT, CHOICE).run()
+    return run, numbers_of_run(run, ("stress", "fatigue"), stress=stress_operator(model, steel), **KEPT)
 
 
 def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
     """The displacement of the whole mesh at each instant, its stress tensors, their mean, and the difference from it."""
-    simulation, record, numbers = a_run
-    problem, region = simulation.problem, model.stress_submesh.nodes
+    run, numbers = a_run
+    problem, region = run.problem, model.stress_submesh.nodes
     places = inner_places(model, mesh)
     instants = 3 * CHOICE.snapshots_per_revolution
-    states = record.blades[0].snapshots[-instants:] @ (problem.model.to_reduced @ problem.contact.state_shapes).T
+    states = run.records[0].snapshots[-instants:] @ (problem.model.to_reduced @ problem.contact.state_shapes).T
     fields = whole.whole_blade
     order = np.argsort(fields.nodes)
     amplitudes = rotation_amplitudes(whole.rotation_stiffening, 1340.0)
@@ -149,14 +145,14 @@ def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
 
 def test_the_pairs_of_a_run_are_those_of_its_nodes(a_run):
     """The largest share of all revolutions is that of the nodes' largest alternating stress: their mean is one of all."""
-    *_, numbers = a_run
+    _, numbers = a_run
     strengths = Strengths(3e8, 5e8)
     nodes = strengths.share(numbers["alternating_stress"], numbers["mean_stress"])
     assert goodman_statistic(numbers, strengths)["goodman_share"] == nodes.max() > 0.1
 
 
 def test_rotation_is_in_the_mean_whatever_the_scene_asks_for(a_run, contact, model, steel):
-    *_, numbers = a_run
+    _, numbers = a_run
     kept = run_speed(
         contact, 1340.0, DIRECT, CHOICE, ("stress", "static_stress", "fatigue"), stress=stress_operator(model, steel), **KEPT
     )

@@ -84,6 +84,7 @@ def drawn(datasets):
     yield "comparison", draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
 
 
+@pytest.mark.slow
 def test_figures_print_on_a_page_with_letters_to_read_and_have_rpm_beside_every_speed(datasets):
     for name, figure in drawn(datasets):
         figure.canvas.draw()

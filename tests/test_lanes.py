@@ -52,6 +52,7 @@ def test_a_product_and_its_sum_are_rounded_once(name):
     assert records[0]["answer"][0].tolist() == [float(rounded(*numbers)) for numbers in exact]
 
 
+@pytest.mark.slow
 def test_a_program_leaves_no_rounding_to_the_compiler(monkeypatch):
     """No sum of it may be reordered or contracted, no quotient be made a product."""
     monkeypatch.setattr(program, "object_code", lambda assembly, *_: assembly)

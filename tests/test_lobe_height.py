@@ -42,12 +42,14 @@ def test_a_height_in_metres_stays():
         assert casing_of(**clearance, amplitude_clearances=2.0).lobe_height == 1e-3
 
 
-@pytest.mark.parametrize("engine", ["compiled", "reference"])
-@pytest.mark.parametrize("scene", [ABRADABLE, DIRECT], ids=["abradable", "direct"])
-@pytest.mark.parametrize("growing", [False, True])
-def test_both_give_the_same_bits(scene, engine, growing):
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("engine", "scene", "growing"),
+    [("compiled", ABRADABLE, True), ("compiled", DIRECT, False), ("reference", ABRADABLE, False), ("reference", DIRECT, True)],
+)
+def test_both_give_the_same_bits(engine, scene, growing):
     model = with_static_modes(random_model(3), 1e-9)
-    choice = IntegrationChoice(2e-6, 2, 31, integrator="exact_modal", engine=engine)
+    choice = IntegrationChoice(2e-6, 1, 31, integrator="exact_modal", engine=engine)
 
     def samples(**casing):
         rubs_on = replace(scene, casing=replace(scene.casing, centrifugal=growing, rise_fraction=0.2, **casing))

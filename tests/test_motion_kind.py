@@ -16,7 +16,7 @@ from r37core.time_integration import motion_kind as kinds
 from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.motion_kind import kind_numbers, kind_of_motion, samples_of_period
-from r37core.time_integration.simulate import Simulation, rest_state
+from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import MotionKind
@@ -71,6 +71,7 @@ def test_the_twin_s_forces_are_brought_back_with_its_motion(hopping):
     np.testing.assert_array_equal(state.contact_force, 10.0)
 
 
+@pytest.mark.slow
 def test_the_engines_agree_on_a_kind(hopping, monkeypatch):
     monkeypatch.setattr(kinds, "COUNTED", 10)
     monkeypatch.setattr(kinds, "MOST_PERIODS", 2)
@@ -116,10 +117,10 @@ def test_a_rotation_recurs_after_its_period():
 
 
 def test_a_run_that_diverged_has_no_kind(hopping):
-    numbers = kind_numbers(*hopping, diverged=True)
+    simulation, state = hopping
+    numbers = kind_numbers(simulation.problem, state, diverged=True)
     assert numbers["motion_kind"] == MotionKind.UNKNOWN
     assert np.isnan(numbers["lyapunov_exponent"])
-    simulation, state = hopping
     state.displacement[:] = 10.0
     assert kind_of_motion(simulation, state).kind is MotionKind.UNKNOWN
 
@@ -144,8 +145,7 @@ def test_a_carried_motion_goes_on_as_if_nothing_had_happened(scene, integrator):
     state = simulation.start()
     simulation.advance(state, 2)
     carried = CarriedMotion.ended(simulation.problem, state, keep_wear=True)
-    other = rest_state(simulation.problem)
-    carried.put(simulation.problem, other)
+    other = simulation.start(carried)
     np.testing.assert_allclose(other.displacement, state.displacement, rtol=0.0, atol=1e-12 * np.abs(state.displacement).max())
     expected, motion = simulation.advance(state, 1).samples, simulation.advance(other, 1).samples
     np.testing.assert_allclose(motion, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
@@ -156,8 +156,8 @@ def test_a_carried_motion_keeps_its_energy_at_another_speed(contact):
     before, after = (Simulation(contact, speed, DIRECT, choice) for speed in (1340.0, 1340.001))
     state = before.start()
     before.advance(state, 20)
-    carried, other = CarriedMotion.ended(before.problem, state), after.start()
-    carried.put(after.problem, other)
+    carried = CarriedMotion.ended(before.problem, state)
+    other = after.start(carried)
     assert after.energy(other) == pytest.approx(before.energy(state), rel=1e-4)
     # what is carried is its own: the run goes on
     force = carried.contact_force.copy()

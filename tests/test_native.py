@@ -213,10 +213,8 @@ def test_blades_of_any_size_take_one_program(integrator):
 
 
 AVX2, AVX512 = ("fma", "avx2", "bmi2"), ("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl")
-PROCESSORS = dict.fromkeys(["znver3", "haswell", "x86-64-v3"], AVX2) | dict.fromkeys(
-    ["znver4", "znver5", "skylake-avx512", "icelake-server", "sapphirerapids", "x86-64-v4"], AVX2 + AVX512
-)
-"""Processors by LLVM's names, and what of their instructions programs use."""
+PROCESSORS = {"x86-64-v3": AVX2, "znver3": AVX2, "x86-64-v4": AVX2 + AVX512, "znver4": AVX2 + AVX512}
+"""Processors by LLVM's names, two makers' for each width of vectors, and what of their instructions programs use."""
 
 
 @pytest.fixture(scope="module")
@@ -228,6 +226,8 @@ def own_bits():
 @pytest.mark.parametrize("name", PROCESSORS)
 def test_programs_for_any_processor_give_the_same_bits(name, own_bits):
     """However wide its vectors are, and however LLVM orders its instructions: a process compiles everything for it."""
+    if name == native.this_processor()[0]:
+        pytest.skip("another processor than the one that it is")
     missing = [feature for feature in PROCESSORS[name] if f"+{feature}" not in native.this_processor()[1].split(",")]
     if missing:
         pytest.skip(f"this processor has no {', '.join(missing)}, which {name} has")

@@ -50,6 +50,7 @@ def acceleration(time, motion, speed):
     return [velocity, -2.0 * DAMPING * FREQUENCY * velocity - FREQUENCY**2 * displacement - push]
 
 
+@pytest.mark.slow
 def test_a_branch_folds_twice_and_reaches_both_ends():
     _, orbits, events = followed()
     assert [event.event for event in events] == [Event.FOLD, Event.FOLD]
@@ -61,6 +62,7 @@ def test_a_branch_folds_twice_and_reaches_both_ends():
     assert len(between) > 5
 
 
+@pytest.mark.slow
 def test_orbits_close_in_another_integration():
     blade, orbits, _ = followed()
     for orbit in (orbits[len(orbits) // 4], min((each for each in orbits if not each.stable), key=lambda each: each.speed)):
@@ -77,6 +79,7 @@ def test_orbits_close_in_another_integration():
         assert distance < 2e-3
 
 
+@pytest.mark.slow
 def test_the_multipliers_of_an_orbit_multiply_to_the_decay_of_a_free_motion():
     """The contact is a spring, so a volume of states shrinks by the damping alone: Liouville's formula."""
     for orbit in followed()[1][::10]:
@@ -85,6 +88,7 @@ def test_the_multipliers_of_an_orbit_multiply_to_the_decay_of_a_free_motion():
         )
 
 
+@pytest.mark.slow
 def test_the_motion_of_an_orbit_lasts():
     blade, orbits, _ = followed()
     orbit = max((each for each in orbits if each.stable), key=lambda each: each.rms[0])
@@ -95,6 +99,7 @@ def test_the_motion_of_an_orbit_lasts():
     assert np.abs(motion).max() == pytest.approx(orbit.peak, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_sweeps_leave_their_motion_at_the_folds(tmp_path):
     low, high = sorted(event.speed for event in followed()[2])
     sweep = SweepChoice(FIRST, LAST, 5.0, revolutions=300)

@@ -7,6 +7,7 @@ import re
 import subprocess
 import tomllib
 from collections import Counter
+from functools import cache
 from graphlib import TopologicalSorter
 from importlib.metadata import PackageNotFoundError, version
 from itertools import chain
@@ -93,10 +94,16 @@ def test_the_shipped_configuration_is_that_of_the_tests():
     assert edited_configuration() == []
 
 
+@cache
+def parsed(file):
+    return ast.parse(file.read_text())
+
+
+@cache
 def imports_of(file):
     """Absolute names of what a file imports, functions' own imports included."""
     names = []
-    for node in ast.walk(ast.parse(file.read_text())):
+    for node in ast.walk(parsed(file)):
         names += [node.module or ""] if isinstance(node, ast.ImportFrom) and node.level == 0 else []
         names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
     return names
@@ -118,7 +125,7 @@ def test_classes_have_few_members(root):
     """Methods, properties and annotated fields: what is of one subject stands with that."""
     members = (ast.FunctionDef, ast.AsyncFunctionDef, ast.AnnAssign)
     for file in (root / "src").rglob("*.py"):
-        for node in ast.walk(ast.parse(file.read_text())):
+        for node in ast.walk(parsed(file)):
             if isinstance(node, ast.ClassDef):
                 assert sum(isinstance(part, members) for part in node.body) <= 25, f"{file}: {node.name}"
 
@@ -165,7 +172,7 @@ def test_one_name_one_thing(root):
     classes = Counter(
         node.name
         for file in modules.values()
-        for node in ast.parse(file.read_text()).body
+        for node in parsed(file).body
         if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
     )
     twice = {name for name, number in classes.items() if number > 1}
@@ -185,7 +192,7 @@ def test_no_modules_import_each_other_in_a_circle(root):
 
     def imported(name):
         package = name if modules[name].name == "__init__.py" else name.rpartition(".")[0]
-        for node in ast.parse(modules[name].read_text()).body:
+        for node in parsed(modules[name]).body:
             if isinstance(node, ast.Import):
                 yield from (alias.name for alias in node.names)
             elif isinstance(node, ast.ImportFrom):
@@ -219,7 +226,7 @@ TRANSLATED = {"pace", "paces", "march", "course", "stretch", "stretches", "climb
 
 def names_in(file):
     """What a file names: arguments, values, functions and classes."""
-    for node in ast.walk(ast.parse(file.read_text())):
+    for node in ast.walk(parsed(file)):
         if isinstance(node, ast.arg):
             yield node.arg
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):

@@ -22,11 +22,10 @@ CALLS = [name for name in r37.__all__ if inspect.isfunction(getattr(r37, name))]
 
 
 @pytest.fixture(scope="module")
-def finished(small_sweep, tmp_path_factory):
-    """A sweep of the workflow, whose configuration is the shipped one of the calls; structures of r37 lie in its cache."""
+def finished(small_sweep, warm_calls, tmp_path_factory):
+    """A sweep of the workflow, whose configuration is the shipped one of the calls."""
     folder = copy_finished(small_sweep, tmp_path_factory.mktemp("finished") / "sweep")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("R37_CACHE", str(folder / "cache"))
         patch.setattr("r37.call_configuration._PACKAGE", folder)
         patch.chdir(folder)
         yield folder
@@ -43,11 +42,35 @@ def test_a_comparison_is_the_sweep_of_the_workflow(finished):
         pd.testing.assert_frame_equal(again.tables[name], table)
 
 
+class Examples:
+    """The package for all examples: runs of the workflow that are asked for once more are those that were made."""
+
+    def __init__(self):
+        self._made = {}
+
+    def __getattr__(self, name):
+        if name not in ("designs", "tolerances"):
+            return getattr(r37, name)
+
+        def once(*arguments, **named):
+            key = repr((name, arguments, named))
+            if key not in self._made:
+                self._made[key] = getattr(r37, name)(*arguments, **named)
+            return self._made[key]
+
+        return once
+
+
+@pytest.fixture(scope="module")
+def examples():
+    return Examples()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CALLS)
-def test_the_example_of_a_docstring_runs(finished, name, tmp_path, monkeypatch):
+def test_the_example_of_a_docstring_runs(finished, examples, name, tmp_path, monkeypatch):
     """With the small level in place of others: what an example shows holds for both."""
-    (test,) = doctest.DocTestFinder(recurse=False).find(inspect.unwrap(getattr(r37, name)), name, globs={"r37": r37})
+    (test,) = doctest.DocTestFinder(recurse=False).find(inspect.unwrap(getattr(r37, name)), name, globs={"r37": examples})
     assert test.examples
     if name == "init":
         monkeypatch.chdir(tmp_path)

@@ -78,7 +78,7 @@ def numbers_of(scene, rotor, choice=RECORDED):
 def undisturbed(casing, longest):
     """Rotor of three blades of which one is longer, and the largest displacement of each in every sample."""
     rotor = rotor_of(3, longer=[1e-4 if place == longest else 0.0 for place in range(3)])
-    return rotor, np.abs(samples(run(rotor, CASINGS[casing])[2])).max(axis=-1)
+    return rotor, np.abs(samples(run(rotor, CASINGS[casing]))).max(axis=-1)
 
 
 @pytest.mark.parametrize("late", [False, True], ids=["first revolution", "later"])
@@ -120,7 +120,7 @@ def test_all_blades_may_diverge_at_once(engine):
     """A casing beyond the limit is a divergence of all blades; the first one stands for them."""
     scene = replace(LINED_RING, divergence_limit=1e-5)
     choice = replace(RECORDED, revolutions=2, snapshot_revolutions=1, engine=engine)
-    assert all(part.diverged for part in run(rotor_of(3), scene, choice)[2].blades)
+    assert all(part.diverged for part in run(rotor_of(3), scene, choice).records)
     numbers = numbers_of(scene, rotor_of(3), choice)
     assert numbers["status"] == 1 and numbers["leader"] == 1 and np.isnan(numbers["blade_rms"]).all()
 
@@ -130,9 +130,9 @@ def test_of_blades_that_diverge_in_one_pass_the_first_in_time_leads():
     rotor, sizes = undisturbed("rigid", 2)
     limit = 0.5 * sizes.max(axis=1).min()
     ends = np.argmax(sizes > limit, axis=1) + 1
-    record = run(rotor, replace(STEEP, divergence_limit=limit))[2]
-    assert [part.diverged for part in record.blades] == [True, False, True] and ends[0] < ends[2] < ends[1]
-    assert record.first_diverged == 0 and len(record.blades[0].samples) == ends[0]
+    done = run(rotor, replace(STEEP, divergence_limit=limit))
+    assert [part.diverged for part in done.records] == [True, False, True] and ends[0] < ends[2] < ends[1]
+    assert done.first_diverged == 0 and len(done.records[0].samples) == ends[0]
     numbers = numbers_of(replace(STEEP, divergence_limit=limit), rotor)
     assert numbers["leader"] == 1 and numbers["diverged_revolution"] == ends[0] / CHOICE.samples_per_revolution
 
@@ -201,7 +201,7 @@ def test_spans_of_a_long_run_end_with_it(tmp_path):
 def test_the_leader_moves_most_in_both_directions_together():
     """The third blade moves most along the normal, the second one along the tangent, by more."""
     rotor = rotor_of(3, longer=[0.0, 1e-4, 0.0])
-    motion = samples(run(rotor)[2]).reshape(3, CHOICE.revolutions, -1, 2, 3)[:, :, :, 0, KEPT_DIRECTIONS]
+    motion = samples(run(rotor)).reshape(3, CHOICE.revolutions, -1, 2, 3)[:, :, :, 0, KEPT_DIRECTIONS]
     half = motion[:, CHOICE.revolutions // 2 :].reshape(3, -1, 2)
     numbers = run_speed(a_blade(), SPEED, replace(STEEP, rotor=rotor), CHOICE, ("spectrum",), **KEPT)
     assert np.argmax(np.sum(half**2, axis=1), axis=0).tolist() == [2, 1] and numbers["leader"] == 2
@@ -210,7 +210,7 @@ def test_the_leader_moves_most_in_both_directions_together():
     np.testing.assert_allclose(numbers["blade_maximum"], np.hypot(*motion.T).T.max(axis=2), rtol=1e-6)
     of_leader = amplitudes(half[1].T)[:, : len(numbers["engine_order"])]
     np.testing.assert_allclose(numbers["amplitude"], of_leader, rtol=1e-5)
-    found = nodal_diameters(half, run(rotor)[2].late, rotor)
+    found = nodal_diameters(half, run(rotor).late, rotor)
     # the last bit of a matrix product depends on where its arrays lie in memory
     np.testing.assert_allclose(numbers["nodal_diameter_share"], found["nodal_diameter_share"], rtol=1e-12)
 

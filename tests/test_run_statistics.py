@@ -91,15 +91,15 @@ def test_wear_is_that_of_the_most_worn_ring(monkeypatch):
     bars = 720
     theta = 2.0 * np.pi * np.arange(bars) / bars
     worn = 2e-4 + 1e-4 * np.cos(3.0 * theta) + 2e-5 * np.cos(7.0 * theta + 0.3)
-    fill = Simulation.fill
+    advance = Simulation.advance_samples
 
-    def worn_lining(simulation, state: SimulationState, out, first, samples):
-        done = fill(simulation, state, out, first, samples)
+    def worn_lining(simulation, state: SimulationState, *samples, **room):
+        record = advance(simulation, state, *samples, **room)
         state.wear[:] = 0.25 * worn
         state.wear[-1] = worn
-        return done
+        return record
 
-    monkeypatch.setattr(Simulation, "fill", worn_lining)
+    monkeypatch.setattr(Simulation, "advance_samples", worn_lining)
     lining = replace(LINING, bars=bars)
     kept = kept_of(random_model(2), SPEED, replace(DIRECT, lining=lining), IntegrationChoice(2e-7, 2, 62), ("wear",))
     assert kept["max_wear"] == worn.max()

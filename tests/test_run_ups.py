@@ -29,6 +29,7 @@ from r37core.time_integration import integration_choice
 from r37core.time_integration.carrying import resolved_problem
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.problem import Problem, stable_problem
+from r37core.time_integration.segments import segments_at
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.step_limit import UnstableStepError
@@ -81,7 +82,7 @@ def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
 
 def test_the_reference_slides_with_the_speed_of_each_segment(contact):
     problem = Simulation(contact, 1600.0, NARROW, replace(LONG, engine="reference")).problem
-    engine = Simulation.build(problem, np.array([1590.0, 1610.0])).engine
+    engine = Simulation.build(problem, segments_at(problem, np.array([1590.0, 1610.0]))).engine
     for place, speed in enumerate((1590.0, 1610.0)):
         engine.take(place)
         np.testing.assert_allclose(engine.rotation_velocity, problem.casing.rotation_velocity * speed / 1600.0, rtol=1e-14)

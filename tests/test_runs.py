@@ -10,7 +10,7 @@ from contextlib import suppress
 import pandas as pd
 import pytest
 import xarray as xr
-from workflow_runs import copy_project, digests, snakemake, wait_until
+from workflow_runs import LONGEST, digests, snakemake, wait_until
 
 import r37
 from r37 import workflow_process
@@ -18,17 +18,9 @@ from r37core.base.yaml_file import load_yaml, yaml_text
 from r37core.blade.profile import BladeShapeError
 from r37core.product.reading import read_settings
 
+pytestmark = pytest.mark.usefixtures("warm_calls")
+
 ASKED = {"blades": ["Ref", "CS100"], "scenes": "abradable", "speeds": [750, 1150], "results": ["stress"]}
-
-
-@pytest.fixture(scope="module")
-def config(root, tmp_path_factory):
-    """The config.yaml of a small sweep, and a cache of its own."""
-    folder = tmp_path_factory.mktemp("study")
-    copy_project(root, folder)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("R37_CACHE", str(folder / "cache"))
-        yield folder / "config/config.yaml"
 
 
 @pytest.fixture(scope="module")
@@ -82,11 +74,11 @@ def test_a_folder_has_all_of_a_run_and_snakemake_finds_nothing_to_do(once, confi
 def test_a_run_that_was_ended_leaves_no_process_and_goes_on_with_the_same_bytes(once, config, tmp_path, end):
     folder = tmp_path / "ended"
     call = started(config, folder)
-    wait_until(lambda: list((folder / "results").glob("*/abradable/speed_*.npz")), 120.0, "a simulation")
+    wait_until(lambda: list((folder / "results").glob("*/abradable/speed_*.npz")), LONGEST, "a simulation")
     call.send_signal(end)
-    call.wait(3.0)
+    call.wait(LONGEST)
     # whoever is killed cannot wait for the others
-    wait_until(lambda: not processes_of(folder), 10.0, "its processes")
+    wait_until(lambda: not processes_of(folder), LONGEST, "its processes")
     reached = digests(folder)
     r37.run(**ASKED, config=config, cores=2, folder=folder)
     done, other = digests(folder), digests(once)

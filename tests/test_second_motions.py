@@ -56,16 +56,15 @@ def sweep_of(model, motion, scene=GROWING, sweep=SWEEP, choice=CHOICE):
     return CarriedSweep(model, scene, choice, sweep, motion, (), KEPT)
 
 
-@pytest.fixture(scope="module")
-def swept(contact, tmp_path_factory):
-    """Files of the states of all three motions."""
-    folder, files = tmp_path_factory.mktemp("swept"), {}
+def states_of(model, folder, scene=GROWING, sweep=SWEEP, choice=CHOICE):
+    """States of all three motions, and the files of their runs, by ascending speed."""
+    states, files = {}, {}
     for motion in MOTIONS:
-        run = sweep_of(contact, motion)
-        parts = run.run(folder / motion)
-        files[motion] = folder / f"{motion}.npz"
-        write_states(parts[::-1] if motion == DOWN else parts, SWEEP.speeds, 0.356e-3, files[motion])
-    return files
+        parts = sweep_of(model, motion, scene, sweep, choice).run(folder / motion)
+        files[motion] = parts[::-1] if motion == DOWN else parts
+        write_states(files[motion], sweep.speeds, 0.356e-3, folder / f"{motion}.npz")
+        states[motion] = SweptStates(folder / f"{motion}.npz")
+    return states, files
 
 
 def test_the_motion_from_rest_is_the_run_of_the_pipeline(contact, tmp_path):
@@ -414,8 +413,8 @@ def test_the_explorer_has_the_swept_blades(motions):
     assert (pair["blade"], pair["ranges"]) == ("Ref", [[1002.5, 1017.5]])
 
 
-def test_dwells_and_branches_of_real_sweeps(contact, swept, tmp_path):
-    states = {motion: SweptStates(file) for motion, file in swept.items()}
+def test_dwells_and_branches_of_real_sweeps(contact, tmp_path):
+    states, _ = states_of(contact, tmp_path)
     assert levels_of(states).mean.shape == (3, 3)
     carried = sweep_of(contact, UP)
     rows = dwells_of(carried, states, DwellChoice(revolutions=100, range_speeds=1, starts=1, speeds=(1310.0,)))
@@ -430,12 +429,9 @@ def test_dwells_and_branches_of_real_sweeps(contact, swept, tmp_path):
 
 def test_a_blade_with_more_damping_has_a_branch(contact, tmp_path):
     damped, sweep = replace(GROWING, damping_ratio=0.05), SweepChoice(1300.0, 1306.0, 2.0, revolutions=60)
-    states = {}
-    for motion in MOTIONS:
-        run = sweep_of(contact, motion, damped, sweep, replace(CHOICE, revolutions=60))
-        parts = run.run(tmp_path / motion)
-        write_states(parts[::-1] if motion == DOWN else parts, sweep.speeds, 0.356e-3, tmp_path / f"{motion}.npz")
-        states[motion] = SweptStates(tmp_path / f"{motion}.npz")
+    choice = replace(CHOICE, revolutions=60)
+    states, _ = states_of(contact, tmp_path, damped, sweep, choice)
+    run = sweep_of(contact, UP, damped, sweep, choice)
     ((orbits, events),) = branches_of(run, states, BranchChoice(points=40))
     assert (orbits[0].speed, orbits[-1].speed) == (1300.0, 1306.0)
     assert all(orbit.stable for orbit in orbits)
@@ -480,26 +476,17 @@ def test_what_cannot_be_swept_is_refused(root, section, message):
 @pytest.mark.parametrize("motion", [UP, DOWN, REST])
 def test_a_dwell_on_a_new_lining_goes_on_as_the_sweep_did(contact, tmp_path, motion):
     """Its first revolutions are those of the sweep at that speed: the motion belongs to the lining that it has worn."""
-    carried, states, kept = sweep_of(contact, UP, LINED), {}, {}
-    for each in MOTIONS:
-        parts = sweep_of(contact, each, LINED).run(tmp_path / each)
-        kept[each] = parts[::-1] if each == DOWN else parts
-        write_states(kept[each], SWEEP.speeds, 0.356e-3, tmp_path / f"{each}.npz")
-        states[each] = SweptStates(tmp_path / f"{each}.npz")
+    carried, (states, files) = sweep_of(contact, UP, LINED), states_of(contact, tmp_path, LINED)
     simulation = Simulation(contact, 1310.0, carried.grown_scene, carried.unrecorded_choice)
     begun, state = begun_as(carried, states, motion, 1, simulation)
     rms = dwell(begun, state, 100).rms
-    expected = read_speed(kept[motion][1])["revolution_rms"]
+    expected = read_speed(files[motion][1])["revolution_rms"]
     np.testing.assert_allclose(rms[: len(expected)], expected, rtol=1e-12)
 
 
 def test_branches_of_a_casing_that_is_not_reached_are_none(contact, tmp_path):
     round_casing = replace(GROWING, casing=replace(GROWING.casing, lobes=0))
-    states = {}
-    for motion in MOTIONS:
-        parts = sweep_of(contact, motion, round_casing).run(tmp_path / motion)
-        write_states(parts[::-1] if motion == DOWN else parts, SWEEP.speeds, 0.356e-3, tmp_path / f"{motion}.npz")
-        states[motion] = SweptStates(tmp_path / f"{motion}.npz")
+    states, _ = states_of(contact, tmp_path, round_casing)
     assert branches_of(sweep_of(contact, UP, round_casing), states, BranchChoice()) == []
 
 

@@ -16,7 +16,7 @@ from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.initial_motion import InitialMotion
-from r37core.time_integration.rotor_simulation import BladesSimulation
+from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.settling import NO_WEAR, MotionAtEnd, has_settled, motion_at_end, parts_of_run, revolution_rms
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
@@ -123,11 +123,15 @@ def test_a_share_of_the_rise_is_one_of_the_published_length(settled):
     np.testing.assert_array_equal(run(fifth, fixed, ())["revolution_maxima"], run(LINED, fixed, ())["revolution_maxima"])
 
 
-def test_engines_end_in_the_same_revolution(settled):
-    other = run(LINED, replace(CHOICE, engine="reference"), ("wear",))
+@pytest.mark.slow
+def test_engines_end_in_the_same_revolution():
+    soon = replace(LINED, casing=replace(RISING, rise_revolutions=1.0), damping_ratio=0.1)
+    few = replace(CHOICE, revolutions=60)
+    ours, theirs = (run(soon, replace(few, engine=engine), ("wear",)) for engine in ("compiled", "reference"))
+    assert ours["settled_revolution"] < few.revolutions
     for name in ("settled_revolution", "motion_at_end", "statistic_end"):
-        assert other[name] == settled[name]
-    np.testing.assert_allclose(other["rms"], settled["rms"], rtol=1e-6)
+        assert theirs[name] == ours[name]
+    np.testing.assert_allclose(theirs["rms"], ours["rms"], rtol=1e-6)
 
 
 def test_what_does_not_settle_goes_on_to_the_last_revolution():
@@ -177,7 +181,7 @@ def test_a_run_that_diverges_has_not_settled():
 def test_a_rotor_does_not_settle():
     rotor = Rotor((1, 2), (0.0, 3.0), (1.0, 1.0), (0.0, 0.0))
     with pytest.raises(ValueError, match="until: settled in a scene with a rotor; allowed: until: revolutions"):
-        BladesSimulation(oscillator(6400.0), SPEED, replace(LINED, rotor=rotor), CHOICE)
+        RotorSimulation(oscillator(6400.0), SPEED, replace(LINED, rotor=rotor), CHOICE)
 
 
 def test_stress_of_a_settled_run_is_that_of_its_last_revolutions(tmp_path):
@@ -214,22 +218,23 @@ def test_stress_of_a_settled_run_is_that_of_its_last_revolutions(tmp_path):
 
 @pytest.mark.slow
 def test_the_reference_blade_cuts_itself_free():
-    """Interaction 1B/4 on points: at 200 revolutions 1725 and 1729 rad/s move more than 1700, at 1,000 that alone is left."""
+    """Interaction 1B/4 on points: at 200 revolutions 1726 and 1729 rad/s move more than 1700, at 1,000 that alone is left."""
     blade = r37.blade("Ref", name="Points", contact="points")
-    speeds, results = [1700.0, 1725.0, 1729.0], ["wear"]
-    long = r37.scene("abradable", name="long", revolutions=1000, **{"casing.rise_revolutions": 40})
-    early, late = (r37.sweep(blade, scene, speeds, fidelity="standard", results=results) for scene in ("abradable", long))
+    speeds, rise = [1700.0, 1726.0, 1729.0], {"casing.rise_revolutions": 40}
+    scenes = [r37.scene("abradable", name="long", revolutions=revolutions, **rise) for revolutions in (200, 1000)]
+    early, late = (r37.sweep(blade, scene, speeds, fidelity="draft", results=["wear"]) for scene in scenes)
     tip = {"tip_point": "leading_edge"}
-    np.testing.assert_allclose(1e3 * early["rms_normal"].sel(tip), [0.584, 2.506, 3.716], atol=0.01)
+    np.testing.assert_allclose(1e3 * early["rms_normal"].sel(tip), [0.551, 3.277, 2.604], atol=0.01)
     assert early["motion_at_end"].values.tolist() == [MotionAtEnd.LASTING, MotionAtEnd.GROWING, MotionAtEnd.GROWING]
     assert late["motion_at_end"].values.tolist() == [MotionAtEnd.LASTING, MotionAtEnd.CUT_FREE, MotionAtEnd.CUT_FREE]
     np.testing.assert_allclose(late["rms_normal"].sel(tip)[0], early["rms_normal"].sel(tip)[0], rtol=1e-3)
     assert (late["revolution_maximum"].sel(tip)[1:, -1] < 1e-6).all()
     # the lobes have grown alike, and the lining is used up where the blade has cut itself free
     np.testing.assert_allclose(late["revolution_maximum"][:, :200], early["revolution_maximum"], rtol=1e-3)
-    np.testing.assert_allclose(late["used_thickness"], [0.723e-3, 5e-3, 5e-3], rtol=1e-2)
+    np.testing.assert_allclose(late["used_thickness"], [0.690e-3, 5e-3, 5e-3], rtol=1e-2)
 
 
+@pytest.mark.slow
 def test_a_tip_that_has_cut_its_way_in_and_rests_is_quiet():
     """Rotation brings it 32 um into the lining: so much is used, nothing is worn through, and nothing moves."""
     changes = {"casing.lobes": 0, "casing.clearance.cold_m": 3e-5, "lining.thickness_m": 1e-4}

@@ -207,7 +207,7 @@ def test_the_page_moves_the_blade(folders, tmp_path):
     about_speed = re.compile(r"Canvas2D: Multiple readback|GL Driver Message .*Performance")
     more = {"kept": lambda message: not about_speed.search(message), "place": "#scene=abradable&speed=1150.4"}
     with opened(tmp_path / "Ref.html", {"width": 1200, "height": 800}, reduced_motion="reduce", **more) as page:
-        page.wait_for_selector("html[data-ready]", timeout=60_000)
+        page.wait_for_selector("html[data-ready]")
         assert page.text_content("#now").startswith("1B/5, abradable at 1150.5 rad/s")
         (entry,) = [one for one in read_json(folders["abradable"] / INDEX) if one["speed_rad_s"] == 1150.5]
         expected = points_at(folders["abradable"] / "stress_1150.5.glb", entry["worst_s"])

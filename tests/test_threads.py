@@ -12,7 +12,7 @@ from contextlib import contextmanager
 
 import pytest
 import xarray as xr
-from workflow_runs import copy_project
+from workflow_runs import LONGEST
 
 from r37core.base.dataset_file import NETCDF_LOCK, lazy_dataset, write_dataset
 from r37core.base.process_wide import ProcessWide
@@ -66,33 +66,25 @@ for name, call in calls.items():
 """
 
 
-@pytest.fixture(scope="module")
-def study(root, tmp_path_factory):
-    """A copy of the project with the small level, whose config.yaml calls name."""
-    folder = tmp_path_factory.mktemp("study")
-    copy_project(root, folder)
-    return folder
-
-
-def run(code, study, cache):
-    """Run code in a process of its own, which a crash ends, with structures of a cache of its own; give what it prints."""
-    command = [sys.executable, "-c", IMPORTS + code, study / "config/config.yaml", study]
-    environment = os.environ | {"R37_CACHE": str(cache)}
-    ended = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=500)
+def run(code, config, folder, **environment):
+    """Run code in a process of its own, which a crash ends; give what it prints."""
+    command = [sys.executable, "-c", IMPORTS + code, config, folder]
+    environment = os.environ | environment
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=LONGEST)
     assert ended.returncode == 0, ended.stderr[-2000:]
     return ended.stdout
 
 
 @pytest.mark.slow
-def test_eight_threads_of_twenty_runs_give_the_bits_of_one(compiled, study, tmp_path):
-    printed = run(SIMULATIONS, study, tmp_path)
+def test_eight_threads_of_twenty_runs_give_the_bits_of_one(compiled, config, tmp_path):
+    printed = run(SIMULATIONS, config, tmp_path, R37_CACHE=str(tmp_path / "cache"))
     # nothing that a caller prints is lost
     assert sorted(printed.split("\n")) == ["", *(f"thread {number}" for number in range(9))]
 
 
 @pytest.mark.slow
-def test_every_call_may_run_in_two_threads(compiled, study, tmp_path):
-    run(CALLS, study, tmp_path)
+def test_every_call_may_run_in_two_threads(compiled, config, tmp_path):
+    run(CALLS, config, tmp_path)
 
 
 def test_a_setting_of_the_process_lasts_as_long_as_any_thread_wants_it():

@@ -168,6 +168,8 @@ def test_tradeoff_of_a_small_sweep(compiled, project):
         "bars: { values: [3000, 10000], reference: 10000 }, revolutions: { values: [2, 3, 4], reference: 4 } } }"
     )
     overlay(project, "config.yaml", asked)
+    small = "{ mesh: { nodes: 2000, tip_elements: 14 }, time_integration: { revolutions: 8 } }"
+    overlay(project, "fidelity.yaml", f"draft: {small}")
     said = snakemake(project, "tradeoff", "--cores", "2")
     assert " the tolerance of 5%" in said and "look at results/figures/tradeoff.png" in said
     results = r37.open_results(project / "results")

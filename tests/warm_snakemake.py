@@ -1,7 +1,7 @@
 """Snakemake's command without its start: a process that has imported Snakemake and the package forks for each command.
 
 All else is as in a process of its own: folder, arguments, environment, what it prints, its exit status. A project with a
-package of its own imports that in the fork.
+package of its own imports that in the fork. The calls of r37 that start Snakemake may have such a fork, too.
 """
 
 import atexit
@@ -9,7 +9,9 @@ import gc
 import json
 import os
 import re
+import select
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -22,10 +24,14 @@ from multiprocessing import Pipe
 from pathlib import Path
 from types import SimpleNamespace
 
+from r37core.console.caller import CALLER
+
 CHECKOUT = Path(__file__).parent.parent
 COMMON = ("jsonschema", "llvmlite", "nbformat", "numpy", "pandas", "pydantic", "scipy", "smart_open", "yaml")
+COMMON += ("scipy.interpolate", "scipy.linalg", "scipy.optimize", "scipy.sparse.linalg", "scipy.stats")
+COMMON += ("sklearn.gaussian_process",)
 COMMON += ("snakemake.cli", "snakemake.dag", "snakemake.profiles", "snakemake.storage", "snakemake.report.html_reporter")
-"""What Snakemake imports for every plan; what the rules import is read from them."""
+"""What Snakemake imports for every plan, and steps as they run; what the rules import is read from them."""
 
 
 def run(folder, arguments, environment, seconds, jobs=None):
@@ -33,52 +39,95 @@ def run(folder, arguments, environment, seconds, jobs=None):
 
     `jobs`: file for the jobs of the graph, see tests/plans_of_snakemake.py.
     """
-    with started(folder, arguments, environment, seconds, jobs) as (_, end):
-        return end()
+    with started(folder, arguments, environment, seconds, jobs) as (process, printed):
+        return process.wait(), printed()
 
 
 @contextmanager
 def started(folder, arguments, environment, seconds, jobs=None):
-    """Of a command that runs: its process id, which is that of a group as well, and a function that waits: see `run`."""
-    server = _server()
-    with tempfile.TemporaryDirectory() as printed:
-        files = [str(Path(printed, name)) for name in ("output", "errors")]
-        order = {"folder": str(folder), "arguments": arguments, "environment": environment, "files": files, "seconds": seconds}
-        order |= {"jobs": jobs and str(jobs)}
-        server.stdin.write(json.dumps(order) + "\n")
-        server.stdin.flush()
-        number = int(server.stdout.readline())
+    """The process of a command, and a function for what it has printed: see `run`."""
+    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors, open(os.devnull) as nothing:
+        streams = [stream.fileno() for stream in (nothing, output, errors)]
+        yield (
+            Process(folder, arguments, environment, streams, seconds, jobs=jobs and str(jobs)),
+            lambda: "".join(os.pread(stream, 2**30, 0).decode() for stream in streams[1:]),
+        )
 
-        def end():
-            return int(server.stdout.readline()), "".join(Path(file).read_text() for file in files)
 
-        yield number, end
+def start_for_call(command, folder, environment, events, seconds=1800):
+    """As `r37.workflow_process.start`."""
+    arguments = command[command.index("snakemake") + 1 :]
+    (reading, stdin), (errors, writing) = os.pipe(), os.pipe()
+    with open(os.devnull, "w") as nothing:
+        streams = [reading, nothing.fileno(), writing, events]
+        process = Process(folder, arguments, environment, streams, seconds, number_in=CALLER)
+    os.close(reading)
+    os.close(writing)
+    process.stdin, process.stderr = os.fdopen(stdin, "wb"), os.fdopen(errors, "rb")
+    return process
+
+
+class Process:
+    """A fork with a command, which leads a group: like subprocess.Popen. It ends before the next one starts.
+
+    `streams`: its standard ones, and one more whose number it finds in the environment as `number_in`.
+    """
+
+    def __init__(self, folder, arguments, environment, streams, seconds, **about):
+        order = {"folder": str(folder), "arguments": arguments, "environment": environment, "seconds": seconds, **about}
+        self._server, self._status = _server(), None
+        order = json.dumps(order).encode()
+        socket.send_fds(self._server, [len(order).to_bytes(4)], streams)
+        self._server.sendall(order)
+        self.pid = self._answer()
+
+    def _answer(self):
+        return int.from_bytes(self._server.recv(4, socket.MSG_WAITALL), signed=True)
+
+    def poll(self):
+        if self._status is None and select.select([self._server], [], [], 0.0)[0]:
+            self._status = self._answer()
+        return self._status
+
+    def wait(self, timeout=None):
+        if self._status is None:
+            if not select.select([self._server], [], [], timeout)[0]:
+                raise subprocess.TimeoutExpired("snakemake", timeout)
+            self._status = self._answer()
+        return self._status
 
 
 @cache
 def _server():
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-    server = subprocess.Popen([sys.executable, "-P", __file__], **pipes)
-    atexit.register(server.communicate)
-    return server
+    ours, theirs = socket.socketpair()
+    with theirs:
+        server = subprocess.Popen([sys.executable, "-P", __file__, str(theirs.fileno())], pass_fds=[theirs.fileno()])
+    atexit.register(lambda: (ours.close(), server.wait()))
+    return ours
 
 
-def _serve():
-    """Answer each line of JSON, an order, with its process, and then with the exit status.
+def _serve(channel):
+    """Answer each order with its process, and then with the exit status.
 
-    Returns in the fork, with its order; None at the end.
+    Returns in the fork, with its order and streams; None at the end.
     """
-    for line in sys.stdin:
+    while True:
+        size, streams, *_ = socket.recv_fds(channel, 4, 8)
+        if not size:
+            return None
+        order = json.loads(channel.recv(int.from_bytes(size), socket.MSG_WAITALL))
         child = os.fork()
         if child == 0:
+            channel.close()
             os.setpgid(0, 0)
-            return json.loads(line)
+            return order, streams
+        for stream in streams:
+            os.close(stream)
         with suppress(PermissionError):
             # whoever comes first
             os.setpgid(child, child)
-        print(child, flush=True)
-        print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
-    return None
+        channel.sendall(child.to_bytes(4))
+        channel.sendall(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]).to_bytes(4, signed=True))
 
 
 def _import_package():
@@ -92,7 +141,7 @@ def _import_package():
                 import_module(name)
 
 
-def _become(order):
+def _become(order, streams):
     """The process that a shell had started with this order."""
     os.chdir(order["folder"])
     os.environ.clear()
@@ -102,13 +151,15 @@ def _become(order):
         for name in [name for name in sys.modules if name.split(".")[0] == "r37core"]:
             del sys.modules[name]
     sys.argv = ["snakemake", *order["arguments"]]
-    for stream, file in zip((sys.stdin, sys.stdout, sys.stderr), (os.devnull, *order["files"]), strict=True):
-        with open(file, stream.mode) as opened:
-            os.dup2(opened.fileno(), stream.fileno())
+    for number, stream in enumerate(streams[:3]):
+        os.dup2(stream, number)
+        os.close(stream)
+    if name := order.get("number_in"):
+        os.environ[name] = str(streams[3])
     if "--dry-run" not in order["arguments"]:
         _fork_job_servers()
     signal.alarm(order["seconds"])
-    if order["jobs"]:
+    if order.get("jobs"):
         _write_jobs(Path(order["jobs"]))
 
 
@@ -132,6 +183,7 @@ def _fork_job_servers():
 
     def start_server():
         channel, process = waiting.pop()
+        # what Snakemake has set since
         channel.send(dict(os.environ))
         return channel, process
 
@@ -190,6 +242,6 @@ if __name__ == "__main__":
     gc.collect()
     # what is there for good costs the forks neither a look nor a copy
     gc.freeze()
-    if ordered := _serve():
-        _become(ordered)
+    if ordered := _serve(socket.socket(fileno=int(sys.argv[1]))):
+        _become(*ordered)
         _end(import_module("snakemake.cli").main)

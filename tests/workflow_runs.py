@@ -8,7 +8,6 @@ import subprocess
 import sys
 import time
 import venv
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 
@@ -37,7 +36,8 @@ def copy_project(root, to):
         to,
         "fidelity.yaml",
         "tiny:\n  mesh: { nodes: 1500, layers: 1, tip_elements: 14 }\n  reduction: { fixed_interface_modes: 8 }\n"
-        "  time_integration: { time_step_s: 2.0e-7, revolutions: 8, speed_step_rad_s: 400 }\n",
+        "  time_integration: { integrator: exact_modal, largest_time_step_s: { lined: 6.4e-6, direct: 6.4e-6 },\n"
+        "    revolutions: 8, speed_step_rad_s: 400 }\n",
     )
 
 
@@ -117,12 +117,12 @@ def snakemake(folder, *arguments, check=True, jobs=None, full_log="1"):
 def kill_snakemake(folder, *arguments, when):
     """Start the command and kill it with its jobs as soon as `when()` holds, if it has not ended before."""
     command = warm_snakemake.started(folder, arguments, _environment(folder), LONGEST)
-    with command as (number, end), ThreadPoolExecutor(1) as pool:
-        ended = pool.submit(end)
-        while not ended.done() and not when():
+    with command as (process, _):
+        while process.poll() is None and not when():
             time.sleep(0.01)
         with suppress(ProcessLookupError):
-            os.killpg(number, signal.SIGKILL)
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
 
 
 def wait_until(happened, seconds, what):

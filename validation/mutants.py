@@ -2,7 +2,8 @@
 
 Run: make mutants [MUTANTS='--each 20 stress/revolutions.py results/']. A folder stands for each of its modules. A mutation
 is an operator, number, comparison or the like changed at one place; it is killed when a test of its module fails. The sample is
-drawn with a fixed seed, so that it can be repeated.
+drawn with a fixed seed, so that it can be repeated. With --tests all tests of a module run on each mutation, and a table tells
+how many each notices, and how many no other one does.
 """
 
 from __future__ import annotations
@@ -10,10 +11,12 @@ from __future__ import annotations
 import argparse
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
 from cosmic_ray.work_db import WorkDB, use_db
@@ -40,7 +43,7 @@ TESTS = {
     "rom/reduced_model.py": "test_rom.py test_time_integration.py",
     "rom/craig_bampton.py": "test_rom.py",
     "config/rotor_section.py": "test_rotor_section.py",
-    "speeds.py": "test_results.py test_config.py",
+    "base/speeds.py": "test_results.py test_config.py",
     "cases/runner.py": "test_cases.py",
     "time_integration/integrators.py": "test_integrators.py test_time_integration.py "
     "test_contact_steps.py test_initial_motion.py",
@@ -49,7 +52,7 @@ TESTS = {
     "time_integration/rotor_numbers.py": "test_rotor_numbers.py test_rotor.py",
     "time_integration/problem.py": "test_run_statistics.py test_time_integration.py",
     "time_integration/speed_run.py": "test_run_statistics.py",
-    "console/leftovers.py": "test_reliability.py",
+    "product/leftovers.py": "test_reliability.py",
     "plans/sweep_plan.py": "test_workflow_plans.py",
     "results/": "test_results.py test_exceedance.py test_interactions.py test_measures.py test_campbell.py "
     "test_elastic_casing.py test_explorer_tables.py test_tolerances.py",
@@ -83,14 +86,17 @@ def modules_of(name: str) -> list[str]:
     return modules
 
 
-def mutants_of(module: str, folder: Path, each: int, seconds: float) -> list[tuple[WorkItem, WorkResult]]:
-    """Draw `each` mutations of a module in the copy `folder` of the project, and run its tests on every one."""
+def mutants_of(module: str, folder: Path, each: int, seconds: float, until: str = "-x") -> list[tuple[WorkItem, WorkResult]]:
+    """Draw `each` mutations of a module in the copy `folder` of the project, and run its tests on every one.
+
+    `until`: pytest's option for where to stop, which without one it does not.
+    """
     session, settings = folder / "mutants.sqlite", folder / "mutants.toml"
     session.unlink(missing_ok=True)
     tests = " ".join(f"tests/{name}" for name in tests_of(module).split())
     settings.write_text(
         f'[cosmic-ray]\nmodule-path = "src/r37core/{module}"\ntimeout = {seconds}\nexcluded-modules = []\n'
-        f"test-command = \"{sys.executable} -m pytest -x -q -p no:cacheprovider -m 'not slow' {tests}\"\n"
+        f"test-command = \"{sys.executable} -m pytest {until} -q --tb=no -p no:cacheprovider -m 'not slow' {tests}\"\n"
         '[cosmic-ray.distributor]\nname = "local"\n'
     )
     environment = os.environ | {"PYTHONPATH": str(folder / "src")}
@@ -122,6 +128,18 @@ def survived(result: WorkResult) -> bool:
     return result.test_outcome == TestOutcome.SURVIVED
 
 
+def notices(results: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
+    """Of each test that notices a mutation: how many it notices, and how many no other one does."""
+    noticed, alone = Counter[str](), Counter[str]()
+    for _, result in (pair for several in results.values() for pair in several):
+        tests = set(re.findall(r"^(?:FAILED|ERROR) tests/(\w+\.py(?:::\w+)*)", result.output or "", re.MULTILINE))
+        noticed.update(tests)
+        alone.update(tests if len(tests) == 1 else ())
+    rows = sorted((-alone[test], -number, test) for test, number in noticed.items())
+    lines = [f"| `{test}` | {-number} | {-only} |" for only, number, test in rows]
+    return "\n".join(["| test | mutations noticed | by no other test |", "|---|---|---|", *lines])
+
+
 def score(results: dict[str, list[tuple[WorkItem, WorkResult]]]) -> str:
     """The score of every module, and the mutations that no test noticed."""
     number = sum(map(len, results.values()))
@@ -151,6 +169,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Whether the tests notice small changes of the code.")
     parser.add_argument("modules", nargs="*", default=list(TESTS), help="modules or folders of src/r37core")
     parser.add_argument("--each", type=int, default=6, help="mutations of each module")
+    parser.add_argument("--tests", action="store_true", help="what each test notices")
     parser.add_argument("--seconds", type=float, default=300.0, help="longest time of one test run")
     chosen = parser.parse_args()
     try:
@@ -165,12 +184,14 @@ def main() -> None:
             (folder / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / file, folder / file, follow_symlinks=False)
         for module in modules:
-            results[module] = mutants_of(module, folder, chosen.each, chosen.seconds)
+            results[module] = mutants_of(module, folder, chosen.each, chosen.seconds, "" if chosen.tests else "-x")
             print(
                 f"{module}: {sum(not survived(result) for _, result in results[module])} of {len(results[module])} killed",
                 flush=True,
             )
     print(score(results))
+    if chosen.tests:
+        print("", notices(results), sep="\n")
 
 
 if __name__ == "__main__":

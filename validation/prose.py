@@ -130,7 +130,8 @@ def large_tables(text):
 _PREPOSITIONS = ("of", "on", "with", "from", "to", "at", "in", "by", "for")
 _PRONOUNS = ("those", "that", "its", "their", "it", "they", "them", "as", "such", "else", "and", "or", "but")
 _PLACES = ("between", "beside", "before", "after", "among", "without", "within", "under")
-_LEANS = {word.capitalize() for word in (*_PREPOSITIONS, *_PRONOUNS, *_PLACES)}
+_QUESTIONS = ("what", "whether", "who")
+_LEANS = {word.capitalize() for word in (*_PREPOSITIONS, *_PRONOUNS, *_PLACES, *_QUESTIONS)}
 """First words of a docstring that has its subject in the line above."""
 
 CONVENTIONAL = {"from_plain", "to_plain", "from_dict", "to_dict"}

@@ -40,16 +40,7 @@ def run_workflow(settings: Settings, folder: Path, targets: Sequence[str], cores
     reading, writing = os.pipe()
     command = [sys.executable, "-P", "-m", "snakemake", *targets, "--cores", str(cores), *_OPTIONS]
     with open(reading, encoding="utf-8") as events:
-        process = subprocess.Popen(
-            command,
-            cwd=folder,
-            env=_environment(writing),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            pass_fds=[writing],
-            start_new_session=True,
-        )
+        process = start(command, folder, _environment(writing), writing)
         os.close(writing)
         try:
             report = _Report(settings)
@@ -61,6 +52,20 @@ def run_workflow(settings: Settings, folder: Path, targets: Sequence[str], cores
             _end(process)
     if status:
         raise report.error(folder)
+
+
+def start(command: Sequence[str], folder: Path, environment: Mapping[str, str], events: int) -> subprocess.Popen[bytes]:
+    """Start the command in a session of its own, with pipes to its input and errors, and the file descriptor `events`."""
+    return subprocess.Popen(
+        command,
+        cwd=folder,
+        env=environment,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        pass_fds=[events],
+        start_new_session=True,
+    )
 
 
 def _environment(events: int) -> dict[str, str]:

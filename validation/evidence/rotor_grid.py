@@ -12,11 +12,11 @@ from published import REFERENCE
 from r37core.contact.ring import RingMode
 from r37core.contact.scene import Rotor, Scene
 from r37core.rom.contact_model import ContactModel, read_contact_model
-from r37core.time_integration.compiled.passage import advance_in_lockstep
+from r37core.time_integration.compiled.engine import advance_in_lockstep
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.rotor_blades import turned
-from r37core.time_integration.rotor_simulation import BladesSimulation
+from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
 
 from .configuration import settings_of
@@ -42,8 +42,8 @@ def rotor_rms(model: ContactModel, scene: Scene, choice: IntegrationChoice, elas
     places = tuple(range(1, BLADES + 1))
     rotor = Rotor(places, ANGLES, (1.0,) * BLADES, (0.0,) * BLADES, True)
     casing = replace(scene.casing, ring=(STIFF,)) if elastic else scene.casing
-    simulation = BladesSimulation(model, SPEED, replace(scene, casing=casing, rotor=rotor), choice)
-    return [rms(part.samples) for part in simulation.run(simulation.start()).blades]
+    run = RotorSimulation(model, SPEED, replace(scene, casing=casing, rotor=rotor), choice).run()
+    return [rms(part.samples) for part in run.records]
 
 
 def lockstep_rms(model: ContactModel, scene: Scene, choice: IntegrationChoice) -> list[float]:
@@ -66,9 +66,9 @@ def grid(input: Any, output: Any, params: Any) -> None:
     found: dict[str, dict[str, list[float]]] = {}
     for words, share in {"shipped step": 1.0, "half the step": 0.5}.items():
         choice = replace(whole, time_step=share * whole.time_step)
-        single = BladesSimulation(model, SPEED, scene, choice)
+        single = Simulation(model, SPEED, scene, choice).run()
         found[words] = {
-            "one blade": [rms(single.run(single.start()).blades[0].samples)],
+            "one blade": [rms(single.records[0].samples)],
             f"{BLADES} blades, one by one": rotor_rms(model, scene, choice),
             f"{BLADES} on one grid of time": lockstep_rms(model, scene, choice),
             f"{BLADES} on one grid, in a stiff ring": rotor_rms(model, scene, choice, elastic=True),

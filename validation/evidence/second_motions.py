@@ -20,7 +20,6 @@ from r37core.results.other_motions import ranking_with_motions, swept
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.second_motions.branches import branch_through, events_of
 from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
-from r37core.second_motions.dwelling import carried_state
 from r37core.second_motions.examining import dwells_of
 from r37core.second_motions.figures import COLOURS, LINES
 from r37core.second_motions.motion_files import SweptStates, dwell_dataset
@@ -156,7 +155,7 @@ def _kinds_of(model: ContactModel, states: SweptStates, scene: Scene, choice: In
         if motion is None:
             continue
         simulation = Simulation(model, float(states.speeds[place]), scene, choice)
-        kind = kind_of_motion(simulation, carried_state(simulation.problem, motion))
+        kind = kind_of_motion(simulation, simulation.start(motion))
         measured.append(kind.kind)
         exponents.append(kind.exponent)
     several = [MotionKind.CHAOTIC], [MotionKind.PERIODIC, MotionKind.MULTIPLE]
@@ -192,7 +191,7 @@ def switching(input: Any, output: Any, params: Any) -> None:
             simulation = Simulation(model, row["speed_rad_s"], grown, replace(choice, time_step=step))
             motion = states[UP].motion(nearest)
             assert motion is not None
-            state = carried_state(simulation.problem, motion)
+            state = simulation.start(motion)
             simulation.advance(state, REVOLUTIONS)
             kind = kind_of_motion(simulation, state)
             exponents.append(f"{kind.exponent:.2f} ± {kind.error:.2f}")
@@ -281,14 +280,14 @@ def again(input: Any, output: Any, params: Any) -> None:
             assert motion is not None
             for way in ways:
                 simulation = Simulation(model, speed, grown, replace(choice, **changes[way]))
-                state = carried_state(simulation.problem, motion)
+                state = simulation.start(motion)
                 normal = simulation.advance(state, REVOLUTIONS).samples[:, 0]
                 cells.append(f"{1e3 * np.sqrt(np.mean(normal[len(normal) // 2 :] ** 2)):.4f}")
         blade = PeriodicBlade.stepped(model, grown, choice, speed)
         simulation = Simulation(model, speed, grown, blade.choice)
         motion = up.motion(at)
         assert motion is not None
-        state = carried_state(simulation.problem, motion)
+        state = simulation.start(motion)
         simulation.advance(state, 10 * REVOLUTIONS)
         kind = kind_of_motion(simulation, state)
         orbit = orbit_after(blade, simulation, state, max(1, round(2 * kind.period)))

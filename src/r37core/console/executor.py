@@ -174,7 +174,7 @@ class _Server:
 
 
 def _about(job: Any) -> SimpleNamespace:
-    """What our scripts know of their job as `snakemake`; Snakemake's own object tries whether it can carry each parameter."""
+    """The job as our scripts know it by the name `snakemake`; Snakemake's own class tries to carry each parameter."""
     from snakemake.iocontainers import InputFiles, Log, OutputFiles, ReportHref
 
     files = {"input": (InputFiles, job.input), "output": (OutputFiles, job.output), "log": (Log, job.log)}

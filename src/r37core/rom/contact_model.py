@@ -74,7 +74,7 @@ class ContactModel:
 
     @property
     def edge_is_known(self) -> bool:
-        """Whether the tip's edge has nodes between the contact nodes."""
+        """True where the tip's edge has nodes between the contact nodes."""
         return len(self.edge.theta) > len(self.theta)
 
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:

@@ -64,7 +64,7 @@ class BoundaryChoice:
 
     @property
     def is_even(self) -> bool:
-        """Whether the contact nodes have equal distances."""
+        """True where the contact nodes have equal distances."""
         return (self.spacing or usual_spacing(self.contact)) == EVEN
 
     def on(self, chord: np.ndarray) -> BoundaryChoice:

@@ -17,6 +17,7 @@ from r37core.time_integration.clearance import check_room
 from r37core.time_integration.integration_choice import IntegrationChoice, revolutions_at_once
 from r37core.time_integration.kept_numbers import energy_balance
 from r37core.time_integration.problem import Problem
+from r37core.time_integration.segments import segments_at
 from r37core.time_integration.simulate import Simulation, rest_state
 from r37core.time_integration.state import Schedule
 
@@ -94,10 +95,11 @@ class RunUpIntegration:
         state, modes = self.state, None
         for interval in self.intervals:
             problem, (distinct_speeds, segment_indices) = self._problem(interval.speed), interval.distinct_speeds
+            constants = segments_at(problem, distinct_speeds)
             # in the memory of the one before
             before = None if self._simulation is None else self._simulation.engine
-            self._simulation = simulation = Simulation.build(problem, distinct_speeds, before)
-            constants, increments = simulation.segments, simulation.segments.increments
+            self._simulation = simulation = Simulation.build(problem, constants, before)
+            increments = constants.increments
             assert increments is not None
             if modes is not None:
                 self._project(problem.blade.modes.T @ modes)
@@ -108,7 +110,7 @@ class RunUpIntegration:
             for part in interval.parts(revolutions_in_call * self.choice.samples_per_revolution):
                 indices, lasting = segment_indices[part], interval.lasting[part]
                 call, first = Schedule(indices, lasting, len(state.displacement)), state.samples
-                record = simulation.follow(state, call)
+                record = simulation.advance_samples(state, int(lasting.sum()), call)
                 lasted = np.diff(np.cumsum(lasting).clip(max=len(record.samples)), prepend=0)
                 reached = np.count_nonzero(lasted)
                 self.velocity = increments.velocity(indices[reached - 1], state.displacement, state.increment)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.motion_kind import KindNumbers, MotionKind, PhaseSpace, kind_of_motion
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.settling import revolution_rms
@@ -59,22 +58,15 @@ class Dwell:
 def dwell(simulation: Simulation, state: SimulationState, revolutions: int) -> Dwell:
     """Go on by so many `revolutions` from a `state`, which is changed."""
     per_revolution, rms = simulation.problem.choice.samples_per_revolution, np.full(revolutions, np.nan)
-    for first in range(0, revolutions, AT_ONCE):
-        count = min(AT_ONCE, revolutions - first)
-        record = simulation.advance(state, count)
+    firsts = range(0, revolutions, AT_ONCE)
+    parts = simulation.parts(state, [min(AT_ONCE, revolutions - first) * per_revolution for first in firsts])
+    for first, record in zip(firsts, parts, strict=False):
         reached = (len(record.samples) - record.diverged) // per_revolution
         motion = record.samples[: reached * per_revolution, LEADING_EDGE]
         rms[first : first + reached] = revolution_rms(motion, per_revolution)
         if record.diverged:
             return Dwell(rms, KindNumbers(MotionKind.UNKNOWN))
     return Dwell(rms, kind_of_motion(simulation, state))
-
-
-def carried_state(problem: Problem, motion: CarriedMotion) -> SimulationState:
-    """The state of a motion at a problem's speed."""
-    state = rest_state(problem)
-    motion.put(problem, state)
-    return state
 
 
 def random_states(problem: Problem, size: float, number: int, seed: int) -> list[SimulationState]:

@@ -12,7 +12,7 @@ from r37core.time_integration.state import SimulationState
 
 from .branches import Bifurcation, branch_through, events_of, lies_on
 from .choice import DOWN, MOTIONS, UP, BranchChoice, DwellChoice
-from .dwelling import HIGH, LOW, RANDOM, Dwell, carried_state, dwell, finish_revolution, random_states
+from .dwelling import HIGH, LOW, RANDOM, Dwell, dwell, finish_revolution, random_states
 from .motion_files import SweptStates, levels_of
 from .periodic import NoOrbitError, Orbit, PeriodicBlade, orbit_after
 from .ranges import MotionLevels
@@ -81,15 +81,15 @@ def begun_as(
     It goes on where the sweep has left the speed at this place. On a lining that is new at each speed it begins as the sweep
     did there, since the motion belongs to the lining that it has worn.
     """
-    problem, kept = simulation.problem, states[motion]
+    kept = states[motion]
     if carried.scene.lining is None or kept.worn:
         ended = kept.motion(place)
-        return None if ended is None else (simulation, carried_state(problem, ended))
+        return None if ended is None else (simulation, simulation.start(ended))
     before = {UP: place - 1, DOWN: place + 1}.get(motion, -1)
     ended = kept.motion(before) if 0 <= before < len(kept.speeds) else None
     if ended is not None:
-        return simulation, carried_state(problem, ended)
-    rising = Simulation(carried.model, problem.speed, carried.rising_scene, carried.unrecorded_choice)
+        return simulation, simulation.start(ended)
+    rising = Simulation(carried.model, simulation.problem.speed, carried.rising_scene, carried.unrecorded_choice)
     return rising, rising.start()
 
 
@@ -121,11 +121,11 @@ def _orbit(carried: CarriedSweep, speed: float, motion: CarriedMotion) -> tuple[
     """The periodic motion that a motion at a speed (rad/s) comes near. Raises NoOrbitError where it does not recur."""
     blade = PeriodicBlade.stepped(carried.model, carried.grown_scene, carried.unrecorded_choice, speed)
     simulation = Simulation(carried.model, speed, blade.scene, blade.choice)
-    state = carried_state(simulation.problem, motion)
+    state = simulation.start(motion)
     recurrence, periods = recurrence_of(simulation, state)
     if recurrence > _NEARLY or not state.totals["steps_in_contact"]:
         raise NoOrbitError("does not recur, or is free")
-    return blade, orbit_after(blade, simulation, carried_state(simulation.problem, motion), periods)
+    return blade, orbit_after(blade, simulation, simulation.start(motion), periods)
 
 
 def _known(branches: list[tuple[list[Orbit], list[Bifurcation]]], speed: float, rms: float) -> bool:

@@ -13,11 +13,11 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
+from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.kept_numbers import whole
-from r37core.time_integration.rotor_simulation import BladesSimulation
 from r37core.time_integration.settling import revolution_rms
-from r37core.time_integration.simulate import LEADING_EDGE
+from r37core.time_integration.simulate import LEADING_EDGE, Simulation
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import numbers_of_run
 from r37core.time_integration.status import RunStatus
@@ -70,7 +70,7 @@ class CarriedSweep:
 
     def run_from_rest(self, speed: float) -> dict[str, np.ndarray]:
         """Numbers of the run at a speed (rad/s) as the sweep of the pipeline has it: from rest, with lobes that grow."""
-        return self._numbers(BladesSimulation(self.model, speed, self.scene, self.choice), None)
+        return self._numbers(Simulation(self.model, speed, self.scene, self.choice).run())
 
     def run_on(self, speed: float, carried: CarriedMotion | None) -> dict[str, np.ndarray]:
         """Numbers of the revolutions at a speed (rad/s) from a motion on, in a casing with full-grown lobes.
@@ -79,11 +79,10 @@ class CarriedSweep:
         """
         if carried is None:
             whole_run = replace(self.carried_choice, revolutions=self.choice.revolutions)
-            before = BladesSimulation(self.model, speed, self.scene, whole_run)
-            states = before.start()
-            if not before.run(states).blades[0].diverged:
-                carried = CarriedMotion.ended(before.problem, states[0], keep_wear=self.sweep.worn)
-        return self._numbers(BladesSimulation(self.model, speed, self.grown_scene, self.carried_choice), carried)
+            before = Simulation(self.model, speed, self.scene, whole_run).run()
+            if before.first_diverged is None:
+                carried = CarriedMotion.ended(before.problem, before.states[0], keep_wear=self.sweep.worn)
+        return self._numbers(Simulation(self.model, speed, self.grown_scene, self.carried_choice).run(carried))
 
     @property
     def grown_scene(self) -> Scene:
@@ -112,17 +111,12 @@ class CarriedSweep:
         """The same, with nothing recorded but the motion."""
         return replace(self.carried_choice, snapshot_revolutions=0, snapshots_per_revolution=0)
 
-    def _numbers(self, simulation: BladesSimulation, start: CarriedMotion | None) -> dict[str, np.ndarray]:
-        states = simulation.start()
-        if start is not None:
-            start.put(simulation.problem, states[0])
-        begun = simulation.energy(states)
-        record = simulation.run(states)
-        numbers = numbers_of_run(simulation, states, record, self.results, begun, stress=self.stress, **self.kept)
-        choice, blade = simulation.problem.choice, record.blades[0]
+    def _numbers(self, run: FinishedRun) -> dict[str, np.ndarray]:
+        numbers = numbers_of_run(run, self.results, stress=self.stress, **self.kept)
+        choice, blade = run.problem.choice, run.records[0]
         samples = whole(blade.samples, choice.revolutions * choice.samples_per_revolution, blade.diverged)
         numbers["revolution_rms"] = revolution_rms(samples[:, LEADING_EDGE], choice.samples_per_revolution)
-        carried = CarriedMotion.ended(simulation.problem, states[0], keep_wear=self.sweep.worn)
+        carried = CarriedMotion.ended(run.problem, run.states[0], keep_wear=self.sweep.worn)
         numbers |= {name: getattr(carried, name) for name in CARRIED}
         if carried.wear is not None:
             numbers[END_WEAR] = carried.wear

@@ -49,8 +49,7 @@ def record_signals(
     tip = np.full((choice.revolutions * per_revolution, len(TIP_POINTS), len(DIRECTIONS)), np.nan)
     strain, contact_force = np.full((len(tip), len(rows)), np.nan), np.full(len(tip), np.nan)
     # one revolution after another: the states of all would be a hundred times as many numbers as the signals
-    for revolution in range(choice.revolutions):
-        record = simulation.advance(state, 1)
+    for revolution, record in enumerate(simulation.parts(state, choice.revolutions * [per_revolution])):
         good = len(record.samples) - (1 if record.diverged else 0)
         reached = slice(revolution * per_revolution, revolution * per_revolution + good)
         tip[reached] = record.samples[:good].reshape(-1, *tip.shape[1:])
@@ -59,7 +58,6 @@ def record_signals(
             contact_force[reached] = _normal_force(simulation, record.snapshots[:good])
         if record.diverged:
             status = RunStatus.DIVERGED
-            break
     recorded = slice(-min(last, choice.revolutions) * per_revolution, None)
     turn = np.arange(1, len(tip) + 1) / per_revolution
     turn = turn[recorded]

@@ -28,7 +28,7 @@ class Strengths:
 
     @property
     def are_known(self) -> bool:
-        """Whether a material has them."""
+        """True where a material has a fatigue strength."""
         return isfinite(self.fatigue_strength)
 
     def share(self, alternating: np.ndarray, mean: np.ndarray) -> np.ndarray:

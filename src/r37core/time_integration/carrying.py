@@ -19,7 +19,7 @@ _LARGEST_TURN = 3.0
 
 
 _KEPT = ("touched", "contact_force", "penetration", "bar_position")
-"""What a motion has as a state has it."""
+"""Fields that a motion and a state have alike."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,32 +1,28 @@
 """Fatigue of a run at one speed: what its file keeps, so that a share of any strengths is read off without another run."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.cycles import StressCycles, largest_cycles, stress_cycles
 from r37core.stress.operator import StressOperator
 
+from .finished_run import FinishedRun
 from .problem import Problem
-from .rotor_simulation import BladesRecord
 
 
-def fatigue_numbers(
-    problems: Sequence[Problem], record: BladesRecord, stress: StressOperator, shown: int
-) -> dict[str, np.ndarray]:
+def fatigue_numbers(run: FinishedRun, stress: StressOperator, shown: int) -> dict[str, np.ndarray]:
     """Alternating and mean stress (Pa) over the revolutions of the statistic; rotation is always in the mean.
 
     `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, the former the largest of
     all revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), and `cycle_counts`, shape (revolutions,): those of all
     blades, see LargestCycles. A diverged run has NaN and no pairs.
     """
-    if record.first_diverged is not None:
+    if run.first_diverged is not None:
         nothing = np.full(stress.operator.shape[1], np.nan, dtype=np.float32)
         cycles = StressCycles(np.empty((0, 0), dtype=np.float32), np.empty(0, dtype=np.float32))
         node_numbers = {"alternating_stress": nothing, "mean_stress": nothing}
     else:
-        blades = [_cycles(problem, part.snapshots, stress) for problem, part in zip(problems, record.blades, strict=True)]
+        blades = [_cycles(problem, part.snapshots, stress) for problem, part in zip(run.problems, run.records, strict=True)]
         node_numbers = {"alternating_stress": blades[shown].alternating.max(axis=0), "mean_stress": blades[shown].mean}
         alternating, mean = ([getattr(blade, name) for blade in blades] for name in ("alternating", "mean"))
         cycles = StressCycles(np.concatenate(alternating, axis=1), np.concatenate(mean))

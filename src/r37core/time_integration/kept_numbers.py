@@ -1,7 +1,5 @@
 """Results kept of a run at one speed: numbers of its samples, snapshots and wear, as its file has them."""
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.fft import rfft  # NumPy imports it when it is used, which would be in each of a server's jobs
 
@@ -13,6 +11,7 @@ from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator
 from r37core.stress.revolutions import largest_of_revolutions
 
+from .finished_run import FinishedRun
 from .problem import Problem
 from .simulate import LEADING_EDGE
 from .state import SimulationRecord
@@ -82,18 +81,13 @@ def snapshot_numbers(
     }
 
 
-def stress_histories(
-    problems: Sequence[Problem],
-    records: Sequence[SimulationRecord],
-    factors: Sequence[float],
-    stress: StressOperator,
-    static_stress: bool,
-) -> np.ndarray:
+def stress_histories(run: FinishedRun, stress: StressOperator, static_stress: bool) -> np.ndarray:
     """Largest stress (Pa) of each blade in each revolution of the statistic, shape (blades, revolutions); NaN where it ended.
 
-    `factors`: of the blades' frequencies. Blades with as many stepped modes are looked at together: their modes have the same
-    shapes, and what follows a force at once is in proportion to the flexibility, 1/factor^2.
+    Blades with as many stepped modes are looked at together: their modes have the same shapes, and what follows a force at once
+    is in proportion to the flexibility, 1/factor^2 for a factor of the frequencies.
     """
+    problems, records, factors = run.problems, run.records, run.frequency_factors
     choice, per_revolution = problems[0].choice, problems[0].choice.snapshots_per_revolution
     model, speed = problems[0].model, problems[0].speed
     rotation = rotation_amplitudes(model.rotation_stiffening, speed) if static_stress else np.empty(0)

@@ -98,14 +98,13 @@ def kind_of_motion(simulation: Simulation, state: SimulationState) -> KindNumber
     per_revolution = simulation.problem.choice.samples_per_revolution / samples
     periods, aligning = round(COUNTED * per_revolution), round(_ALIGNING * per_revolution)
     start, contact = space.coordinates(state), 0.0
-    size = max(float(np.linalg.norm(start)), np.finfo(float).tiny)
+    size = _size(start)
     twin, beside = copy.deepcopy(state), np.random.default_rng(_SEED).normal(size=len(start))
     space.put(start + _DISTANCE * size / np.linalg.norm(beside) * beside, twin)
     states, growths = [start], []
-    for number in range(aligning + periods):
-        if number == aligning:
-            contact = float(state.totals["steps_in_contact"])
-        if simulation.advance_samples(state, samples).diverged or simulation.advance_samples(twin, samples).diverged:
+    parts = (simulation.parts(each, (aligning + periods) * [samples]) for each in (state, twin))
+    for number, (own, other) in enumerate(zip(*parts, strict=False)):
+        if own.diverged or other.diverged:
             return KindNumbers(MotionKind.UNKNOWN)
         here = space.coordinates(state)
         apart = space.coordinates(twin) - here
@@ -114,6 +113,8 @@ def kind_of_motion(simulation: Simulation, state: SimulationState) -> KindNumber
         _bring_back(twin, state, growth)
         states.append(here)
         growths.append(np.log(growth))
+        if number < aligning:
+            contact = float(state.totals["steps_in_contact"])
     batches = np.array([part.mean() for part in np.array_split(np.array(growths[aligning:]), _BATCHES)]) * per_revolution
     exponent, error = float(batches.mean()), float(batches.std(ddof=1) / np.sqrt(_BATCHES))
     recurrence, period = _recurrence(np.array(states), size)
@@ -129,17 +130,22 @@ def recurrence_of(simulation: Simulation, state: SimulationState) -> tuple[float
     """
     space, samples = PhaseSpace(simulation.problem), samples_of_period(simulation.problem)
     states = [space.coordinates(state)]
-    for _ in range(2 * MOST_PERIODS):
-        if simulation.advance_samples(state, samples).diverged:
+    for part in simulation.parts(state, 2 * MOST_PERIODS * [samples]):
+        if part.diverged:
             return np.inf, 1
         states.append(space.coordinates(state))
-    return _recurrence(np.array(states), max(float(np.linalg.norm(states[-1])), np.finfo(float).tiny))
+    return _recurrence(np.array(states), _size(states[-1]))
 
 
-def kind_numbers(simulation: Simulation, state: SimulationState, *, diverged: bool) -> dict[str, np.ndarray]:
+def kind_numbers(problem: Problem, state: SimulationState, *, diverged: bool) -> dict[str, np.ndarray]:
     """Numbers of the kind of the motion after a run, as its file has them; unknown of one that has `diverged`."""
-    motion = KindNumbers(MotionKind.UNKNOWN) if diverged else kind_of_motion(simulation, state)
+    motion = KindNumbers(MotionKind.UNKNOWN) if diverged else kind_of_motion(Simulation.build(problem), state)
     return {name: np.array(value) for name, value in motion.values.items()}
+
+
+def _size(coordinates: np.ndarray) -> float:
+    """Size of a state, above 0."""
+    return max(float(np.linalg.norm(coordinates)), np.finfo(float).tiny)
 
 
 def _bring_back(twin: SimulationState, state: SimulationState, growth: float) -> None:

@@ -1,56 +1,79 @@
 """Numbers of each blade of a rotor, beside those of all its blades together."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.fft import rfft
 
 from r37core.contact.scene import Rotor
 
+from .finished_run import FinishedRun
 from .kept_numbers import KEPT
-from .rotor_simulation import BladesRecord, BladesSimulation
 
 MOST_GROWTH = 200
 """Spans of revolutions whose largest motion and stress are kept of each blade: a file stays small with many blades."""
 
 
-def rotor_numbers(
-    simulation: BladesSimulation, record: BladesRecord, samples: list[np.ndarray], totals: np.ndarray
-) -> dict[str, np.ndarray]:
-    """Numbers of each blade, shape (blades,) first, of the motion of its leading edge, normal and tangential together (KEPT).
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RotorRun(FinishedRun):
+    """A run of a `rotor` that is done, and where the samples of its blades lie in time.
 
-    `samples` (m): displacement of each blade, shape (samples, 2, 3); `totals`, shape (blades,): see TOTALS.
-
-    `blade_number`, `blade_angle` (rad), `blade_frequency_factor`, `blade_longer` (m), `blade_rms` and `blade_peak` (m) over the
-    last half, `blade_maximum` (m), shape (blades, spans), in spans of `span_revolutions` each, `blade_contact`, share of the
-    time, and `blade_worn` (m3), of the lining. `leader`: number of the blade with the largest motion; of a diverged run, of the
-    one that diverged first. `nodal_diameter` and `nodal_diameter_share`: see nodal_diameters.
+    `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m3), shape
+    (blades,): what each has worn off the lining.
     """
-    rotor, choice = simulation.rotor, simulation.problem.choice
-    assert rotor is not None
-    half = np.array([part[choice.revolutions // 2 * choice.samples_per_revolution :, 0, KEPT] for part in samples])
-    motion = np.array([np.linalg.norm(part[:, 0, KEPT], axis=-1) for part in samples])
-    maxima = motion.reshape(len(motion), choice.revolutions, -1).max(axis=2)
-    rms = np.sqrt(np.mean(np.linalg.norm(half, axis=-1) ** 2, axis=1))
-    growth, span = span_maxima(maxima)
-    return {
-        "blade_number": np.array(rotor.numbers),
-        "blade_angle": np.array(rotor.angles),
-        "blade_frequency_factor": np.array(rotor.frequency_factors),
-        "blade_longer": np.array(rotor.longer),
-        "blade_rms": rms,
-        "blade_peak": maxima[:, choice.revolutions // 2 :].max(axis=1),
-        "blade_maximum": growth,
-        "blade_contact": totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0),
-        "blade_worn": record.worn,
-        "span_revolutions": np.array(span),
-        "leader": np.array(rotor.numbers[int(rms.argmax()) if record.first_diverged is None else record.first_diverged]),
-        **nodal_diameters(half, record.late, rotor),
-    }
+
+    rotor: Rotor
+    late: np.ndarray
+    worn: np.ndarray
+
+    def leader(self, statistic: Sequence[np.ndarray]) -> int:
+        """Place of the blade with the largest motion in the statistic; of a diverged run, of the one that diverged first."""
+        return int(_rms(statistic).argmax()) if self.first_diverged is None else self.first_diverged
+
+    def numbers_of_each(self, samples: Sequence[np.ndarray], history: np.ndarray | None) -> dict[str, np.ndarray]:
+        """Numbers of each blade, shape (blades,) first, of the motion of its leading edge, normal and tangential (KEPT).
+
+        `samples` (m): displacement of each blade, shape (samples, 2, 3). `history` (Pa): largest stress, shape (blades,
+        revolutions), None where it is not known.
+
+        `blade_number`, `blade_angle` (rad), `blade_frequency_factor`, `blade_longer` (m), `blade_rms` and `blade_peak` (m) over
+        the last half, `blade_maximum` (m), shape (blades, spans), in spans of `span_revolutions` each, `blade_contact`, share
+        of the time, and `blade_worn` (m3), of the lining. `leader`: number of the blade that leads. `nodal_diameter` and
+        `nodal_diameter_share`: see nodal_diameters. `blade_max_von_mises` (Pa): of the last revolution, `blade_von_mises`: in
+        spans of `stress_span_revolutions`.
+        """
+        rotor, choice = self.rotor, self.problem.choice
+        totals = np.array([state.totals for state in self.states])
+        half = [part[choice.revolutions // 2 * choice.samples_per_revolution :] for part in samples]
+        motion = np.array([np.linalg.norm(part[:, 0, KEPT], axis=-1) for part in samples])
+        maxima = motion.reshape(len(motion), choice.revolutions, -1).max(axis=2)
+        growth, span = span_maxima(maxima)
+        numbers = {
+            "blade_number": np.array(rotor.numbers),
+            "blade_angle": np.array(rotor.angles),
+            "blade_frequency_factor": np.array(rotor.frequency_factors),
+            "blade_longer": np.array(rotor.longer),
+            "blade_rms": _rms(half),
+            "blade_peak": maxima[:, choice.revolutions // 2 :].max(axis=1),
+            "blade_maximum": growth,
+            "blade_contact": totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0),
+            "blade_worn": self.worn,
+            "span_revolutions": np.array(span),
+            "leader": np.array(rotor.numbers[self.leader(half)]),
+            **nodal_diameters(np.array([part[:, 0, KEPT] for part in half]), self.late, rotor),
+        }
+        if history is not None:
+            stresses, span = span_maxima(history)
+            numbers |= {"blade_max_von_mises": history[:, -1], "blade_von_mises": stresses}
+            numbers["stress_span_revolutions"] = np.array(span)
+        return numbers
 
 
-def stress_of_blades(history: np.ndarray) -> dict[str, np.ndarray]:
-    """Largest stress of each blade in the last revolution and in spans; `history` (Pa), shape (blades, revolutions)."""
-    blade_maxima, span = span_maxima(history)
-    return {"blade_max_von_mises": history[:, -1], "blade_von_mises": blade_maxima, "stress_span_revolutions": np.array(span)}
+def _rms(samples: Sequence[np.ndarray]) -> np.ndarray:
+    """Rms (m) of the leading edge's motion of each blade, normal and tangential together, shape (blades,)."""
+    motion = np.array([part[:, 0, KEPT] for part in samples])
+    return np.sqrt(np.mean(np.linalg.norm(motion, axis=-1) ** 2, axis=1))
 
 
 def span_maxima(values: np.ndarray) -> tuple[np.ndarray, int]:

@@ -4,12 +4,12 @@ Both are read off windows of revolutions: a run's last one, and the one before i
 """
 
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import Any
 
 import numpy as np
 
 from .integration_choice import IntegrationChoice
+from .status import Outcome
 
 WINDOW = 50
 """Revolutions of a window, fewer in runs that have less than four of them."""
@@ -30,7 +30,7 @@ DECAYED = 0.1
 """Share of the largest rms of a revolution below which the motion at the end is over."""
 
 
-class MotionAtEnd(IntEnum):
+class MotionAtEnd(Outcome):
     """State of the motion at the end of a run, the worst last; see motion_at_end.
 
     `UNKNOWN`: of a run that diverged, and of a speed that was not run.
@@ -41,11 +41,6 @@ class MotionAtEnd(IntEnum):
     LASTING = 2
     GROWING = 3
     UNKNOWN = 4
-
-    @property
-    def text(self) -> str:
-        """State as the datasets and tables have it."""
-        return self.name.lower()
 
 
 @dataclass(frozen=True)
@@ -76,7 +71,7 @@ def revolution_rms(motion: np.ndarray, per_revolution: int) -> np.ndarray:
 
 
 def has_settled(rms: np.ndarray, window: int, wear_growth: float, risen: float) -> bool:
-    """Whether the last window of a run brought no wear and no change of the motion.
+    """True where the last window of a run brought no wear and no change of the motion.
 
     That is: no bar wore by more than NO_WEAR, and the rms of the last window differs from that of the window before by less
     than SAME of the larger one, or than SAME_OF_LARGEST of the largest of all windows. `rms` (m) of each revolution, shape

@@ -1,7 +1,9 @@
-"""Simulation of a blade at one speed in one scene."""
+"""Simulation of one blade at one speed in one scene."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,12 +11,15 @@ import numpy as np
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 
+from .carrying import CarriedMotion
 from .compiled.engine import CompiledEngine
+from .finished_run import FinishedRun
 from .initial_motion import InitialMotion
-from .integration_choice import IntegrationChoice, revolutions_at_once
+from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
 from .reference.engine import ReferenceEngine
-from .segments import own_segment, segments_at
+from .segments import Segments, own_segment
+from .settling import Ending, has_settled, parts_of_run, revolution_rms, wear_of
 from .state import Schedule, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
@@ -34,25 +39,25 @@ class Simulation:
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         if scene.rotor is not None:
-            raise ValueError("a scene with a rotor: see BladesSimulation")
+            raise ValueError("a scene with a rotor: see RotorSimulation")
         self._take(stable_problem(model, speed, scene, choice))
 
     @classmethod
-    def build(cls, problem: Problem, speeds: np.ndarray | None = None, before: Any = None, beside: Any = None) -> Simulation:
-        """Simulation of a problem; with `speeds` (rad/s), shape (speeds,), its engine goes at these in the problem's modes.
+    def build(cls, problem: Problem, segments: Segments | None = None, before: Any = None, beside: Any = None) -> Simulation:
+        """Simulation of a problem, in the `segments` of several speeds if they are given.
 
-        `before`, `beside`: engines of the same scene and choice, see CompiledEngine.
+        `before`, `beside`: engines of the same scene and choice, see LaidOutProblem.
         """
         simulation = cls.__new__(cls)
-        simulation._take(problem, speeds, before, beside)
+        simulation._take(problem, segments, before, beside)
         return simulation
 
-    def _take(self, problem: Problem, speeds: np.ndarray | None = None, before: Any = None, beside: Any = None) -> None:
-        self.problem, self.segments = problem, own_segment(problem) if speeds is None else segments_at(problem, speeds)
+    def _take(self, problem: Problem, segments: Segments | None = None, before: Any = None, beside: Any = None) -> None:
+        self.problem = problem
         # of one choice, so of one class
-        self.engine: Any = _ENGINES[problem.choice.engine](problem, self.segments, before, beside)
+        self.engine: Any = _ENGINES[problem.choice.engine](problem, segments or own_segment(problem), before, beside)
 
-    def start(self, motion: InitialMotion | None = None) -> SimulationState:
+    def start(self, motion: InitialMotion | CarriedMotion | None = None) -> SimulationState:
         """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
 
         Raises what InitialMotion.put raises.
@@ -62,61 +67,91 @@ class Simulation:
             motion.put(self.problem, state)
         return state
 
+    def run(self, motion: InitialMotion | CarriedMotion | None = None) -> FinishedRun:
+        """The run of the choice from the start on, which ends as it has settled where that is chosen; see has_settled.
+
+        Snapshots are those of the last `snapshot_revolutions`. Raises what InitialMotion.put raises.
+        """
+        problem, choice, state = self.problem, self.problem.choice, self.start(motion)
+        per_revolution, energy = choice.samples_per_revolution, self.energy(state)
+        risen = problem.casing.rise_time / (problem.grid.steps_per_revolution * problem.grid.time_step)
+        parts, out = parts_of_run(choice), self.room(0, choice.revolutions * per_revolution)
+        done, settled, growth, steps, rms = 0, False, 0.0, 0.0, np.empty(0)
+        wear, contact = wear_of(state).copy(), float(state.totals["steps_in_contact"])
+        for part in self.parts(state, [count * per_revolution for count in parts], out):
+            done += len(part.samples)
+            growth, steps = float(np.max(wear_of(state) - wear)), float(state.totals["steps_in_contact"]) - contact
+            wear, contact = wear_of(state).copy(), contact + steps
+            if choice.until_settled and not part.diverged:
+                rms = np.concatenate([rms, revolution_rms(part.samples[:, LEADING_EDGE], per_revolution)])
+                settled = has_settled(rms, parts[-1], growth, risen)
+            if settled:
+                break
+        record = self.recorded(0, out, done)
+        if choice.until_settled:
+            instants = choice.snapshots_per_revolution * choice.snapshot_revolutions
+            record = replace(record, snapshots=record.snapshots[max(len(record.snapshots) - instants, 0) :])
+        return FinishedRun(
+            problems=[problem],
+            states=[state],
+            records=[record],
+            ending=Ending(state.samples // per_revolution, settled, growth, steps),
+            initial_energy=energy,
+            energy_change=self.energy(state) - energy,
+            contact_work=self.work(state),
+        )
+
+    def parts(
+        self, state: SimulationState, samples: Iterable[int], out: SimulationRecord | None = None
+    ) -> Iterator[SimulationRecord]:
+        """Go on by these numbers of samples one after another from `state`, which is changed, until a part diverges.
+
+        Yields the record of each; with `out`, the room for all of them, they lie there one after another.
+        """
+        first, grid = state.samples, self.problem.grid
+        for count in samples:
+            done, room = state.samples - first, None
+            if out is not None:
+                snapshots = slice(*(len(grid.snapshots_between(first, first + end)) for end in (done, done + count)))
+                room = SimulationRecord(out.samples[done : done + count], out.snapshots[snapshots])
+            record = self.advance_samples(state, count, room=room)
+            yield record
+            if record.diverged:
+                return
+
     def advance(self, state: SimulationState, revolutions: int) -> SimulationRecord:
         """Go on by `revolutions` from `state`, which is changed."""
         return self.advance_samples(state, revolutions * self.problem.choice.samples_per_revolution)
 
-    def advance_samples(self, state: SimulationState, samples: int) -> SimulationRecord:
-        """Go on by a number of samples from `state`, which is changed."""
-        first = state.samples
-        out = self.room(first, samples)
-        return self.recorded(first, out, self.fill(state, out, first, samples))
+    def advance_samples(
+        self, state: SimulationState, samples: int, schedule: Schedule | None = None, room: SimulationRecord | None = None
+    ) -> SimulationRecord:
+        """Go on by a number of samples from `state`, which is changed: at one speed, or in the segments of a `schedule`.
 
-    def fill(self, state: SimulationState, out: SimulationRecord, first: int, samples: int) -> int:
-        """Go on by a number of samples from `state`, which is changed, in the room `out` for those after the run's `first`.
-
-        Returns the samples done: fewer when an output passes the limit or is NaN.
+        Fewer are done where an output passes the limit or is NaN. `room`: for what the engine leaves behind, if there is some.
         """
-        begun, done, reached, per_revolution = state.samples, 0, True, self.problem.choice.samples_per_revolution
-        samples_at_once = revolutions_at_once(self.problem.grid.steps_per_revolution) * per_revolution
-        while done < samples and reached:
-            part, row = min(samples - done, samples_at_once - (begun + done) % per_revolution), begun + done - first
-            snapshots = slice(self._snapshots(first, row), self._snapshots(first, row + part))
-            rows = SimulationRecord(out.samples[row : row + part], out.snapshots[snapshots])
-            state.samples = begun + done
-            advanced = self.engine.advance(state, rows, Schedule([0], [part], len(state.displacement)))
-            done, reached = done + advanced, advanced == part
-        state.samples = begun + samples
-        return done
-
-    def follow(self, state: SimulationState, schedule: Schedule) -> SimulationRecord:
-        """Go on in the constant-speed segments of a schedule from `state`, which is changed."""
         first = state.samples
-        out = self.room(first, int(schedule.samples.sum()))
+        out = room or self.room(first, samples)
         done = self.engine.advance(state, out, schedule)
-        state.samples = first + len(out.samples)
+        state.samples = first + samples
         return self.recorded(first, out, done)
 
     def room(self, first: int, samples: int) -> SimulationRecord:
         """Room for what an engine leaves behind in so many samples after the `first`."""
         outputs, numbers = self.problem.contact.output_operator.shape
-        return SimulationRecord(np.empty((samples, outputs)), np.empty((self._snapshots(first, samples), numbers)))
+        snapshots = len(self.problem.grid.snapshots_between(first, first + samples))
+        return SimulationRecord(np.empty((samples, outputs)), np.empty((snapshots, numbers)))
 
     def recorded(self, first: int, out: SimulationRecord, done: int) -> SimulationRecord:
         """Record of what an engine has left in the room `out` when it has `done` so many samples."""
         tip_outputs = len(TIP_POINTS) * len(DIRECTIONS)
         casing = None if self.problem.casing.ring is None else out.samples[:done, tip_outputs:]
-        return SimulationRecord(
-            out.samples[:done, :tip_outputs], out.snapshots[: self._snapshots(first, done)], self.diverged(out, done), casing
-        )
+        snapshots = out.snapshots[: len(self.problem.grid.snapshots_between(first, first + done))]
+        return SimulationRecord(out.samples[:done, :tip_outputs], snapshots, self.diverged(out, done), casing)
 
     def diverged(self, out: SimulationRecord, done: int) -> bool:
         """True where the last of `done` samples is beyond the limit, or is NaN."""
         return done > 0 and not np.abs(out.samples[done - 1]).max() < self.problem.scene.divergence_limit
-
-    def _snapshots(self, first: int, samples: int) -> int:
-        """Number of snapshots in so many samples after the `first`."""
-        return self.problem.grid.snapshots_after(first + samples) - self.problem.grid.snapshots_after(first)
 
     def energy(self, state: SimulationState) -> float:
         """Energy (J) of the vibration, that of the static modes in it; see Recursion."""

@@ -15,9 +15,8 @@ from r37core.stress.operator import read_stress_operator
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .problem import Problem
-from .rotor_simulation import BladesSimulation
 from .speed_file import write_speed
-from .speed_run import run_speed
+from .speed_run import run_speed, simulation_of
 
 _Model = TypeVar("_Model")
 _READY = set[tuple[str, str]]()
@@ -69,7 +68,7 @@ def make_ready(input: Any, params: Any) -> None:
 
 def prepared(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
     """The problem of a simulation, of a rotor's first blade, with its program compiled. Raises what Problem raises."""
-    return BladesSimulation(model, speed, scene, choice).problem
+    return simulation_of(model, speed, scene, choice).problem
 
 
 def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:

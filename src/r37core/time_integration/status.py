@@ -3,20 +3,24 @@
 from enum import IntEnum
 
 
-class RunStatus(IntEnum):
+class Outcome(IntEnum):
+    """An outcome of a run, a number in its file."""
+
+    @property
+    def text(self) -> str:
+        """Outcome as the datasets and tables have it."""
+        return self.name.lower()
+
+
+class RunStatus(Outcome):
     """`NOT_RUN`: a speed that this blade and scene was not asked for, in a dataset where another one was."""
 
     COMPLETED = 0
     DIVERGED = 1
     NOT_RUN = 2
 
-    @property
-    def text(self) -> str:
-        """Status as the datasets and tables have it."""
-        return self.name.lower()
 
-
-class MotionKind(IntEnum):
+class MotionKind(Outcome):
     """Kind of a motion.
 
     `FREE`: without contact; `PERIODIC`: with the period of the casing; `MULTIPLE`: with several of them; `QUASI_PERIODIC`:
@@ -31,8 +35,3 @@ class MotionKind(IntEnum):
     CHAOTIC = 4
     CONVERGING = 5
     UNKNOWN = 6
-
-    @property
-    def text(self) -> str:
-        """Kind as the datasets and tables have it."""
-        return self.name.lower()

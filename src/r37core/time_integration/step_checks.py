@@ -11,41 +11,48 @@ from .step_limit import UnstableStepError, largest_pressed_ratio, ratio_of_press
 
 def check_step(contact: ContactOperators) -> None:
     """Raises UnstableStepError unless the run's step is below its limits, of the free blade and of the pressed one."""
-    choice, step = contact.blade.grid.choice, contact.blade.grid.time_step
-    taken = f"time_step_s: {choice.time_step:g} s gives steps of {step:.6g} s, not below the"
-    if choice.integrator == CENTRAL_DIFFERENCE:
-        _check_published_step(contact, taken)
+    if contact.blade.grid.choice.integrator == CENTRAL_DIFFERENCE:
+        _check_free_blade(contact)
+        if contact.blade.scene.lining is not None:
+            stiffest, remedy = contact.casing.lining_stiffness.max(), ", or a softer, thicker or narrower lining"
+            _check(contact, predicted_ratio(contact), "this lining", f" (up to {stiffest:.4g} N/m at a contact node)", remedy)
         return
-    ratio = pressed_ratio(contact) / largest_pressed_ratio(contact.blade.scene)
-    if not ratio < 1.0:
-        limit = step / np.sqrt(ratio)
-        raise UnstableStepError(
-            f"{taken} limit for nodes pressed on the casing, about {limit:.6g} s; use a smaller one", float(limit)
-        )
+    _check(contact, pressed_ratio(contact) / largest_pressed_ratio(contact.blade.scene), "nodes pressed on the casing")
 
 
-def _check_published_step(contact: ContactOperators, taken: str) -> None:
-    highest = contact.highest_frequency
+def check_rotor_step(contacts: Sequence[ContactOperators]) -> None:
+    """Raises UnstableStepError unless the step is below the limit of all blades that press one elastic casing at once."""
+    if len(contacts) > 1:
+        ratio = pressed_ratio_of_rotor(contacts) / largest_pressed_ratio(contacts[0].blade.scene)
+        _check(contacts[0], ratio, f"{len(contacts)} blades pressed on one elastic casing")
+
+
+def _check_free_blade(contact: ContactOperators) -> None:
+    highest, grid = contact.highest_frequency, contact.blade.grid
     limit = 2.0 / highest
     what, remedy = "this reduced model", "raise basis_tolerance to drop the highest modes"
     if highest > contact.blade.frequencies[-1]:
         what, remedy = "this casing", "leave its highest modes out"
-    if not contact.blade.grid.time_step < limit:
+    if not grid.time_step < limit:
         raise UnstableStepError(
-            f"{taken} stability limit of {what}, {limit:.6g} s (highest mode {highest / 2e3 / np.pi:.1f} kHz); "
+            f"{_taken(contact)} stability limit of {what}, {limit:.6g} s (highest mode {highest / 2e3 / np.pi:.1f} kHz); "
             f"use a smaller one, {remedy}, or take the integrator exact_modal",
             limit,
         )
-    if contact.blade.scene.lining is None:
-        return
-    ratio = predicted_ratio(contact)
+
+
+def _check(contact: ContactOperators, ratio: float, what: str, detail: str = "", remedy: str = "") -> None:
+    """UnstableStepError unless the `ratio` of the step to its limit, which grows with its square, is below 1."""
     if not ratio < 1.0:
-        limit = contact.blade.grid.time_step / np.sqrt(ratio)
+        limit = float(contact.blade.grid.time_step / np.sqrt(ratio))
         raise UnstableStepError(
-            f"{taken} limit for this lining, about {limit:.6g} s (up to {contact.casing.lining_stiffness.max():.4g} N/m at a "
-            "contact node); use a smaller one, or a softer, thicker or narrower lining",
-            limit,
+            f"{_taken(contact)} limit for {what}, about {limit:.6g} s{detail}; use a smaller one{remedy}", limit
         )
+
+
+def _taken(contact: ContactOperators) -> str:
+    grid = contact.blade.grid
+    return f"time_step_s: {grid.choice.time_step:g} s gives steps of {grid.time_step:.6g} s, not below the"
 
 
 def predicted_ratio(contact: ContactOperators) -> float:
@@ -70,19 +77,6 @@ def pressed_ratio(contact: ContactOperators) -> float:
         normal = np.hstack([contact.complex_operator[0].real, contact.complex_operator[0].imag])
         stepping = Recursion(*(np.tile(part, 2) for part in (stepping.keep, stepping.pull, stepping.inverse, stepping.lost)))
     return ratio_of_pressed_nodes(stepping, normal, flexibility)
-
-
-def check_rotor_step(contacts: Sequence[ContactOperators]) -> None:
-    """Raises UnstableStepError unless the step is below the limit of all blades that press one elastic casing at once."""
-    choice, step = contacts[0].blade.grid.choice, contacts[0].blade.grid.time_step
-    ratio = pressed_ratio_of_rotor(contacts) / largest_pressed_ratio(contacts[0].blade.scene)
-    if len(contacts) > 1 and not ratio < 1.0:
-        limit = step / np.sqrt(ratio)
-        raise UnstableStepError(
-            f"time_step_s: {choice.time_step:g} s gives steps of {step:.6g} s, not below the limit for {len(contacts)} blades "
-            f"pressed on one elastic casing, about {limit:.6g} s; use a smaller one",
-            float(limit),
-        )
 
 
 def pressed_ratio_of_rotor(contacts: Sequence[ContactOperators]) -> float:

@@ -82,7 +82,7 @@ class SteppedBlade:
 
     @cached_property
     def settles_at_once(self) -> bool:
-        """Whether the contact nodes get their forces at once, the same at all speeds; see static_modes."""
+        """True where the contact nodes get their forces at once, the same at all speeds; see static_modes."""
         if not self.grid.choice.second_order:
             return True
         frequencies, rows = self._rest_modes

@@ -35,7 +35,7 @@ def measure_edge(m, place, lobes):
 
 @inlined
 def _near_the_casing(m):
-    """Whether a contact node is so far into the lining that the edge may pass the casing; without a lining all are."""
+    """True where a contact node is so far into the lining that the edge may pass the casing; without a lining it is."""
     if LINED:
         near = 0
         for g in range(0, node_lanes(m), LANES):

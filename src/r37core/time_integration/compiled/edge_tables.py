@@ -1,17 +1,11 @@
 """Tables of the tip's edge, as edge_steps reads them by their addresses."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from r37core.machine_code.alignment import LANES, aligned_zeros, padded
 
 from ..problem import Problem
-
-if TYPE_CHECKING:
-    from .engine import CompiledEngine
+from .layout import Kind
 
 FEW = 16
 """Nodes that every step with contact forces looks at: by a cosine along the edge, as the ends are where it goes deepest."""
@@ -21,26 +15,29 @@ DEEPER = 0.1
 
 
 class EdgeTables:
-    """Tables of the edge of a `problem` for the record of an `engine`: a few nodes come first, then all, in groups."""
+    """Tables of the edge of a `problem`, for a program of this `kind`: a few nodes come first, then all, in groups.
 
-    def __init__(self, problem: Problem, engine: CompiledEngine):
+    `modes`: lanes of them, of which those of the problem's are the `mode_columns`.
+    """
+
+    def __init__(self, problem: Problem, kind: Kind, modes: int, mode_columns: np.ndarray | slice):
         edge, capacity_nodes = problem.edge, padded(len(problem.casing.tip.radius))
         nodes = len(edge.casing.tip.radius)
         few = np.rint((nodes - 1) * (0.5 - 0.5 * np.cos(np.pi * np.arange(FEW) / (FEW - 1)))).astype(int)
         # of a short edge the few are all
         order = np.concatenate([few if nodes > 2 * FEW else few[:0], np.arange(nodes)])
         lanes = padded(len(order))
-        self._groups, modes = lanes // LANES, engine.mode_lanes
+        self._groups = lanes // LANES
         self._few = FEW // LANES if nodes > 2 * FEW else self._groups
         operators = [edge.motion.displacement_operator]
-        if engine.kind.coriolis:
+        if kind.coriolis:
             operators.append(edge.motion.increment_operator)
-        directions = slice(None) if engine.kind.exact_gap else slice(1)
+        directions = slice(None) if kind.exact_gap else slice(1)
         self._width = len(operators) * modes
         self.rows = aligned_zeros((len(operators[0][directions]), self._groups, self._width, LANES))
         for number, operator in enumerate(operators):
             columns = np.zeros((*operator[directions, order].shape[:2], modes))
-            columns[..., engine.mode_columns] = operator[directions, order]
+            columns[..., mode_columns] = operator[directions, order]
             for direction, values in enumerate(columns):
                 self.rows[direction, :, number * modes : (number + 1) * modes] = _grouped(values, lanes)
         self.flexibility = aligned_zeros((self._groups, 3 * capacity_nodes, LANES))

@@ -1,29 +1,22 @@
-"""The compiled engine: it loads the program and lays a problem out for it. Light: simulation jobs never import numba."""
+"""The compiled engine: runs of laid-out problems by their program. Light: simulation jobs never import numba."""
 
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
-from functools import cache, cached_property
-from typing import Any
+from collections.abc import Callable, Sequence
+from functools import cache
 
 import numpy as np
 
-from r37core.contact.casing import rise_rate
-from r37core.contact.ring import RingMotion
-from r37core.contact.scene import Friction, Lining
-from r37core.machine_code.alignment import LANES, aligned_copy, aligned_zeros, padded
 from r37core.machine_code.native import Sources, cached_object, load_function
 
-from ..integrators import CENTRAL_DIFFERENCE
-from ..jump_numbers import NEVER
-from ..jump_plan import jump_lengths, nearest_casing
+from ..integration_choice import revolutions_at_once
+from ..jump_numbers import LOSS_DD, LOSS_UD, LOSS_UU
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
-from .edge_tables import EdgeTables
-from .layout import LINING, NORMAL, Capacity, Kind, capacity_of, constants_record, integration_record
-from .passage import Passage
+from .laid_out import LaidOutProblem
+from .layout import NORMAL, TANGENTIAL, Capacity, Kind
 
 _COMPILED = ("contact_steps", "edge_steps", "jump_steps", "layout", "segment_steps", "program", "steps")
 SOURCES = Sources(
@@ -37,266 +30,174 @@ SOURCES = Sources(
 """Files that the compiled time integration is made from: a change in one of them compiles it again."""
 
 
-_ROWS_AT_ONCE = 2**17
-"""Steps whose casing is computed at once."""
-
-
-class CompiledEngine:
-    """The time integration of one problem, compiled for what its scene has: all that its program needs lies in one record.
-
-    It goes at the first speed of its `segments` until `take`. Of an engine `before`, of the same scene and choice at another
-    speed, it keeps what fits, and that one must not go on. With one `beside` it shares the tables of the casing, if they fit,
-    and has its capacity where that is larger.
-    """
-
-    record: np.ndarray
-    _corners: dict[tuple[str, tuple[int, ...]], np.ndarray]
-    _tables: _CasingTables
+class CompiledEngine(LaidOutProblem):
+    """The time integration of one problem, compiled for what its scene has; `before`, `beside`: see LaidOutProblem."""
 
     def __init__(
         self, problem: Problem, segments: Segments, before: CompiledEngine | None = None, beside: CompiledEngine | None = None
     ):
-        self.problem = problem
-        _, self._nodes, self._modes = problem.contact.displacement_operator.shape
-        blade, pairs = len(problem.blade.frequencies), len(problem.scene.casing.ring)
-        # lanes that are used; the modes of an elastic casing begin whole vectors
-        self._pairs, self._node_lanes = padded(pairs), padded(self._nodes)
-        self.mode_lanes = padded(blade) + 2 * self._pairs
-        firsts = (self.mode_lanes - 2 * self._pairs, self.mode_lanes - self._pairs)
-        ring_columns = [first + np.arange(pairs) for first in firsts]
-        self.casing_lanes = slice(firsts[0], self.mode_lanes)
-        # an array of indices costs more in every segment of a run-up
-        self.mode_columns = np.concatenate([np.arange(blade), *ring_columns]) if pairs else slice(blade)
-        scene, choice = problem.scene, problem.choice
-        self.capacity = capacity_of(self.mode_lanes, self._node_lanes)
-        if beside is not None:
-            self.capacity = Capacity(*map(max, self.capacity, beside.capacity))
-        coriolis = problem.blade.complex_modes is not None
-        follows_sliding = scene.friction is not None and scene.friction.vector
-        self.kind = kind = Kind(
-            published=choice.integrator == CENTRAL_DIFFERENCE,
-            lined=scene.lining is not None,
-            exact_gap=scene.exact_gap,
-            coriolis=coriolis,
-        )
-        self._advance = _program(self.capacity, kind)
-        self._take_room(before)
-        self._lay_out(problem)
-        if problem.casing.ring is not None:
-            self._lay_out_ring(problem.casing.ring, problem)
-        self._lay_out_casing(problem, before or beside)
-        if scene.friction is not None:
-            self._lay_out_friction(problem, scene.friction)
-        if scene.lining is not None:
-            self._lay_out_lining(problem, scene.lining)
-        if not kind.published:
-            self._lay_out_static_modes(problem)
-        if segments.increments is None:
-            self._edge = EdgeTables(problem, self)
-            self._edge.put_into(self.record[0]["edge"])
-        self.put(jumping=segments.jumps is not None, follows_sliding=follows_sliding)
-        self.constants = self._table_of(segments)
-        self.take(0)
+        super().__init__(problem, segments, before, beside)
+        self._advance = _program(self.capacity, self.kind)
 
-    def take(self, speed_index: int) -> None:
-        """Go on at this one of the speeds."""
-        m, constants = self.record[0], self.constants[speed_index]
-        for name in constants.dtype.names:
-            m["speed"][name][..., : constants[name].shape[-1]] = constants[name]
-        m["problem"]["diagonal"][: self._nodes] = np.diagonal(constants["coupling"][NORMAL])[: self._nodes]
-        m["call"]["speed_index"] = speed_index
-
-    def _take_room(self, before: CompiledEngine | None) -> None:
-        """Make the record, or take that of an engine before."""
-        sizes = (self.capacity, self.kind, self._nodes, self._modes, self.mode_lanes)
-        if before is not None and sizes == (before.capacity, before.kind, before._nodes, before._modes, before.mode_lanes):
-            self.record, self._corners = before.record, before._corners
-        else:
-            self.record, self._corners = aligned_zeros((1,), integration_record(self.capacity)), {}
-        self.addresses = np.array([self.record.ctypes.data], dtype=np.uint64)
-
-    def _table_of(self, segments: Segments) -> np.ndarray:
-        """The segments as they stand in the record, shape (segments,)."""
-        _, recursion, coupling, plan, clearance, increments = segments
-        fields = {"clearance": clearance}
-        if coupling is not None:
-            fields["coupling"] = coupling
-        modal_fields = {name: getattr(recursion, name) for name in ("keep", "pull", "inverse", "loss")}
-        if self.kind.coriolis:
-            modal_fields["inverse_keep"] = 1.0 / recursion.keep
-        if increments is not None:
-            modal_fields["increment_by_displacement"] = increments.displacement_factor
-            modal_fields["increment_by_velocity"] = increments.velocity_factor
-            modal_fields["velocity_by_increment"] = 1.0 / increments.velocity_factor
-        if plan is not None:
-            fields["slow_modes"], modal_fields["jumps"] = plan.slow_modes, plan.jumps
-            modal_fields |= {"amplitude_by_u": plan.amplitude_rows[:, 0], "amplitude_by_d": plan.amplitude_rows[:, 1]}
-        fields |= {name: self._spread(values) for name, values in modal_fields.items()}
-        table = aligned_zeros((len(clearance),), constants_record(self.mode_lanes, self.capacity.nodes))
-        # a node that only pads the vector must not touch
-        table["clearance"] = 1.0
-        for name, values in fields.items():
-            table[name][(slice(None), *map(slice, values.shape[1:]))] = values
-        return table
-
-    def _corner(self, name: str, shape: tuple[int, ...]) -> np.ndarray:
-        """The part of a field of the record that an array fills; what pads it stays as it is."""
-        if (name, shape) not in self._corners:
-            self._corners[name, shape] = self.record[0][name][tuple(map(slice, shape))]
-        return self._corners[name, shape]
-
-    def put(self, **values: Any) -> None:
-        """Put numbers and arrays into fields of the record."""
-        m = self.record[0]
-        for name, value in values.items():
-            if isinstance(value, np.ndarray) and value.shape:
-                self._corner(name, value.shape)[...] = value
-            else:
-                m[name] = value
-
-    def put_modes(self, **values: np.ndarray) -> None:
-        """Put arrays whose last axis is that of the modes into fields of the record."""
-        self.put(**{name: self._spread(value) for name, value in values.items()})
-
-    def _spread(self, values: np.ndarray) -> np.ndarray:
-        """Arrays whose last axis is that of the modes, with these in their lanes; as they are if all lie together."""
-        if not self._pairs:
-            return values
-        lanes = np.zeros((*values.shape[:-1], self.mode_lanes))
-        lanes[..., self.mode_columns] = values
-        return lanes
-
-    def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule | None = None) -> int:
         """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
 
-        They are done as the `schedule` says, whose ends and wear are filled. Returns the blocks done: fewer when an output
-        passed the limit or is NaN.
+        They are done as the `schedule` says, whose ends and wear are filled; without one at the first speed. Returns the blocks
+        done: fewer when an output passed the limit or is NaN.
         """
         passage = Passage(self, state, out, schedule)
-        passage.go_on(len(out.samples))
+        go_on([passage], len(out.samples))
         passage.end()
         return passage.done
-
-    @property
-    def numbers_of_mode(self) -> int:
-        """Numbers of a mode in a snapshot: u and, with Coriolis, d."""
-        return 1 + self.kind.coriolis
-
-    @property
-    def snapshot_width(self) -> int:
-        """Numbers of a snapshot in whole vectors, the forces on the nodes after those of the modes."""
-        return self.numbers_of_mode * self.mode_lanes + (0 if self.kind.published else 3 * self._node_lanes)
 
     def call(self, addresses: np.ndarray) -> int:
         """Do what the records at `addresses` ask for: its own, or those of several of one kind; returns the blocks done."""
         return int(self._advance(addresses.ctypes.data, len(addresses)))
 
-    def _lay_out(self, problem: Problem) -> None:
-        m = self.record[0]
-        # a node that only pads the vector must neither sit on the axis nor cancel a pivot
-        m["radius"] = m["flight"]["towards"] = m["problem"]["diagonal"] = 1.0
-        m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
-        # every node may touch
-        m["problem"]["among"] = -1
-        self.put_modes(
-            displacement_operator=problem.contact.displacement_operator,
-            size_operator=problem.contact.size_operator,
-            outputs=problem.contact.output_operator[None, :, : self._modes],
-        )
-        self.put(
-            radius=problem.casing.tip.radius,
-            theta=problem.casing.tip.theta,
-            number_of_outputs=len(problem.contact.output_operator),
-            limit=problem.scene.divergence_limit,
-            nodes=self._nodes,
-            vectors=np.array([self.mode_lanes, self._node_lanes]) // LANES,
-            pairs=self._pairs,
-            steps_per_revolution=problem.grid.steps_per_revolution,
-            steps_per_block=problem.grid.steps_per_sample,
-            samples_per_snapshot=problem.grid.samples_per_snapshot,
-        )
-        if self.kind.coriolis:
-            self.put_modes(
-                increment_operator=problem.contact.increment_operator,
-                increment_outputs=problem.contact.output_operator[None, :, self._modes : 2 * self._modes],
-            )
 
-    def _lay_out_ring(self, ring: RingMotion, problem: Problem) -> None:
-        lengths = jump_lengths(problem.grid.steps_per_sample) if problem.choice.jumps else np.empty(0)
-        turns = 2.0 * np.pi / problem.grid.steps_per_revolution * ring.nodal_diameters
-        self.put(turn_cosine=np.cos(lengths[:, None] * turns), turn_sine=np.sin(lengths[:, None] * turns))
-        m, pairs = self.record[0], slice(len(ring.modes))
-        m["turn_cosine"][-1, pairs], m["turn_sine"][-1, pairs] = np.cos(turns), np.sin(turns)
+class Passage:
+    """Blocks of steps from a `state` on, as a `schedule` says, with samples and snapshots into `out`; `done`: how many.
 
-    def _lay_out_casing(self, problem: Problem, before: CompiledEngine | None) -> None:
-        m, casing = self.record[0], problem.scene.casing
-        rise = rise_rate(problem.casing.rise_time) * problem.grid.time_step
-        numbers = {
-            "amplitude": casing.lobe_height,
-            "rise": rise,
-            "period": 2.0 * np.pi / max(casing.lobes, 1),
-            "width": casing.width,
-            "cosine": np.cos(problem.casing.cone_angle),
-            "sine": np.sin(problem.casing.cone_angle),
+    The run starts so many samples after the blade has last `passed` angle 0, and `late`, a share of a sample, after time 0.
+    The state is laid into the record once, and read at the `end`. Without a schedule it goes on in parts at the first speed,
+    and the largest wear is not kept: other blades wear the lining.
+    """
+
+    def __init__(
+        self,
+        engine: CompiledEngine,
+        state: SimulationState,
+        out: SimulationRecord,
+        schedule: Schedule | None = None,
+        passed: int = 0,
+        late: float = 0.0,
+    ):
+        self.engine, self._state, self._out, self._in_parts = engine, state, out, schedule is None
+        self._schedule = schedule or Schedule([0], [0], len(state.displacement))
+        self._grid, self._passed = engine.problem.grid, passed
+        # where nothing pads the vectors the program writes into `out` itself
+        padded = out.snapshots.shape[1] != engine.snapshot_width or not isinstance(engine.mode_columns, slice)
+        self._snapshots = np.empty((len(out.snapshots), engine.snapshot_width)) if padded else out.snapshots
+        self._ends = np.empty((*self._schedule.ends.shape[:-1], engine.mode_lanes))
+        self.done = 0
+        m = engine.record[0]
+        engine.put_modes(u=state.displacement, increment=state.increment)
+        largest_wear = 0.0 if schedule is None or state.wear is None else state.wear.max()
+        engine.put(worn=0.0, largest_wear=largest_wear, touched=np.packbits(state.touched, bitorder="little"))
+        engine.put(totals=state.totals, penetration=state.penetration, last_position=state.bar_position)
+        if self._grid.choice.second_order:
+            engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
+        addresses = {
+            "constants": engine.constants,
+            "speed_indices": self._schedule.speed_indices,
+            "lasting": self._schedule.samples,
+            "ends": self._ends,
+            "worn": None if schedule is None else schedule.wear,
+            "wear": state.wear,
+            "samples": out.samples,
+            "snapshots": self._snapshots,
         }
-        for name, number in numbers.items():
-            m["casing"][name] = number
-        kept = None if before is None else before._tables
-        self._tables = kept if kept is not None and kept.fits(problem) else _CasingTables(problem, self._node_lanes)
-        m["call"]["casing_shape"] = self._tables.shape.ctypes.data
-        if problem.choice.jumps:
-            m["call"]["nearest_casing"] = self._tables.nearest.ctypes.data
-            lengths, flight = jump_lengths(problem.grid.steps_per_sample), m["flight"]
-            flight["lengths"] = NEVER
-            flight["lengths"][: len(lengths)] = lengths
-            if np.isfinite(rise):
-                flight["decay"][: len(lengths)] = np.exp(-rise * lengths)
+        for name, array in addresses.items():
+            m["call"][name] = 0 if array is None else array.ctypes.data
+        self._samples_at, self._snapshots_at = int(m["call"]["samples"]), int(m["call"]["snapshots"])
+        # steps are counted from the last pass of angle 0 on
+        m["samples_before_snapshots"] = self._grid.samples_before_snapshots + passed
+        m["call"]["ahead"] = (late - passed) * self._grid.steps_per_sample
 
-    def _lay_out_friction(self, problem: Problem, friction: Friction) -> None:
-        velocity = problem.casing.rotation_velocity
-        self.put(friction=friction.coefficient, rotation=velocity * problem.grid.time_step)
-        if not friction.vector:
-            self.put(friction_share=np.stack([friction.coefficient * np.sign(velocity), np.zeros(self._nodes)]))
+    def blocks_at_once(self, blades: int) -> int:
+        """Blocks of one call in which so many blades go on: about STEPS_AT_ONCE up to the end of a revolution.
 
-    def _lay_out_lining(self, problem: Problem, lining: Lining) -> None:
-        m, casing = self.record[0], problem.casing
-        for name in LINING.names or ():
-            value = getattr(lining, name)
-            m["lining"][name] = np.nan if value is None else value
-        m["contact"]["area"][: self._nodes] = casing.pressed_areas
-        self.put(bar_position=casing.tip.theta / (2.0 * np.pi) * lining.bars, bar_surface=casing.bar_surfaces)
+        A run may be stopped there with the same bits. With a schedule they are what that has.
+        """
+        if not self._in_parts:
+            return len(self._out.samples)
+        grid, per_revolution = self._grid, self._grid.choice.samples_per_revolution
+        since = (self._state.samples + self._passed + self.done) % per_revolution
+        return revolutions_at_once(blades * grid.steps_per_revolution) * per_revolution - since
 
-    def _lay_out_static_modes(self, problem: Problem) -> None:
-        self.record[0]["contact"]["settles_at_once"] = problem.blade.settles_at_once
-        force_outputs = problem.contact.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
-        padded_forces = aligned_copy(force_outputs, self._node_lanes).reshape(1, len(force_outputs), -1)
-        self.put(flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces)
+    def ask(self, blocks: int) -> None:
+        """Have the record say that so many more are to be done."""
+        call, first = self.engine.record[0]["call"], self._state.samples
+        call["first_step"] = (first + self._passed + self.done) * self._grid.steps_per_sample
+        call["blocks"] = blocks
+        if self.done:
+            kept = self._grid.snapshots_after(first + self.done) - self._grid.snapshots_after(first)
+            call["samples"] = self._samples_at + self.done * self._out.samples.strides[0]
+            call["snapshots"] = self._snapshots_at + kept * self._snapshots.strides[0]
+        if self._in_parts:
+            self._schedule.samples[0] = blocks
+
+    @property
+    def worn(self) -> float:
+        """Wear (m3) of the lining by this blade, up to now."""
+        return float(self.engine.record[0]["worn"])
+
+    def end(self) -> None:
+        """Read the state that is reached, but for the number of samples."""
+        engine, state, m = self.engine, self._state, self.engine.record[0]
+        modes, nodes, columns = engine.mode_lanes, len(state.touched), engine.mode_columns
+        state.displacement[:], state.increment[:] = m["u"][columns], m["increment"][columns]
+        self._schedule.ends[:] = self._ends[..., columns]
+        state.touched[:] = np.unpackbits(m["touched"].astype(np.uint8), bitorder="little")[:nodes]
+        state.totals[()] = m["totals"]
+        state.penetration[:], state.bar_position[:] = m["penetration"][:nodes], m["last_position"][:nodes]
+        if self._grid.choice.second_order:
+            state.contact_force[NORMAL] = m["force"][:nodes]
+            state.contact_force[TANGENTIAL:] = m["friction_force"][:, :nodes]
+        snapshots, out = self._snapshots, self._out.snapshots
+        if snapshots is out:
+            return
+        per_mode = engine.numbers_of_mode
+        numbers, kept = per_mode * modes, per_mode * len(state.displacement)
+        modal_numbers = snapshots[:, :numbers].reshape(len(snapshots), per_mode, modes)[:, :, columns]
+        out[:, :kept] = modal_numbers.reshape(len(snapshots), kept)
+        if self._grid.choice.second_order:
+            forces = snapshots[:, numbers:].reshape(len(snapshots), 3, (snapshots.shape[1] - numbers) // 3)
+            out[:, kept:] = forces[:, :, :nodes].reshape(len(snapshots), 3 * nodes)
 
 
-class _CasingTables:
-    """f(theta) of the casing at every step of a revolution, for whole vectors of nodes."""
+def go_on(passages: Sequence[Passage], blocks: int) -> None:
+    """Do so many more blocks of blades that go step by step together; fewer when an output passes the limit or is NaN.
 
-    def __init__(self, problem: Problem, nodes: int):
-        steps, self._problem = problem.grid.steps_per_revolution, problem
-        self.shape = aligned_zeros((steps, nodes))
-        # in parts, between which Python sees an interrupt
-        for first in range(0, steps, _ROWS_AT_ONCE):
-            theta = problem.casing.theta(np.arange(first, min(first + _ROWS_AT_ONCE, steps))[:, None])
-            self.shape[first : first + _ROWS_AT_ONCE, : theta.shape[1]] = problem.scene.casing.shape(theta)
+    An interrupt is seen between two calls.
+    """
+    engine, part, reached = passages[0].engine, 0, 0
+    addresses = np.concatenate([passage.engine.addresses for passage in passages])
+    while blocks > 0 and reached == part:
+        part = min(blocks, passages[0].blocks_at_once(len(passages)))
+        for passage in passages:
+            passage.ask(part)
+        reached = engine.call(addresses)
+        for passage in passages:
+            passage.done += reached
+        blocks -= reached
 
-    @cached_property
-    def nearest(self) -> np.ndarray:
-        """The nearest of each interval, for jumps; see nearest_casing."""
-        nearest = nearest_casing(self.shape, self._problem.grid.steps_per_sample)
-        return aligned_copy(nearest, self.shape.shape[1])
 
-    def fits(self, problem: Problem) -> bool:
-        """True where this problem has the same tables."""
-        mine, other = (
-            (each.grid.steps_per_revolution, each.grid.steps_per_sample, each.scene.casing.lobes, each.scene.casing.width)
-            for each in (self._problem, problem)
-        )
-        return mine == other and np.array_equal(self._problem.casing.tip.theta, problem.casing.tip.theta)
+def advance_in_lockstep(
+    engines: Sequence[CompiledEngine], states: Sequence[SimulationState], outs: Sequence[SimulationRecord], order: Sequence[int]
+) -> tuple[list[int], list[float]]:
+    """Do the steps of every row of the samples; returns the rows done of each, and what each has worn off the lining (m3).
+
+    `engines` of a rotor's blades, of one capacity; their forces on the casing are summed in this `order`. Each has the casing's
+    modes; these are made alike to the last bit, and those of the first count for their loss.
+    """
+    for place in order[1:]:
+        _take_casing(engines[place], engines[order[0]])
+    passages = [Passage(engine, state, out) for engine, state, out in zip(engines, states, outs, strict=True)]
+    go_on([passages[place] for place in order], len(outs[0].samples))
+    for passage in passages:
+        passage.end()
+    return [passage.done for passage in passages], [passage.worn for passage in passages]
+
+
+def _take_casing(engine: CompiledEngine, first: CompiledEngine) -> None:
+    """Give an engine the constants of the casing's modes of another one, but for their loss."""
+    own, other = engine.record[0]["speed"], first.record[0]["speed"]
+    mine, theirs = engine.casing_lanes, first.casing_lanes
+    for name in ("keep", "pull", "inverse", "inverse_keep", "amplitude_by_u", "amplitude_by_d", "jumps"):
+        own[name][..., mine] = other[name][..., theirs]
+    own["loss"][mine] = 0.0
+    own["jumps"][:, [LOSS_UU, LOSS_UD, LOSS_DD], mine] = 0.0
 
 
 @cache

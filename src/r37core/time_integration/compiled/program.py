@@ -60,7 +60,7 @@ def _find_forces(addresses, blades):
 
 @inlined
 def _any_pressing(addresses, blades):
-    """Whether any node is beyond the unworn lining at t_n."""
+    """True where any node of the blades is beyond the unworn lining at t_n."""
     any_pressing = False
     for b in range(blades):
         m = pointed_at(addresses[b])

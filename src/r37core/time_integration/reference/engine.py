@@ -33,7 +33,7 @@ class ReferenceEngine:
 
     angle = 0.0
     worn = 0.0
-    """What the blade has worn off the lining (m3)."""
+    """Wear (m3) of the lining by the blade."""
 
     def __init__(
         self, problem: Problem, segments: Segments, before: ReferenceEngine | None = None, beside: ReferenceEngine | None = None
@@ -69,15 +69,15 @@ class ReferenceEngine:
         casing_rows = -casing_axes(casing.ring.displacement(casing.theta(n)), casing.cone_angle)
         return np.concatenate([blade_rows, casing_rows], axis=-1)
 
-    def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule) -> int:
+    def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule | None = None) -> int:
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
-        first = state.samples
+        first, schedule = state.samples, schedule or Schedule([0], [len(out.samples)], len(state.displacement))
         for segment, (speed_index, samples) in enumerate(zip(schedule.speed_indices, schedule.samples, strict=True)):
             self._go_over(state, speed_index)
             schedule.ends[segment, 0] = state.displacement, state.increment
             done, kept = state.samples - first, len(self.problem.grid.snapshots_between(first, state.samples))
             part = SimulationRecord(out.samples[done : done + samples], out.snapshots[kept:])
-            reached, bounded = self._segment(state, part)
+            reached, bounded = _go_on([self], [state], [part], [0])
             state.samples += reached
             schedule.ends[segment, 1] = state.displacement, state.increment
             schedule.wear[segment] = 0.0 if state.wear is None else state.wear.max()
@@ -94,19 +94,6 @@ class ReferenceEngine:
         velocity = increments.velocity(self._speed_index, state.displacement, state.increment)
         self.take(speed_index)
         state.increment[:] = increments.increment(speed_index, state.displacement, velocity)
-
-    def _segment(self, state: SimulationState, out: SimulationRecord) -> tuple[int, bool]:
-        """Go on at one speed; returns the rows done, and whether they are within the limit."""
-        problem, motion, first = self.problem, self.motion.read(state), state.samples
-        done, bounded = 0, True
-        self.begin(motion, first * problem.grid.steps_per_sample, state)
-        while done < len(out.samples) and bounded:
-            for n in range(1, problem.grid.steps_per_sample + 1):
-                motion = self.step(motion, (first + done) * problem.grid.steps_per_sample + n, state, self.force(state))
-            bounded = self.record(motion, first, done, state, out)
-            done += 1
-        self.motion.write(motion, state)
-        return done, bounded
 
     def begin(self, motion: Any, n: int, state: SimulationState) -> None:
         """Go on from a motion at t_n: where no node presses the lining, the gaps are those of this speed."""
@@ -362,23 +349,36 @@ def advance_together(
     In a step the blades follow each other in `order`. All end with the sample in which one passes the limit. An elastic casing
     is one: each engine has its motion, under the forces of all blades, and the first in `order` counts its work.
     """
-    motions = []
-    for engine, state, angle in zip(engines, states, angles, strict=True):
+    for engine, angle in zip(engines, angles, strict=True):
         engine.angle = angle
+        if isinstance(engine.motion, MotionWithCasing):
+            engine.motion.counted = engine is engines[order[0]]
+    done, _ = _go_on(engines, states, outs, order)
+    return [done] * len(engines), [engine.worn for engine in engines]
+
+
+def _go_on(
+    engines: Sequence[ReferenceEngine],
+    states: Sequence[SimulationState],
+    outs: Sequence[SimulationRecord],
+    order: Sequence[int],
+) -> tuple[int, bool]:
+    """Do the steps of every row of the samples at one speed; returns the rows done, and whether they are within the limit."""
+    motions, first, steps = [], states[0].samples, engines[0].problem.grid.steps_per_sample
+    for engine, state in zip(engines, states, strict=True):
         motions.append(engine.motion.read(state))
-        engine.begin(motions[-1], 0, state)
-    casings = [engine.motion for engine in engines if isinstance(engine.motion, MotionWithCasing)]
-    for casing in casings:
-        casing.counted = casing is engines[order[0]].motion
-    steps, done, bounded = engines[0].problem.grid.steps_per_sample, 0, True
+        engine.begin(motions[-1], first * steps, state)
+    casing, done, bounded = engines[0].motion, 0, True
     while done < len(outs[0].samples) and bounded:
         for n in range(1, steps + 1):
-            own = [engines[place].force(states[place]) for place in order]
-            for place, force in zip(order, casings[0].pressed_by_all(own) if casings else own, strict=True):
-                motions[place] = engines[place].step(motions[place], done * steps + n, states[place], force)
+            forces = [engines[place].force(states[place]) for place in order]
+            if isinstance(casing, MotionWithCasing):
+                forces = casing.pressed_by_all(forces)
+            for place, force in zip(order, forces, strict=True):
+                motions[place] = engines[place].step(motions[place], (first + done) * steps + n, states[place], force)
         for engine, motion, state, out in zip(engines, motions, states, outs, strict=True):
-            bounded &= engine.record(motion, 0, done, state, out)
+            bounded &= engine.record(motion, first, done, state, out)
         done += 1
     for engine, motion, state in zip(engines, motions, states, strict=True):
         engine.motion.write(motion, state)
-    return [done] * len(engines), [engine.worn for engine in engines]
+    return done, bounded

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -10,36 +10,6 @@ from ..gyroscopic import ComplexRecursion, imaginary_part
 from ..integrators import Recursion
 from ..problem import Problem
 from ..state import SimulationState
-
-
-class Motion(Protocol):
-    """Interface of a motion to the reference engine."""
-
-    response: np.ndarray
-
-    def read(self, state: SimulationState) -> Any:
-        """Motion of a state."""
-
-    def write(self, motion: Any, state: SimulationState) -> None:
-        """Put the motion back into the state."""
-
-    def numbers(self, motion: Any) -> np.ndarray:
-        """Numbers of a snapshot."""
-
-    def flown(self, motion: Any) -> Any:
-        """Motion one step on, without force."""
-
-    def pushed(self, motion: Any, force: np.ndarray) -> Any:
-        """Motion with the addition of a force in a step."""
-
-    def displacement(self, motion: Any) -> np.ndarray:
-        """Displacement in the coordinates of the nodes' rows."""
-
-    def slid(self, motion: Any) -> np.ndarray:
-        """Displacement in the last step."""
-
-    def work_and_loss(self, before: Any, after: Any, force: np.ndarray) -> tuple[float, float]:
-        """Work and loss of a step under a force."""
 
 
 class RealMotion:
@@ -201,44 +171,44 @@ class MotionWithCasing:
     def _turned(self, casing: np.ndarray, step: int) -> np.ndarray:
         return self._ring.turned(casing, 2.0 * np.pi * step / self._problem.grid.steps_per_revolution)
 
-    def read(self, state: SimulationState) -> tuple:
+    def read(self, state: SimulationState) -> Any:
         """Motion of a state, which is in the rotor's frame."""
         step = state.samples * self._problem.grid.steps_per_sample
         both = np.array([state.displacement[self._stepped :], state.increment[self._stepped :]])
         return self._blade.read(self._blade_state(state)), self._turned(both, -step), step
 
-    def write(self, motion: tuple, state: SimulationState) -> None:
+    def write(self, motion: Any, state: SimulationState) -> None:
         """Put the motion back into the state."""
         self._blade.write(motion[0], self._blade_state(state))
         state.displacement[self._stepped :], state.increment[self._stepped :] = self._turned(*motion[1:])
 
-    def numbers(self, motion: tuple) -> np.ndarray:
+    def numbers(self, motion: Any) -> np.ndarray:
         """Numbers of a snapshot, in the rotor's frame; casing modes have no increment of their own to show."""
         blade, casing = self._blade.numbers(motion[0]), self._turned(*motion[1:])
         parts = np.split(blade, range(self._stepped, len(blade), self._stepped))
         return np.concatenate([np.concatenate(pair) for pair in zip(parts, casing, strict=False)])
 
-    def flown(self, motion: tuple) -> tuple:
+    def flown(self, motion: Any) -> Any:
         """Motion one step on, without force."""
         blade, (u, d), step = motion
         following = self._casing.keep * d - self._casing.pull * u
         return self._blade.flown(blade), np.array([u + following, following]), step + 1
 
-    def pushed(self, motion: tuple, force: np.ndarray) -> tuple:
+    def pushed(self, motion: Any, force: np.ndarray) -> Any:
         """Motion with what a force adds at the end of a step."""
         blade, casing, step = motion
         pushed = casing + self._casing.inverse * force[self._rest_modes :]
         return self._blade.pushed(blade, force[: self._rest_modes]), pushed, step
 
-    def displacement(self, motion: tuple) -> np.ndarray:
+    def displacement(self, motion: Any) -> np.ndarray:
         """Displacement of the modes at rest, then of the casing's."""
         return np.concatenate([self._blade.displacement(motion[0]), motion[1][0]])
 
-    def slid(self, motion: tuple) -> np.ndarray:
+    def slid(self, motion: Any) -> np.ndarray:
         """Displacement in the last step."""
         return np.concatenate([self._blade.slid(motion[0]), motion[1][1]])
 
-    def work_and_loss(self, before: tuple, after: tuple, force: np.ndarray) -> tuple[float, float]:
+    def work_and_loss(self, before: Any, after: Any, force: np.ndarray) -> tuple[float, float]:
         """Work and loss of a step under a force: see Recursion, and of a kick, with a Coriolis force, ComplexRecursion."""
         work, loss = self._blade.work_and_loss(before[0], after[0], force[: self._rest_modes])
         if not self.counted:
@@ -251,3 +221,7 @@ class MotionWithCasing:
             return work + own.energy(*after[1]) - own.energy(u, d) + lost, loss + lost
         moved = d + after[1][1]
         return work + float(0.5 * casing_force @ moved), loss + float(own.loss @ moved**2)
+
+
+Motion = RealMotion | CoupledMotion | MotionWithCasing
+"""A motion as the reference engine steps it; what it is in numbers is each one's own."""
