@@ -26,7 +26,7 @@ report: $(VENV)/.ready ## a finished run in one file, for a colleague: report.zi
 	@$(BIN)/python -m r37core.console.report '$(RESULTS)'
 
 # the files of tests spread over the cores, in the order of tests/conftest.py
-SPREAD := --numprocesses $(CORES) --dist loadfile --no-loadscope-reorder
+SPREAD := --numprocesses $(CORES) --dist loadfile --no-loadscope-reorder --max-worker-restart 0
 test: $(VENV)/.ready ## all tests
 	$(BIN)/python -m pytest $(SPREAD)
 

@@ -29,7 +29,7 @@ from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
 from r37core.fem.solver import lowest_modes
 from r37core.fem.surface import chosen, mask_within, outer_faces
-from r37core.mesh.generate import generate_mesh
+from r37core.mesh.generate import generate_mesh, quiet_gmsh
 from r37core.mesh.mesh_files import write_vtu
 from r37core.rom.naming import ideal_shapes
 
@@ -117,9 +117,7 @@ def test_archives_of_ansys_need_the_extra_package(tmp_path, monkeypatch):
 
 def write_with_gmsh(file, size, grouped=True):
     """A plate in millimetres, rotor axis along x, blade along z, in gmsh's own way to write a format."""
-    gmsh.initialize(interruptible=False)
-    try:
-        gmsh.option.setNumber("General.Terminal", 0)
+    with quiet_gmsh():
         gmsh.model.occ.addBox(0, -2, 200, 30, 4, 60)
         gmsh.model.occ.synchronize()
         if grouped:
@@ -131,8 +129,6 @@ def write_with_gmsh(file, size, grouped=True):
         gmsh.option.setNumber("Mesh.MeshSizeMax", size)
         gmsh.model.mesh.generate(3)
         gmsh.write(str(file))
-    finally:
-        gmsh.finalize()
 
 
 @pytest.mark.parametrize("suffix", ["msh", "inp", "bdf", "med"])

@@ -19,6 +19,7 @@ from r37core.designs.plan import Families
 from r37core.designs.table import MEASURES, design_table
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
+from r37core.product.targets import targets
 from r37core.results.columns import names
 from r37core.run_ups.plan import RunUps
 from r37core.time_integration.status import RunStatus
@@ -68,6 +69,14 @@ def test_run_ups_of_a_family_are_those_of_its_designs(with_blades):
     settings = with_blades(SWEEP, blades=["Ref", "Sweep"], run_ups=run_ups)
     choices = RunUps(Sweep(settings)).choices
     assert [name for name in settings.blades if choices[name, "direct"]] == ["Sweep_-50", "Sweep_50", "Sweep_150"]
+
+
+def test_some_of_many_blades_have_figures(with_blades):
+    """Of no family, and six designs from the first to the last."""
+    settings = with_blades(SWEEP.replace("step: 100", "step: 2"), blades=["Ref", "Sweep"])
+    drawn = Sweep(settings).drawn["blade"]
+    assert drawn == ["Ref", "Sweep_-50", "Sweep_-10", "Sweep_30", "Sweep_70", "Sweep_110", "Sweep_150"]
+    assert [names["blade"] for names in targets(Sweep(settings))["<results>/figures/response_{blade}.png"]] == drawn
 
 
 def test_lean_is_scaled_apart_from_sweep(with_blades):

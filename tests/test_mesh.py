@@ -1,5 +1,8 @@
 """Meshes: node counts, node sets, quality, files."""
 
+import os
+
+import gmsh
 import numpy as np
 import pytest
 import pyvista
@@ -8,7 +11,7 @@ from r37core.base.io import InputFileError
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.mesh_quality import MeshQualityError, mesh_quality
 from r37core.mesh.blade_mesh import NODE_SETS
-from r37core.mesh.generate import generate_mesh
+from r37core.mesh.generate import generate_mesh, quiet_gmsh
 from r37core.mesh.mesh_files import read_vtu, write_vtu
 
 
@@ -86,13 +89,9 @@ def test_vtu_round_trip(mesh, tmp_path):
 
 
 def test_msh_has_the_mapped_nodes_and_named_groups(blade, tmp_path):
-    import gmsh
-
     file = tmp_path / "mesh.msh"
     mesh = generate_mesh(blade, 1500, 1, 10, file)
-    gmsh.initialize(interruptible=False)
-    try:
-        gmsh.option.setNumber("General.Terminal", 0)
+    with quiet_gmsh():
         gmsh.open(str(file))
         groups = {gmsh.model.getPhysicalName(*group): group for group in gmsh.model.getPhysicalGroups()}
         assert set(groups) == {"blade", *NODE_SETS}
@@ -102,5 +101,13 @@ def test_msh_has_the_mapped_nodes_and_named_groups(blade, tmp_path):
             nodes, _ = gmsh.model.mesh.getNodesForPhysicalGroup(*groups[name])
             assert len(nodes) == len(mesh.node_set(name))
         assert gmsh.model.mesh.getElementsByType(18)[0].size == len(mesh.blocks["wedge15"])
-    finally:
-        gmsh.finalize()
+
+
+def test_a_broken_pipe_raises_after_a_mesh():
+    with quiet_gmsh():
+        pass
+    reading, writing = os.pipe()
+    os.close(reading)
+    with pytest.raises(BrokenPipeError):
+        os.write(writing, b"x")
+    os.close(writing)

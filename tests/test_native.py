@@ -62,6 +62,35 @@ def test_made_once(cache):
     assert len(list(cache.glob("*.o"))) == 2
 
 
+CROWDED = """
+import ctypes
+from r37core.machine_code.native import load_function, object_code
+
+process, page = ctypes.CDLL(None), 4096
+process.mmap.restype = ctypes.c_void_p
+process.mmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.c_long]
+process.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
+code = object_code(
+    "define double @half(double %x) {{\\n %y = fmul double %x, 0.375\\n ret double %y\\n}}", "half", "half"
+)
+half = load_function(code, "half", ctypes.c_double, ctypes.c_double)
+room = lambda size: process.mmap(None, size, 0, 0x4022, -1, 0)
+wall = room(2**34)
+while room(page) > wall:
+    pass
+process.munmap(wall + 3 * 2**32, {pages} * page)
+print(load_function(code, "half", ctypes.c_double, ctypes.c_double)(2.0))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux's mmap")
+@pytest.mark.parametrize("pages", [1, 2])
+def test_constants_lie_next_to_the_code(pages):
+    """Where memory has one hole, and the next room is gigabytes away."""
+    done = subprocess.run([sys.executable, "-c", CROWDED.format(pages=pages)], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.returncode) == ("0.75\n", 0), done.stderr
+
+
 def test_processes_wait_for_the_one_that_makes_it(cache):
     """Two that need the same at once: one takes its time, and only it makes it; another thing is made beside."""
     code = (

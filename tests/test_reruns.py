@@ -168,7 +168,7 @@ def test_signals_run_no_simulation_of_the_sweep(project):
 def test_another_level_runs_what_differs_and_back_keeps_all(project):
     """A level with the same mesh and reduction, then one with another mesh, then the first again."""
     level = load_yaml(project / "config/fidelity.yaml")["tiny"]
-    level["time_integration"]["largest_time_step_s"]["direct"] = 3.2e-6
+    level["time_integration"]["largest_time_step_s"] = {"lined": 3.2e-6, "direct": 3.2e-6}
     overlay(project, "fidelity.yaml", yaml.safe_dump({"same_mesh": level}))
     jobs = planned_outputs(project, "all_blades", "--config", "fidelity=same_mesh")
     assert jobs.pop("simulate") == runs(SPEEDS)

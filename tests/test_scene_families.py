@@ -138,7 +138,7 @@ def test_designs_have_no_figures_of_their_own(with_scenes):
     files = all_targets(Sweep(settings))
     assert [names["scene"] for names in files["<results>/figures/comparison_{scene}.png"]] == ["direct"]
     alone = Sweep(with_scenes("", scenes=["Room"], blades=["Ref"]))
-    assert alone.drawn_scenes == alone.settings.scene_names
+    assert alone.drawn["scene"] == alone.settings.scene_names
 
 
 KEYS = ("scene.casing.clearance_m", "scene.lining.thickness_m")

@@ -150,5 +150,6 @@ def _call(
 def _labelled(dataset: xr.Dataset, call: Call) -> xr.Dataset:
     """The dataset with what was changed of blade and scene in the place of their names."""
     (blade,), (scene,) = call.blades, call.scenes
-    labels = {name: ("run", [choice.label] * dataset.sizes["run"]) for name, choice in (("blade", blade), ("scene", scene))}
+    count, choices = dataset.sizes["run"], {"blade": blade, "scene": scene}
+    labels = {name: ("run", [choice.label] * count, dataset[name].attrs) for name, choice in choices.items()}
     return dataset.assign_coords(labels).assign_attrs(call.told)

@@ -27,7 +27,7 @@ use rule figure as campbell_overview with:
     log:
         "<logs>/figures/campbell_overview.log",
     params:
-        **drawing("figures.campbell_diagram.draw_campbell_overview", "campbell_overview"),
+        **drawing("figures.campbell_diagram.draw_campbell_overview", "campbell_overview", drawn=sweep.drawn),
 
 
 use rule figure as response_figure with:
@@ -39,7 +39,7 @@ use rule figure as response_figure with:
     log:
         "<logs>/figures/response_{blade}.log",
     params:
-        **drawing("figures.response_curves.draw_response", "response", scenes=sweep.drawn_scenes),
+        **drawing("figures.response_curves.draw_response", "response", drawn=sweep.drawn),
 
 
 use rule figure as response_overview with:
@@ -50,7 +50,7 @@ use rule figure as response_overview with:
     log:
         "<logs>/figures/response_overview.log",
     params:
-        **drawing("figures.response_curves.draw_response_overview", "response_overview", scenes=sweep.drawn_scenes),
+        **drawing("figures.response_curves.draw_response_overview", "response_overview", drawn=sweep.drawn),
 
 
 use rule figure as map_figure with:
@@ -92,6 +92,7 @@ use rule figure as comparison_figure with:
             "comparison",
             below=settings.config.interactions.below,
             above=settings.config.interactions.above,
+            drawn=sweep.drawn,
         ),
 
 
@@ -103,7 +104,7 @@ use rule figure as ranking_figure with:
     log:
         "<logs>/figures/ranking.log",
     params:
-        **drawing("figures.comparison.draw_ranking", "ranking", scenes=sweep.drawn_scenes),
+        **drawing("figures.comparison.draw_ranking", "ranking", scenes=sweep.drawn["scene"]),
 
 
 use rule figure as clearance_figure with:
@@ -114,7 +115,7 @@ use rule figure as clearance_figure with:
     log:
         "<logs>/figures/clearance_{scene}.log",
     params:
-        **drawing("figures.response_curves.draw_clearance", "clearance"),
+        **drawing("figures.response_curves.draw_clearance", "clearance", drawn=sweep.drawn),
 
 
 use rule step as fatigue_figure with:
@@ -132,16 +133,19 @@ use rule step as fatigue_figure with:
         caption=captioned("fatigue"),
 
 
+shaped = [name for name in sweep.drawn["blade"] if name in imported.meshed_blades]
+
+
 use rule step as blade_shapes_figure with:
     input:
-        meshes=expand(paths.nominal(paths.MESH), blade=imported.meshed_blades),
+        meshes=expand(paths.nominal(paths.MESH), blade=shaped),
     output:
         **pictures("blades", TOGETHER, EVERY_SCENE, "shapes"),
     log:
         "<logs>/figures/blades.log",
     params:
         **step("figures.steps.blade_shapes"),
-        blades=imported.meshed_blades,
+        blades=shaped,
         caption=captioned("blades"),
 
 
@@ -149,6 +153,6 @@ rule campbell:
     input:
         rules.campbell_of_all.output,
         expand([paths.nominal(rules.mesh.output.msh), *rules.abaqus_deck.output], blade=imported.meshed_blades),
-        expand(rules.campbell_figure.output, blade=settings.blades),
+        expand(rules.campbell_figure.output, blade=sweep.drawn["blade"]),
         rules.campbell_overview.output,
-        rules.blade_shapes_figure.output if imported.meshed_blades else [],
+        rules.blade_shapes_figure.output if shaped else [],

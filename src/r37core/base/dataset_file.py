@@ -142,10 +142,12 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
 def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> xr.Dataset:
     """Read a netCDF file into memory; InputFileError when it cannot be read.
 
-    `part`: labels of dimensions, as far as the file has these, at which alone it is read.
+    `part`: label of a dimension, as far as the file has this, at which alone it is read; or several, of which it may lack some.
     """
     with open_dataset(file) as dataset:
-        return dataset.sel({name: label for name, label in (part or {}).items() if name in dataset.dims}).load()
+        there = {name: wanted for name, wanted in (part or {}).items() if name in dataset.dims}
+        several = {name: np.isin(dataset[name], wanted) for name, wanted in there.items() if isinstance(wanted, list)}
+        return dataset.isel(several).sel({name: there[name] for name in there.keys() - several.keys()}).load()
 
 
 def attributes_of(files: Iterable[Path | str]) -> list[dict[str, Any]]:

@@ -1,6 +1,5 @@
 """Response over speed: rms of the leading edge, largest stress against yield; clearance where it changes with the speed."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -24,14 +23,12 @@ def draw_response(
     rms: xr.Dataset,
     stress: xr.Dataset | None = None,
     motions: xr.Dataset | None = None,
-    scenes: Sequence[str] | None = None,
 ) -> Figure:
     """One blade: normal and tangential rms of the leading edge in every scene, and the largest stress with the yield line.
 
     `campbell`: where 1B crosses engine orders, None to leave that out; `motions`: more than that from rest, whose largest is
-    drawn where it differs from that (results/other_motions.py), and these speeds shaded; `scenes`: the drawn ones, or all.
+    drawn where it differs from that (results/other_motions.py), and these speeds shaded.
     """
-    rms, stress, motions = (_drawn(dataset, scenes) for dataset in (rms, stress, motions))
     figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, direction in zip(panels, ("normal", "tangential"), strict=False):
         _draw_scenes(axes, rms, direction)
@@ -56,16 +53,8 @@ def draw_response(
     return figure
 
 
-def _drawn(dataset: xr.Dataset | None, scenes: Sequence[str] | None) -> Any:
-    """The dataset with those of the scenes alone that it has; as it is without any."""
-    if dataset is None or scenes is None:
-        return dataset
-    return dataset.sel(scene=[name for name in dataset["scene"].values if name in scenes])
-
-
-def draw_response_overview(rms: xr.Dataset, scenes: Sequence[str] | None = None) -> Figure:
-    """All blades: normal and tangential rms of the leading edge, a row each, all `scenes`, each column on one scale."""
-    rms = _drawn(rms, scenes)
+def draw_response_overview(rms: xr.Dataset) -> Figure:
+    """All blades: normal and tangential rms of the leading edge, a row each, all scenes, each column on one scale."""
     blades = rms["blade"].values
     size = (style.PAGE, 0.95 * len(blades) + 0.8)
     figure, grid = plt.subplots(len(blades), 2, figsize=size, sharex=True, sharey="col", squeeze=False)

@@ -22,13 +22,14 @@ from .style import mark_operating, picture_figure, save
 def draw(input: Any, output: Any, params: Any) -> None:
     """Draw a figure. Inputs: named as its function takes them. Outputs: png, pdf.
 
-    Params: those of `reporting.drawing`; draw: the function, `module.function`; of: the wildcards; caption; operating.
+    Params: those of `reporting.drawing`; draw: the function, `module.function`; of: the wildcards; drawn: blades and scenes
+    in it, without all of them; caption; operating.
     """
     arguments = dict(params.items())
-    operating = arguments.pop("operating", None)
+    operating, drawn = arguments.pop("operating", None), arguments.pop("drawn", {})
     function, caption, of, *_ = (arguments.pop(name) for name in ("draw", "caption", "of", "step", "code"))
     # a table, the part of a dataset that is of the figure's blade and scene, or a folder
-    readers: dict[str, Callable[[str], Any]] = {".csv": read_table, ".nc": partial(read_dataset, part=of), "": Path}
+    readers: dict[str, Callable[[str], Any]] = {".csv": read_table, ".nc": partial(read_dataset, part=drawn | of), "": Path}
     arguments |= {name: readers[Path(file).suffix](file) for name, file in input.items()}
     drawing = resolve_name(function)
     names = of | ({"title": ", ".join(of.values())} if of else {})

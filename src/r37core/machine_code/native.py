@@ -88,7 +88,8 @@ def object_code(assembly: str, symbol: str, name: str) -> bytes:
 def load_function(code: bytes, name: str, result: Any, *arguments: Any) -> Callable:
     """A function of some object code, called through ctypes."""
     _start_llvm()
-    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target_machine())
+    # in one piece of memory: constants far from the code are out of reach, and LLVM then ends the process
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target_machine(), use_lmm=True)
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
     function = ctypes.CFUNCTYPE(result, *arguments)(engine.get_function_address(name))

@@ -1,5 +1,7 @@
 """Wedge mesh of a blade: gmsh meshes the (chord, span) rectangle and extrudes it; the nodes are mapped onto the blade."""
 
+import ctypes
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -54,6 +56,8 @@ def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_
 def quiet_gmsh() -> Iterator[None]:
     """A gmsh session without output, on one thread, for second-order elements without inner nodes."""
     gmsh.initialize(interruptible=False)
+    # gmsh lets a broken pipe end the process; Python raises an error then. `signal.signal` would refuse other threads
+    ctypes.CDLL(None).signal(signal.SIGPIPE, ctypes.c_void_p(signal.SIG_IGN))
     try:
         gmsh.option.setNumber("General.Terminal", 0)
         gmsh.option.setNumber("General.NumThreads", 1)

@@ -24,7 +24,10 @@ KINDS = ("rms", "spectrum", "stress", "fatigue", "wear", "casing")
 """Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
 
 MOST_DRAWN = 6
-"""Designs of families of scenes in one figure of responses."""
+"""Designs of families with figures of their own, where not all have them."""
+
+MOST_BLADES_DRAWN = 24
+"""Blades of a run that all have figures of their own."""
 
 MAPS = ("spectrum", "wear", "casing")
 """Kinds that are drawn as maps over speed."""
@@ -122,21 +125,36 @@ class Sweep:
         return [kind for kind in KINDS if self.runs_with(kind)]
 
     @cached_property
-    def drawn_scenes(self) -> list[str]:
-        """Scenes with figures of their own: those of no family, or where there are none some of the designs."""
-        designs, family_of = list(self.settings.scenes), self.settings.scene_designs.family_of
-        plain = [name for name in designs if name not in family_of]
-        count = min(MOST_DRAWN, len(designs))
-        return plain or [designs[round(place * (len(designs) - 1) / max(count - 1, 1))] for place in range(count)]
+    def drawn(self) -> dict[str, list[str]]:
+        """Blades and scenes with figures of their own and in figures of all, by `blade` and `scene`.
+
+        Blades: all of them; of many those of no family and some designs. Scenes: those of no family, or some designs.
+        """
+        blades, scenes = list(self.settings.blades), list(self.settings.scenes)
+        of_no_family = [name for name in blades if name not in self.settings.designs.family_of]
+        designs = [name for name in blades if name not in of_no_family]
+        few = [*_evenly(of_no_family, MOST_BLADES_DRAWN), *_evenly(designs, MOST_DRAWN)]
+        plain = [name for name in scenes if name not in self.settings.scene_designs.family_of]
+        return {
+            "blade": blades if len(blades) <= MOST_BLADES_DRAWN else few,
+            "scene": plain or _evenly(scenes, MOST_DRAWN),
+        }
 
     def drawn_runs(self, kind: str) -> list[tuple[str, str]]:
         """Pairs of blade and scene that have this kind of result and figures of their own."""
-        return [(blade, scene) for blade, scene in self.runs_with(kind) if scene in self.drawn_scenes]
+        drawn = self.drawn
+        return [(blade, scene) for blade, scene in self.runs_with(kind) if blade in drawn["blade"] and scene in drawn["scene"]]
 
     def runs_with(self, kind: str) -> list[tuple[str, str]]:
         """Pairs of blade and scene that have this kind of result."""
         pairs = [(blade, scene) for blade in self.settings.blades for scene in self.settings.scenes]
         return [pair for pair in pairs if kind == KINDS[0] or kind in self.settings.results_of(*pair)]
+
+
+def _evenly(names: list[str], most: int) -> list[str]:
+    """At most so many of the names, evenly spread from the first to the last."""
+    count = min(most, len(names))
+    return [names[round(place * (len(names) - 1) / max(count - 1, 1))] for place in range(count)]
 
 
 def speeds_of_round(file: str, plan: SpeedPlan | None = None) -> list[float]:

@@ -37,15 +37,15 @@ def simulated(sweep: Sweep) -> list[str]:
 
 def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
     settings = sweep.settings
-    growing = [name for name in sweep.drawn_scenes if settings.scenes[name].scene.casing.changes_with_speed]
+    growing = [name for name in sweep.drawn["scene"] if settings.scenes[name].scene.casing.changes_with_speed]
     ranked: Wildcards = [{}] if "stress" in sweep.kinds else []
     figures = {
-        "campbell_{blade}": of("blade", settings.blades),
-        "response_{blade}": of("blade", settings.blades),
+        "campbell_{blade}": of("blade", sweep.drawn["blade"]),
+        "response_{blade}": of("blade", sweep.drawn["blade"]),
         **{f"{kind}_{{blade}}__{{scene}}": run_keys(sweep.drawn_runs(kind)) for kind in MAPS},
         "fatigue_{blade}__{scene}": run_keys(sweep.drawn_runs("fatigue")),
         "waterfall_{blade}__{scene}": run_keys(sweep.drawn_runs("spectrum")),
-        "comparison_{scene}": of("scene", sweep.drawn_scenes),
+        "comparison_{scene}": of("scene", sweep.drawn["scene"]),
         "ranking": ranked,
         "clearance_{scene}": of("scene", growing),
     }
