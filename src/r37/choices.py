@@ -196,27 +196,15 @@ class SceneChoice(Choice):
 def blades(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
     """Names of the blades in blades.yaml, designs of families included.
 
-    Parameters
-    ----------
-    file
-        A blades.yaml in place of the configuration's.
-    config
-        A config.yaml in place of the shipped one.
-
-    Returns
-    -------
-    list of str
+    Returns:
         The names, in the order of the file.
 
-    Raises
-    ------
-    ConfigError
-        For files that cannot be read, or have no blades.
+    Raises:
+        ConfigError: For files that cannot be read, or have no blades.
 
-    Examples
-    --------
-    >>> r37.blades()
-    ['Ref', 'L50', 'L100', 'S50', 'S100', 'CS50', 'CS100']
+    Examples:
+        >>> r37.blades()
+        ['Ref', 'L50', 'L100', 'S50', 'S100', 'CS50', 'CS100']
     """
     chosen = _configuration("blades_file", file, config)
     blades_file = Path(chosen.checked.blades_file)
@@ -227,25 +215,15 @@ def blades(*, file: Path | str | None = None, config: Path | str | None = None) 
 def scenes(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
     """Names of the scenes in scenes.yaml: what a blade may rub on.
 
-    Parameters
-    ----------
-    file, config
-        As of `r37.blades`, a scenes.yaml.
-
-    Returns
-    -------
-    list of str
+    Returns:
         The names, in the order of the file.
 
-    Raises
-    ------
-    ConfigError
-        For files that cannot be read, or have no scenes.
+    Raises:
+        ConfigError: For files that cannot be read, or have no scenes.
 
-    Examples
-    --------
-    >>> r37.scenes()[:2]
-    ['abradable', 'direct']
+    Examples:
+        >>> r37.scenes()[:2]
+        ['abradable', 'direct']
     """
     return _scenes_of(_configuration("scenes_file", file, config))
 
@@ -262,40 +240,27 @@ def blade(
 ) -> BladeChoice:
     """A blade of blades.yaml, as it is there or with changed values.
 
-    Parameters
-    ----------
-    name_of_entry
-        Name of the blade in the file.
-    name
-        Name of the changed blade in results and figures. By default its changes name it.
-    file
-        A blades.yaml in place of the configuration's.
-    config
-        A config.yaml in place of the shipped one.
-    **changes
-        Values of keys of the entry, in the units of their names. A dot leads into a section, as in
-        `**{"material.density_kg_m3": 4430.0}`. A law over the span may also be a dictionary, or a list of its rows. None leaves
-        a key out.
+    Args:
+        name_of_entry: Name of the blade in the file.
+        name: Name of the changed blade in results and figures. By default its changes name it.
+        **changes: Values of keys of the entry, in the units of their names. A dot leads into a section, as in
+            `**{"material.density_kg_m3": 4430.0}`. A law over the span may also be a dictionary, or a list of its rows.
+            None leaves a key out.
 
-    Returns
-    -------
-    BladeChoice
+    Returns:
         The blade, for all calls that take one. Nothing is meshed or simulated yet.
 
-    Raises
-    ------
-    ConfigError
-        For an unknown name, an impossible value or shape, and files that cannot be read.
+    Raises:
+        ConfigError: For an unknown name, an impossible value or shape, and files that cannot be read.
 
-    Examples
-    --------
-    >>> swept = r37.blade("Ref", chordwise_sweep_deg=8)
-    >>> swept.label
-    'Ref, chordwise_sweep_deg=8'
-    >>> r37.blade("Ref", chordwise_sweep_deg=8, name="Swept").label
-    'Swept'
-    >>> r37.blade("Ref", stagger_deg={"hub": 0, "tip": 2}, thickness_percent=105, name="Turned").label
-    'Turned'
+    Examples:
+        >>> swept = r37.blade("Ref", chordwise_sweep_deg=8)
+        >>> swept.label
+        'Ref, chordwise_sweep_deg=8'
+        >>> r37.blade("Ref", chordwise_sweep_deg=8, name="Swept").label
+        'Swept'
+        >>> r37.blade("Ref", stagger_deg={"hub": 0, "tip": 2}, thickness_percent=105, name="Turned").label
+        'Turned'
     """
     chosen = BladeChoice(*_named(name_of_entry, name, changes, _configuration("blades_file", file, config)))
     chosen.check()
@@ -314,26 +279,20 @@ def scene(
 ) -> SceneChoice:
     """A scene of scenes.yaml, as it is there or with changed values.
 
-    Parameters
-    ----------
-    name_of_entry, name, file, config, **changes
-        As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the abradable lining out, also that of a `base`: the casing
-        is bare. Scenes that have this one as their base stay as they are.
+    Args:
+        name_of_entry, name, file, config, **changes: As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the
+            abradable lining out, also that of a `base`: the casing is bare. Scenes that have this one as their base stay as
+            they are.
 
-    Returns
-    -------
-    SceneChoice
+    Returns:
         The scene, for all calls that take one.
 
-    Raises
-    ------
-    ConfigError
-        For an unknown name, an impossible value, and files that cannot be read.
+    Raises:
+        ConfigError: For an unknown name, an impossible value, and files that cannot be read.
 
-    Examples
-    --------
-    >>> r37.scene("abradable", **{"friction.coefficient": 0.1}).entry.friction.coefficient
-    0.1
+    Examples:
+        >>> r37.scene("abradable", **{"friction.coefficient": 0.1}).entry.friction.coefficient
+        0.1
     """
     chosen = SceneChoice(*_named(name_of_entry, name, changes, _configuration("scenes_file", file, config)))
     chosen.check()

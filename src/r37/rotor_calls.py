@@ -33,46 +33,30 @@ def rotor(
 
     All blades wear one lining.
 
-    Parameters
-    ----------
-    blade
-        Shape of all blades: a name, or the result of `r37.blade`.
-    scene
-        A name, or the result of `r37.scene`.
-    speeds, speeds_rpm
-        As of `r37.sweep`.
-    rotor
-        The section `rotor` of the scene, in the units of its keys: `{"blades": 36, "mistuning_spread_percent": {"normal": 1}}`.
-        It may be left out for a scene that has a rotor. Otherwise the scene's keys stay where this has none of them.
-    fidelity, config, cores, folder
-        As of `r37.run`.
-    results
-        Results to compute, in place of the scene's list. By default, where `rotor` is given, it is that list without `signal`
-        and `shapes`, which are of a single blade.
+    Args:
+        rotor: The section `rotor` of the scene, in the units of its keys: `{"blades": 36, "mistuning_spread_percent":
+            {"normal": 1}}`. It may be left out for a scene that has a rotor. Otherwise the scene's keys stay where this has
+            none of them.
+        results: Results to compute, in place of the scene's list. By default, where `rotor` is given, it is that list
+            without `signal` and `shapes`, which are of a single blade.
 
-    Returns
-    -------
-    Dataset
+    Returns:
         By ascending speed. `blade_rms` (m) of the leading edge's displacement, normal and tangential together, and
-        `blade_max_von_mises` (Pa), shape (speed, blade_number). `blade_maximum` (m), shape (speed, blade_number, span), largest
-        over spans of revolutions. `leader`, shape (speed,), number of the blade with the largest `blade_rms`.
+        `blade_max_von_mises` (Pa), shape (speed, blade_number). `blade_maximum` (m), shape (speed, blade_number, span),
+        largest over spans of revolutions. `leader`, shape (speed,), number of the blade with the largest `blade_rms`.
         `nodal_diameter_share`, shape (speed, nodal_diameter), and others.
 
-    Raises
-    ------
-    ConfigError
-        For bad input, and for a scene without a rotor.
-    ValueError
-        For an impossible shape, mesh, model or time step.
+    Raises:
+        ConfigError: For bad input, and for a scene without a rotor.
+        ValueError: For an impossible shape, mesh, model or time step.
 
-    Examples
-    --------
-    >>> mistuned = {"blades": 3, "mistuning_percent": {2: 1.0}}
-    >>> all_blades = r37.rotor("Ref", "abradable", [1150, 1550], rotor=mistuned, fidelity="draft")
-    >>> all_blades.blade_rms.sizes["blade_number"]
-    3
-    >>> all_blades.leader.sel(speed=1550).item() in (1, 2, 3)
-    True
+    Examples:
+        >>> mistuned = {"blades": 3, "mistuning_percent": {2: 1.0}}
+        >>> all_blades = r37.rotor("Ref", "abradable", [1150, 1550], rotor=mistuned, fidelity="draft")
+        >>> all_blades.blade_rms.sizes["blade_number"]
+        3
+        >>> all_blades.leader.sel(speed=1550).item() in (1, 2, 3)
+        True
     """
     call = call_of("r37.rotor", [blade], [scene], speed_keys(speeds, options.get("speeds_rpm")), options)
     (single,), results = call.scenes, options.get("results")

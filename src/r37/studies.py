@@ -45,28 +45,16 @@ class ToleranceOptions(SweepOptions, total=False):
 def compare(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **options: Unpack[SweepOptions]) -> RunResults:
     """Several blades in several scenes: their responses, and a ranking by robustness.
 
-    Parameters
-    ----------
-    blades, scenes
-        Names, or the results of `r37.blade` and `r37.scene`; changed ones need a `name`.
-    speeds, speeds_rpm, fidelity, results, config, cores, folder
-        As of `r37.run`.
-
-    Returns
-    -------
-    RunResults
+    Returns:
         As of `r37.open_results`: the datasets campbell, rms, stress and others, `ranking`, `summary` and each `response`.
 
-    Raises
-    ------
-    ConfigError, ValueError
-        As of `r37.run`.
+    Raises:
+        ConfigError, ValueError: As of `r37.run`.
 
-    Examples
-    --------
-    >>> results = r37.compare(["Ref", "CS100"], "abradable", [1150, 1550], fidelity="draft")
-    >>> sorted(results.ranking.blade)
-    ['CS100', 'Ref']
+    Examples:
+        >>> results = r37.compare(["Ref", "CS100"], "abradable", [1150, 1550], fidelity="draft")
+        >>> sorted(results.ranking.blade)
+        ['CS100', 'Ref']
     """
     return run_of(named_call("r37.compare", blades, scenes, speeds, options), options)
 
@@ -82,44 +70,27 @@ def designs(
 ) -> RunResults:
     """Families of designs: one blade, or scenes, or both, with values that vary, and how robust each design is.
 
-    Parameters
-    ----------
-    blade
-        Blade that the designs start from: a name, or the result of `r37.blade`.
-    scenes
-        Names, or the results of `r37.scene`; changed ones need a `name`.
-    vary
-        Key of blades.yaml -> values, or `{"start": 0, "stop": 100, "step": 25}`, as under vary of a family. Keys that begin
-        with `scene.` are of scenes.yaml, such as `scene.casing.clearance_m`: each scene becomes a family. Or a DataFrame: a
-        design of the blade in each row, its name in the column `blade`, its values under their keys.
-    combine
-        "grid" for all combinations of several keys (the default), or "pairs" for the first values together, then the second;
-        of blade and of scene each. Every design of the blade meets every scene.
-    name
-        Name of the family, by default `Design`. A design is called after its values: `Design_50`. A scene's family is called
-        after the scene: `direct-varied_0p0003`.
-    operating, requirements
-        Sections of config.yaml, as of `r37.run`: with both there is `tables["verdict"]`.
-    speeds, speeds_rpm, fidelity, results, config, cores, folder
-        As of `r37.run`.
+    Args:
+        vary: Key of blades.yaml -> values, or `{"start": 0, "stop": 100, "step": 25}`, as under vary of a family. Keys that
+            begin with `scene.` are of scenes.yaml, such as `scene.casing.clearance_m`: each scene becomes a family. Or a
+            DataFrame: a design of the blade in each row, its name in the column `blade`, its values under their keys.
+        combine: "grid" for all combinations of several keys (the default), or "pairs" for the first values together, then
+            the second; of blade and of scene each. Every design of the blade meets every scene.
+        name: Name of the family, by default `Design`. A design is called after its values: `Design_50`. A scene's family is
+            called after the scene: `direct-varied_0p0003`.
+        operating, requirements: Sections of config.yaml, as of `r37.run`: with both there is `tables["verdict"]`.
 
-    Returns
-    -------
-    RunResults
+    Returns:
         As of `r37.compare`, and `tables["designs"]`: a row for each design and scene.
 
-    Raises
-    ------
-    ConfigError
-        For bad input, and a blade without profiles.
-    ValueError
-        For an impossible shape, and as of `r37.run`.
+    Raises:
+        ConfigError: For bad input, and a blade without profiles.
+        ValueError: For an impossible shape, and as of `r37.run`.
 
-    Examples
-    --------
-    >>> results = r37.designs("S100", "abradable", [1150], vary={"sweep_percent": [50, 100]}, fidelity="draft")
-    >>> results.tables["designs"].blade.tolist()
-    ['Design_50', 'Design_100']
+    Examples:
+        >>> results = r37.designs("S100", "abradable", [1150], vary={"sweep_percent": [50, 100]}, fidelity="draft")
+        >>> results.tables["designs"].blade.tolist()
+        ['Design_50', 'Design_100']
     """
     if isinstance(vary, pd.DataFrame):
         entry: dict[str, Any] = {"designs": vary}
@@ -146,39 +117,25 @@ def designs(
 def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **options: Unpack[ToleranceOptions]) -> RunResults:
     """Effect of uncertain numbers: the results of a sample of members that is drawn from their distributions.
 
-    Parameters
-    ----------
-    blades, scenes
-        As of `r37.compare`.
-    of_scenes, of_blades
-        Dotted key -> distribution of the number, as in `{"friction.coefficient": {"uniform_percent": 5}}`.
-    members
-        Number of members, a power of two.
-    seed
-        Seed of the sample.
-    sensitivity
-        Whether Sobol indices are computed. For n numbers this runs n + 2 times the members.
-    largest_share
-        Largest share of the finest grid of adaptive speeds that a member runs.
-    speeds, speeds_rpm, fidelity, results, config, cores, folder
-        As of `r37.run`.
+    Args:
+        of_scenes, of_blades: Dotted key -> distribution of the number, as in `{"friction.coefficient": {"uniform_percent":
+            5}}`.
+        members: Number of members, a power of two.
+        seed: Seed of the sample.
+        sensitivity: Whether Sobol indices are computed. For n numbers this runs n + 2 times the members.
+        largest_share: Largest share of the finest grid of adaptive speeds that a member runs.
 
-    Returns
-    -------
-    RunResults
+    Returns:
         As of `r37.compare`, with the dataset and the table tolerances, and with ranges in `summary`.
 
-    Raises
-    ------
-    ConfigError
-        For bad input, and for an impossible member.
+    Raises:
+        ConfigError: For bad input, and for an impossible member.
 
-    Examples
-    --------
-    >>> spread = {"casing.clearance_m": {"uniform_percent": 2}}
-    >>> results = r37.tolerances("Ref", "abradable", [1150], of_scenes=spread, members=2, fidelity="draft")
-    >>> results["tolerances"].sizes["member"]
-    2
+    Examples:
+        >>> spread = {"casing.clearance_m": {"uniform_percent": 2}}
+        >>> results = r37.tolerances("Ref", "abradable", [1150], of_scenes=spread, members=2, fidelity="draft")
+        >>> results["tolerances"].sizes["member"]
+        2
     """
     section = {name: plain_value(value) for name, value in options.items() if name not in SweepOptions.__annotations__}
     for name in ("of_scenes", "of_blades"):
