@@ -5,6 +5,7 @@ Matplotlib's parameters and backend stay those of the caller.
 
 from __future__ import annotations
 
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
@@ -13,7 +14,6 @@ from r37core.base.plain import to_plain
 from r37core.config import ConfigError
 from r37core.designs.table import compared_in
 
-from .jobs import function_named
 from .run_results import RunResults
 from .stages import checked_call
 
@@ -27,9 +27,6 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
 
     Args:
         campbell: The result of `r37.campbell`.
-
-    Returns:
-        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For another dataset.
@@ -50,9 +47,6 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
     Args:
         response: The result of `r37.sweep`, or a part of the dataset rms of a run.
         campbell: The result of `r37.campbell`, to mark the crossings of 1B.
-
-    Returns:
-        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For other datasets.
@@ -81,9 +75,6 @@ def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
     Args:
         rotor: The result of `r37.rotor`, or `rotor` of the results of a run.
 
-    Returns:
-        A figure of Matplotlib, to be shown, changed or saved.
-
     Raises:
         ConfigError: For another dataset, and for that of several runs.
 
@@ -105,9 +96,6 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
 
     Args:
         run_ups: The result of `r37.run_ups` or `r37.run_up`.
-
-    Returns:
-        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For another dataset, and for runs of several blades or scenes.
@@ -137,9 +125,6 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
         results: The result of `r37.tolerances`, or the results of a run with tolerances.
         blade, scene: Names of the blade and the scene.
 
-    Returns:
-        A figure of Matplotlib, to be shown, changed or saved.
-
     Raises:
         ConfigError: For results without tolerances, and for a blade and scene that have none.
 
@@ -166,9 +151,6 @@ def plot_designs(results: RunResults, title: str | None = None, *, family: str |
     Args:
         results: The result of `r37.designs`, or the results of a run with families.
         family: Family in place of the first one, as the column `family` of `tables["designs"]` has it.
-
-    Returns:
-        A figure of Matplotlib, to be shown, changed or saved.
 
     Raises:
         ConfigError: For results without designs, and for a family that they do not have.
@@ -200,7 +182,7 @@ def _drawn(drawing: str, *arguments: Any, **more: Any) -> Figure:
         from r37core.figures.style import PARAMETERS
 
         plt.rcParams.update(PARAMETERS)
-        return function_named(drawing)(*arguments, **more)
+        return resolve_name(f"r37core.{drawing}")(*arguments, **more)
 
 
 def _check(argument: str, dataset: xr.Dataset, needed: str, call: str) -> None:

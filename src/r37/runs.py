@@ -66,10 +66,6 @@ def run(
     Returns:
         As of `r37.open_results`.
 
-    Raises:
-        ConfigError: For bad input.
-        ValueError: For an impossible shape, mesh, model or time step.
-
     Examples:
         >>> results = r37.run("Ref", "abradable", [1150, 1550], fidelity="draft", interactions={"prominence": 0.3})
         >>> results["rms"].speed.values

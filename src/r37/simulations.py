@@ -49,11 +49,6 @@ def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: P
         `frequency` (Hz), shape (mode, speed). `crossing_speed` (rad/s), shape (mode, engine_order), NaN without a crossing.
         `dynamic_clearance` (m), shape (mode, tangential_displacement).
 
-    Raises:
-        ConfigError: For bad input.
-        ValueError: For an impossible shape, mesh or model.
-        BucklingError: For a blade that its load buckles at a speed of the diagram.
-
     Examples:
         >>> diagram = r37.campbell("Ref", fidelity="draft")
         >>> crossing = diagram.crossing_speed.sel(mode="1B", engine_order=4).item()  # rad/s
@@ -80,9 +75,6 @@ def reduced_model(
     Returns:
         `mass` (kg), `stiffness` (N/m) and `geometric_stiffness` (N s²/(m rad²)), each of shape (row, column). The rows are
         the reduced coordinates: displacements of the contact nodes, then modes. Others map them to the nodes.
-
-    Raises:
-        ConfigError, ValueError, BucklingError: As of `r37.campbell`.
 
     Examples:
         >>> model = r37.reduced_model("Ref", fidelity="draft")
@@ -145,9 +137,6 @@ def sweep(
         By ascending `speed`, with the variables, units, attributes and numbers of the workflow: `rms_normal` (m), shape
         (speed, tip_point); `max_von_mises` (Pa) and `status`, shape (speed,); `amplitude` (m), shape (speed, engine_order);
         and others.
-
-    Raises:
-        ConfigError, ValueError, BucklingError: As of `r37.simulate`.
 
     Examples:
         >>> response = r37.sweep("Ref", "abradable", [1550, 1150], fidelity="draft", results=["stress"])

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, get_args
 
 from r37core.base.process_wide import ProcessWide
 
-from .argument_docs import complete_docstring
+from .docstrings import complete_docstring
 
 if TYPE_CHECKING:
     from r37core.config import Settings

@@ -73,9 +73,6 @@ def compare(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **opti
     Returns:
         As of `r37.open_results`: the datasets campbell, rms, stress and others, `ranking`, `summary` and each `response`.
 
-    Raises:
-        ConfigError, ValueError: As of `r37.run`.
-
     Examples:
         >>> results = r37.compare(["Ref", "CS100"], "abradable", [1150, 1550], fidelity="draft")
         >>> sorted(results.ranking.blade)

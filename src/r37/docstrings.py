@@ -1,4 +1,4 @@
-"""Descriptions of arguments that several calls take: each is written here once, and stands in the docstring of each call."""
+"""What docstrings of calls have in common: each text is written here once, and stands in the docstring of every call."""
 
 import inspect
 import re
@@ -27,15 +27,28 @@ _DESCRIPTIONS = {
 }
 
 
+_FIGURE = "Returns:\n    A figure of Matplotlib, to be shown, changed or saved."
+
+_ERRORS = """Raises:
+    ConfigError: For bad input.
+    ValueError: For an impossible shape, mesh, model or time step.
+    BucklingError: For a blade that its load buckles."""
+
+_SECTION = re.compile(r"\n\n(?=(?:Args|Returns|Raises|Examples):\n)")
+
+
 def complete_docstring(call: Callable[..., object], arguments: Iterable[str]) -> str:
-    """Docstring of a call whose section `Args` describes all of its arguments, in their order; its own descriptions count."""
-    sections = inspect.cleandoc(call.__doc__ or "").split("\n\n")
-    place = next(number for number, section in enumerate(sections) if section.startswith(("Args:\n", "Returns:\n")))
-    own = re.split(r"\n(?=    \S)", sections.pop(place))[1:] if sections[place].startswith("Args:") else []
-    described = {name: entry for entry in own for name in re.findall(r"\w+", entry.partition(":")[0])}
-    entries = dict.fromkeys(described.get(name) or _entry(name) for name in arguments)
-    sections.insert(place, "\n".join(["Args:", *entries]))
-    return "\n\n".join(sections)
+    """Docstring of a call, with a section `Args` that describes its arguments in their order, and the usual errors.
+
+    Descriptions and sections that it has itself count.
+    """
+    purpose, *sections = _SECTION.split(inspect.cleandoc(call.__doc__ or ""))
+    own = {section.partition(":")[0]: section for section in sections}
+    entries = re.split(r"\n(?=    \S)", own.get("Args", ""))[1:]
+    described = {name: entry for entry in entries for name in re.findall(r"\w+", entry.partition(":")[0])}
+    own["Args"] = "\n".join(["Args:", *dict.fromkeys(described.get(name) or _entry(name) for name in arguments)])
+    usual = {"Returns": _FIGURE, "Raises": _ERRORS}
+    return "\n\n".join([purpose, *(own.get(title) or usual[title] for title in ("Args", "Returns", "Raises", "Examples"))])
 
 
 def _entry(name: str) -> str:
