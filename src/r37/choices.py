@@ -225,7 +225,7 @@ def scenes(*, file: Path | str | None = None, config: Path | str | None = None) 
         >>> r37.scenes()[:2]
         ['abradable', 'direct']
     """
-    return _scenes_of(_configuration("scenes_file", file, config))
+    return list(_scenes_in(_configuration("scenes_file", file, config).checked.scenes_file))
 
 
 @checked_call
@@ -302,11 +302,7 @@ def scene(
 def scenes_named(configuration: Configuration) -> list[str]:
     """Names of the scenes that a configuration runs. Raises ConfigError."""
     named = configuration.checked.scenes
-    return _scenes_of(configuration) if named == "all" else list(named)
-
-
-def _scenes_of(configuration: Configuration) -> list[str]:
-    return list(_scenes_in(configuration.checked.scenes_file))
+    return list(_scenes_in(configuration.checked.scenes_file) if named == "all" else named)
 
 
 def _scenes_in(file: str) -> dict[str, SceneEntry]:
