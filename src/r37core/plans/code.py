@@ -65,9 +65,8 @@ class CodeHashes:
         return sorted(parts - {(self._version_file, "")}, key=self._order)
 
     def _needed_by(self, file: Path, function: str) -> list[tuple[Path, str]]:
-        return list(
-            {(imported, ""): None for name in _facts_of_files().of(file, function)[1] for imported in self._files(name)}
-        )
+        _, names = _facts_of_files().of(file, function)
+        return list({(imported, ""): None for name in names for imported in self._files(name)})
 
     def _named(self, name: str) -> list[tuple[Path, str]]:
         above, _, last = name.rpartition(".")
