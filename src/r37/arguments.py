@@ -56,8 +56,8 @@ def plain_value(value: Any) -> Any:
     if hasattr(value, "to_csv"):
         text = value.to_csv(index=False)
         if (file := kept_for_user("table.csv", text, lambda file: write_text(text, file))) is None:
-            found = f"R37_CACHE: found {named_folder()}, which cannot be written"
-            raise ConfigError(f"{found}; allowed: a folder for tables from Python")
+            refusal = f"R37_CACHE: found {named_folder()}, which cannot be written"
+            raise ConfigError(f"{refusal}; allowed: a folder for tables from Python")
         return str(file)
     if isinstance(value, Mapping):
         return {key.item() if isinstance(key, np.generic) else key: plain_value(inner) for key, inner in value.items()}
