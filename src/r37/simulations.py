@@ -134,8 +134,8 @@ def sweep(
     """Response of a blade in a scene at several speeds, as in response.nc of a run.
 
     Returns:
-        By ascending `speed`, with the variables, units, attributes and numbers of the workflow: `rms_normal` (m), shape
-        (speed, tip_point); `max_von_mises` (Pa) and `status`, shape (speed,); `amplitude` (m), shape (speed, engine_order);
+        The variables of `r37.simulate` by ascending `speed`, with the numbers of the workflow: `rms_normal` (m), shape (speed,
+        tip_point); `max_von_mises` (Pa) and `status`, shape (speed,); `amplitude` (m), shape (speed, engine_order);
         and others.
 
     Examples:
