@@ -68,18 +68,6 @@ def plain_value(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def sequence_of(value: Any, single: Any, key: str, what: str) -> list[Any]:
-    """Several of what a call takes, or one of the type `single`, as a list. Raises ConfigError for others and for none."""
-    if isinstance(value, single):
-        return [value]
-    if isinstance(value, bytes) or not isinstance(value, Iterable) or isinstance(value, type):
-        raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: {what}, or a list of them")
-    several = finite(value, key)
-    if not several:
-        raise ConfigError(f"{key}: found none; allowed: at least one")
-    return several
-
-
 def finite(several: Iterable[Any], key: str) -> list[Any]:
     """The items of what may have no end. Raises ConfigError for more than there can be speeds."""
     items = list(islice(several, LARGEST_NUMBER + 1))
