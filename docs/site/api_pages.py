@@ -9,7 +9,7 @@ from sphinx.pycode import ModuleAnalyzer
 
 CORE = Path(__file__).parent.parent.parent / "src" / "r37core"
 
-INSIDE = "above, check, document, family, with_results"
+INSIDE = "above, check, family"
 """Members of the classes of r37 that its own calls alone use."""
 
 SECTIONS = {"Args": "Arguments", "Returns": "Returns", "Raises": "Raises", "Examples": "Examples"}

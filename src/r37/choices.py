@@ -125,18 +125,13 @@ class BladeChoice(Choice):
     checked: ClassVar[str] = "settings"
 
     @cached_property
-    def document(self) -> Document:
-        """The file with the changes. Raises ConfigError."""
-        document = read_document(Path(self.file).parent, self.file)
-        return document if self.above is None else document.overlaid(self.above)
-
-    @cached_property
     def settings(self) -> BladeSettings:
         """Shape and material of the blade, in SI units. Raises ConfigError."""
-        root = self.configuration.root
-        designs = _designs(self.document, root)
+        root, document = self.configuration.root, read_document(Path(self.file).parent, self.file)
+        document = document if self.above is None else document.overlaid(self.above)
+        designs = _designs(document, root)
         if self.name not in designs.entries:
-            raise _unknown(self.kind, self.name, designs.entries, self.document.name)
+            raise _unknown(self.kind, self.name, designs.entries, document.name)
         return blade_settings(self.name, designs.entries, root, designs.document)
 
     def _copied(self, entry: Any, original: str) -> Any:

@@ -1,4 +1,4 @@
-"""What docstrings of calls have in common: each text is written here once, and stands in the docstring of every call."""
+"""Texts that docstrings of calls have in common: each is written here once, and stands in the docstring of every call."""
 
 import inspect
 import re
@@ -26,7 +26,6 @@ _DESCRIPTIONS = {
     "title": "Title in place of the names that the figure has by default.",
 }
 
-
 _FIGURE = "Returns:\n    A figure of Matplotlib, to be shown, changed or saved."
 
 _ERRORS = """Raises:
@@ -38,9 +37,9 @@ _SECTION = re.compile(r"\n\n(?=(?:Args|Returns|Raises|Examples):\n)")
 
 
 def complete_docstring(call: Callable[..., object], arguments: Iterable[str]) -> str:
-    """Docstring of a call, with a section `Args` that describes its arguments in their order, and the usual errors.
+    """Docstring of a call, with descriptions of all its arguments in their order, and with the sections Returns and Raises.
 
-    Descriptions and sections that it has itself count.
+    Where its own docstring leaves one out, these are the descriptions above, a figure, and the usual errors.
     """
     purpose, *sections = _SECTION.split(inspect.cleandoc(call.__doc__ or ""))
     own = {section.partition(":")[0]: section for section in sections}
