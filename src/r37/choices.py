@@ -12,9 +12,10 @@ from typing import Any, ClassVar, Self
 
 from r37core.base.varied_number import with_value
 from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
-from r37core.config.blades import SHARES, Blades, blade_settings
-from r37core.config.families import Designs, expanded_families
+from r37core.config.blades import SHARES, blade_settings
+from r37core.config.families import expanded_families
 from r37core.config.messages import did_you_mean, single_line
+from r37core.config.reading import blades_of_file
 from r37core.config.scenes import SceneEntry, checked_scenes
 from r37core.config.section import Without
 from r37core.config.section_laws import SECTION_KEYS
@@ -127,11 +128,10 @@ class BladeChoice(Choice):
     @cached_property
     def settings(self) -> BladeSettings:
         """Shape and material of the blade, in SI units. Raises ConfigError."""
-        root, document = self.configuration.root, read_document(Path(self.file).parent, self.file)
-        document = document if self.above is None else document.overlaid(self.above)
-        designs = _designs(document, root)
+        root = self.configuration.root
+        designs = blades_of_file(root, self.file, self.above)
         if self.name not in designs.entries:
-            raise _unknown(self.kind, self.name, designs.entries, document.name)
+            raise _unknown(self.kind, self.name, designs.entries, self.file)
         return blade_settings(self.name, designs.entries, root, designs.document)
 
     def _copied(self, entry: Any, original: str) -> Any:
@@ -202,8 +202,7 @@ def blades(*, file: Path | str | None = None, config: Path | str | None = None) 
         ['Ref', 'L50', 'L100', 'S50', 'S100', 'CS50', 'CS100']
     """
     chosen = _configuration("blades_file", file, config)
-    blades_file = Path(chosen.checked.blades_file)
-    return list(_designs(read_document(blades_file.parent, str(blades_file)), chosen.root).entries)
+    return list(blades_of_file(chosen.root, chosen.checked.blades_file).entries)
 
 
 @checked_call
@@ -317,10 +316,6 @@ def _configuration(key: str, file: Path | str | None, config: Path | str | None)
     if file is None:
         return configuration
     return configuration.replacing_file(key, existing_file("file", file, "a file that is there"))
-
-
-def _designs(document: Document, root: Path) -> Designs:
-    return expanded_families(document.check(Blades).root, root, document)
 
 
 def _unknown(kind: str, name: str, known: Iterable[str], file: str) -> ConfigError:
