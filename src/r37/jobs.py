@@ -34,13 +34,12 @@ def parallel_results(calls: Sequence[Callable[[], Result]], cores: int, what: st
     # imported here: what computes nothing does not wait for them
     from joblib import Parallel, delayed, parallel_config
 
-    processes = min(cores, len(calls))
+    processes, shown = min(cores, len(calls)), bar(calls, what, unit) if unit else calls
     if processes <= 1:
         with _alone():
-            return [call() for call in (bar(calls, what, unit) if unit else calls)]
+            return [call() for call in shown]
     with _POOL, parallel_config(backend="loky", inner_max_num_threads=1):
         results = Parallel(n_jobs=processes, return_as="generator")(delayed(_called)(call) for call in calls)
-        shown = bar(calls, what, unit) if unit else calls
         return [result for _, result in zip(shown, results, strict=True)]
 
 
