@@ -140,8 +140,8 @@ def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **o
     """Effect of uncertain numbers: the results of a sample of members that is drawn from their distributions.
 
     Args:
-        of_scenes, of_blades: Dotted key -> distribution of the number, as in `{"friction.coefficient": {"uniform_percent":
-            5}}`.
+        of_scenes, of_blades: Dotted key -> distribution of the number, as in
+            `{"friction.coefficient": {"uniform_percent": 5}}`.
         members: Number of members, a power of two.
         seed: Seed of the sample.
         sensitivity: Whether Sobol indices are computed. For n numbers this runs n + 2 times the members.
@@ -182,9 +182,9 @@ def search(
             `name`.
         scenes: Names, or the results of `r37.scene`; changed ones need a `name`. Objectives and constraints name those that
             count.
-        variables: Dotted key of blades.yaml -> lowest and highest value, as in `{"stagger_deg.tip": [-3, 3],
-            "sweep_percent": [0, 100]}`; with `scene.` before it a key of scenes.yaml, as in `{"scene.lining.thickness_m":
-            [0.001, 0.005]}`.
+        variables: Dotted key of blades.yaml -> lowest and highest value, as in
+            `{"stagger_deg.tip": [-3, 3], "sweep_percent": [0, 100]}`; with `scene.` before it a key of scenes.yaml, as in
+            `{"scene.lining.thickness_m": [0.001, 0.005]}`.
         objectives: Name -> a number to minimise: `{"lined": {"scenes": ["abradable"]}}` for the integral over speed of the
             share of revolutions above yield, or another `measure`; with a `quantile` under tolerances.
         constraints: Name -> a limit: `{"first": {"measure": "frequency_hz", "mode": "1B", "at_least_percent": 98}}`.
@@ -199,8 +199,8 @@ def search(
 
     Returns:
         The dataset and the table search: every design and the start. Its method `best_values` has the values of the best
-        design, for `r37.blade`, and `best_scene_values` those for `r37.scene`; entries of the best are in `folder /
-        "search/best"`, with STEP files of blades.
+        design, for `r37.blade`, and `best_scene_values` those for `r37.scene`; entries of the best are in
+        `folder / "search/best"`, with STEP files of blades.
 
     Raises:
         ConfigError: For bad input, and where the extra package of a search is not installed. A design that cannot be built
@@ -240,9 +240,9 @@ def rotor(
     All blades wear one lining.
 
     Args:
-        rotor: The section `rotor` of the scene, in the units of its keys: `{"blades": 36, "mistuning_spread_percent":
-            {"normal": 1}}`. It may be left out for a scene that has a rotor. Otherwise the scene's keys stay where this has
-            none of them.
+        rotor: The section `rotor` of the scene, in the units of its keys:
+            `{"blades": 36, "mistuning_spread_percent": {"normal": 1}}`. It may be left out for a scene that has a rotor.
+            Otherwise the scene's keys stay where this has none of them.
         results: Results to compute, in place of the scene's list. By default, where `rotor` is given, it is that list
             without `signal` and `shapes`, which are of a single blade.
 
