@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Self, TypeVar
 
 from r37core.base.varied_number import with_value
 from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
@@ -21,7 +21,7 @@ from r37core.config.section import Without
 from r37core.config.section_laws import SECTION_KEYS
 
 from .arguments import plain_value
-from .call_configuration import Configuration, existing_file, read_configuration
+from .call_configuration import Configuration, read_configuration
 from .stages import checked_call
 
 
@@ -187,6 +187,9 @@ class SceneChoice(Choice):
         return False
 
 
+C = TypeVar("C", bound=Choice)
+
+
 @checked_call
 def blades(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
     """Names of the blades in blades.yaml, designs of families included.
@@ -201,7 +204,7 @@ def blades(*, file: Path | str | None = None, config: Path | str | None = None) 
         >>> r37.blades()
         ['Ref', 'L50', 'L100', 'S50', 'S100', 'CS50', 'CS100']
     """
-    chosen = _configuration("blades_file", file, config)
+    chosen = read_configuration(config).with_file("blades_file", file)
     return list(blades_of_file(chosen.root, chosen.checked.blades_file).entries)
 
 
@@ -219,7 +222,7 @@ def scenes(*, file: Path | str | None = None, config: Path | str | None = None) 
         >>> r37.scenes()[:2]
         ['abradable', 'direct']
     """
-    return list(_scenes_in(_configuration("scenes_file", file, config).checked.scenes_file))
+    return list(_scenes_in(read_configuration(config).with_file("scenes_file", file).checked.scenes_file))
 
 
 @checked_call
@@ -256,9 +259,7 @@ def blade(
         >>> r37.blade("Ref", stagger_deg={"hub": 0, "tip": 2}, thickness_percent=105, name="Turned").label
         'Turned'
     """
-    chosen = BladeChoice(*_named(name_of_entry, name, changes, _configuration("blades_file", file, config)))
-    chosen.check()
-    return chosen
+    return _chosen(BladeChoice, name_of_entry, name, changes, read_configuration(config).with_file("blades_file", file))
 
 
 @checked_call
@@ -288,9 +289,7 @@ def scene(
         >>> r37.scene("abradable", **{"friction.coefficient": 0.1}).entry.friction.coefficient
         0.1
     """
-    chosen = SceneChoice(*_named(name_of_entry, name, changes, _configuration("scenes_file", file, config)))
-    chosen.check()
-    return chosen
+    return _chosen(SceneChoice, name_of_entry, name, changes, read_configuration(config).with_file("scenes_file", file))
 
 
 def scenes_named(configuration: Configuration) -> list[str]:
@@ -303,19 +302,14 @@ def _scenes_in(file: str) -> dict[str, SceneEntry]:
     return checked_scenes(read_document(Path(file).parent, file))[1]
 
 
-def _named(entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> Any:
-    """The arguments of a choice. Raises ConfigError for what is no name."""
+def _chosen(kind: type[C], entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> C:
+    """The choice, checked. Raises ConfigError, also for what is no name."""
     for key, value in (("name_of_entry", entry), ("name", name)):
         if not isinstance(value, str | None):
             raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: a name")
-    return (entry, changes, configuration) if name is None else (name, changes, configuration, entry)
-
-
-def _configuration(key: str, file: Path | str | None, config: Path | str | None) -> Configuration:
-    configuration = read_configuration(config)
-    if file is None:
-        return configuration
-    return configuration.replacing_file(key, existing_file("file", file, "a file that is there"))
+    chosen = kind(entry, changes, configuration) if name is None else kind(name, changes, configuration, entry)
+    chosen.check()
+    return chosen
 
 
 def _unknown(kind: str, name: str, known: Iterable[str], file: str) -> ConfigError:
