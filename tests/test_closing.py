@@ -5,7 +5,7 @@ import os
 import numpy as np
 import xarray as xr
 
-from r37core.console.closing import closing_lines
+from r37core.product.closing import closing_lines
 from r37core.results.closing import counted, interaction_title, lining_texts
 
 HEAD = "blade,scene,mode,engine_order,max_von_mises_speed_rad_s,width_above_yield_rad_s,max_von_mises_pa"

@@ -49,7 +49,7 @@ def tree(tmp_path):
 
 
 def hashes(tree):
-    for cached in (code_module._facts, code_module.module_files):
+    for cached in (code_module._facts_of_files().of, code_module.module_files):
         cached.cache_clear()
     return CodeHashes(tree / "src", tree / "scripts")
 

@@ -10,8 +10,10 @@ from defaults import Where
 from overlays import overlay
 
 from r37core.base.plain import to_plain
+from r37core.blade.definition import BladeDefinition
 from r37core.cases.plan import Cases, shape_of_model
 from r37core.config import ConfigError
+from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.orientation import OURS
 from r37core.exports.plan import Exports
 from r37core.exports.plan import targets as exported_targets
@@ -212,7 +214,7 @@ def three(settings_with, config_copy, monkeypatch):
 def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     imported, sweep = three
     fan, given = (SimpleNamespace(blade=blade, scene="direct", speed="750") for blade in ("Fan", "Given"))
-    assert (imported.profiles, imported.meshes, imported.matrices) == ("Ref", "Fan", "Given")
+    assert [*map(imported.pattern, (BladeDefinition, MeshSource, MatricesSource))] == ["Ref", "Fan", "Given"]
     assert imported.files(fan) == ["meshes/fan.inp", "meshes/more.inc"]
     names = ["K_0.mtx", "K_1000.npz", "K_2000.mtx", "M.mtx", "boundary.csv"]
     assert [file.rsplit("/", 1)[1] for file in imported.files(given)] == names

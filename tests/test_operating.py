@@ -7,7 +7,7 @@ import xarray as xr
 from pydantic import ValidationError
 
 from r37core.base.units import RPM
-from r37core.config.operating_section import OperatingSection
+from r37core.config.config_file import OperatingSection
 from r37core.figures import style
 from r37core.results.columns import OPERATING, ROBUSTNESS, names
 from r37core.results.operating import operating_measures

@@ -3,6 +3,7 @@
 import doctest
 import inspect
 import json
+import re
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -83,11 +84,11 @@ def test_the_example_of_a_docstring_runs(finished, examples, name, tmp_path, mon
 
 @pytest.mark.parametrize("name", CALLS)
 def test_a_docstring_says_what_a_call_takes(name):
-    call = inspect.unwrap(getattr(r37, name))
-    _, _, parameters = inspect.getdoc(call).partition("Parameters\n----------\n")
-    lines = parameters.partition("\n\n")[0].splitlines()
-    described = {part.strip("* ") for line in lines if not line.startswith(" ") for part in line.split(",")}
-    assert described == set(arguments_of(call) or inspect.signature(call).parameters)
+    call = getattr(r37, name)
+    _, _, section = inspect.getdoc(call).partition("Args:\n")
+    entries = re.findall(r"^    (\S.*?): \S", section.partition("\n\n")[0], re.MULTILINE)
+    described = [part.strip("* ") for entry in entries for part in entry.split(",")]
+    assert described == list(arguments_of(inspect.unwrap(call)) or inspect.signature(call).parameters)
 
 
 def test_blades_of_two_files_are_told_how_to_come_together(root, tmp_path):

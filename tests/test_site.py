@@ -142,7 +142,7 @@ def test_docstrings_have_purpose_results_and_errors(name):
     text = inspect.getdoc(value)
     assert text.split("\n\n")[0].endswith(".")
     if not isinstance(value, type):
-        assert all(f"{section}\n{'-' * len(section)}\n" in text for section in ("Parameters", "Returns", "Raises", "Examples"))
+        assert all(f"\n\n{section}:\n" in text for section in ("Args", "Returns", "Raises", "Examples"))
 
 
 def test_pages_are_named_by_words_and_other_files_are_no_links(root):

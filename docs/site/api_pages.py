@@ -2,14 +2,18 @@
 
 import inspect
 import re
+import textwrap
 from pathlib import Path
 
 from sphinx.pycode import ModuleAnalyzer
 
 CORE = Path(__file__).parent.parent.parent / "src" / "r37core"
 
-INSIDE = "above, check, document, family, with_results"
+INSIDE = "above, check, family"
 """Members of the classes of r37 that its own calls alone use."""
+
+SECTIONS = {"Args": "Arguments", "Returns": "Returns", "Raises": "Raises", "Examples": "Examples"}
+"""Sections of the docstrings of r37, and their titles on the pages."""
 
 
 def modules(package):
@@ -141,14 +145,16 @@ def as_plain_text(app, what, name, obj, options, lines):
 
 
 def shown(paragraph):
-    """A paragraph, or a section of a docstring: its underlined title, then terms with what they are, or an example."""
+    """A paragraph, or a section of a docstring: its title, then terms with what they are, a text, or an example."""
     if paragraph.startswith("    "):
         return f"::\n\n{paragraph}"
-    first, _, rest = paragraph.partition("\n")
-    underline, _, body = rest.partition("\n")
-    if not underline or underline.strip("-"):
+    title, _, rest = paragraph.partition(":\n")
+    if title not in SECTIONS:
         return escaped(paragraph)
-    return f"**{first}**\n\n{body if body.startswith('>>>') else escaped(body)}"
+    body = textwrap.dedent(rest)
+    if title in ("Args", "Raises"):
+        body = re.sub(r"^(\S.*?): ", r"\1\n    ", body, flags=re.MULTILINE)
+    return f"**{SECTIONS[title]}**\n\n{body if body.startswith('>>>') else escaped(body)}"
 
 
 def escaped(text):

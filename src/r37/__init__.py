@@ -22,13 +22,11 @@ if TYPE_CHECKING:
 
     from .choices import BladeChoice, SceneChoice, blade, blades, scene, scenes
     from .plots import plot_campbell, plot_designs, plot_response, plot_rotor, plot_run_ups, plot_tolerances
-    from .rotor_calls import rotor
     from .run_results import RunResults, open_results
     from .run_up_calls import run_up, run_ups
     from .runs import run
-    from .search_calls import search
     from .simulations import campbell, reduced_model, simulate, sweep
-    from .studies import compare, designs, tolerances
+    from .studies import compare, designs, rotor, search, tolerances
     from .study_folder import SNAKEFILE, init
 
 __all__ = [
@@ -74,13 +72,11 @@ _NAMES_OF = {
     "r37core.rom.rotation": ("BucklingError",),
     ".choices": ("BladeChoice", "SceneChoice", "blade", "blades", "scene", "scenes"),
     ".plots": ("plot_campbell", "plot_designs", "plot_response", "plot_rotor", "plot_run_ups", "plot_tolerances"),
-    ".rotor_calls": ("rotor",),
     ".run_results": ("RunResults", "open_results"),
     ".run_up_calls": ("run_up", "run_ups"),
     ".runs": ("run",),
-    ".search_calls": ("search",),
     ".simulations": ("campbell", "reduced_model", "simulate", "sweep"),
-    ".studies": ("compare", "designs", "tolerances"),
+    ".studies": ("compare", "designs", "rotor", "search", "tolerances"),
     ".study_folder": ("SNAKEFILE", "init"),
 }
 """Modules that are imported when one of their names is first used: the command starts in a tenth of a second."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from itertools import islice
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -50,9 +49,16 @@ def _single_unit(name: str, rad_s: Any, rpm: Any) -> tuple[str, str, Any]:
 
 
 def plain_value(value: Any) -> Any:
-    """The value without types of NumPy, inside of mappings and lists, too; a DataFrame becomes a file with it."""
+    """The value without types of NumPy, inside of mappings and lists, too; a DataFrame becomes a file of the user's cache.
+
+    Raises ConfigError where that cannot be written.
+    """
     if hasattr(value, "to_csv"):
-        return str(_table_file(value.to_csv(index=False)))
+        text = value.to_csv(index=False)
+        if (file := kept_for_user("table.csv", text, lambda file: write_text(text, file))) is None:
+            refusal = f"R37_CACHE: found {named_folder()}, which cannot be written"
+            raise ConfigError(f"{refusal}; allowed: a folder for tables from Python")
+        return str(file)
     if isinstance(value, Mapping):
         return {key.item() if isinstance(key, np.generic) else key: plain_value(inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):
@@ -60,26 +66,6 @@ def plain_value(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value.item() if value.size == 1 else value.tolist()
     return value.item() if isinstance(value, np.generic) else value
-
-
-def _table_file(text: str) -> Path:
-    """A file of the user's cache with a table, for a key of blades.yaml. Raises ConfigError where none can be written."""
-    file = kept_for_user("table.csv", text, lambda file: write_text(text, file))
-    if file is not None:
-        return file
-    raise ConfigError(f"R37_CACHE: found {named_folder()}, which cannot be written; allowed: a folder for tables from Python")
-
-
-def sequence_of(value: Any, single: Any, key: str, what: str) -> list[Any]:
-    """Several of what a call takes, or one of the type `single`, as a list. Raises ConfigError for others and for none."""
-    if isinstance(value, single):
-        return [value]
-    if isinstance(value, bytes) or not isinstance(value, Iterable) or isinstance(value, type):
-        raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: {what}, or a list of them")
-    several = finite(value, key)
-    if not several:
-        raise ConfigError(f"{key}: found none; allowed: at least one")
-    return several
 
 
 def finite(several: Iterable[Any], key: str) -> list[Any]:

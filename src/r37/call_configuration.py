@@ -48,9 +48,14 @@ class Configuration:
         """The content as a model. Raises ConfigError."""
         return self.document.check(CONFIG)
 
-    def replacing_file(self, key: str, file: Path | str) -> Configuration:
-        """Configuration with another file under the key `blades_file` or `scenes_file`; tables of blades lie next to it."""
-        path = Path(file).absolute()
+    def with_file(self, key: str, file: Path | str | None) -> Configuration:
+        """Configuration with another file, if any, under `blades_file` or `scenes_file`; tables of blades lie next to it.
+
+        Raises ConfigError.
+        """
+        if file is None:
+            return self
+        path = existing_file("file", file, "a file that is there").absolute()
         document = self.document.overlaid(command_line_document({key: str(path)}, f"{key[:-5]} file"))
         return Configuration(document, _root_of(path) if key == "blades_file" else self.root)
 

@@ -12,9 +12,10 @@ from pathlib import Path
 from typing import Any, TypedDict
 
 from r37core.config import ConfigError, Document, Settings
+from r37core.config.messages import single_line
 from r37core.config.remarks import remarks_on_input, remarks_on_points
 
-from .arguments import finite, sequence_of
+from .arguments import finite
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, Choice, SceneChoice
 
@@ -121,7 +122,16 @@ def call_of(
 
 def several(value: Any, kind: type[Choice]) -> list[Any]:
     """One blade or scene, or several of them, as a list. Raises ConfigError for others and for none."""
-    return sequence_of(value, kind | str, f"{kind.kind}s", f"the name of a {kind.kind}, or what r37.{kind.kind} gives")
+    name = kind.kind
+    if isinstance(value, kind | str):
+        return [value]
+    if isinstance(value, bytes | type) or not isinstance(value, Iterable):
+        allowed = f"the name of a {name}, or what r37.{name} gives, or a list of them"
+        raise ConfigError(f"{name}s: found {single_line(repr(value))}; allowed: {allowed}")
+    choices = finite(value, f"{name}s")
+    if not choices:
+        raise ConfigError(f"{name}s: found none; allowed: at least one")
+    return choices
 
 
 def names_of_their_own(choices: Sequence[Choice]) -> None:

@@ -8,19 +8,20 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Self, TypeVar
 
 from r37core.base.varied_number import with_value
 from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
-from r37core.config.blades import SHARES, Blades, blade_settings
-from r37core.config.families import Designs, expanded_families
+from r37core.config.blades import SHARES, blade_settings
+from r37core.config.families import expanded_families
 from r37core.config.messages import did_you_mean, single_line
+from r37core.config.reading import blades_of_file
 from r37core.config.scenes import SceneEntry, checked_scenes
 from r37core.config.section import Without
 from r37core.config.section_laws import SECTION_KEYS
 
 from .arguments import plain_value
-from .call_configuration import Configuration, existing_file, read_configuration
+from .call_configuration import Configuration, read_configuration
 from .stages import checked_call
 
 
@@ -125,18 +126,12 @@ class BladeChoice(Choice):
     checked: ClassVar[str] = "settings"
 
     @cached_property
-    def document(self) -> Document:
-        """The file with the changes. Raises ConfigError."""
-        document = read_document(Path(self.file).parent, self.file)
-        return document if self.above is None else document.overlaid(self.above)
-
-    @cached_property
     def settings(self) -> BladeSettings:
         """Shape and material of the blade, in SI units. Raises ConfigError."""
         root = self.configuration.root
-        designs = _designs(self.document, root)
+        designs = blades_of_file(root, self.file, self.above)
         if self.name not in designs.entries:
-            raise _unknown(self.kind, self.name, designs.entries, self.document.name)
+            raise _unknown(self.kind, self.name, designs.entries, self.file)
         return blade_settings(self.name, designs.entries, root, designs.document)
 
     def _copied(self, entry: Any, original: str) -> Any:
@@ -192,62 +187,42 @@ class SceneChoice(Choice):
         return False
 
 
+C = TypeVar("C", bound=Choice)
+
+
 @checked_call
 def blades(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
     """Names of the blades in blades.yaml, designs of families included.
 
-    Parameters
-    ----------
-    file
-        A blades.yaml in place of the configuration's.
-    config
-        A config.yaml in place of the shipped one.
-
-    Returns
-    -------
-    list of str
+    Returns:
         The names, in the order of the file.
 
-    Raises
-    ------
-    ConfigError
-        For files that cannot be read, or have no blades.
+    Raises:
+        ConfigError: For files that cannot be read, or have no blades.
 
-    Examples
-    --------
-    >>> r37.blades()
-    ['Ref', 'L50', 'L100', 'S50', 'S100', 'CS50', 'CS100']
+    Examples:
+        >>> r37.blades()
+        ['Ref', 'L50', 'L100', 'S50', 'S100', 'CS50', 'CS100']
     """
-    chosen = _configuration("blades_file", file, config)
-    blades_file = Path(chosen.checked.blades_file)
-    return list(_designs(read_document(blades_file.parent, str(blades_file)), chosen.root).entries)
+    chosen = read_configuration(config).with_file("blades_file", file)
+    return list(blades_of_file(chosen.root, chosen.checked.blades_file).entries)
 
 
 @checked_call
 def scenes(*, file: Path | str | None = None, config: Path | str | None = None) -> list[str]:
     """Names of the scenes in scenes.yaml: what a blade may rub on.
 
-    Parameters
-    ----------
-    file, config
-        As of `r37.blades`, a scenes.yaml.
-
-    Returns
-    -------
-    list of str
+    Returns:
         The names, in the order of the file.
 
-    Raises
-    ------
-    ConfigError
-        For files that cannot be read, or have no scenes.
+    Raises:
+        ConfigError: For files that cannot be read, or have no scenes.
 
-    Examples
-    --------
-    >>> r37.scenes()[:2]
-    ['abradable', 'direct']
+    Examples:
+        >>> r37.scenes()[:2]
+        ['abradable', 'direct']
     """
-    return _scenes_of(_configuration("scenes_file", file, config))
+    return list(_scenes_in(read_configuration(config).with_file("scenes_file", file).checked.scenes_file))
 
 
 @checked_call
@@ -262,44 +237,29 @@ def blade(
 ) -> BladeChoice:
     """A blade of blades.yaml, as it is there or with changed values.
 
-    Parameters
-    ----------
-    name_of_entry
-        Name of the blade in the file.
-    name
-        Name of the changed blade in results and figures. By default its changes name it.
-    file
-        A blades.yaml in place of the configuration's.
-    config
-        A config.yaml in place of the shipped one.
-    **changes
-        Values of keys of the entry, in the units of their names. A dot leads into a section, as in
-        `**{"material.density_kg_m3": 4430.0}`. A law over the span may also be a dictionary, or a list of its rows. None leaves
-        a key out.
+    Args:
+        name_of_entry: Name of the blade in the file.
+        name: Name of the changed blade in results and figures. By default its changes name it.
+        **changes: Values of keys of the entry, in the units of their names. A dot leads into a section, as in
+            `**{"material.density_kg_m3": 4430.0}`. A law over the span may also be a dictionary, or a list of its rows.
+            None leaves a key out.
 
-    Returns
-    -------
-    BladeChoice
+    Returns:
         The blade, for all calls that take one. Nothing is meshed or simulated yet.
 
-    Raises
-    ------
-    ConfigError
-        For an unknown name, an impossible value or shape, and files that cannot be read.
+    Raises:
+        ConfigError: For an unknown name, an impossible value or shape, and files that cannot be read.
 
-    Examples
-    --------
-    >>> swept = r37.blade("Ref", chordwise_sweep_deg=8)
-    >>> swept.label
-    'Ref, chordwise_sweep_deg=8'
-    >>> r37.blade("Ref", chordwise_sweep_deg=8, name="Swept").label
-    'Swept'
-    >>> r37.blade("Ref", stagger_deg={"hub": 0, "tip": 2}, thickness_percent=105, name="Turned").label
-    'Turned'
+    Examples:
+        >>> swept = r37.blade("Ref", chordwise_sweep_deg=8)
+        >>> swept.label
+        'Ref, chordwise_sweep_deg=8'
+        >>> r37.blade("Ref", chordwise_sweep_deg=8, name="Swept").label
+        'Swept'
+        >>> r37.blade("Ref", stagger_deg={"hub": 0, "tip": 2}, thickness_percent=105, name="Turned").label
+        'Turned'
     """
-    chosen = BladeChoice(*_named(name_of_entry, name, changes, _configuration("blades_file", file, config)))
-    chosen.check()
-    return chosen
+    return _chosen(BladeChoice, name_of_entry, name, changes, read_configuration(config).with_file("blades_file", file))
 
 
 @checked_call
@@ -314,63 +274,42 @@ def scene(
 ) -> SceneChoice:
     """A scene of scenes.yaml, as it is there or with changed values.
 
-    Parameters
-    ----------
-    name_of_entry, name, file, config, **changes
-        As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the abradable lining out, also that of a `base`: the casing
-        is bare. Scenes that have this one as their base stay as they are.
+    Args:
+        name_of_entry, name, file, config, **changes: As of `r37.blade`, of a scenes.yaml. `lining=None` leaves the
+            abradable lining out, also that of a `base`: the casing is bare. Scenes that have this one as their base stay as
+            they are.
 
-    Returns
-    -------
-    SceneChoice
+    Returns:
         The scene, for all calls that take one.
 
-    Raises
-    ------
-    ConfigError
-        For an unknown name, an impossible value, and files that cannot be read.
+    Raises:
+        ConfigError: For an unknown name, an impossible value, and files that cannot be read.
 
-    Examples
-    --------
-    >>> r37.scene("abradable", **{"friction.coefficient": 0.1}).entry.friction.coefficient
-    0.1
+    Examples:
+        >>> r37.scene("abradable", **{"friction.coefficient": 0.1}).entry.friction.coefficient
+        0.1
     """
-    chosen = SceneChoice(*_named(name_of_entry, name, changes, _configuration("scenes_file", file, config)))
-    chosen.check()
-    return chosen
+    return _chosen(SceneChoice, name_of_entry, name, changes, read_configuration(config).with_file("scenes_file", file))
 
 
 def scenes_named(configuration: Configuration) -> list[str]:
     """Names of the scenes that a configuration runs. Raises ConfigError."""
     named = configuration.checked.scenes
-    return _scenes_of(configuration) if named == "all" else list(named)
-
-
-def _scenes_of(configuration: Configuration) -> list[str]:
-    return list(_scenes_in(configuration.checked.scenes_file))
+    return list(_scenes_in(configuration.checked.scenes_file) if named == "all" else named)
 
 
 def _scenes_in(file: str) -> dict[str, SceneEntry]:
     return checked_scenes(read_document(Path(file).parent, file))[1]
 
 
-def _named(entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> Any:
-    """The arguments of a choice. Raises ConfigError for what is no name."""
+def _chosen(kind: type[C], entry: str, name: str | None, changes: Mapping[str, Any], configuration: Configuration) -> C:
+    """The choice, checked. Raises ConfigError, also for what is no name."""
     for key, value in (("name_of_entry", entry), ("name", name)):
         if not isinstance(value, str | None):
             raise ConfigError(f"{key}: found {single_line(repr(value))}; allowed: a name")
-    return (entry, changes, configuration) if name is None else (name, changes, configuration, entry)
-
-
-def _configuration(key: str, file: Path | str | None, config: Path | str | None) -> Configuration:
-    configuration = read_configuration(config)
-    if file is None:
-        return configuration
-    return configuration.replacing_file(key, existing_file("file", file, "a file that is there"))
-
-
-def _designs(document: Document, root: Path) -> Designs:
-    return expanded_families(document.check(Blades).root, root, document)
+    chosen = kind(entry, changes, configuration) if name is None else kind(name, changes, configuration, entry)
+    chosen.check()
+    return chosen
 
 
 def _unknown(kind: str, name: str, known: Iterable[str], file: str) -> ConfigError:

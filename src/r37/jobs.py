@@ -5,12 +5,11 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
-from importlib import import_module
+from pkgutil import resolve_name
 from typing import Any, TypeVar
 
 import numpy as np
 
-import r37core
 from r37core.base.io import Named
 from r37core.base.process_wide import ProcessWide
 from r37core.config import ConfigError
@@ -35,13 +34,12 @@ def parallel_results(calls: Sequence[Callable[[], Result]], cores: int, what: st
     # imported here: what computes nothing does not wait for them
     from joblib import Parallel, delayed, parallel_config
 
-    processes = min(cores, len(calls))
+    processes, shown = min(cores, len(calls)), bar(calls, what, unit) if unit else calls
     if processes <= 1:
         with _alone():
-            return [call() for call in (bar(calls, what, unit) if unit else calls)]
+            return [call() for call in shown]
     with _POOL, parallel_config(backend="loky", inner_max_num_threads=1):
         results = Parallel(n_jobs=processes, return_as="generator")(delayed(_called)(call) for call in calls)
-        shown = bar(calls, what, unit) if unit else calls
         return [result for _, result in zip(shown, results, strict=True)]
 
 
@@ -65,15 +63,6 @@ _POOL = threading.Lock()
 """Held by the thread that the worker processes work for: joblib has one set of them."""
 
 
-def function_named(name: str) -> Callable[..., Any]:
-    """A function of r37core by its name as rules have it, as `fem.steps.mesh`; its module is imported now.
-
-    Some bring gmsh and VTK, which take seconds to load.
-    """
-    module, function = f"{r37core.__name__}.{name}".rsplit(".", 1)
-    return getattr(import_module(module), function)
-
-
 def run_step(step: str, input: Mapping[str, Any], output: Mapping[str, Any], params: Mapping[str, Any]) -> Any:
-    """Do a step: a function of a `steps.py`. Gives and raises what it does."""
-    return function_named(step)(Named(**input), Named(**output), Named(**params))
+    """Do a step, named as `fem.steps.mesh`, whose module is imported now. Gives and raises what it does."""
+    return resolve_name(f"r37core.{step}")(Named(**input), Named(**output), Named(**params))

@@ -5,6 +5,7 @@ Matplotlib's parameters and backend stay those of the caller.
 
 from __future__ import annotations
 
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
@@ -13,7 +14,6 @@ from r37core.base.plain import to_plain
 from r37core.config import ConfigError
 from r37core.designs.table import compared_in
 
-from .jobs import function_named
 from .run_results import RunResults
 from .stages import checked_call
 
@@ -25,28 +25,16 @@ if TYPE_CHECKING:
 def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
     """Figure of the Campbell diagram and the dynamic clearance of one blade.
 
-    Parameters
-    ----------
-    campbell
-        The result of `r37.campbell`.
-    title
-        Title in place of the blade's name with its changes.
+    Args:
+        campbell: The result of `r37.campbell`.
 
-    Returns
-    -------
-    Figure
-        A figure of Matplotlib, to be shown, changed or saved.
+    Raises:
+        ConfigError: For another dataset.
 
-    Raises
-    ------
-    ConfigError
-        For another dataset.
-
-    Examples
-    --------
-    >>> figure = r37.plot_campbell(r37.campbell("Ref", fidelity="draft"))
-    >>> figure.axes[0].get_title()
-    'Campbell diagram, blade Ref'
+    Examples:
+        >>> figure = r37.plot_campbell(r37.campbell("Ref", fidelity="draft"))
+        >>> figure.axes[0].get_title()
+        'Campbell diagram, blade Ref'
     """
     _check("campbell", campbell, "frequency", "r37.campbell")
     return _drawn("figures.campbell_diagram.draw_campbell", campbell, title or _label(campbell, "blade"))
@@ -56,31 +44,18 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
 def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, title: str | None = None) -> Figure:
     """Figure of the leading edge's rms and the largest stress over speed.
 
-    Parameters
-    ----------
-    response
-        The result of `r37.sweep`, or a part of the dataset rms of a run.
-    campbell
-        The result of `r37.campbell`, to mark the crossings of 1B.
-    title
-        As of `r37.plot_campbell`.
+    Args:
+        response: The result of `r37.sweep`, or a part of the dataset rms of a run.
+        campbell: The result of `r37.campbell`, to mark the crossings of 1B.
 
-    Returns
-    -------
-    Figure
-        A figure of Matplotlib, to be shown, changed or saved.
+    Raises:
+        ConfigError: For other datasets.
 
-    Raises
-    ------
-    ConfigError
-        For other datasets.
-
-    Examples
-    --------
-    >>> response = r37.sweep("Ref", "abradable", [1150, 1550], fidelity="draft")
-    >>> figure = r37.plot_response(response)
-    >>> figure.axes[0].get_ylabel()
-    'rms, normal (mm)'
+    Examples:
+        >>> response = r37.sweep("Ref", "abradable", [1150, 1550], fidelity="draft")
+        >>> figure = r37.plot_response(response)
+        >>> figure.axes[0].get_ylabel()
+        'rms, normal (mm)'
     """
     _check("response", response, "rms_normal", "r37.sweep")
     if campbell is not None:
@@ -97,28 +72,16 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
 def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
     """Figure of a rotor: a map of its blades over speed, the worst stress, and growth and nodal diameters at the worst speed.
 
-    Parameters
-    ----------
-    rotor
-        The result of `r37.rotor`, or `rotor` of the results of a run.
-    title
-        Title in place of the names of blade and scene.
+    Args:
+        rotor: The result of `r37.rotor`, or `rotor` of the results of a run.
 
-    Returns
-    -------
-    Figure
-        A figure of Matplotlib, to be shown, changed or saved.
+    Raises:
+        ConfigError: For another dataset, and for that of several runs.
 
-    Raises
-    ------
-    ConfigError
-        For another dataset, and for that of several runs.
-
-    Examples
-    --------
-    >>> rotor = r37.rotor("Ref", "abradable", [1550], rotor={"blades": 3}, fidelity="draft")
-    >>> r37.plot_rotor(rotor, "mine").get_suptitle()
-    'mine: a rotor of 3 blades'
+    Examples:
+        >>> rotor = r37.rotor("Ref", "abradable", [1550], rotor={"blades": 3}, fidelity="draft")
+        >>> r37.plot_rotor(rotor, "mine").get_suptitle()
+        'mine: a rotor of 3 blades'
     """
     _check("rotor", rotor, "blade_rms", "r37.rotor")
     if "run" in rotor.dims:
@@ -131,28 +94,16 @@ def plot_rotor(rotor: xr.Dataset, title: str | None = None) -> Figure:
 def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
     """Figure of motion, stress and wear in every revolution of run-ups of one blade in one scene.
 
-    Parameters
-    ----------
-    run_ups
-        The result of `r37.run_ups` or `r37.run_up`.
-    title
-        Title in place of the names of blade and scene.
+    Args:
+        run_ups: The result of `r37.run_ups` or `r37.run_up`.
 
-    Returns
-    -------
-    Figure
-        A figure of Matplotlib, to be shown, changed or saved.
+    Raises:
+        ConfigError: For another dataset, and for runs of several blades or scenes.
 
-    Raises
-    ------
-    ConfigError
-        For another dataset, and for runs of several blades or scenes.
-
-    Examples
-    --------
-    >>> run = r37.run_up("Ref", "abradable", from_rad_s=1540, to_rad_s=1560, revolutions=4, fidelity="draft")
-    >>> r37.plot_run_ups(run).get_suptitle()
-    'run-ups: Ref, abradable, leading edge'
+    Examples:
+        >>> run = r37.run_up("Ref", "abradable", from_rad_s=1540, to_rad_s=1560, revolutions=4, fidelity="draft")
+        >>> r37.plot_run_ups(run).get_suptitle()
+        'run-ups: Ref, abradable, leading edge'
     """
     _check("run_ups", run_ups, "rate", "r37.run_ups")
     several = run_ups if "run" in run_ups.dims else run_ups.expand_dims("run")
@@ -170,31 +121,18 @@ def plot_run_ups(run_ups: xr.Dataset, title: str | None = None) -> Figure:
 def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | None = None) -> Figure:
     """Figure of the band of the members, their probability of passing yield, and the effect of each number.
 
-    Parameters
-    ----------
-    results
-        The result of `r37.tolerances`, or the results of a run with tolerances.
-    blade, scene
-        Names of the blade and the scene.
-    title
-        Title in place of these names.
+    Args:
+        results: The result of `r37.tolerances`, or the results of a run with tolerances.
+        blade, scene: Names of the blade and the scene.
 
-    Returns
-    -------
-    Figure
-        A figure of Matplotlib, to be shown, changed or saved.
+    Raises:
+        ConfigError: For results without tolerances, and for a blade and scene that have none.
 
-    Raises
-    ------
-    ConfigError
-        For results without tolerances, and for a blade and scene that have none.
-
-    Examples
-    --------
-    >>> spread = {"casing.clearance_m": {"uniform_percent": 2}}
-    >>> results = r37.tolerances("Ref", "abradable", [1150], of_scenes=spread, members=2, fidelity="draft")
-    >>> len(r37.plot_tolerances(results, "Ref", "abradable").axes) > 2
-    True
+    Examples:
+        >>> spread = {"casing.clearance_m": {"uniform_percent": 2}}
+        >>> results = r37.tolerances("Ref", "abradable", [1150], of_scenes=spread, members=2, fidelity="draft")
+        >>> len(r37.plot_tolerances(results, "Ref", "abradable").axes) > 2
+        True
     """
     if not isinstance(results, RunResults) or "tolerances" not in results:
         raise ConfigError("results: found none of tolerances; allowed: what r37.tolerances gives")
@@ -210,30 +148,17 @@ def plot_tolerances(results: RunResults, blade: str, scene: str, title: str | No
 def plot_designs(results: RunResults, title: str | None = None, *, family: str | None = None) -> Figure:
     """Figure of a family of designs: robustness over the varied key, a map over two, else by the designs' names.
 
-    Parameters
-    ----------
-    results
-        The result of `r37.designs`, or the results of a run with families.
-    title
-        Title in place of the family's name.
-    family
-        Family in place of the first one, as the column `family` of `tables["designs"]` has it.
+    Args:
+        results: The result of `r37.designs`, or the results of a run with families.
+        family: Family in place of the first one, as the column `family` of `tables["designs"]` has it.
 
-    Returns
-    -------
-    Figure
-        A figure of Matplotlib, to be shown, changed or saved.
+    Raises:
+        ConfigError: For results without designs, and for a family that they do not have.
 
-    Raises
-    ------
-    ConfigError
-        For results without designs, and for a family that they do not have.
-
-    Examples
-    --------
-    >>> results = r37.designs("S100", "abradable", [1150], vary={"sweep_percent": [50, 100]}, fidelity="draft")
-    >>> r37.plot_designs(results).get_suptitle()
-    'family Design: 2 designs over sweep_percent'
+    Examples:
+        >>> results = r37.designs("S100", "abradable", [1150], vary={"sweep_percent": [50, 100]}, fidelity="draft")
+        >>> r37.plot_designs(results).get_suptitle()
+        'family Design: 2 designs over sweep_percent'
     """
     if not isinstance(results, RunResults) or "designs" not in results.tables:
         raise ConfigError("results: found none of designs; allowed: what r37.designs gives")
@@ -257,7 +182,7 @@ def _drawn(drawing: str, *arguments: Any, **more: Any) -> Figure:
         from r37core.figures.style import PARAMETERS
 
         plt.rcParams.update(PARAMETERS)
-        return function_named(drawing)(*arguments, **more)
+        return resolve_name(f"r37core.{drawing}")(*arguments, **more)
 
 
 def _check(argument: str, dataset: xr.Dataset, needed: str, call: str) -> None:

@@ -136,30 +136,23 @@ def _table(file: Path) -> pd.DataFrame:
 def open_results(folder: Path | str) -> RunResults:
     """Results of a finished run of the workflow.
 
-    Parameters
-    ----------
-    folder
-        Folder of the run: `results`, or `results/runs/<name>`.
+    Args:
+        folder: Folder of the run: `results`, or `results/runs/<name>`.
 
-    Returns
-    -------
-    RunResults
+    Returns:
         Datasets by name, `tables` by name, each `response`, and all datasets as a `tree`.
 
-    Raises
-    ------
-    InputFileError
-        For a folder without datasets.
+    Raises:
+        InputFileError: For a folder without datasets.
 
-    Examples
-    --------
-    >>> results = r37.open_results("results")
-    >>> list(results)
-    ['campbell', 'rms', 'spectrum', 'stress', 'wear']
-    >>> list(results.tables)
-    ['ranking', 'summary']
-    >>> results.tree()["Ref/abradable/response"].sizes["speed"]
-    3
+    Examples:
+        >>> results = r37.open_results("results")
+        >>> list(results)
+        ['campbell', 'rms', 'spectrum', 'stress', 'wear']
+        >>> list(results.tables)
+        ['ranking', 'summary']
+        >>> results.tree()["Ref/abradable/response"].sizes["speed"]
+        3
     """
     if not isinstance(folder, str | os.PathLike):
         raise InputFileError(f"results: found {folder!r}; allowed: the folder of a run, such as results")

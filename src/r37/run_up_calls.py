@@ -42,43 +42,27 @@ class RunUpOptions(OneOptions, total=False):
 def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack[RunUpOptions]) -> xr.Dataset:
     """Run-up, or run-down, of a blade in a scene, as one run of run_ups.nc.
 
-    Parameters
-    ----------
-    blade, scene
-        Names, or the results of `r37.blade` and `r37.scene`.
-    from_rad_s, to_rad_s
-        First and last speed (rad/s). A lower last one makes a run-down.
-    from_rpm, to_rpm
-        The same in revolutions per minute.
-    crossing
-        Speeds about a crossing of the blade's own Campbell diagram, in place of numbers, as shares of its speed above it:
-        `{"mode": "1B", "engine_order": 4, "first": -0.015, "last": 0.07}`.
-    rate_rad_s2, rate_rpm_s, revolutions
-        Rate of the speed's change (rad/s², rpm/s), or the number of revolutions that it takes. One of them is given.
-    revolutions_before, revolutions_after
-        Revolutions at the first speed, while the lobes grow, and at the last one.
-    lining
-        "new", or "worn" by the same run-up before.
-    fidelity, results, config
-        As of `r37.simulate`.
+    Args:
+        from_rad_s, to_rad_s: First and last speed (rad/s). A lower last one makes a run-down.
+        from_rpm, to_rpm: The same in revolutions per minute.
+        crossing: Speeds about a crossing of the blade's own Campbell diagram, in place of numbers, as shares of its speed
+            above it: `{"mode": "1B", "engine_order": 4, "first": -0.015, "last": 0.07}`.
+        rate_rad_s2, rate_rpm_s, revolutions: Rate of the speed's change (rad/s², rpm/s), or the number of revolutions that
+            it takes. One of them is given.
+        revolutions_before, revolutions_after: Revolutions at the first speed, while the lobes grow, and at the last one.
+        lining: "new", or "worn" by the same run-up before.
 
-    Returns
-    -------
-    Dataset
+    Returns:
         Over `revolution`: `speed` (rad/s), `maximum_normal` (m), `max_von_mises` (Pa) and others.
 
-    Raises
-    ------
-    ConfigError
-        For bad input.
-    ValueError
-        For a crossing that is not there, and as of `r37.simulate`.
+    Raises:
+        ConfigError: For bad input.
+        ValueError: For a crossing that is not there, and as of `r37.simulate`.
 
-    Examples
-    --------
-    >>> run = r37.run_up("Ref", "abradable", from_rad_s=1540, to_rad_s=1560, revolutions=4, fidelity="draft")
-    >>> bool(run.speed[-1] > run.speed[0])
-    True
+    Examples:
+        >>> run = r37.run_up("Ref", "abradable", from_rad_s=1540, to_rad_s=1560, revolutions=4, fidelity="draft")
+        >>> bool(run.speed[-1] > run.speed[0])
+        True
     """
     entry = {key: value for key, value in options.items() if key not in OneOptions.__annotations__ and value is not None}
     call = _call("r37.run_up", blade, scene, {"run_up": entry}, options)
@@ -104,31 +88,21 @@ def run_ups(
 ) -> xr.Dataset:
     """Several run-ups of a blade in a scene, as in run_ups.nc of a run.
 
-    Parameters
-    ----------
-    blade, scene
-        As of `r37.run_up`.
-    several
-        Name -> arguments of `r37.run_up`, as under run_ups of config.yaml.
-    fidelity, results, config, cores, folder
-        As of `r37.run`.
+    Args:
+        several: Name -> arguments of `r37.run_up`, as under run_ups of config.yaml.
 
-    Returns
-    -------
-    Dataset
-        The variables of `r37.run_up`, over `run` and `revolution`, with the coordinates `run_up` (name), `blade` and `scene`.
+    Returns:
+        The variables of `r37.run_up`, over `run` and `revolution`, with the coordinates `run_up` (name), `blade` and
+        `scene`.
 
-    Raises
-    ------
-    ConfigError, ValueError
-        As of `r37.run_up`.
+    Raises:
+        ConfigError, ValueError: As of `r37.run_up`.
 
-    Examples
-    --------
-    >>> speeds = {"from_rad_s": 1540, "to_rad_s": 1560}
-    >>> both = {"slow": {**speeds, "revolutions": 4}, "fast": {**speeds, "revolutions": 2}}
-    >>> r37.run_ups("Ref", "abradable", both, fidelity="draft").run_up.values.tolist()
-    ['slow', 'fast']
+    Examples:
+        >>> speeds = {"from_rad_s": 1540, "to_rad_s": 1560}
+        >>> both = {"slow": {**speeds, "revolutions": 4}, "fast": {**speeds, "revolutions": 2}}
+        >>> r37.run_ups("Ref", "abradable", both, fidelity="draft").run_up.values.tolist()
+        ['slow', 'fast']
     """
     if not isinstance(several, Mapping) or not several:
         raise ConfigError(f"run_ups: found {several!r}; allowed: names and what each run-up is")

@@ -45,36 +45,15 @@ class SpeedsOptions(OneOptions, total=False):
 def campbell(blade: BladeChoice | str, *, fidelity: str | None = None, config: Path | str | None = None) -> xr.Dataset:
     """Campbell diagram of a blade, as in campbell.nc of a run.
 
-    Parameters
-    ----------
-    blade
-        A name, or the result of `r37.blade`.
-    fidelity
-        An accuracy level in place of the configuration's.
-    config
-        A config.yaml in place of the shipped one. It gives names, structure and levels.
-
-    Returns
-    -------
-    Dataset
+    Returns:
         `frequency` (Hz), shape (mode, speed). `crossing_speed` (rad/s), shape (mode, engine_order), NaN without a crossing.
         `dynamic_clearance` (m), shape (mode, tangential_displacement).
 
-    Raises
-    ------
-    ConfigError
-        For bad input.
-    ValueError
-        For an impossible shape, mesh or model.
-    BucklingError
-        For a blade that its load buckles at a speed of the diagram.
-
-    Examples
-    --------
-    >>> diagram = r37.campbell("Ref", fidelity="draft")
-    >>> crossing = diagram.crossing_speed.sel(mode="1B", engine_order=4).item()  # rad/s
-    >>> 1600 < crossing < 1750
-    True
+    Examples:
+        >>> diagram = r37.campbell("Ref", fidelity="draft")
+        >>> crossing = diagram.crossing_speed.sel(mode="1B", engine_order=4).item()  # rad/s
+        >>> 1600 < crossing < 1750
+        True
     """
     call = call_of("r37.campbell", [blade], [], {}, {"fidelity": fidelity, "config": config})
     return _structure_dataset(call, "campbell_of_blade")
@@ -90,31 +69,17 @@ def reduced_model(
 ) -> xr.Dataset:
     """Reduced model of a blade, as in rom_*.nc of a run.
 
-    Parameters
-    ----------
-    blade
-        A name, or the result of `r37.blade`.
-    scene
-        Scene whose tip line has the contact nodes. By default that of structure.boundary counts.
-    fidelity, config
-        As of `r37.campbell`.
+    Args:
+        scene: Scene whose tip line has the contact nodes. By default that of structure.boundary counts.
 
-    Returns
-    -------
-    Dataset
-        `mass` (kg), `stiffness` (N/m) and `geometric_stiffness` (N s²/(m rad²)), each of shape (row, column). The rows are the
-        reduced coordinates: displacements of the contact nodes, then modes. Others map them to the nodes.
+    Returns:
+        `mass` (kg), `stiffness` (N/m) and `geometric_stiffness` (N s²/(m rad²)), each of shape (row, column). The rows are
+        the reduced coordinates: displacements of the contact nodes, then modes. Others map them to the nodes.
 
-    Raises
-    ------
-    ConfigError, ValueError, BucklingError
-        As of `r37.campbell`.
-
-    Examples
-    --------
-    >>> model = r37.reduced_model("Ref", fidelity="draft")
-    >>> model.mass.shape == model.stiffness.shape
-    True
+    Examples:
+        >>> model = r37.reduced_model("Ref", fidelity="draft")
+        >>> model.mass.shape == model.stiffness.shape
+        True
     """
     scenes = [] if scene is None else [scene]
     call = call_of("r37.reduced_model", [blade], scenes, {}, {"fidelity": fidelity, "config": config})
@@ -128,45 +93,25 @@ def simulate(
 ) -> xr.Dataset:
     """Response of a blade in a scene at one speed: that of `r37.sweep` without the dimension speed.
 
-    Parameters
-    ----------
-    blade, scene
-        Names, or the results of `r37.blade` and `r37.scene`.
-    speed
-        Angular speed (rad/s).
-    speed_rpm
-        The same in revolutions per minute, in place of `speed`.
-    fidelity
-        An accuracy level in place of the configuration's.
-    results
-        Results to compute, in place of the scene's list: `["stress", "wear"]`.
-    config
-        A config.yaml in place of the shipped one. It gives names, structure and levels.
-    initial_displacement, initial_velocity
-        State of the blade at the start (velocity per s), in the coordinates of `r37.reduced_model`, shape (coordinates,). By
-        default it starts at rest. Parts in modes that are not stepped are left out; the dataset has their share of the energy,
-        and the attribute `initial_state`.
+    Args:
+        speed: Angular speed (rad/s).
+        initial_displacement, initial_velocity: State of the blade at the start (velocity per s), in the coordinates of
+            `r37.reduced_model`, shape (coordinates,). By default it starts at rest. Parts in modes that are not stepped are
+            left out; the dataset has their share of the energy, and the attribute `initial_state`.
 
-    Returns
-    -------
-    Dataset
+    Returns:
         Variables of response.nc: `rms_normal` (m), shape (tip_point,); `max_von_mises` (Pa) and `status` (0: completed, 1:
         diverged), scalars; and others, each with its unit.
 
-    Raises
-    ------
-    ConfigError
-        For bad input, and for a displacement that reaches into casing or lining.
-    ValueError
-        For an impossible shape, mesh, model or time step.
-    BucklingError
-        For a blade that its load buckles.
+    Raises:
+        ConfigError: For bad input, and for a displacement that reaches into casing or lining.
+        ValueError: For an impossible shape, mesh, model or time step.
+        BucklingError: For a blade that its load buckles.
 
-    Examples
-    --------
-    >>> response = r37.simulate("Ref", "abradable", 1550, fidelity="draft")
-    >>> response.rms_normal.sel(tip_point="leading_edge").item() > 0.0  # m
-    True
+    Examples:
+        >>> response = r37.simulate("Ref", "abradable", 1550, fidelity="draft")
+        >>> response.rms_normal.sel(tip_point="leading_edge").item() > 0.0  # m
+        True
     """
     call = call_of("r37.simulate", [blade], [scene], speed_key(speed, options.get("speed_rpm")), options)
     try:
@@ -188,34 +133,15 @@ def sweep(
 ) -> xr.Dataset:
     """Response of a blade in a scene at several speeds, as in response.nc of a run.
 
-    Parameters
-    ----------
-    speeds
-        Angular speeds (rad/s), or ranges `{"start": 750, "stop": 2000, "step": 20}`. With `"refine_to": 1` the range is sampled
-        adaptively, down to intervals of that length.
-    speeds_rpm
-        The same in revolutions per minute, in place of `speeds`.
-    blade, scene, fidelity, results, config
-        As of `r37.simulate`.
-    cores
-        Number of simulations that run at once, in processes of their own. The numbers do not depend on it.
+    Returns:
+        The variables of `r37.simulate` by ascending `speed`, with the numbers of the workflow: `rms_normal` (m), shape (speed,
+        tip_point); `max_von_mises` (Pa) and `status`, shape (speed,); `amplitude` (m), shape (speed, engine_order);
+        and others.
 
-    Returns
-    -------
-    Dataset
-        By ascending `speed`, with the variables, units, attributes and numbers of the workflow: `rms_normal` (m), shape (speed,
-        tip_point); `max_von_mises` (Pa) and `status`, shape (speed,); `amplitude` (m), shape (speed, engine_order); and others.
-
-    Raises
-    ------
-    ConfigError, ValueError, BucklingError
-        As of `r37.simulate`.
-
-    Examples
-    --------
-    >>> response = r37.sweep("Ref", "abradable", [1550, 1150], fidelity="draft", results=["stress"])
-    >>> response.speed.values
-    array([1150., 1550.])
+    Examples:
+        >>> response = r37.sweep("Ref", "abradable", [1550, 1150], fidelity="draft", results=["stress"])
+        >>> response.speed.values
+        array([1150., 1550.])
     """
     check_cores(cores := options.get("cores", 1))
     keys = speed_keys(speeds, options.get("speeds_rpm"))

@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar, get_args
 
 from r37core.base.process_wide import ProcessWide
 
+from .docstrings import complete_docstring
+
 if TYPE_CHECKING:
     from r37core.config import Settings
 
@@ -98,7 +100,7 @@ def arguments_of(call: Callable[..., object]) -> list[str] | None:
 
 
 def checked_call(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
-    """The call, with its stages told, and a TypeError for an unknown keyword argument that says which there are."""
+    """The call, with its stages told, a complete docstring, and a TypeError for an unknown keyword argument that lists all."""
     named = arguments_of(call) or []
 
     @wraps(call)
@@ -111,4 +113,5 @@ def checked_call(call: Callable[Arguments, Result]) -> Callable[Arguments, Resul
         with stages():
             return call(*arguments, **keywords)
 
+    checked.__doc__ = complete_docstring(call, named or inspect.signature(call).parameters)
     return checked

@@ -1,24 +1,36 @@
-"""Named calls of many runs: blades compared, designs of a family, and numbers that are not known exactly."""
+"""Named calls of many runs: blades compared, designs of a family, uncertain numbers, a search for designs, whole rotors."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Unpack
 
 import pandas as pd
+import xarray as xr
 
 from r37core.base.varied_number import KINDS, values_of
 from r37core.config import ConfigError
+from r37core.config.scenes import OF_ONE_BLADE
+from r37core.plans.paths import fill
+from r37core.rotors.plan import ROTOR_OF_RUN
+from r37core.search.designs import FOLDER
+from r37core.search.plan import BEST, DATASET, TABLE
 
 from .arguments import Speeds, mapping, plain_value, speed_keys
-from .call_settings import call_of, names_of_their_own, several
+from .call_settings import call_of, chosen_scene, names_of_their_own, several
 from .choices import BladeChoice, SceneChoice
 from .run_results import RunResults
 from .runs import Blades, Scenes, SweepOptions, named_call, run_of
 from .stages import checked_call
 
 _SPREAD = 'dotted keys and how each spreads, as in {"friction.coefficient": {"uniform_percent": 5}}'
+_BOUNDS = 'dotted keys of blades.yaml, or scene.KEY of scenes.yaml, and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
+_MAPPINGS = {
+    "objectives": 'names and what is read off, as in {"lined": {"scenes": ["abradable"]}}',
+    "constraints": 'names and what is kept, as in {"mass": {"measure": "mass_kg", "at_most_percent": 100}}',
+    "tolerances": 'of_scenes, of_blades and members, as in {"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}',
+}
 
 
 class DesignOptions(SweepOptions, total=False):
@@ -41,32 +53,30 @@ class ToleranceOptions(SweepOptions, total=False):
     largest_share: float
 
 
+class SearchOptions(SweepOptions, total=False):
+    """Options of `search`."""
+
+    constraints: Mapping[str, Any] | None
+    designs: int
+    first: int
+    batch: int
+    method: str
+    seed: int
+    tolerances: Mapping[str, Any] | None
+    best: int
+
+
 @checked_call
 def compare(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **options: Unpack[SweepOptions]) -> RunResults:
     """Several blades in several scenes: their responses, and a ranking by robustness.
 
-    Parameters
-    ----------
-    blades, scenes
-        Names, or the results of `r37.blade` and `r37.scene`; changed ones need a `name`.
-    speeds, speeds_rpm, fidelity, results, config, cores, folder
-        As of `r37.run`.
-
-    Returns
-    -------
-    RunResults
+    Returns:
         As of `r37.open_results`: the datasets campbell, rms, stress and others, `ranking`, `summary` and each `response`.
 
-    Raises
-    ------
-    ConfigError, ValueError
-        As of `r37.run`.
-
-    Examples
-    --------
-    >>> results = r37.compare(["Ref", "CS100"], "abradable", [1150, 1550], fidelity="draft")
-    >>> sorted(results.ranking.blade)
-    ['CS100', 'Ref']
+    Examples:
+        >>> results = r37.compare(["Ref", "CS100"], "abradable", [1150, 1550], fidelity="draft")
+        >>> sorted(results.ranking.blade)
+        ['CS100', 'Ref']
     """
     return run_of(named_call("r37.compare", blades, scenes, speeds, options), options)
 
@@ -82,44 +92,27 @@ def designs(
 ) -> RunResults:
     """Families of designs: one blade, or scenes, or both, with values that vary, and how robust each design is.
 
-    Parameters
-    ----------
-    blade
-        Blade that the designs start from: a name, or the result of `r37.blade`.
-    scenes
-        Names, or the results of `r37.scene`; changed ones need a `name`.
-    vary
-        Key of blades.yaml -> values, or `{"start": 0, "stop": 100, "step": 25}`, as under vary of a family. Keys that begin
-        with `scene.` are of scenes.yaml, such as `scene.casing.clearance_m`: each scene becomes a family. Or a DataFrame: a
-        design of the blade in each row, its name in the column `blade`, its values under their keys.
-    combine
-        "grid" for all combinations of several keys (the default), or "pairs" for the first values together, then the second;
-        of blade and of scene each. Every design of the blade meets every scene.
-    name
-        Name of the family, by default `Design`. A design is called after its values: `Design_50`. A scene's family is called
-        after the scene: `direct-varied_0p0003`.
-    operating, requirements
-        Sections of config.yaml, as of `r37.run`: with both there is `tables["verdict"]`.
-    speeds, speeds_rpm, fidelity, results, config, cores, folder
-        As of `r37.run`.
+    Args:
+        vary: Key of blades.yaml -> values, or `{"start": 0, "stop": 100, "step": 25}`, as under vary of a family. Keys that
+            begin with `scene.` are of scenes.yaml, such as `scene.casing.clearance_m`: each scene becomes a family. Or a
+            DataFrame: a design of the blade in each row, its name in the column `blade`, its values under their keys.
+        combine: "grid" for all combinations of several keys (the default), or "pairs" for the first values together, then
+            the second; of blade and of scene each. Every design of the blade meets every scene.
+        name: Name of the family, by default `Design`. A design is called after its values: `Design_50`. A scene's family is
+            called after the scene: `direct-varied_0p0003`.
+        operating, requirements: Sections of config.yaml, as of `r37.run`: with both there is `tables["verdict"]`.
 
-    Returns
-    -------
-    RunResults
+    Returns:
         As of `r37.compare`, and `tables["designs"]`: a row for each design and scene.
 
-    Raises
-    ------
-    ConfigError
-        For bad input, and a blade without profiles.
-    ValueError
-        For an impossible shape, and as of `r37.run`.
+    Raises:
+        ConfigError: For bad input, and a blade without profiles.
+        ValueError: For an impossible shape, and as of `r37.run`.
 
-    Examples
-    --------
-    >>> results = r37.designs("S100", "abradable", [1150], vary={"sweep_percent": [50, 100]}, fidelity="draft")
-    >>> results.tables["designs"].blade.tolist()
-    ['Design_50', 'Design_100']
+    Examples:
+        >>> results = r37.designs("S100", "abradable", [1150], vary={"sweep_percent": [50, 100]}, fidelity="draft")
+        >>> results.tables["designs"].blade.tolist()
+        ['Design_50', 'Design_100']
     """
     if isinstance(vary, pd.DataFrame):
         entry: dict[str, Any] = {"designs": vary}
@@ -146,41 +139,139 @@ def designs(
 def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **options: Unpack[ToleranceOptions]) -> RunResults:
     """Effect of uncertain numbers: the results of a sample of members that is drawn from their distributions.
 
-    Parameters
-    ----------
-    blades, scenes
-        As of `r37.compare`.
-    of_scenes, of_blades
-        Dotted key -> distribution of the number, as in `{"friction.coefficient": {"uniform_percent": 5}}`.
-    members
-        Number of members, a power of two.
-    seed
-        Seed of the sample.
-    sensitivity
-        Whether Sobol indices are computed. For n numbers this runs n + 2 times the members.
-    largest_share
-        Largest share of the finest grid of adaptive speeds that a member runs.
-    speeds, speeds_rpm, fidelity, results, config, cores, folder
-        As of `r37.run`.
+    Args:
+        of_scenes, of_blades: Dotted key -> distribution of the number, as in
+            `{"friction.coefficient": {"uniform_percent": 5}}`.
+        members: Number of members, a power of two.
+        seed: Seed of the sample.
+        sensitivity: Whether Sobol indices are computed. For n numbers this runs n + 2 times the members.
+        largest_share: Largest share of the finest grid of adaptive speeds that a member runs.
 
-    Returns
-    -------
-    RunResults
+    Returns:
         As of `r37.compare`, with the dataset and the table tolerances, and with ranges in `summary`.
 
-    Raises
-    ------
-    ConfigError
-        For bad input, and for an impossible member.
+    Raises:
+        ConfigError: For bad input, and for an impossible member.
 
-    Examples
-    --------
-    >>> spread = {"casing.clearance_m": {"uniform_percent": 2}}
-    >>> results = r37.tolerances("Ref", "abradable", [1150], of_scenes=spread, members=2, fidelity="draft")
-    >>> results["tolerances"].sizes["member"]
-    2
+    Examples:
+        >>> spread = {"casing.clearance_m": {"uniform_percent": 2}}
+        >>> results = r37.tolerances("Ref", "abradable", [1150], of_scenes=spread, members=2, fidelity="draft")
+        >>> results["tolerances"].sizes["member"]
+        2
     """
     section = {name: plain_value(value) for name, value in options.items() if name not in SweepOptions.__annotations__}
     for name in ("of_scenes", "of_blades"):
         section[name] = mapping(section.get(name, {}), name, _SPREAD)
     return run_of(named_call("r37.tolerances", blades, scenes, speeds, options, {"tolerances": section}), options)
+
+
+@checked_call
+def search(
+    blade: BladeChoice | str,
+    scenes: Scenes,
+    speeds: Speeds | None = None,
+    *,
+    variables: Mapping[str, Sequence[float]],
+    objectives: Mapping[str, Any],
+    **options: Unpack[SearchOptions],
+) -> RunResults:
+    """Search for better designs of a blade, in rounds: each proposes designs from the results of all before.
+
+    Args:
+        blade: Start of the search: a blade with profiles by its name, or the result of `r37.blade`; a changed one needs a
+            `name`.
+        scenes: Names, or the results of `r37.scene`; changed ones need a `name`. Objectives and constraints name those that
+            count.
+        variables: Dotted key of blades.yaml -> lowest and highest value, as in
+            `{"stagger_deg.tip": [-3, 3], "sweep_percent": [0, 100]}`; with `scene.` before it a key of scenes.yaml, as in
+            `{"scene.lining.thickness_m": [0.001, 0.005]}`.
+        objectives: Name -> a number to minimise: `{"lined": {"scenes": ["abradable"]}}` for the integral over speed of the
+            share of revolutions above yield, or another `measure`; with a `quantile` under tolerances.
+        constraints: Name -> a limit: `{"first": {"measure": "frequency_hz", "mode": "1B", "at_least_percent": 98}}`.
+        designs: Number of designs that are run.
+        first: Number of the first designs, which come from a quasi-random sequence.
+        batch: Number of designs in a round, which run in parallel.
+        method: "surrogate", or "quasi_random" for comparison.
+        seed: Seed of the search.
+        tolerances: `{"of_scenes": ..., "of_blades": ..., "members": 16}` about every design, for objectives with a
+            quantile.
+        best: Number of best designs that are written as entries and STEP files.
+
+    Returns:
+        The dataset and the table search: every design and the start. Its method `best_values` has the values of the best
+        design, for `r37.blade`, and `best_scene_values` those for `r37.scene`; entries of the best are in
+        `folder / "search/best"`, with STEP files of blades.
+
+    Raises:
+        ConfigError: For bad input, and where the extra package of a search is not installed. A design that cannot be built
+            is a result.
+
+    Examples:
+        >>> turned = {"stagger_deg.tip": [-2, 2]}
+        >>> lined = {"lined": {"measure": "largest_rms_m", "scenes": ["abradable"]}}
+        >>> results = r37.search(
+        ...     "Ref", "abradable", [1150], variables=turned, objectives=lined, designs=3, first=2, batch=1, fidelity="draft"
+        ... )
+        >>> results.tables["search"].design.tolist()
+        ['start', 'd0000', 'd0001', 'd0002']
+        >>> r37.blade("Ref", name="Better", **results.best_values()).label
+        'Better'
+    """
+    own = {name: value for name, value in options.items() if name not in SweepOptions.__annotations__ and value is not None}
+    entry = {"objectives": objectives, **own}
+    entry |= {name: mapping(entry[name], name, allowed) for name, allowed in _MAPPINGS.items() if name in entry}
+    call = named_call("r37.search", blade, scenes, speeds, options)
+    (chosen,) = call.blades
+    section = {"blade": chosen.name, "variables": mapping(variables, "variables", _BOUNDS), **plain_value(entry)}
+    return run_of(replace(call, keys={FOLDER: section, **call.keys}), options, (DATASET, TABLE, BEST))
+
+
+@checked_call
+def rotor(
+    blade: BladeChoice | str,
+    scene: SceneChoice | str,
+    speeds: Speeds | None = None,
+    *,
+    rotor: Mapping[str, Any] | None = None,
+    **options: Unpack[SweepOptions],
+) -> xr.Dataset:
+    """Response of all blades of a rotor in a scene at several speeds, as in rotor.nc of a run.
+
+    All blades wear one lining.
+
+    Args:
+        rotor: The section `rotor` of the scene, in the units of its keys:
+            `{"blades": 36, "mistuning_spread_percent": {"normal": 1}}`. It may be left out for a scene that has a rotor.
+            Otherwise the scene's keys stay where this has none of them.
+        results: Results to compute, in place of the scene's list. By default, where `rotor` is given, it is that list
+            without `signal` and `shapes`, which are of a single blade.
+
+    Returns:
+        By ascending speed. `blade_rms` (m) of the leading edge's displacement, normal and tangential together, and
+        `blade_max_von_mises` (Pa), shape (speed, blade_number). `blade_maximum` (m), shape (speed, blade_number, span),
+        largest over spans of revolutions. `leader`, shape (speed,), number of the blade with the largest `blade_rms`.
+        `nodal_diameter_share`, shape (speed, nodal_diameter), and others.
+
+    Raises:
+        ConfigError: For bad input, and for a scene without a rotor.
+        ValueError: For an impossible shape, mesh, model or time step.
+
+    Examples:
+        >>> mistuned = {"blades": 3, "mistuning_percent": {2: 1.0}}
+        >>> all_blades = r37.rotor("Ref", "abradable", [1150, 1550], rotor=mistuned, fidelity="draft")
+        >>> all_blades.blade_rms.sizes["blade_number"]
+        3
+        >>> all_blades.leader.sel(speed=1550).item() in (1, 2, 3)
+        True
+    """
+    call = call_of("r37.rotor", [blade], [scene], speed_keys(speeds, options.get("speeds_rpm")), options)
+    (single,), results = call.scenes, options.get("results")
+    if rotor is not None:
+        if results is None:
+            results = [result for result in single.entry.results if result not in OF_ONE_BLADE]
+        all_blades = replace(single, changes={**single.changes, "rotor": rotor})
+        call = replace(call, scenes=[chosen_scene(all_blades, call.base, results)])
+    elif single.entry.rotor is None:
+        raise ConfigError(f'scene: found {single.label}, without a rotor; allowed: one with it, or rotor={{"blades": 36}}')
+    names = {"blade": call.blades[0].name, "scene": single.name}
+    return run_of(call, options, fill(ROTOR_OF_RUN, **names)).rotor(**names).assign_attrs(call.told)

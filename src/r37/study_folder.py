@@ -21,26 +21,19 @@ SNAKEFILE = (_PACKAGE / "Snakefile").resolve()
 def init(folder: Path | str) -> Path:
     """Folder for a study that the workflow runs: the shipped configuration, a Snakefile and a profile.
 
-    Parameters
-    ----------
-    folder
-        A new or an empty folder.
+    Args:
+        folder: A new or an empty folder.
 
-    Returns
-    -------
-    Path
+    Returns:
         The folder, absolute.
 
-    Raises
-    ------
-    ConfigError
-        For a folder that has content, and for one that cannot be written.
+    Raises:
+        ConfigError: For a folder that has content, and for one that cannot be written.
 
-    Examples
-    --------
-    >>> study = r37.init("rotor")
-    >>> (study / "config/blades.yaml").is_file()
-    True
+    Examples:
+        >>> study = r37.init("rotor")
+        >>> (study / "config/blades.yaml").is_file()
+        True
     """
     if not isinstance(folder, str | os.PathLike):
         raise ConfigError(f"init: found {folder!r}; allowed: a folder that is new or empty")

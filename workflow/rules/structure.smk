@@ -1,7 +1,8 @@
 # Blade shape -> mesh -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
 # a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there. A member of a sample whose blade
 # is another one has a model of its own, by the same rules.
-
+from r37core.blade.definition import BladeDefinition
+from r37core.exchange.importing.source import MatricesSource, MeshSource
 
 # memory of a reduced model (MB): half more than was measured
 memory_of_model = 200 + round(0.075 * settings.fidelity.mesh.nodes)
@@ -13,7 +14,7 @@ use rule step as geometry with:
     log:
         "<logs>/{member}{blade}/geometry.log",
     wildcard_constraints:
-        blade=imported.profiles,
+        blade=imported.pattern(BladeDefinition),
     # an impossible shape should stop the run before any long work
     priority: 10
     params:
@@ -29,7 +30,7 @@ use rule step as mesh with:
     log:
         "<logs>/{member}{blade}/mesh.log",
     wildcard_constraints:
-        blade=imported.profiles,
+        blade=imported.pattern(BladeDefinition),
     # a mesh or model that fails should do so before the first simulation
     priority: 2
     params:
@@ -45,7 +46,7 @@ use rule step as imported_mesh with:
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
-        blade=imported.meshes,
+        blade=imported.pattern(MeshSource),
     # an unsuitable mesh, like an impossible shape, should stop the run before any long work
     priority: 10
     params:
@@ -73,7 +74,7 @@ use rule step as reduced_model with:
     log:
         "<logs>/{member}{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
-        blade=f"{imported.profiles}|{imported.meshes}",
+        blade=imported.pattern(BladeDefinition, MeshSource),
     priority: 2
     resources:
         mem_mb=memory_of_model,
@@ -101,7 +102,7 @@ use rule step as imported_matrices with:
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
-        blade=imported.matrices,
+        blade=imported.pattern(MatricesSource),
     priority: 10
     resources:
         mem_mb=memory_of_model,

@@ -20,7 +20,7 @@ from .blade_sections import MaterialSection
 from .blades import SHARES, BladeEntry, BladeSettings, SweepLean
 from .declaring import si_fields
 from .document import Document
-from .messages import did_you_mean, explain, single_line
+from .messages import did_you_mean, explain_all, single_line
 from .scenes import SceneEntry
 from .section import Section, plain
 from .section_laws import END_KEYS, SECTION_KEYS, changed_keys, neutral_value, profiles_by_laws, section_laws
@@ -169,5 +169,5 @@ def _checked(model: type[BaseModel], content: Mapping[str, Any], kind: str, abov
     try:
         return model.model_validate(content)
     except ValidationError as error:
-        path, _, text = explain(error, content, model)
+        path, _, text = explain_all(error, content, model)[0]
         raise ImpossibleValueError(kind, above + ".".join(map(str, path)), text) from None

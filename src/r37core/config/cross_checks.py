@@ -29,10 +29,12 @@ LARGEST_NUMBER_OF_SIMULATIONS = 200_000
 
 
 def what_is_named_is_there(settings: Settings) -> None:
-    """Level, blades and scenes that are named are in their files, and `auto` has a level within the tolerance."""
+    """Level, blades and scenes that are named, also of speeds, are in their files; `auto` has a level within the tolerance."""
     refusals = ConfigRefusals()
     for name in ("fidelity_name", "blade_names", "scene_names"):
         refusals.of(getattr, settings, name)
+    for number, rule in enumerate(settings.config.speeds_for):
+        refusals.of(names_are_there, settings, ("speeds_for", number), rule)
     refusals.tell()
 
 
@@ -42,14 +44,6 @@ def names_are_there(settings: Settings, path: KeyPath, section: Any) -> None:
     for key, designs in (("blades", settings.designs), ("scenes", settings.scene_designs)):
         if getattr(section, key) not in (None, "all"):
             refusals.of(settings.documents.known, (*path, key), getattr(section, key), designs.names, designs.document)
-    refusals.tell()
-
-
-def speed_rules_name_what_is_there(settings: Settings) -> None:
-    """Blades and scenes with speeds of their own are in their files."""
-    refusals = ConfigRefusals()
-    for number, rule in enumerate(settings.config.speeds_for):
-        refusals.of(names_are_there, settings, ("speeds_for", number), rule)
     refusals.tell()
 
 
@@ -211,7 +205,6 @@ def clearances_reach_all_speeds(settings: Settings) -> None:
 
 CHECKS: tuple[Callable[[Settings], None], ...] = (
     what_is_named_is_there,
-    speed_rules_name_what_is_there,
     simulations_can_be_planned,
     windows_have_crossings,
     history_speeds_are_run,

@@ -26,11 +26,6 @@ _BOUNDS = {
 }
 
 
-def explain(error: ValidationError, content: Any, model: type[BaseModel]) -> tuple[KeyPath, KeyPath, str]:
-    """Where the first error stands, which key to name, and what to say about it."""
-    return explain_all(error, content, model)[0]
-
-
 def explain_all(error: ValidationError, content: Any, model: type[BaseModel]) -> list[tuple[KeyPath, KeyPath, str]]:
     """Place, key and message of all errors, one of each value, unknown keys first.
 

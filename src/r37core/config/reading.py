@@ -70,7 +70,7 @@ class Reader:
         refusals = ConfigRefusals()
         checked = refusals.of(document.check, self.model)
         files = [self._file(document, key) for key in ("blades_file", "fidelity_file", "scenes_file")]
-        designs = refusals.of(_blades, root, files[0], blades_above)
+        designs = refusals.of(blades_of_file, root, files[0], blades_above)
         levels = refusals.of(_levels, root, files[1])
         scenes = refusals.of(_scenes, root, files[2], scenes_above)
         refusals.tell()
@@ -93,7 +93,8 @@ def _levels(root: Path, name: str) -> tuple[Document, dict[str, Level]]:
     return document, document.check(Levels).root
 
 
-def _blades(root: Path, name: str, above: Document | None) -> Designs[Any]:
+def blades_of_file(root: Path, name: str, above: Document | None = None) -> Designs[Any]:
+    """Blades of the file `name`, with changes `above`; names in it start from the folder `root`. Raises ConfigError."""
     document = read_document(root, name)
     document = document.overlaid(above) if above else document
     return expanded_families(document.check(Blades).root, root, document)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, create_model
 
 from r37core.base.units import si_name
 from r37core.blade.profile import BladeShapeError, ProfileParameters
@@ -18,62 +18,41 @@ SECTION_KEYS = ("stagger_deg", "camber_deg", "chord_percent", "thickness_percent
 END_KEYS = tuple(f"{key}.{end}" for key in SECTION_KEYS for end in ("hub", "tip"))
 """Keys of their values at hub and tip."""
 
-_Span = Annotated[float, Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")]
-Angle = Annotated[float, Field(ge=-90, le=90)]
-Share = Annotated[float, Field(ge=10, le=1000)]
-
 
 def neutral_value(key: str) -> float:
     """Value of a number of a blade's shape that changes nothing: the whole of a share, no angle or length added."""
     return 100.0 if key.split(".")[0].endswith("_percent") else 0.0
 
 
-class AngleEnds(Section):
-    """An added angle, linear from hub to tip."""
-
-    hub: Angle = Field(default=0.0, description="Value at the hub")
-    tip: Angle = Field(default=0.0, description="Value at the tip")
-
-
-class ShareEnds(Section):
-    """A share that is kept, linear from hub to tip."""
-
-    hub: Share = Field(default=100.0, description="Value at the hub")
-    tip: Share = Field(default=100.0, description="Value at the tip")
-
-
-class AngleRow(Section):
-    """An added angle at one span."""
-
-    span_percent: _Span
-    value: Angle = Field(description="Value at this position")
-
-
-class ShareRow(Section):
-    """A share that is kept at one span."""
-
-    span_percent: _Span
-    value: Share = Field(description="Value at this position")
+class Ends(Section):
+    """Values at hub and tip, linear between them."""
 
 
 def _form(law: Any) -> str:
     if isinstance(law, list | tuple):
         return "table"
-    return "ends" if isinstance(law, dict | AngleEnds | ShareEnds) else "number"
+    return "ends" if isinstance(law, dict | Ends) else "number"
 
 
-Angles = Annotated[
-    Annotated[Angle, Tag("number")]
-    | Annotated[AngleEnds, Tag("ends")]
-    | Annotated[list[AngleRow], Field(min_length=2), Tag("table")],
-    Discriminator(_form),
-]
-Shares = Annotated[
-    Annotated[Share, Tag("number")]
-    | Annotated[ShareEnds, Tag("ends")]
-    | Annotated[list[ShareRow], Field(min_length=2), Tag("table")],
-    Discriminator(_form),
-]
+def _law(name: str, purpose: str, value: Any, neutral: float) -> Any:
+    """Type of a key: a number of the kind `value`, its values at hub and tip, where `neutral` changes nothing, or a table."""
+    at_ends: dict[str, Any] = {
+        end: (value, Field(default=neutral, description=f"Value at the {end}")) for end in ("hub", "tip")
+    }
+    ends = create_model(f"{name}Ends", __base__=Ends, __doc__=f"{purpose}, linear from hub to tip.", **at_ends)
+    row = create_model(
+        f"{name}Row",
+        __base__=Section,
+        __doc__=f"{purpose} at one span.",
+        span_percent=Annotated[float, Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")],
+        value=(value, Field(description="Value at this position")),
+    )
+    forms = Annotated[value, Tag("number")] | Annotated[ends, Tag("ends")]  # type: ignore[valid-type]
+    return Annotated[forms | Annotated[list[row], Field(min_length=2), Tag("table")], Discriminator(_form)]  # type: ignore[valid-type]
+
+
+Angles: Any = _law("Angle", "An added angle", Annotated[float, Field(ge=-90, le=90)], 0.0)
+Shares: Any = _law("Share", "A share that is kept", Annotated[float, Field(ge=10, le=1000)], 100.0)
 
 
 def section_laws(entry: Section) -> dict[str, SpanLaw]:
@@ -85,7 +64,7 @@ def section_laws(entry: Section) -> dict[str, SpanLaw]:
 def span_law(key: str, law: Any) -> SpanLaw:
     """A checked value of one of SECTION_KEYS in the SI. Raises as section_laws."""
     factor = si_name(key)[1] or 1.0
-    if isinstance(law, AngleEnds | ShareEnds):
+    if isinstance(law, Ends):
         return SpanLaw.linear(law.hub * factor, law.tip * factor)
     if not isinstance(law, list):
         return SpanLaw.constant(law * factor)

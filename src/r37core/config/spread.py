@@ -60,7 +60,7 @@ class SpreadEntry(Section):
 
     @cached_property
     def distribution(self) -> tuple[str, list[float]]:
-        """Its key, and its numbers."""
+        """Key of the distribution, such as `uniform_percent`, and its numbers."""
         ((key, numbers),) = plain(self).items()
         return key, numbers if isinstance(numbers, list) else [numbers]
 

@@ -22,13 +22,13 @@ from r37core.base.io import InputFileError
 from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_on_points
 from r37core.plans.extent import extent_of
+from r37core.product.closing import closing_lines
 from r37core.product.extensions import beside
 from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, check_part, lines_of_extensions, remarks, replaced_level, source_folder
 
 from . import failures, lock
 from .caller import Caller
-from .closing import closing_lines
 from .executor import Executor
 from .progress import Progress, quieten
 

@@ -65,7 +65,8 @@ class CodeHashes:
         return sorted(parts - {(self._version_file, "")}, key=self._order)
 
     def _needed_by(self, file: Path, function: str) -> list[tuple[Path, str]]:
-        return list({(imported, ""): None for name in _facts(file, function)[1] for imported in self._files(name)})
+        _, names = _facts_of_files().of(file, function)
+        return list({(imported, ""): None for name in names for imported in self._files(name)})
 
     def _named(self, name: str) -> list[tuple[Path, str]]:
         above, _, last = name.rpartition(".")
@@ -120,7 +121,7 @@ def _entries(folder: Path) -> frozenset[str]:
 
 def fingerprint(file: Path, function: str = "") -> bytes:
     """Hash of what a file does, or its `function` and what that uses: the same for other docstrings and versions of Python."""
-    return _facts(file, function)[0]
+    return _facts_of_files().of(file, function)[0]
 
 
 class _FactsOfFiles:
@@ -133,8 +134,9 @@ class _FactsOfFiles:
         self._known: dict[str, tuple[str, list[str]]] = json.loads(content) if content else {}
         self._new = False
         self._own = Path(__file__).read_bytes()
+        self.of = cache(self._read)
 
-    def __call__(self, file: Path, function: str) -> tuple[bytes, tuple[str, ...]]:
+    def _read(self, file: Path, function: str) -> tuple[bytes, list[str]]:
         content, package = file.read_bytes(), _package_of(file)
         key = hashlib.sha256(b"\0".join([self._own, ".".join([*package, function]).encode(), content])).hexdigest()
         if key not in self._known:
@@ -145,7 +147,7 @@ class _FactsOfFiles:
             self._known[key] = (hashlib.sha256(text.encode()).hexdigest(), _imported_names(tree, package))
             self._new = True
         fingerprint, names = self._known[key]
-        return bytes.fromhex(fingerprint), tuple(names)
+        return bytes.fromhex(fingerprint), names
 
     def save(self) -> None:
         if self._new:
@@ -158,11 +160,6 @@ class _FactsOfFiles:
 @cache
 def _facts_of_files() -> _FactsOfFiles:
     return _FactsOfFiles()
-
-
-@cache
-def _facts(file: Path, function: str) -> tuple[bytes, tuple[str, ...]]:
-    return _facts_of_files()(file, function)
 
 
 def _used_by(function: str, tree: ast.Module) -> ast.Module:

@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -95,20 +95,9 @@ class Imported:
         """Blades of other programs, by a mesh or by matrices."""
         return self.given_by(MeshSource, MatricesSource)
 
-    @property
-    def profiles(self) -> str:
-        """Pattern of the blades given by profiles, for a rule's wildcard."""
-        return _pattern(self.given_by(BladeDefinition))
-
-    @property
-    def meshes(self) -> str:
-        """Pattern of the blades given by a mesh."""
-        return _pattern(self.given_by(MeshSource))
-
-    @property
-    def matrices(self) -> str:
-        """Pattern of the blades given by matrices."""
-        return _pattern(self.given_by(MatricesSource))
+    def pattern(self, *kinds: type) -> str:
+        """Pattern of the blades that are given in one of these ways, for a rule's wildcard; it fits nothing without any."""
+        return "|".join(map(re.escape, self.given_by(*kinds))) or "(?!)"
 
     def files(self, wildcards: Any) -> list[str]:
         """Files that a blade is imported from, as seen from the current folder where that is possible."""
@@ -132,11 +121,6 @@ class Imported:
     def folder(self) -> Attributes:
         """The folder that file names start from; another place of the project re-runs nothing."""
         return Attributes(folder=str(self.settings.root))
-
-
-def _pattern(names: Iterable[str]) -> str:
-    """Pattern of any one of these names; it fits nothing where there are none."""
-    return "|".join(map(re.escape, names)) or "(?!)"
 
 
 def _seen_from_here(file: Path) -> str:

@@ -1,1 +1,1 @@
-"""The pipeline and its extensions together: configuration, targets, captions and remarks of all capabilities."""
+"""The pipeline and its extensions together: configuration, targets, captions, remarks and last lines of all capabilities."""
