@@ -282,8 +282,8 @@ def test_without_a_width_a_peak_has_its_two_intervals():
 
 def test_a_window_is_halved_to_the_end_and_not_where_it_only_touches():
     grid = RefinedRange(1000.0, 1.0, 8, 16)
-    window = criterion.DenseRange(1000.0, 1008.0, 1.0)
+    window = (1000.0, 1008.0, 1.0)
     assert window_speeds(grid, [window]) == [float(speed) for speed in range(1001, 1008)]
     # as far as the second interval's first speed and no farther; and from the first one's last
-    assert window_speeds(grid, [criterion.DenseRange(990.0, 1000.0, 1.0)]) == []
-    assert window_speeds(grid, [criterion.DenseRange(1016.0, 1030.0, 1.0)]) == []
+    assert window_speeds(grid, [(990.0, 1000.0, 1.0)]) == []
+    assert window_speeds(grid, [(1016.0, 1030.0, 1.0)]) == []

@@ -29,36 +29,26 @@ class KnownSpeeds:
     status: np.ndarray
 
 
-@dataclass(frozen=True)
-class DenseRange:
-    """Speeds (rad/s) from `low` to `high` that are run every `step`."""
-
-    low: float
-    high: float
-    step: float
-
-
-def dense_ranges(campbell: xr.Dataset, windows: Sequence[Window]) -> list[DenseRange]:
-    """The windows above the crossings of one blade's Campbell diagram."""
+def dense_ranges(campbell: xr.Dataset, windows: Sequence[Window]) -> list[tuple[float, float, float]]:
+    """Windows above the crossings of one blade's Campbell diagram: first and last speed, longest interval (rad/s)."""
     windowed = []
     for window in windows:
         crossings = campbell["crossing_speed"].sel(mode=window.mode)
         window_orders = crossings["engine_order"] <= window.highest_engine_order
         for crossing in crossings.sel(engine_order=window_orders).dropna("engine_order").values.tolist():
-            windowed.append(DenseRange((1.0 + window.first) * crossing, (1.0 + window.last) * crossing, window.step))
+            windowed.append(((1.0 + window.first) * crossing, (1.0 + window.last) * crossing, window.step))
     return windowed
 
 
-def window_speeds(grid: RefinedRange, expected: Sequence[DenseRange]) -> list[float]:
-    """Speeds of the grid, beyond its coarse ones, that the dense ranges ask for, ascending."""
+def window_speeds(grid: RefinedRange, expected: Sequence[tuple[float, float, float]]) -> list[float]:
+    """Speeds of the grid, beyond its coarse ones, that `dense_ranges` ask for, ascending."""
     added: list[int] = []
     waiting = list(pairwise(grid.coarse_indices()))
     while waiting:
         first, last = waiting.pop()
         length = (last - first) * grid.interval
         too_long = any(
-            dense.low < grid.speed(last) and grid.speed(first) < dense.high and length > (1.0 + 1e-9) * dense.step
-            for dense in expected
+            low < grid.speed(last) and grid.speed(first) < high and length > (1.0 + 1e-9) * step for low, high, step in expected
         )
         if too_long and last - first > 1:
             middle = (first + last) // 2

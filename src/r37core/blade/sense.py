@@ -1,9 +1,8 @@
 """Check whether the tip of a blade agrees with the sense of rotation, and its concave side with the side of the pressure.
 
 Source: velocity triangles, as in Dixon and Hall, Fluid Mechanics and Thermodynamics of Turbomachinery, chapters 4, 5 and 7. The
-flow relative to a rotor runs against the rotation, at the inlet of a compressor and at the outlet of a turbine, so the
-leading edge is ahead. The pressure side is the concave one. It looks along the rotation in a compressor, against it in a
-turbine.
+flow relative to a rotor runs against the rotation, at the inlet of a compressor and at the outlet of a turbine, so the leading
+edge is ahead. The pressure side is the concave one. It looks along the rotation in a compressor, against it in a turbine.
 """
 
 from dataclasses import dataclass

@@ -7,11 +7,9 @@ speed's own modes follow from a plain symmetric eigenproblem, without loss of di
 force couples: r37core.time_integration.gyroscopic.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -64,7 +62,7 @@ class ContactModel:
         return float(np.max(self.radius))
 
     @property
-    def edge(self) -> ContactModel:
+    def edge(self) -> Self:
         """The model with the nodes of the tip's edge in place of the contact nodes."""
         if self.edge_displacement_operator is None:
             return self
@@ -90,7 +88,7 @@ class ContactModel:
         amplitudes = rotation_amplitudes(self.rotation_stiffening, speeds)
         return amplitudes @ self.rotation_shapes.swapaxes(1, 2)
 
-    def spun(self, speed: float) -> ContactModel:
+    def spun(self, speed: float) -> Self:
         """The model with its contact nodes where rotation at `speed` (rad/s) holds them; BucklingError where nothing does.
 
         Radial and tangential are those of the displaced nodes. The outputs keep those of rest.

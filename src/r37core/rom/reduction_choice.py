@@ -1,11 +1,9 @@
 """Choices of a reduced model: its boundary nodes, basis and nodes of stress. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 
@@ -67,7 +65,7 @@ class BoundaryChoice:
         """True where the contact nodes have equal distances."""
         return (self.spacing or usual_spacing(self.contact)) == EVEN
 
-    def on(self, chord: np.ndarray) -> BoundaryChoice:
+    def on(self, chord: np.ndarray) -> Self:
         """The choice with a number of contact nodes, on a tip with nodes at fractions `chord` of its line."""
         if self.nodes is not None or self.contact == POINTS:
             return replace(self, nodes=self.most_nodes)

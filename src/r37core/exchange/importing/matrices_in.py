@@ -94,17 +94,15 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
         if choice.boundary.contact != POINTS:
             # other coordinates for the same motions
             constraint, _ = constraint_and_fixed_modes(matrices.stiffness, matrices.mass, boundary, 0, matrices.solve_at_rest)
-            vectors = combine_columns(constraint, vectors, matrices.mass, boundary, 0.0).vectors
+            vectors, _ = combine_columns(constraint, vectors, matrices.mass, boundary, 0.0)
         tolerance, singular = 0.0, np.ones(rows)
     else:
-        basis, _ = multi_speed_basis(
-            lambda speed: sp.csr_array(matrices.stiffness + speed**2 * matrices.per_square),
-            matrices.mass,
-            boundary,
-            choice,
-            matrices.solve_at_rest,
-        )
-        vectors, tolerance, singular = basis.vectors, choice.basis_tolerance, basis.singular_values
+
+        def stiffness_at(speed: float) -> sp.csr_array:
+            return sp.csr_array(matrices.stiffness + speed**2 * matrices.per_square)
+
+        tolerance, solve = choice.basis_tolerance, matrices.solve_at_rest
+        vectors, singular, _ = multi_speed_basis(stiffness_at, matrices.mass, boundary, choice, solve)
     mass, stiffness = projected(matrices.mass, vectors), projected(matrices.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(matrices)

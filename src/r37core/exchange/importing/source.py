@@ -134,9 +134,8 @@ _MOST_NAMES = 30
 class Where:
     """A part of the mesh: the nodes in the set `set_name`, or those that keep all the limits given.
 
-    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
-    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and
-    cone.
+    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or `at_most`;
+    `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and cone.
     """
 
     set_name: str | None = None
