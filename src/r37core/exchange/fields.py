@@ -77,7 +77,8 @@ def write_modes(
         modes = mode_shapes(model, speed, count)
         fields = {f"mode {name}": u @ target.orientation.rows for name, u in zip(modes.names, modes.displacement, strict=True)}
         if material is not None:
-            fields |= dict(zip(map(modal_stress, modes.names), _von_mises_of(mesh, modes, material), strict=True))
+            stress = nodal_stress(mesh.blocks, mesh.points, np.moveaxis(modes.displacement, 0, 2), material)
+            fields |= dict(zip(map(modal_stress, modes.names), von_mises(stress).T, strict=True))
         notes = {f"frequency of mode {name} (Hz)": f for name, f in zip(modes.names, modes.frequencies, strict=True)}
         files[speed] = f"modes_{exact_text(speed)}"
         _write_fields(shown, fields, notes, files[speed], target)
@@ -87,13 +88,6 @@ def write_modes(
 def modal_stress(mode: str) -> str:
     """Name of the field of a mode's von Mises stress."""
     return f"von Mises stress of mode {mode}"
-
-
-def _von_mises_of(mesh: BladeMesh, modes: ModeShapes, material: Material) -> np.ndarray:
-    """Von Mises stress (Pa kg^-1/2) of each mode, shape (modes, nodes)."""
-    displacement = np.moveaxis(modes.displacement, 0, 2)
-    stress = nodal_stress(mesh.blocks, mesh.points, displacement, material)
-    return np.array([von_mises(stress[:, :, number]) for number in range(stress.shape[2])])
 
 
 def worst_instants(

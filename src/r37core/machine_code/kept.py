@@ -1,8 +1,9 @@
 """Results that take long to make, in files by a hash of all that their content follows from; each is checked when it is read.
 
-They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says. A
-file that is cut short or damaged is made again; all may be removed at any time. Of several processes and threads that need
-the same one makes it and the others wait, so that a core is not busy twice with one thing. Light: simulation jobs import it.
+They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says:
+structures in the user's cache, for calls from Python and runs of the workflow. A file that is cut short or damaged is made
+again; all may be removed at any time. Of several processes and threads that need the same one makes it and the others wait, so
+that a core is not busy twice with one thing. Light: simulation jobs import it.
 """
 
 import fcntl
@@ -11,6 +12,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
@@ -31,6 +33,13 @@ def kept_file(name: str, made_of: object, make: Callable[[Path], None], folder: 
                 if not _sound(file):
                     _put(made, file)
     return file
+
+
+def kept_for_user(name: str, made_of: object, make: Callable[[Path], None]) -> Path | None:
+    """`kept_file` in the user's folder; None where that cannot be written. Raises what `make` raises but OSErrors."""
+    with suppress(OSError):
+        return kept_file(name, made_of, make, writable_folder())
+    return None
 
 
 def kept_bytes(name: str, made_of: object, make: Callable[[], bytes], worth_keeping: Callable[[], bool]) -> bytes:
@@ -75,6 +84,35 @@ def content_digest(file: Path | str) -> str:
 def users_cache() -> Path:
     """The user's cache folder for r37, which may not be there yet."""
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "r37"
+
+
+def named_folder() -> Path:
+    """The user's folder of structures, which may not be there yet: that of R37_CACHE, else the user's cache folder."""
+    named = os.environ.get("R37_CACHE")
+    return Path(named) if named else users_cache()
+
+
+def writable_folder() -> Path:
+    """The folder of structures, made where it is missing. Raises OSError where it cannot be written."""
+    folder = named_folder()
+    folder.mkdir(parents=True, exist_ok=True)
+    tempfile.TemporaryFile(dir=folder).close()
+    return folder
+
+
+@cache
+def numerics(*libraries: str) -> list[str]:
+    """Versions of libraries that numbers come from, and what their linear algebra is compiled for: others round otherwise.
+
+    The version of a library that was not installed by pip is empty.
+    """
+    # slow to import, and no simulation job asks
+    from importlib.metadata import distributions
+
+    from threadpoolctl import threadpool_info
+
+    kernels = {str(library["architecture"]) for library in threadpool_info() if "architecture" in library}
+    return [*(next((found.version for found in distributions(name=library)), "") for library in libraries), *sorted(kernels)]
 
 
 def _hashed(name: str, made_of: object) -> str:

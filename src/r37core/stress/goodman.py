@@ -32,10 +32,7 @@ class Strengths:
         return isfinite(self.fatigue_strength)
 
     def share(self, alternating: np.ndarray, mean: np.ndarray) -> np.ndarray:
-        """Share of the Goodman line, 1 on it: alternating/S_f + mean/S_u of stresses (Pa); NaN without strengths.
-
-        A mean in compression counts as 0.
-        """
+        """Share of the Goodman line, alternating/S_f + mean/S_u of stresses (Pa), compression as 0; NaN without strengths."""
         if not self.are_known:
             return np.full(np.shape(alternating), np.nan)
         tension = np.maximum(np.asarray(mean, dtype=float), 0.0)

@@ -15,11 +15,7 @@ from .stepped_blade import SteppedBlade
 
 @dataclass(frozen=True, eq=False)
 class ContactOperators:
-    """Operators of a stepped `blade` and its `casing`.
-
-    The modes of an elastic casing follow those of the blade wherever "all modes" are meant: the recursion, the operators, a
-    snapshot.
-    """
+    """Operators of a stepped `blade` and its `casing`; "all modes" are the blade's, then those of an elastic casing."""
 
     blade: SteppedBlade
     casing: CasingOfRun
@@ -42,10 +38,7 @@ class ContactOperators:
 
     @cached_property
     def _shapes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement in the modes at rest per u and per d of all modes; no column of the second without Coriolis.
-
-        The casing's move no mode of the blade.
-        """
+        """Displacement in the modes at rest per u and per d (none without Coriolis) of all modes; zero for the casing's."""
         none = np.zeros((len(self.blade.modes), len(self._ring_rows[0, 0])))
         if self.blade.complex_modes is None:
             return np.hstack([self.blade.modes, none]), np.empty((len(self.blade.modes), 0))
@@ -117,10 +110,7 @@ class ContactOperators:
         return residual if self.blade.complex_modes is None else residual + self._half_kick
 
     def static_energy(self, forces: np.ndarray) -> float:
-        """Elastic energy (J) of the static modes under `forces` (N) on the nodes, shape (3, nodes).
-
-        It is all the work that the forces have done on them: what follows at once is elastic.
-        """
+        """Elastic energy (J) of the static modes under `forces` (N), shape (3, nodes): all the work that these did on them."""
         frequencies, modes = self.blade.static_modes
         modal_forces = np.einsum("dk,dkm->m", forces, self.operator_at_rest @ modes) / frequencies
         return 0.5 * float(modal_forces @ modal_forces)
@@ -136,10 +126,7 @@ class ContactOperators:
 
     @property
     def state_shapes(self) -> np.ndarray:
-        """Displacement in the modes at rest per number of a snapshot.
-
-        They are the stepped modes' u, with Coriolis their d, then the contact forces (N).
-        """
+        """Displacement in the modes at rest per number of a snapshot: stepped modes' u, with Coriolis d, contact forces (N)."""
         return np.hstack([*self._shapes, self.static_shapes])
 
     @cached_property
@@ -171,10 +158,7 @@ class ContactOperators:
 
     @cached_property
     def coupling(self) -> np.ndarray:
-        """Normal displacement (m/N) of the last node, one step on, per normal, tangential or meridional force on the first.
-
-        Shape (3, nodes, nodes).
-        """
+        """Normal displacement (m/N) of the last node one step on, per force on the first, by direction: (3, nodes, nodes)."""
         return self.coupling_of(self.recursion.inverse)
 
     def coupling_of(self, inverse: np.ndarray) -> np.ndarray:

@@ -25,10 +25,7 @@ class EdgeOperators:
 
     @cached_property
     def flexibility(self) -> np.ndarray:
-        """Normal displacement (m/N) that follows forces on the contact nodes at once, shape (edge nodes, 3 contact nodes).
-
-        See ContactOperators.static_shapes: no column where the forces are not those at t_n.
-        """
+        """Normal displacement (m/N), shape (edge nodes, 3 contact nodes), that follows forces at once; see static_shapes."""
         return self.motion.operator_at_rest[0] @ self.contact.static_shapes
 
     @property

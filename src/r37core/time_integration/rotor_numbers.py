@@ -77,10 +77,7 @@ def _rms(samples: Sequence[np.ndarray]) -> np.ndarray:
 
 
 def span_maxima(values: np.ndarray) -> tuple[np.ndarray, int]:
-    """The largest of every span of revolutions along the last axis, in single precision, and how many revolutions it has.
-
-    There are at most MOST_GROWTH spans; the last one may be shorter.
-    """
+    """Largest of each of at most MOST_GROWTH spans along the last axis, in single precision, and the revolutions of a span."""
     revolutions = values.shape[-1]
     span = -(-revolutions // MOST_GROWTH)
     return np.maximum.reduceat(values, np.arange(0, revolutions, span), axis=-1).astype(np.float32), span

@@ -30,10 +30,7 @@ from .state import SimulationRecord, SimulationState
 
 
 class RotorSimulation:
-    """The time integration of all blades of a scene's rotor at one speed (rad/s).
-
-    Raises what Problem and blade_problems raise.
-    """
+    """The time integration of all blades of a scene's rotor at a speed (rad/s). Raises what Problem and blade_problems do."""
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         assert scene.rotor is not None

@@ -31,10 +31,7 @@ DECAYED = 0.1
 
 
 class MotionAtEnd(Outcome):
-    """State of the motion at the end of a run, the worst last; see motion_at_end.
-
-    `UNKNOWN`: of a run that diverged, and of a speed that was not run.
-    """
+    """State of the motion at the end of a run, the worst last, by motion_at_end; `UNKNOWN`: it diverged or was not run."""
 
     QUIET = 0
     CUT_FREE = 1
@@ -63,10 +60,7 @@ def window_of(revolutions: int) -> int:
 
 
 def revolution_rms(motion: np.ndarray, per_revolution: int) -> np.ndarray:
-    """Rms of a motion in several directions together in each revolution, shape (revolutions,).
-
-    `motion`, shape (samples, directions), with `per_revolution` samples in a revolution; NaN stays.
-    """
+    """Rms per revolution, shape (revolutions,), of a motion, shape (samples, directions), directions together; NaN stays."""
     return np.sqrt(np.einsum("ij,ij->i", motion, motion).reshape(-1, per_revolution).mean(axis=1))
 
 

@@ -32,10 +32,7 @@ _ENGINES: dict[str, type[CompiledEngine] | type[ReferenceEngine]] = {"compiled":
 
 
 class Simulation:
-    """The time integration of one blade at one speed in one scene: its `problem`, and the `engine` that advances a state.
-
-    Raises what Problem raises, of the step that `choice` leaves.
-    """
+    """The time integration of one blade, speed and scene: a `problem` and its `engine`. Raises what Problem raises."""
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         if scene.rotor is not None:
@@ -58,10 +55,7 @@ class Simulation:
         self.engine: Any = _ENGINES[problem.choice.engine](problem, segments or own_segment(problem), before, beside)
 
     def start(self, motion: InitialMotion | CarriedMotion | None = None) -> SimulationState:
-        """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
-
-        Raises what InitialMotion.put raises.
-        """
+        """State at rest or in `motion`, in an unworn lining or one the tip has cut. Raises what InitialMotion.put raises."""
         state = rest_state(self.problem)
         if motion is not None:
             motion.put(self.problem, state)

@@ -30,10 +30,7 @@ SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
 
 @dataclass(frozen=True)
 class MeshSource:
-    """Where a blade's mesh is and how to read it.
-
-    `sense_check`: whether a tip that contradicts rotation or pressure side is refused; `digest`: hash of the files.
-    """
+    """Mesh of a blade and how it is read; `sense_check`: whether rotation and side must fit; `digest`: hash of the files."""
 
     file: str
     orientation: Orientation
@@ -61,10 +58,7 @@ class MeshSource:
 
 @dataclass(frozen=True)
 class MatricesSource:
-    """A directory of matrices, the axes of its boundary nodes, units of mass and stiffness, and a hash of the files.
-
-    `sense_check`: whether a rotation that the nodes contradict is refused.
-    """
+    """Matrices in a folder, their axes and units; `sense_check`: whether rotation must fit; `digest`: hash of the files."""
 
     folder: str
     orientation: Orientation

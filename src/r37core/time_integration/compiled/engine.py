@@ -157,10 +157,7 @@ class Passage:
 
 
 def go_on(passages: Sequence[Passage], blocks: int) -> None:
-    """Do so many more blocks of blades that go step by step together; fewer when an output passes the limit or is NaN.
-
-    An interrupt is seen between two calls.
-    """
+    """Do so many more blocks of blades that go step by step together, with interrupts; fewer beyond the limit or at NaN."""
     engine, part, reached = passages[0].engine, 0, 0
     addresses = np.concatenate([passage.engine.addresses for passage in passages])
     while blocks > 0 and reached == part:

@@ -26,10 +26,7 @@ _MOST_SWEEPS = 200
 
 
 class ReferenceEngine:
-    """The time integration of one problem with dense matrices, in the coordinates of the modes at rest.
-
-    `angle` (rad): at which the blade stands at time 0, beyond that of its model.
-    """
+    """The time integration of one problem with dense matrices; `angle` (rad): of the blade at time 0, beyond its model's."""
 
     angle = 0.0
     worn = 0.0
@@ -103,10 +100,7 @@ class ReferenceEngine:
             state.penetration[:], state.bar_position[:] = -gap, theta / (2.0 * np.pi) * state.wear.shape[1]
 
     def record(self, motion: Any, first: int, done: int, state: SimulationState, out: SimulationRecord) -> bool:
-        """Keep sample number `done` after the `first`, and a snapshot where one is due.
-
-        Returns whether the outputs are within the limit.
-        """
+        """Keep sample number `done` after the `first`, and a snapshot where one is due; False for outputs beyond the limit."""
         problem = self.problem
         static = state.contact_force.ravel() if problem.choice.second_order else np.empty(0)
         numbers = np.concatenate([self.motion.numbers(motion), static])
