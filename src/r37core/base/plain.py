@@ -22,10 +22,7 @@ def to_plain(value: Any) -> Any:
 
 
 def from_plain(cls: type[T], data: Any) -> T:
-    """The `cls` of which `to_plain` made `data`: a dataclass, or any type that one may have as a field.
-
-    Raises PlainError for a field that is unknown or missing, and for a value of another type.
-    """
+    """The `cls`, a dataclass or a type of its fields, that was `data` by to_plain. PlainError for wrong fields or types."""
     return _made(cls, data, getattr(cls, "__name__", str(cls)))
 
 

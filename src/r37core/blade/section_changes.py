@@ -44,10 +44,7 @@ class SpanLaw:
         return cls((0.0, 1.0), (hub, tip))
 
     def evaluate(self, spans: Sequence[float]) -> np.ndarray:
-        """Values at span fractions, shape (spans,): a spline as that of sweep and lean, at most cubic.
-
-        Equal values give themselves to the last bit, so that a law of neutral values changes nothing.
-        """
+        """Values at spans, shape (spans,), by a spline, at most cubic; equal values stay the same to the last bit."""
         if len(set(self.values)) == 1:
             return np.full(len(spans), self.values[0])
         order = min(3, len(self.values) - 1)
@@ -79,10 +76,7 @@ class SectionChangeError(BladeShapeError):
 
 
 def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, SpanLaw]) -> tuple[ProfileParameters, ...]:
-    """The profiles with changes by laws over the span, by the names of SectionChange's fields.
-
-    Raises SectionChangeError for a profile that becomes impossible or crosses another.
-    """
+    """Profiles changed by laws, by SectionChange's fields. SectionChangeError for one that is impossible or crosses another."""
     if not laws:
         return tuple(profiles)
     spans = [profile.span for profile in profiles]

@@ -1,7 +1,4 @@
-"""The Goodman line: how near a run's alternating and mean stress come to what a material endures.
-
-Apart from what simulations import: other strengths run none of them again.
-"""
+"""The Goodman line of a material. Not imported by simulations, so other strengths run none of them again."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass

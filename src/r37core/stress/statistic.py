@@ -1,7 +1,4 @@
-"""The stress of a run as a statistic of its revolutions: one scatters by a tenth on most blades in direct contact.
-
-Apart from what simulations import: a changed statistic runs none of them again.
-"""
+"""Statistic of the stress in a run's revolutions. Not imported by simulations, so a changed one runs none of them again."""
 
 import numpy as np
 

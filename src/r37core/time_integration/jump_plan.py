@@ -1,7 +1,4 @@
-"""Jumps over free flight as they are planned before a run, in NumPy: many steps of every mode as one map, and its bounds.
-
-time_integration.compiled.jump_steps says how a run uses them.
-"""
+"""Jumps over free flight, planned before a run, in NumPy; time_integration.compiled.jump_steps says how they are used."""
 
 from dataclasses import dataclass
 

@@ -314,10 +314,7 @@ def wording(model: ReducedModel) -> str:
 
 
 def check_frequency(model: ReducedModel, chord: float) -> None:
-    """Raise ImportRefused for a first frequency that no blade with this `chord` of its tip (m) has, warn of an unusual one.
-
-    One contact node has no chord, and is not judged.
-    """
+    """Refuse a first frequency that no blade with this `chord` (m) of its tip has, warn of an unusual one; 0: not judged."""
     frequency = _first_frequency(model)
     if not chord > 0.0 or _USUAL[0] <= frequency * chord <= _USUAL[1]:
         return
