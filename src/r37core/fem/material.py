@@ -21,8 +21,7 @@ class Material:
         float, Key("Stress above which results mark a speed; the model stays linear", "_pa", ge=1, le=1e12)
     ] = float("inf")
     fatigue_strength: Annotated[
-        float,
-        Key("Stress amplitude that it endures at zero mean, for the result fatigue", "_pa", ge=1, le=1e12, optional=True),
+        float, Key("Stress amplitude that it endures at zero mean, for the result fatigue", "_pa", ge=1, le=1e12, optional=True)
     ] = float("inf")
     ultimate_strength: Annotated[
         float, Key("Tensile strength, for the result fatigue", "_pa", ge=1, le=1e12, optional=True)

@@ -43,8 +43,7 @@ class BoundaryChoice:
 
     tip_line: Annotated[str, Key("Tip line of the contact nodes", one_of=TIP_LINES)] = "pressure_edge"
     nodes: Annotated[
-        int | None,
-        Key("Number of contact nodes; by default 8 points, or 12 patches, fewer on a coarse mesh", ge=1, le=200),
+        int | None, Key("Number of contact nodes; by default 8 points, or 12 patches, fewer on a coarse mesh", ge=1, le=200)
     ] = None
     corners: Annotated[bool, Key("Whether the leading and trailing corners are among them")] = True
     contact: str = field(kw_only=True)
