@@ -112,7 +112,8 @@ def numerics(*libraries: str) -> list[str]:
     from threadpoolctl import threadpool_info
 
     kernels = {str(library["architecture"]) for library in threadpool_info() if "architecture" in library}
-    return [*(next((found.version for found in distributions(name=library)), "") for library in libraries), *sorted(kernels)]
+    versions = (next((package.version for package in distributions(name=library)), "") for library in libraries)
+    return [*versions, *sorted(kernels)]
 
 
 def _hashed(name: str, made_of: object) -> str:

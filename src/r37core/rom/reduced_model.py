@@ -52,7 +52,7 @@ class RecoveryNodes:
         return np.stack([cosine * x + sine * y, cosine * y - sine * x, z], axis=-1)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ReducedModel:
     """Reduced matrices and recovery data; coordinates 0 to 3 n_c - 1 are the contact nodes' displacements (x y z of each).
 
@@ -72,8 +72,8 @@ class ReducedModel:
     stiffness: np.ndarray
     geometric_stiffness: np.ndarray
     mass: np.ndarray
-    spin_softening: np.ndarray | None
-    coriolis: np.ndarray | None
+    spin_softening: np.ndarray | None = None
+    coriolis: np.ndarray | None = None
     contact: str
     contact_nodes: RecoveryNodes
     contact_chord: np.ndarray
@@ -82,7 +82,7 @@ class ReducedModel:
     stress_submesh: RecoveryNodes
     stress_elements: dict[str, np.ndarray]
     stress_region: str
-    whole_blade: RecoveryNodes | None
+    whole_blade: RecoveryNodes | None = None
     shape_names: tuple[str, ...]
     shape_products: np.ndarray
     shape_norms: np.ndarray
