@@ -51,8 +51,7 @@ def next_speeds(grid: RefinedRange, measured: Mapping[float, Sequence[float]], c
     """Speeds (rad/s), ascending, in the middle of the intervals that are worth halving; none when all is known.
 
     `measured`: status and CURVES, NaN for no number, at each speed (rad/s), of one run or of several members of a sample after
-    each other; an interval is worth what it is worth to them on average. Every coarse speed of the grid must be known. The
-    result depends on nothing but the arguments.
+    each other; an interval has their mean worth. Every coarse speed of the grid must be known.
     """
     speeds = np.array(sorted(measured))
     rows = np.array([measured[speed] for speed in speeds], dtype=float).reshape(len(speeds), -1, 1 + len(CURVES))

@@ -37,10 +37,7 @@ class TipSense:
 
 
 def sense_of_line(points: np.ndarray) -> TipSense:
-    """Sense of the line half-way between the sides: `points`, shape (n, 3), from leading to trailing edge in the blade's frame.
-
-    The camber is that of the circular arc with the line's mean height over the chord.
-    """
+    """Sense of the line between the sides, `points` (n, 3) in the blade's frame; camber: of an arc with its mean height."""
     radius, angle = np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
     line = np.stack([radius.mean() * (angle - angle[0]), points[:, 2] - points[0, 2]], axis=1)
     stagger = float(np.arctan2(*line[-1]))

@@ -24,10 +24,7 @@ def displaced_position(
 
 
 def lobe_shape(theta: Any, period: float, width: float) -> Any:
-    """f(theta) of the lobed casing for angles (rad): one lobe in each `period` (rad), `width` relative to it.
-
-    f = exp(-[((theta mod p)/p - 1/2)/width]^2). Source: section 5 of the benchmark.
-    """
+    """f(theta) of the lobed casing, exp(-[((theta mod p)/p - 1/2)/width]^2), `period` p (rad): section 5 of the benchmark."""
     return np.exp(-((((theta % period) / period - 0.5) / width) ** 2))
 
 

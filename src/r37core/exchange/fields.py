@@ -35,10 +35,7 @@ class Target:
 
 @dataclass(frozen=True)
 class WorstInstant:
-    """The instant `number` of the last revolution: that with the largest von Mises stress on the submesh, `largest` (Pa).
-
-    `revolution`: the reduced coordinates at all its instants, shape (instants, coordinates).
-    """
+    """Instant `number` of a `revolution` (instants, coordinates) with the `largest` von Mises stress (Pa) of the submesh."""
 
     largest: float
     revolution: np.ndarray

@@ -102,10 +102,7 @@ def writable_folder() -> Path:
 
 @cache
 def numerics(*libraries: str) -> list[str]:
-    """Versions of libraries that numbers come from, and what their linear algebra is compiled for: others round otherwise.
-
-    The version of a library that was not installed by pip is empty.
-    """
+    """Versions of libraries and kernels of linear algebra that numbers depend on; empty for a library not installed by pip."""
     # slow to import, and no simulation job asks
     from importlib.metadata import distributions
 

@@ -89,10 +89,7 @@ class ContactModel:
         return amplitudes @ self.rotation_shapes.swapaxes(1, 2)
 
     def spun(self, speed: float) -> Self:
-        """The model with its contact nodes where rotation at `speed` (rad/s) holds them; BucklingError where nothing does.
-
-        Radial and tangential are those of the displaced nodes. The outputs keep those of rest.
-        """
+        """The model with nodes where rotation at `speed` (rad/s) holds them; outputs stay as at rest. Raises BucklingError."""
         out, aside, _ = self.displaced(np.array([speed]))[:, 0]
         radius, turned = np.hypot(self.radius + out, aside), np.arctan2(aside, self.radius + out)
         radial, tangential, axial = self.displacement_operator

@@ -18,9 +18,8 @@ CORIOLIS_TERM = "M x'' + Omega G x' + K(Omega) x = f, for Omega > 0 and a rotor 
 class RecoveryNodes:
     """Nodes whose displacement can be recovered from the reduced coordinates.
 
-    `nodes`: mesh node numbers, shape (n,); `points` (m), shape (n, 3); `basis`, shape (n, 3, coordinates): displacement
-    (x, y, z) per unit of each reduced coordinate; `rotation_shapes` (m s2/rad2), shape (n, 3, shapes): what rotation does,
-    see r37core.rom.rotation.
+    `nodes`: mesh node numbers, shape (n,); `points` (m), shape (n, 3); `basis`, shape (n, 3, coordinates): displacement (x, y,
+    z) per unit of each reduced coordinate; `rotation_shapes` (m s2/rad2), shape (n, 3, shapes), see r37core.rom.rotation.
     """
 
     nodes: np.ndarray
@@ -65,8 +64,7 @@ class ReducedModel:
     `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the ideal bending and
     torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis, one for each of its columns over all
     speeds. `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation; none of a blade
-    whose load is not known. `quadratic_residual`: size of the Omega^4 term of the reduced stiffness at the highest speed
-    against the stiffness.
+    whose load is not known. `quadratic_residual`: share of the Omega^4 term in the reduced stiffness at the highest speed.
     """
 
     stiffness: np.ndarray

@@ -75,8 +75,7 @@ def largest_cycles(alternating: np.ndarray, mean: np.ndarray) -> tuple[np.ndarra
     """Pairs of stress_cycles that can be the largest by alternating/S_f + mean/S_u in a revolution, whatever the strengths.
 
     Alternating and mean stress (Pa), shape (pairs,), revolution by revolution, and how many are of each, shape (revolutions,).
-    They are the corners of the upper right convex hull of the pairs of all nodes: exact, and a few of each revolution.
-    Compression counts as a mean of 0.
+    They are the corners of the upper right convex hull of all nodes' pairs, compression as a mean of 0.
     """
     order, revolutions = np.argsort(-mean, kind="stable"), len(alternating)
     mean, alternating = np.maximum(mean[order], 0.0), alternating[:, order]

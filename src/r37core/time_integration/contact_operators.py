@@ -98,9 +98,8 @@ class ContactOperators:
     def static_shapes(self) -> np.ndarray:
         """Displacement that follows forces on the contact nodes at once, shape (modes at rest, 3 nodes).
 
-        That of the modes that are not stepped, of forces in the directions of `displacement_operator`: see static_modes. With
-        Coriolis also half of the kick by which a force at t_n acts on the stepped modes. No column where the forces are not
-        those at t_n.
+        Of the modes that are not stepped, by forces in the directions of `displacement_operator`: see static_modes. With
+        Coriolis also half of the kick by which a force at t_n acts on the stepped modes. Without forces at t_n no column.
         """
         if not self.blade.grid.choice.second_order:
             return np.empty((len(self.blade.modes), 0))

@@ -19,8 +19,7 @@ MOST_GROWTH = 200
 class RotorRun(FinishedRun):
     """A run of a `rotor` that is done, and where the samples of its blades lie in time.
 
-    `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m3), shape
-    (blades,): what each has worn off the lining.
+    Shape (blades,): `late`, in samples, after a blade at angle 0; `worn` (m3), off the lining by each.
     """
 
     rotor: Rotor

@@ -1,7 +1,4 @@
-"""End of a run: whether it has settled, and whether its motion grows, lasts or has cut itself free there.
-
-Both are read off windows of revolutions: a run's last one, and the one before it.
-"""
+"""End of a run, by its last two windows of revolutions: whether it has settled, whether its motion grows, lasts or is over."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -67,10 +64,9 @@ def revolution_rms(motion: np.ndarray, per_revolution: int) -> np.ndarray:
 def has_settled(rms: np.ndarray, window: int, wear_growth: float, risen: float) -> bool:
     """True where the last window of a run brought no wear and no change of the motion.
 
-    That is: no bar wore by more than NO_WEAR, and the rms of the last window differs from that of the window before by less
-    than SAME of the larger one, or than SAME_OF_LARGEST of the largest of all windows. `rms` (m) of each revolution, shape
-    (revolutions,); `wear_growth` (m), see Ending; `risen`: revolutions after which the lobes have grown, before which nothing
-    has settled.
+    No bar wore by more than NO_WEAR, and the rms of the last window differs from that of the window before by less than SAME of
+    the larger one, or than SAME_OF_LARGEST of the largest of all windows. `rms` (m) of each revolution, shape (revolutions,);
+    `wear_growth` (m), see Ending; `risen`: revolutions after which the lobes have grown.
     """
     if len(rms) < 2 * window or len(rms) - 2 * window < risen or not wear_growth <= NO_WEAR:
         return False

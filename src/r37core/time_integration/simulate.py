@@ -98,10 +98,7 @@ class Simulation:
     def parts(
         self, state: SimulationState, samples: Iterable[int], out: SimulationRecord | None = None
     ) -> Iterator[SimulationRecord]:
-        """Go on by these numbers of samples one after another from `state`, which is changed, until a part diverges.
-
-        Yields the record of each; with `out`, the room for all of them, they lie there one after another.
-        """
+        """Records of parts of so many samples, from `state`, which changes, until one diverges; `out`: room for all of them."""
         first, grid = state.samples, self.problem.grid
         for count in samples:
             done, room = state.samples - first, None

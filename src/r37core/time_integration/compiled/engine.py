@@ -105,10 +105,7 @@ class Passage:
         m["call"]["ahead"] = (late - passed) * self._grid.steps_per_sample
 
     def blocks_at_once(self, blades: int) -> int:
-        """Blocks of one call in which so many blades go on: about STEPS_AT_ONCE up to the end of a revolution.
-
-        A run may be stopped there with the same bits. With a schedule they are what that has.
-        """
+        """Blocks of one call for so many blades: about STEPS_AT_ONCE up to the end of a revolution, or what a schedule has."""
         if not self._in_parts:
             return len(self._out.samples)
         grid, per_revolution = self._grid, self._grid.choice.samples_per_revolution
