@@ -138,7 +138,6 @@ def _alone(file: Path) -> Iterator[None]:
 
 
 def _is_at(opened: BinaryIO, name: Path) -> bool:
-    """True if an opened file still has this name."""
     try:
         return os.path.samestat(os.fstat(opened.fileno()), name.stat())
     except FileNotFoundError:

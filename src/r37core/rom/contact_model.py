@@ -70,11 +70,6 @@ class ContactModel:
         edge |= dict.fromkeys((f"edge_{name}" for name in _NODE_FIELDS), None)
         return replace(self, **edge)
 
-    @property
-    def edge_is_known(self) -> bool:
-        """True where the tip's edge has nodes between the contact nodes."""
-        return len(self.edge.theta) > len(self.theta)
-
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
         """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed`; see BucklingError."""
         stiffness = np.diag(self.squared_frequencies) + speed**2 * self.stiffness_per_square

@@ -60,7 +60,6 @@ def make_ready(input: Any, params: Any) -> None:
 
 
 def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:
-    """Model, speed, scene and choice of a simulation."""
     scene, choice = from_plain(Scene, wanted["scene"]), from_plain(IntegrationChoice, wanted["choice"])
     return _kept(read_contact_model, model), float(speed), scene, choice
 

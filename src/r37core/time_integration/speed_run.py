@@ -56,9 +56,8 @@ def run_speed(
     simulation = simulation_of(model, speed, scene, choice)
     left_out = None if motion is None else motion.left_out(simulation.problem)
     run = simulation.run(motion)
-    numbers = numbers_of_run(
-        run, results, spectrum_highest_order=spectrum_highest_order, wear_angles=wear_angles, stress=stress
-    )
+    sizes = {"spectrum_highest_order": spectrum_highest_order, "wear_angles": wear_angles}
+    numbers = numbers_of_run(run, results, **sizes, stress=stress)
     if left_out is not None:
         numbers["initial_energy_left_out"] = np.array(left_out)
         if "energy" in results:
@@ -100,7 +99,9 @@ def numbers_of_run(
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
         # a tip line that is known at its contact nodes alone does not say it
-        "largest_penetration": np.array(totals["largest_penetration"].max() if model.edge_is_known else np.nan),
+        "largest_penetration": np.array(
+            totals["largest_penetration"].max() if len(model.edge.theta) > len(model.theta) else np.nan
+        ),
         "casing_hits": np.array(totals["casing_hits"].sum()),
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
     }

@@ -129,7 +129,6 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
 
 
 def _contact_weights(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice) -> sp.csr_array:
-    """Weights of the table's nodes in the contact nodes' displacements."""
     if choice.contact == POINTS:
         return sp.csr_array(sp.eye_array(len(points)))
     if choice.contact == AREA_PATCHES:
@@ -148,7 +147,6 @@ def _tip_lengths(matrices: _InputMatrices, chord: np.ndarray, choice: BoundaryCh
 
 
 def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:
-    """ImportRefused for a mass or stiffness at rest that is not positive."""
     lowest = np.linalg.eigvalsh(mass)[0]
     if not lowest > 0.0:
         raise ImportRefused(f"the mass is not positive (lowest eigenvalue {lowest:.3g} kg); leave no massless rows")
@@ -193,7 +191,6 @@ def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> 
 
 
 def _speed(name: str, file: Path) -> float:
-    """The speed (rad/s) of a stiffness by its name."""
     try:
         speed = float(name.removeprefix("K_"))
     except ValueError:

@@ -88,7 +88,6 @@ class LaidOutProblem:
         m["call"]["speed_index"] = speed_index
 
     def _take_room(self, before: LaidOutProblem | None) -> None:
-        """Make the record, or take that of the one before."""
         sizes = (self.capacity, self.kind, self._nodes, self._modes, self.mode_lanes)
         if before is not None and sizes == (before.capacity, before.kind, before._nodes, before._modes, before.mode_lanes):
             self.record, self._corners = before.record, before._corners
