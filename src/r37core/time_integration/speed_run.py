@@ -83,6 +83,7 @@ def numbers_of_run(
     """Numbers of a run that is done: see run_speed."""
     problem, scene, ended = run.problem, run.problem.scene, run.first_diverged
     choice, model = problem.choice, problem.model
+    edge_is_known = len(model.edge.theta) > len(model.theta)
     totals = np.array([state.totals for state in run.states])
     per_revolution, revolutions = choice.samples_per_revolution, run.ending.revolutions
     first = max(revolutions - choice.revolutions_in_statistic, 0)
@@ -99,9 +100,7 @@ def numbers_of_run(
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
         # a tip line that is known at its contact nodes alone does not say it
-        "largest_penetration": np.array(
-            totals["largest_penetration"].max() if len(model.edge.theta) > len(model.theta) else np.nan
-        ),
+        "largest_penetration": np.array(totals["largest_penetration"].max() if edge_is_known else np.nan),
         "casing_hits": np.array(totals["casing_hits"].sum()),
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
     }

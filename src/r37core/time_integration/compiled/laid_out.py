@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -35,9 +35,7 @@ class LaidOutProblem:
     _corners: dict[tuple[str, tuple[int, ...]], np.ndarray]
     _tables: _CasingTables
 
-    def __init__(
-        self, problem: Problem, segments: Segments, before: LaidOutProblem | None = None, beside: LaidOutProblem | None = None
-    ):
+    def __init__(self, problem: Problem, segments: Segments, before: Self | None = None, beside: Self | None = None):
         self.problem = problem
         _, self._nodes, self._modes = problem.contact.displacement_operator.shape
         blade, pairs = len(problem.blade.frequencies), len(problem.scene.casing.ring)

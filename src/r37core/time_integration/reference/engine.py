@@ -5,10 +5,8 @@ Equations after section 5 of the benchmark, in the coordinates of the modes at r
 Forces at t_n: time_integration.compiled.contact_steps. An elastic casing: in the frame at rest.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -31,9 +29,7 @@ class ReferenceEngine:
     worn = 0.0
     """Wear (m3) of the lining by the blade."""
 
-    def __init__(
-        self, problem: Problem, segments: Segments, before: ReferenceEngine | None = None, beside: ReferenceEngine | None = None
-    ):
+    def __init__(self, problem: Problem, segments: Segments, before: Self | None = None, beside: Self | None = None):
         self.problem, self._segments = problem, segments
         self._blade_rows = problem.contact.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
         self._edge_rows = problem.edge.motion.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
