@@ -18,10 +18,8 @@ class BoundaryError(ValueError):
 POINTS, PATCHES, AREA_PATCHES = "points", "patches", "area_patches"
 """Kinds of contact nodes: nodes of the mesh, patches of the tip line, or patches of the tip's whole face."""
 
-
 EVEN, COSINE = "even", "cosine"
 """Spacings of the contact nodes along the chord: equal distances, or smaller ones towards the leading and trailing edge."""
-
 
 USUAL_POINTS, MOST_USUAL_PATCHES = 8, 12
 """Numbers of contact nodes where none is chosen: of points, and of patches the most, as a coarse tip has room for fewer."""

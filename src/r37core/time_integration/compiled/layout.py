@@ -44,7 +44,6 @@ NORMAL, TANGENTIAL, MERIDIONAL = range(3)
 FEWEST_MODES, FEWEST_NODES = 96, 8
 """Smallest capacity. A program takes seconds to make, and a step costs what is used of its record, not its room."""
 
-
 OF_MODES, OF_NODES = range(2)
 """Places of the numbers of vectors in the record."""
 
