@@ -20,10 +20,10 @@ from r37core.results.datasets import write_sweep_dataset
 from r37core.results.ranking import robustness
 from r37core.results.response import write_response
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.stress.goodman import Strengths, goodman_statistic
 from r37core.stress.operator import StressOperator, von_mises
 from r37core.stress.recovery import stress_operator
 from r37core.stress.revolutions import largest_cycles, stress_cycles
+from r37core.stress.statistic import Strengths, goodman_statistic
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import numbers_of_run, run_speed

@@ -36,10 +36,8 @@ def window_speeds(grid: RefinedRange, expected: Sequence[tuple[float, float, flo
     waiting = list(pairwise(grid.coarse_indices()))
     while waiting:
         first, last = waiting.pop()
-        length = (last - first) * grid.interval
-        too_long = any(
-            low < grid.speed(last) and grid.speed(first) < high and length > (1.0 + 1e-9) * step for low, high, step in expected
-        )
+        start, end, length = grid.speed(first), grid.speed(last), (last - first) * grid.interval
+        too_long = any(low < end and start < high and length > (1.0 + 1e-9) * step for low, high, step in expected)
         if too_long and last - first > 1:
             middle = (first + last) // 2
             added.append(middle)
