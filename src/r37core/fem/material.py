@@ -55,12 +55,9 @@ class Material:
         known = [f"{name}_pa" for name in ("fatigue_strength", "ultimate_strength") if np.isfinite(getattr(self, name))]
         if len(known) == 1:
             raise ValueError(f"{known[0]} alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both or neither")
-        if known and not self.fatigue_strength < self.ultimate_strength:
-            raise ValueError(
-                f"fatigue_strength_pa: found {self.fatigue_strength:g}; allowed: less than ultimate_strength_pa "
-                f"({self.ultimate_strength:g})"
-            )
         low, high = self.fatigue_strength, self.ultimate_strength
+        if known and not low < high:
+            raise ValueError(f"fatigue_strength_pa: found {low:g}; allowed: less than ultimate_strength_pa ({high:g})")
         if known and np.isfinite(self.yield_stress) and not low <= self.yield_stress <= high:
             between = f"{low:g} to {high:g}, from fatigue_strength_pa to ultimate_strength_pa"
             raise ValueError(f"yield_stress_pa: found {self.yield_stress:g}; allowed: {between}")

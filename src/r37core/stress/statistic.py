@@ -9,15 +9,6 @@ import numpy as np
 HIGH = 0.9
 """Share of the revolutions that the high quantile is not exceeded in."""
 
-GOODMAN = (
-    "goodman_share",
-    "goodman_share_median",
-    "share_of_revolutions_above_goodman",
-    "goodman_alternating_stress",
-    "goodman_mean_stress",
-)
-"""Numbers of goodman_statistic."""
-
 
 @dataclass(frozen=True)
 class Strengths:
@@ -50,11 +41,13 @@ def goodman_statistic(run: Mapping[str, np.ndarray], strengths: Strengths) -> di
     """
     alternating, mean, counts = run["cycle_alternating"], run["cycle_mean"], run["cycle_counts"]
     share = strengths.share(alternating, mean)
-    statistic = {**asdict(strengths), **dict.fromkeys(GOODMAN, np.nan)}
+    names = ["goodman_share", "goodman_share_median", "share_of_revolutions_above_goodman"]
+    names += ["goodman_alternating_stress", "goodman_mean_stress"]
+    values = len(names) * (np.nan,)
     if len(share) and np.isfinite(share).all():
         largest, worst = np.maximum.reduceat(share, np.cumsum(counts) - counts), share.argmax()
         values = share[worst], np.median(largest), np.mean(largest > 1.0), alternating[worst], mean[worst]
-        statistic |= dict(zip(GOODMAN, values, strict=True))
+    statistic = asdict(strengths) | dict(zip(names, values, strict=True))
     return {name: np.array(value, dtype=float) for name, value in statistic.items()}
 
 
