@@ -19,7 +19,7 @@ def to_plain(value: Any) -> Any:
 
 
 def from_plain(cls: type[T], data: Any) -> T:
-    """The `cls`, a dataclass or a type of its fields, that was `data` by to_plain. PlainError for wrong fields or types."""
+    """A `cls`, a dataclass or a type of its fields, from the `data` of to_plain. PlainError for wrong fields or types."""
     return _made(cls, data, getattr(cls, "__name__", str(cls)))
 
 

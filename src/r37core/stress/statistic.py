@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from math import inf, isfinite
+from typing import Any
 
 import numpy as np
 
@@ -43,7 +44,7 @@ def goodman_statistic(run: Mapping[str, np.ndarray], strengths: Strengths) -> di
     share = strengths.share(alternating, mean)
     names = ["goodman_share", "goodman_share_median", "share_of_revolutions_above_goodman"]
     names += ["goodman_alternating_stress", "goodman_mean_stress"]
-    values = len(names) * (np.nan,)
+    values: tuple[Any, ...] = len(names) * (np.nan,)
     if len(share) and np.isfinite(share).all():
         largest, worst = np.maximum.reduceat(share, np.cumsum(counts) - counts), share.argmax()
         values = share[worst], np.median(largest), np.mean(largest > 1.0), alternating[worst], mean[worst]

@@ -39,7 +39,7 @@ def run_job(speed: str, output: str, task: str, about: str, *models: str, motion
 
 
 def prepare(input: Any, output: Any, params: Any) -> None:
-    """A step: compile the time integration, refuse a step as Problem does. Inputs: models. Params: scene, choice, speed."""
+    """A step of the workflow: compile, or raise as Problem does. Inputs: models. Params: scene, choice, speed."""
     scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
     problem = simulation_of(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice).problem
     highest, step = problem.blade.frequencies[-1], problem.grid.time_step
