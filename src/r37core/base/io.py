@@ -43,7 +43,7 @@ class TextFileError(ValueError):
 
 @contextmanager
 def atomic_write(file: Path | str) -> Iterator[Path]:
-    """Give a path next to `file` that becomes it when the block ends well, else vanishes. OutputFileError without room."""
+    """Give a path next to `file` that becomes it when the block ends well, else vanishes. OutputFileError where no room is."""
     file = Path(file)
     with room_for(file):
         file.parent.mkdir(parents=True, exist_ok=True)

@@ -92,7 +92,7 @@ def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
 
 
 def patches_on(choice: BoundaryChoice, chord: np.ndarray, place: str) -> BoundaryChoice:
-    """Choice with a number of patches, of nodes at `chord`, called `place`. BoundaryError unless nodes are between patches."""
+    """Choice with a number of patches, of nodes at `chord`, called `place`. BoundaryError without nodes between patches."""
     chosen = choice.on(chord)
     wanted = chosen.most_nodes
     if _resolves(choice, wanted, chord):

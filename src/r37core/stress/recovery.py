@@ -8,7 +8,7 @@ from .operator import StressOperator
 
 
 def stress_operator(model: ReducedModel, material: Material) -> StressOperator:
-    """Stress at the nodes of the submesh, averaged over elements that share one. ValueError for a submesh without elements."""
+    """Stress at the nodes of the submesh, averaged over the elements that share one. ValueError without elements."""
     if not model.stress_elements:
         raise ValueError(
             f"the stress submesh ({model.stress_region}) has no elements; enlarge structure.stress_submesh in config.yaml (of "

@@ -65,7 +65,7 @@ class CarriedMotion:
 
 
 def resolved_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
-    """The problem with steps so short that velocities follow from two displacements. Raises what Problem raises."""
+    """The problem with steps so short that velocities follow from two displacements. Raises UnstableStepError, as Problem."""
     problem = stable_problem(model, speed, scene, choice)
     fastest = problem.contact.highest_frequency
     if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.grid.time_step < _LARGEST_TURN:

@@ -23,7 +23,7 @@ def clearances(model: ContactModel, scene: Scene, speeds: np.ndarray) -> np.ndar
 
 
 def growth(model: ContactModel, speeds: np.ndarray, cone_angle: float) -> np.ndarray:
-    """Approach (m), shape (speeds, nodes), of nodes to a cone of `cone_angle` (rad) by rotation. Raises BucklingError."""
+    """Distance (m), shape (speeds, nodes), that rotation brings nodes nearer to a cone of `cone_angle` (rad). BucklingError."""
     return approach(model.radius, model.displaced(speeds), cone_angle)
 
 

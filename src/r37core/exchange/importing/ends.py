@@ -66,7 +66,7 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
 
 
 def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> Caught:
-    """Outer faces in a set or rule for the end `what`; a set as the root has all its nodes. Raises ImportRefused for none."""
+    """Outer faces in a set or rule for the end `what`; a set as the root has all its nodes. ImportRefused where none are."""
     members = where.nodes(what, mesh)
     mask = mask_within(surface, members)
     faces = chosen(surface, mask)
