@@ -65,7 +65,10 @@ def open_gaps(c, g, count):
 
 @inlined
 def sweep_nodes(c, count, largest_gap, thickness, lined):
-    """Set the forces on the listed nodes; returns a last change, over `largest_gap` (m), that is too large. `thickness` (m)."""
+    """Set the forces on the listed nodes, from those they have; returns the last change if it is still too large.
+
+    It is relative to `largest_gap` (m). `thickness` (m): of the lining.
+    """
     allowed = TOLERANCE * largest_gap
     if c.settles_at_once == 0:
         return sweep_in_order(c, count, largest_gap, thickness, lined)

@@ -1,4 +1,7 @@
-"""The finite-element matrices of one blade that turns about z; centrifugal terms, linear theory, are per Omega^2."""
+"""The finite-element matrices of one blade, as later stages use them.
+
+The rotor axis is z. Centrifugal terms are per Omega^2: in the linear theory stress and geometric stiffness go with it.
+"""
 
 from dataclasses import dataclass
 from functools import cached_property

@@ -24,7 +24,10 @@ def mode_label(name: str) -> str:
 
 
 def ideal_shapes(mesh: BladeMesh) -> dict[str, np.ndarray]:
-    """Displacements, (nodes, 3): 1B and 2B of a clamped-free beam along the normal, 1T about mid-chord by a quarter sine."""
+    """Displacement fields, shape (nodes, 3), named 1B, 1T and 2B.
+
+    Bending: along the local normal as a clamped-free beam; torsion: about mid-chord by a quarter sine along the span.
+    """
     chord, span, _ = mesh.parameters.T
     twist = (chord - 0.5) * np.sin(0.5 * np.pi * span)
     amplitudes = (_beam_shape(span, _BEAM_ROOTS[0]), twist, _beam_shape(span, _BEAM_ROOTS[1]))

@@ -1,4 +1,7 @@
-"""Statistics of a run's stress, shares of the Goodman line. Not imported by simulations: changes run none of them again."""
+"""Statistics of the stress in a run's revolutions, and its share of the Goodman line of a material's strengths.
+
+Not imported by simulations, so a changed statistic or strength runs none of them again.
+"""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass

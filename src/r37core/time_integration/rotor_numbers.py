@@ -17,7 +17,10 @@ MOST_GROWTH = 200
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RotorRun(FinishedRun):
-    """A run of a `rotor` that is done; of each blade `late`, samples after one at angle 0, and `worn` (m3), off the lining."""
+    """A run of a `rotor` that is done, and where the samples of its blades lie in time.
+
+    Shape (blades,): `late`, in samples, after a blade at angle 0; `worn` (m3), off the lining by each.
+    """
 
     rotor: Rotor
     late: np.ndarray

@@ -41,7 +41,10 @@ class Simulation:
 
     @classmethod
     def build(cls, problem: Problem, segments: Segments | None = None, before: Any = None, beside: Any = None) -> Simulation:
-        """Simulation of a problem, or of its `segments`; `before`, `beside`: engines of one scene, see LaidOutProblem."""
+        """Simulation of a problem, in the `segments` of several speeds if they are given.
+
+        `before`, `beside`: engines of the same scene and choice, see LaidOutProblem.
+        """
         simulation = cls.__new__(cls)
         simulation._take(problem, segments, before, beside)
         return simulation
