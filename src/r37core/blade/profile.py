@@ -128,6 +128,7 @@ class Profile:
     """A profile on its cone, built from its table row.
 
     Attributes: `cone`, `centreline`, `surfaces` by side (`SUCTION`, `PRESSURE`), `leading_edge` and `trailing_edge` circles.
+
     Raises BladeShapeError where a thickness is not positive, a point is out of order or |sin kappa| passes 1.
     """
 

@@ -49,10 +49,11 @@ def conical_stacking(profiles: Sequence[Profile]) -> Placement:
 def plane_section_stacking(profiles: Sequence[Profile]) -> Placement:
     """Placement that puts the centre of area of every plane section x = const on one radial line.
 
-    Section i is cut at the radius of profile i's centre of area. The line is at theta = 0, its axial position the one of the
-    hub's section, so the hub profile does not shift axially. Of profiles closer than 4% of the span only some are cut, and the
-    others moved as a cubic spline through these. Raises BladeShapeError when a section cannot be cut or the iteration does not
-    settle.
+    Section i is cut at the radius of profile i's centre of area. The line is at theta = 0, its axial position the
+    one of the hub's section, so the hub profile does not shift axially. Of profiles closer than 4% of the span only some are
+    cut, and the others moved as a cubic spline through these.
+
+    Raises BladeShapeError when a section cannot be cut or the iteration does not settle.
     """
     spans = np.array([p.parameters.span for p in profiles])
     sectioned = _apart(spans)
