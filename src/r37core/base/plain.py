@@ -14,7 +14,10 @@ class PlainError(ValueError):
 
 
 def to_plain(value: Any) -> Any:
-    """`value` as dictionaries (dataclasses, too), lists (tuples, too), numbers, texts, None. Raises PlainError for all else."""
+    """`value` as dictionaries, lists, numbers, texts and None, which Snakemake compares and JSON can hold.
+
+    Dataclasses become dictionaries of all their fields, tuples become lists. Raises PlainError for anything else.
+    """
     return _plain(value, type(value).__name__)
 
 

@@ -69,9 +69,10 @@ class SpeedPlan:
 def plan_speeds(entries: Sequence[float | Mapping[str, Any]], default_step: float, unit: str = "rad/s") -> SpeedPlan:
     """Plan of numbers and ranges with `start`, `stop` (included) and, if given, `step` and `refine_to`.
 
-    In the `unit`, rad/s or rpm, but `default_step` (rad/s). Raises SpeedError for a range that runs backwards, a step that is
-    not a multiple of refine_to, refining ranges that overlap, more than LARGEST_NUMBER speeds and a speed given twice. A number
-    inside a refining range is no repetition.
+    All of them are in the `unit`, rad/s or rpm, `default_step` is in rad/s.
+
+    Raises SpeedError for a range that runs backwards, a step that is not a multiple of refine_to, refining ranges that
+    overlap, more than LARGEST_NUMBER speeds and a speed given twice. A number inside a refining range is no repetition.
     """
     rad_s = RAD_S[unit]
     numbers: list[float] = []

@@ -34,7 +34,9 @@ def fitting_units(span: float) -> list[str]:
 
 @dataclass(frozen=True)
 class Orientation:
-    """Unit and axes of a file; `length_unit`: a key of LENGTH_UNITS, or metres per unit.
+    """How a file describes space.
+
+    `length_unit`: a key of LENGTH_UNITS, or metres per unit.
 
     The blade's frame has z downstream, x radial, and a rotor that turns towards negative theta. A blade that turns the other
     way is mirrored: in an isotropic material its mirror image has the same motion, and every sign keeps its meaning.

@@ -2,8 +2,9 @@
 
 The operators + - * / < > and np.sqrt, np.where, np.maximum and np.abs act on every lane; a number among them counts for all
 lanes. So a formula in NumPy can be applied to arrays as it stands, and to lanes once it is compiled. Eight numbers fill one
-register with AVX-512, two with AVX2, four with SSE2 or NEON. Made with numba.extending. Imported only where something is
-compiled, never by a simulation job.
+register with AVX-512, two with AVX2, four with SSE2 or NEON. Made with numba's extension interface (numba.extending).
+
+Imported only where something is compiled, never by a simulation job that finds it compiled.
 """
 
 import operator

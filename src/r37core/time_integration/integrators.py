@@ -15,13 +15,13 @@ Numbers = float | np.ndarray
 class Recursion:
     """u_{n+1} = a u_n + b u_{n-1} + c F of unit-mass modes under modal forces F; arrays of shape (modes,).
 
-    Of several recursions: (recursions, modes). `keep` -b, `pull` 1 - a - b and `inverse` c: carried in displacement and
-    increment d_n = u_n - u_{n-1} it reads d_{n+1} = keep d_n - pull u_n + inverse F, which keeps the digits that a + b = 1 -
-    pull loses. `lost` = 1 - keep.
+    Of several recursions they have shape (recursions, modes).
+    `keep` -b, `pull` 1 - a - b and `inverse` c: carried in displacement and increment d_n = u_n - u_{n-1} it reads
+    d_{n+1} = keep d_n - pull u_n + inverse F, which keeps the digits that a + b = 1 - pull loses. `lost` = 1 - keep.
 
-    Multiplied with (u_{n+1} - u_{n-1})/(2c) it is a balance of energies, whatever a, b and c are: E_{n+1} - E_n = F (u_{n+1} -
-    u_{n-1})/2 - (1 - keep)/(4c) (u_{n+1} - u_{n-1})^2 with E_n = ((1 + keep)/2 d_n^2 + pull u_n u_{n-1})/(2c), kinetic plus
-    elastic energy up to the order of the step.
+    Multiplied with (u_{n+1} - u_{n-1})/(2c) it is a balance of energies, whatever a, b and c are:
+    E_{n+1} - E_n = F (u_{n+1} - u_{n-1})/2 - (1 - keep)/(4c) (u_{n+1} - u_{n-1})^2 with
+    E_n = ((1 + keep)/2 d_n^2 + pull u_n u_{n-1})/(2c), kinetic plus elastic energy up to the order of the step.
     """
 
     keep: np.ndarray
@@ -109,7 +109,10 @@ class Increments:
 
 
 def increments(integrator: str, frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Increments:
-    """Increments of modes: with exact_modal the closed form a step back, else from v_n = (u_{n+1} - u_{n-1})/(2h)."""
+    """Increments of the modes of a recursion.
+
+    With exact_modal the closed form a step back, else from v_n = (u_{n+1} - u_{n-1})/(2h); up to half a turn in a step.
+    """
     if integrator == CENTRAL_DIFFERENCE:
         stepping = central_difference(frequencies, damping_ratio, step)
         return Increments(stepping.pull / (1.0 + stepping.keep), 2.0 * step / (1.0 + stepping.keep))

@@ -53,8 +53,9 @@ class _Deck:
 def read_abaqus(file: Path) -> RawMesh:
     """The mesh of a deck with one part, where its instance stands; sets of nodes, elements and faces become sets of nodes.
 
-    The nodes that *BOUNDARY holds in all three directions are the set CLAMPED. Raises ImportRefused for decks with several
-    parts or instances, and for what cannot be read.
+    The nodes that *BOUNDARY holds in all three directions are the set CLAMPED.
+
+    Raises ImportRefused for decks with several parts or instances, and for what cannot be read.
     """
     deck = _Deck()
     for keyword, options, rows in _blocks(file, set()):

@@ -31,7 +31,10 @@ _READERS: dict[str, Callable[[Path], RawMesh]] = {
 
 
 def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh, np.ndarray]:
-    """The blade's mesh and each element's scaled Jacobian; `folder`: of `source.file`. ImportRefused names file and reason."""
+    """The blade's mesh and the scaled Jacobian of each element, shape (elements,); `folder`: what `source.file` starts from.
+
+    Raises ImportRefused, with the file's name and the reason, for a mesh that cannot be computed with.
+    """
     with blamed("mesh"):
         raw = _read(source.file, Path(folder))
     with blamed("mesh", source.file):

@@ -65,10 +65,10 @@ class _InputMatrices:
 def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Path | str = ".") -> ReducedModel:
     """The reduced model of the matrices: as they are if small, else reduced as `choice` says.
 
-    With contact on points the contact nodes are those of the table; patches, as many as `choice` says, are made of them. Raises
-    ImportRefused for files that do not fit together, matrices that are not symmetric, and a stiffness that is not linear in the
-    squared speed; BoundaryError for patches that the table has too few nodes for. Spin softening must be in the stiffness
-    already; a Coriolis matrix is not read.
+    With contact on points the contact nodes are those of the table; patches, as many as `choice` says, are made of them.
+    Raises ImportRefused for files that do not fit together, matrices that are not symmetric, and a stiffness that is not
+    linear in the squared speed; BoundaryError for patches that the table has too few nodes for. Spin softening must be in the
+    stiffness already; a Coriolis matrix, as r37core.exchange.exporting writes one, is not read.
     """
     with blamed("matrices"):
         files = matrix_files(source.folder, Path(folder))

@@ -24,8 +24,9 @@ Across: half a circle round a nose in one element has 0.5, a wrong node order 0.
 def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.ndarray]:
     """The mesh, all elements right way out, and the scaled Jacobian of each, shape (elements,).
 
-    Warns of linear elements, and of holes and cavities, which a blade may have and which a missing element leaves. A format of
-    the other winding (MED) has all elements of a type inside out. Raises ImportRefused.
+    Warns of linear elements, and of holes and cavities, which a blade may have and which a missing element leaves.
+
+    A format of the other winding (MED) is recognised by all elements of a type being inside out. Raises ImportRefused.
     """
     if not np.all(np.isfinite(mesh.points)):
         raise ImportRefused("found coordinates that are not numbers")

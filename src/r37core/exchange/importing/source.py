@@ -69,7 +69,10 @@ class MatricesSource:
 
 
 def mesh_files(name: str, root: Path) -> list[Path]:
-    """The mesh file `name` in `root` and those it includes. ImportRefused for an unknown kind, a missing file, a circle."""
+    """The mesh file `name` in the folder `root` and those that it includes (*INCLUDE of an Abaqus deck).
+
+    Raises ImportRefused for a file of an unknown kind, for one that is not there, and for one that includes itself.
+    """
     file = root / name
     if not os.path.isfile(file):
         raise ImportRefused(f"there is no file {name}", "mesh")

@@ -49,7 +49,10 @@ def is_flat(points: np.ndarray, within: float) -> bool:
 
 
 def check_order(points: np.ndarray) -> None:
-    """Refuse contact nodes `points`, shape (n, 3), unless each lies beyond the one before, from first to last, downstream."""
+    """Refuse contact nodes `points`, shape (n, 3), that do not run from the leading to the trailing edge, downstream.
+
+    Each node must lie farther along the straight line from the first to the last than the one before it.
+    """
     if len(points) < 2:
         return
     chord = points[-1] - points[0]
@@ -98,7 +101,10 @@ def check_sense(points: np.ndarray, lines: TipLines, pressure_forward: bool) -> 
 
 
 def check_sense_of_nodes(points: np.ndarray) -> None:
-    """Refuse a rotation that the stagger of contact nodes `points`, (n, 3), in order, contradicts; warn of a single node."""
+    """Refuse a rotation that the contact nodes contradict; `points`, shape (n, 3), are in order and in the blade's frame.
+
+    Only their stagger tells: on one side of the blade their line has not the blade's camber. A single node is warned of.
+    """
     if len(points) == 1:
         _warn_unproved("rotation", "the stagger of a single contact node")
     else:
