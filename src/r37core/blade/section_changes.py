@@ -3,7 +3,8 @@
 A changed profile is one of the same family: two arcs on the same cone whose angle to the rulings turns at a constant rate
 (`profile.py`). Both arcs and the place of the maximum thickness keep their shares of the centreline's length. Added camber is
 spread evenly over that length: the centreline turns by as much more on each centimetre. Then all three angles are rotated
-alike, and all lengths scaled alike, until the chord line has the wanted direction and length. None moves another.
+alike, and all lengths scaled alike, until the chord line has the wanted direction and length. So stagger, camber and chord are
+changed in one solution, and none of them moves another.
 """
 
 from __future__ import annotations

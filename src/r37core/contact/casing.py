@@ -126,7 +126,8 @@ def casing_axes(cylindrical: np.ndarray, cone_angle: float) -> np.ndarray:
     """Turn radial, tangential and axial parts into those along the normal, the tangent and the meridian of a cone.
 
     `cylindrical`, shape (3, ...); `cone_angle` alpha (rad). Normal cos(alpha) u_r - sin(alpha) u_z, positive towards the
-    casing; meridional sin(alpha) u_r + cos(alpha) u_z, positive downstream. Source: section 5 of the benchmark.
+    casing; meridional sin(alpha) u_r + cos(alpha) u_z, positive downstream. Source: section 5 of the benchmark; drawing in
+    docs/simulation.md.
     """
     radial, tangential, axial = cylindrical
     cosine, sine = np.cos(cone_angle), np.sin(cone_angle)

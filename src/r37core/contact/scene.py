@@ -12,11 +12,13 @@ from .casing import Casing
 
 @dataclass(frozen=True)
 class Rotor:
-    """Blades in one casing, coupled by what they wear of its lining and, where it is elastic, by what they bend it.
+    """Blades whose roots stand still: all meet the same casing, and are coupled by what they wear of its lining and, where it
+    is elastic, by what they bend it.
 
-    `numbers` of the blades, from 1; `angles` (rad) at which they stand, in the sense of growing theta: a blade passes the
-    casing after those at smaller angles. `frequency_factors`: all frequencies of a blade over those of the reduced model;
-    `longer` (m): by how much a blade is longer than that. `shared_lining`: whether all wear one lining, or each its own.
+    `numbers` of the blades, from 1; `angles` (rad) at which they stand, in the sense of growing theta: the rotor turns against
+    it, so a blade passes the casing after those at smaller angles. `frequency_factors`: all frequencies of a blade over those
+    of the reduced model; `longer` (m): by how much a blade is longer than that. `shared_lining`: whether all wear one lining,
+    or each its own.
     """
 
     numbers: tuple[int, ...]

@@ -55,7 +55,8 @@ def typed_blocks(blocks: Blocks, points: np.ndarray) -> Iterator[tuple[str, Elem
 def assemble_stiffness(pattern: NodePattern, blocks: Blocks, points: np.ndarray, material: Material) -> np.ndarray:
     """Linear elastic stiffness as 3 x 3 blocks (N/m), shape (pairs, 3, 3).
 
-    With H_ij = integral of dN_a/dx_i dN_b/dx_j block (a, b) is lambda H_ij + mu H_ji + mu trace(H) delta_ij (Hooke's law).
+    With H_ij = integral of dN_a/dx_i dN_b/dx_j, block (a, b) is lambda H_ij + mu H_ji + mu trace(H) delta_ij
+    (Hooke's law for an isotropic solid, in Lame's constants).
     """
     lame, shear = material.lame_constants
     stiffness = np.zeros((len(pattern.indices), 3, 3))

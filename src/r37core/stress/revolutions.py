@@ -1,6 +1,7 @@
 """Stress of many revolutions: the largest of each, and the alternating and mean stress of their fatigue. Light: jobs import it.
 
-Multiaxial equivalents of Sines (Dowling, Mechanical Behavior of Materials): von Mises of amplitudes, sum of normal means.
+Equivalents of Sines for multiaxial stress, as in Dowling, Mechanical Behavior of Materials: the von Mises stress of the
+amplitudes, and the sum of the mean normal stresses.
 """
 
 from functools import reduce

@@ -61,7 +61,8 @@ class ContactOperators:
     def displacement_operator(self) -> np.ndarray:
         """Displacement of the contact nodes along the casing's normal, tangent and meridian, shape (3, nodes, modes).
 
-        Per u of all modes, relative to the casing, whose modes count against it; d moves nodes by `increment_operator`.
+        Per displacement u of all modes; a coupled one's increment d moves the nodes by `increment_operator`, too. It is that
+        relative to the casing, whose modes count against it.
         """
         operator = self.operator_at_rest @ self._shapes[0]
         if self.casing.ring is not None:

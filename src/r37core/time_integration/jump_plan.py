@@ -96,8 +96,8 @@ def _after(first: np.ndarray, second: np.ndarray) -> np.ndarray:
 def nearest_casing(shape: np.ndarray, steps_per_block: int) -> np.ndarray:
     """Largest f(theta) in the COARSE steps that follow each place a jump may begin at.
 
-    `shape`, (steps per revolution, nodes): f at each step; result: (blocks per revolution, ceil(steps per block/COARSE),
-    nodes).
+    `shape`, shape (steps per revolution, nodes), f at each step. Returns shape (blocks per revolution, ceil(steps per block /
+    COARSE), nodes).
     """
     nodes = shape.shape[1]
     following = np.roll(shape, -1, axis=0).reshape(-1, steps_per_block, nodes)

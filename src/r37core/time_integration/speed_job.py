@@ -29,8 +29,10 @@ def simulate(input: Any, output: Any, params: Any) -> None:
 def run_job(speed: str, output: str, task: str, about: str, *models: str, motion: InitialMotion | None = None) -> None:
     """Simulate at a speed (rad/s) and write the file, with the attributes `about`; `task` is that of a sweep's plan.
 
-    `models`: files of the contact model and, where stress is wanted, of its operator; `motion`: that the blade starts in, if
-    not at rest. Raises InputFileError, and what Problem and `run_speed` raise.
+    `models`: files of the contact model and, where stress is wanted, of its operator. `motion`: that the blade starts in, if
+    not at rest.
+
+    Raises InputFileError, and what Problem and `run_speed` raise.
     """
     wanted, (model, *stress) = json.loads(task), models
     operator = _kept(read_stress_operator, *stress) if stress else None
