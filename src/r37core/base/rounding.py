@@ -21,7 +21,8 @@ def rounded_up(value: float) -> str:
 def rounded_to(value: float, spread: float) -> str:
     """`value` as text, its last digit at most a third of its `spread` (width of its range, in its unit): 1727, 44 -> 1730.
 
-    Beyond it there are no digits, or zeros. Without a spread: six digits. Empty for a value that is no number.
+    Digits beyond it are left out after the point and zeros before it. Of a spread that is zero or no number nothing follows:
+    six digits. Empty for a value that is no number.
     """
     if math.isnan(value):
         return ""

@@ -13,11 +13,12 @@ _BULGE_REACH = 4.0  # in edge radii: how far from a round edge the lines chord =
 class Blade:
     """A blade: profiles from hub to tip, each placed on its cone, joined by a cubic spline along the span.
 
-    Parameters run over chord 0 (leading) to 1 (trailing edge), span 0 (hub) to 1 (tip) and thickness -1 (pressure) to 1
-    (suction side). Frame: z along the axis, downstream, 0 at the centre of the hub profile's leading-edge circle; x radial
-    along the stacking line; the rotor turns towards negative theta (angle from x to y).
+    Parameters run over chord 0 (leading) to 1 (trailing edge), span 0 (hub) to 1 (tip) and thickness -1 (pressure) to
+    1 (suction side). Frame: z along the axis, downstream, 0 at the centre of the hub profile's leading-edge circle;
+    x radial along the stacking line; the rotor turns towards negative theta (angle from x to y).
 
-    `round_edges` closes the edges by circles, else they are cut blunt. Raises BladeShapeError when the profiles cross.
+    `round_edges` closes the edges by their circles; otherwise they are cut blunt between the tangent points.
+    Raises BladeShapeError when the profiles cross.
     """
 
     def __init__(self, profiles: Sequence[Profile], placement: Placement, round_edges: bool):

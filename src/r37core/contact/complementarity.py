@@ -1,7 +1,8 @@
 """The small complementarity problem of direct contact, compiled into the time integration.
 
 Nodes are lanes. A problem `p` is a complementarity_record of time_integration.compiled.layout: `gap` (m) of the nodes before
-the casing pushes, and room to work in. `columns[j, i]`: opening of gap i per unit multiplier of node j.
+the casing pushes, and room to work in. `columns[j, i]`: opening of gap i per unit multiplier of node j. Sets of nodes are bits,
+eight nodes to an integer.
 """
 
 import numpy as np

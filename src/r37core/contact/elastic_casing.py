@@ -28,7 +28,8 @@ class ElasticCasing:
     def modes_met(self, speed: float, frequency: float = 0.0) -> tuple[RingMode, ...]:
         """Modes in ascending order: all that simulations have, and all others that a rotor may meet.
 
-        Of a ring: waves that a rotor up to `speed` (rad/s) sees up to `frequency` (rad/s), or overtakes; at most MOST_LISTED.
+        Those others are of a ring: waves that a rotor of at most `speed` (rad/s) sees with at most `frequency` (rad/s), or that
+        it overtakes. At most MOST_LISTED nodal diameters.
         """
         if self.ring is None:
             return self.modes

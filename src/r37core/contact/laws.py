@@ -91,7 +91,8 @@ def wear_at_the_casing(lining: Any) -> float:
 def used_thickness(wear: float, lining: Any) -> float:
     """Thickness (m) of a lining that a bar worn by `wear` (m) has used: how deep it was pressed, 0 for no wear.
 
-    The inverse of worn: x = (wear (E + plastic modulus) + e yield stress)/E. At the casing it is the thickness e itself.
+    The inverse of worn: x = (wear (E + plastic modulus) + e yield stress)/E. At the casing it is the thickness e itself, and a
+    thicker lining might have been used deeper.
     """
     if not wear > 0.0:
         return 0.0

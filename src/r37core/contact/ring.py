@@ -101,8 +101,9 @@ def critical_speed(modes: Sequence[RingMode]) -> float:
 class RingMotion:
     """The modes of a casing as oscillators of unit mass: all q_c, then all q_s.
 
-    The blade's nodes are fixed in the rotor's frame, where the casing turns towards growing theta. A step turns the pair (q_c,
-    q_s), its increments and nothing else: free motion and recursion are those of the frame that does not turn.
+    The blade's nodes are fixed in the rotor's frame, where the casing turns towards growing theta. A step turns the pair
+    (q_c, q_s), its increments and nothing else: free motion and recursion are those of the frame that does not turn, with no
+    stiffness lost to the rotation, at critical speeds, too.
     """
 
     modes: tuple[RingMode, ...]

@@ -1,6 +1,7 @@
 """The finite-element matrices of one blade, as later stages use them.
 
-The rotor axis is z. Centrifugal terms are per Omega^2: in the linear theory stress and geometric stiffness go with it.
+The rotor axis is z. Centrifugal terms are per Omega^2: in the linear theory the centrifugal stress, and with it the geometric
+stiffness, is proportional to the square of the speed.
 """
 
 from dataclasses import dataclass

@@ -28,7 +28,8 @@ def lowest_modes(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The `count` lowest eigenvalues (rad2/s2), ascending, and mass-normalised modes, shape (dofs, count).
 
-    Shift-invert Lanczos about zero with a fixed start vector, so reproducible; `solve`: by the factorised stiffness.
+    Shift-invert Lanczos about zero with a fixed start vector, so the result is reproducible; `solve` is the
+    factorised stiffness if the caller already has it.
     """
     size = stiffness.shape[0]
     if count == 0:

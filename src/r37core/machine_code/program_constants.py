@@ -1,7 +1,8 @@
 """Compiled functions for constants that are known when a program is made: numba drops the branches that they rule out.
 
-A module names them in capitals, as any constant. A program takes copies of its functions whose globals have other values: numba
-reads a global as a constant, and prunes a branch on one before anything in it is looked at.
+A module names them in capitals, as any constant. A program takes copies of its functions whose globals have other values:
+numba reads a global as a constant, and prunes a branch on one before anything in it is looked at. Without that it compiles
+what no scene of a kind has, and LLVM throws it away afterwards.
 """
 
 from collections.abc import Callable, Mapping

@@ -1,8 +1,10 @@
 """Model of a blade for simulations: the reduced model in its modes at rest, and its contact nodes' displacement operator.
 
-In the modes at rest the mass is the identity and the stiffness at speed Omega is diag(frequencies^2) + Omega^2 K1, so a speed's
-own modes follow from a plain symmetric eigenproblem, without loss of digits and without SciPy. With Coriolis:
-time_integration.gyroscopic. Light: jobs import it.
+Light: the simulation jobs import it.
+
+In the modes at rest the mass is the identity and the stiffness at speed Omega is diag(frequencies^2) + Omega^2 K1, so a
+speed's own modes follow from a plain symmetric eigenproblem, without loss of digits and without SciPy. Those that the Coriolis
+force couples: r37core.time_integration.gyroscopic.
 """
 
 from dataclasses import asdict, dataclass, fields, replace

@@ -106,7 +106,8 @@ class ReducedModel:
     def modes(self, speed: float, count: int | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Lowest angular frequencies (rad/s), ascending, and mode shapes, shape (coordinates, modes), at `speed`.
 
-        Shapes are mass-normalised, complex with a Coriolis matrix; frequencies are negative where the stiffness is (buckling).
+        Shapes are mass-normalised; complex when the model has a Coriolis matrix. Frequencies below zero stiffness are
+        given as negative numbers (a blade that buckles under rotation).
         """
         squares, shapes = la.eigh(self.stiffness_at(speed), self.mass)
         if self.coriolis is not None and speed != 0.0:

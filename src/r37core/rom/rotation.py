@@ -43,7 +43,8 @@ def shapes_of_rotation(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Shapes v_i (v_i^T f) (m s2/rad2), shape (dofs, shapes), and their kappa_i (s2/rad2), shape (shapes,).
 
-    `stiffness` K0, `per_square` K1; displacements `displaced` at some speeds, shape (dofs, speeds); `load` f (N s2/rad2).
+    `stiffness` K0 and `per_square` K1, over the degrees of freedom; `displaced`, shape (dofs, speeds): the displacements at
+    some speeds; `load` f (N s2/rad2), shape (dofs,).
     """
     columns, _ = np.linalg.qr(displaced)
     # the stiffness is positive, so its Cholesky factor L makes this a plain eigenproblem: L^-1 K1 L^-T w = kappa w

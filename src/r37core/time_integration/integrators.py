@@ -111,7 +111,8 @@ class Increments:
 def increments(integrator: str, frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Increments:
     """Increments of the modes of a recursion.
 
-    With exact_modal the closed form a step back, else from v_n = (u_{n+1} - u_{n-1})/(2h); up to half a turn in a step.
+    With exact_modal the closed form taken a step back; with central differences from v_n = (u_{n+1} - u_{n-1})/(2h) and the
+    recursion. Of modes that turn by less than half a turn in a step.
     """
     if integrator == CENTRAL_DIFFERENCE:
         stepping = central_difference(frequencies, damping_ratio, step)

@@ -24,10 +24,12 @@ from .time_grid import TimeGrid
 class Problem:
     """A blade's `model` at one `speed` (rad/s) in one `scene`, stepped as `choice` says, and what follows from these four.
 
+    Each part has a subject: the `grid` in time, the `blade`'s modes, the `casing`, and the operators of `contact`.
+
     Raises UnstableStepError for a step at or above the stability limit 2/omega_max of central differences, or that of pressed
-    nodes; TooFewStaticModesError where the contact forces would not be unique; LongRevolutionError for a revolution of too many
-    steps; NoRoomError for a tip inside of the casing, and for a ring far from it; ValueError for a Coriolis matrix with central
-    differences, and an elastic casing with the exact gap.
+    nodes; TooFewStaticModesError where the contact forces would not be unique; LongRevolutionError for a revolution of too
+    many steps; NoRoomError for a tip inside of the casing, and for a ring far from it; ValueError for a Coriolis matrix with
+    central differences, and an elastic casing with the exact gap.
     """
 
     model: ContactModel

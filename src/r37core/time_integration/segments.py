@@ -35,7 +35,8 @@ def own_segment(problem: Problem) -> Segments:
 def segments_at(problem: Problem, speeds: np.ndarray) -> Segments:
     """Segments at other `speeds` (rad/s), (speeds,), in the modes of the problem's speed and with its steps per revolution.
 
-    A mode's squared frequency is its stiffness phi^T K(Omega) phi; that between modes is left out. Raises BucklingError.
+    A mode's squared frequency is its stiffness at the speed, phi^T K(Omega) phi; the stiffness between modes is left out.
+    Raises BucklingError where it is not positive.
     """
     motion = _motion_at(problem, speeds)
     several = recursion(problem.choice.integrator, *motion)

@@ -65,7 +65,8 @@ def definiteness(flexibility: np.ndarray, coefficient: float) -> float:
 def settles_at_once(flexibility: np.ndarray, coefficient: float) -> bool:
     """True where sweeps settle in which all nodes take the forces of their laws at once; see r37core.contact.node_sweeps.
 
-    A sweep multiplies errors by I - D^-1 G, D the diagonal of G. Arguments as of definiteness.
+    A sweep multiplies errors by I - D^-1 G, D the diagonal of G. An eigenvalue of D^-1 G exceeds LARGEST_EIGENVALUE where
+    static modes move many nodes together. Arguments as of definiteness.
     """
     opening = _opening(flexibility, coefficient).swapaxes(1, 2)
     scaled = opening / np.diagonal(opening, axis1=1, axis2=2)[:, :, None]

@@ -17,7 +17,8 @@ from .raw_mesh import RawMesh
 ALONG_EDGE, OFF_EDGE = 0.24, 0.6
 """How far a mid-node may lie from the middle of its edge, along it and across it, in lengths of the edge.
 
-Across: half a circle round a nose in one element has 0.5, a wrong node order 0.7 and more. Along: at 0.25 elements fold.
+Across: half a circle round a blade's nose in one element has 0.5; a wrong node order has 0.7 and more. Along: at 0.25 the
+map of the element folds at the corner.
 """
 
 

@@ -82,7 +82,8 @@ def _check_downstream(chord: np.ndarray) -> None:
 def check_sense(points: np.ndarray, lines: TipLines, pressure_forward: bool) -> None:
     """Refuse a rotation, rotor axis or pressure side that the tip's `lines` of nodes at `points` contradict.
 
-    `points`, shape (nodes, 3), in the blade's frame; `pressure_forward`: whether that side looks along the rotation. May warn.
+    `points`: shape (nodes, 3), in the blade's frame; `pressure_forward`: whether the pressure side looks along the rotation.
+    What the tip does not tell is warned of.
     """
     sides = [_section_at(points[lines[name][0]], _STEPS) for name in ("tip_pressure_edge", "tip_suction_edge")]
     sense = sense_of_line(0.5 * (sides[0] + sides[1]))
@@ -148,8 +149,9 @@ def find_tip_lines(points: np.ndarray, faces: list[Faces], pressure_forward: boo
     """Lines along the tip `faces` of a blade with nodes at `points`, shape (nodes, 3), in the blade's frame.
 
     Leading and trailing edge are the two points of the tip's outline that are farthest apart, the leading one upstream; the
-    edges end at sharp corners near them. `pressure_forward`: whether the pressure side looks towards the rotation. The camber
-    line has the tip's nodes half-way between the edges. Raises ImportRefused where that cannot be decided.
+    edges end at sharp corners near them (blunt edges). `pressure_forward`: whether the pressure side looks towards the
+    rotation (compressors), against growing theta. The camber line is made of the tip's nodes that lie half-way between the
+    two edges. Raises ImportRefused where that cannot be decided.
     """
     count = patches(faces)
     if count > 1:

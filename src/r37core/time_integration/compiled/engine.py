@@ -39,7 +39,8 @@ class CompiledEngine(LaidOutProblem):
     def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule | None = None) -> int:
         """Do one block of steps per row of `out.samples`, from `state`, which is changed, and fill samples and snapshots.
 
-        As the `schedule` says, whose ends and wear are filled, else at the first speed. Returns those done within the limit.
+        They are done as the `schedule` says, whose ends and wear are filled; without one at the first speed. Returns the blocks
+        done: fewer when an output passed the limit or is NaN.
         """
         passage = Passage(self, state, out, schedule)
         go_on([passage], len(out.samples))
