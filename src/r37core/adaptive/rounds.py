@@ -18,7 +18,10 @@ from .criterion import RefinementChoice, dense_ranges, next_speeds, window_speed
 
 @dataclass(frozen=True)
 class Round:
-    """Round: its `new` speeds (rad/s), ascending; `measured`: status and CURVES at each before, one member after the other."""
+    """Round: its `new` speeds (rad/s), ascending, none in the last; `measured` of each speed before: status, CURVES.
+
+    Of several members of a sample these follow one after the other.
+    """
 
     new: tuple[float, ...]
     measured: Mapping[float, Sequence[float]] = field(default_factory=dict)

@@ -43,7 +43,10 @@ class TextFileError(ValueError):
 
 @contextmanager
 def atomic_write(file: Path | str) -> Iterator[Path]:
-    """Give a path next to `file` that becomes it when the block ends well, else vanishes. OutputFileError where no room is."""
+    """Give a temporary path next to `file`; it becomes `file` when the block ends well and vanishes when it does not.
+
+    Raises OutputFileError where there is no room for it.
+    """
     file = Path(file)
     with room_for(file):
         file.parent.mkdir(parents=True, exist_ok=True)

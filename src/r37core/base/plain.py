@@ -22,7 +22,10 @@ def to_plain(value: Any) -> Any:
 
 
 def from_plain(cls: type[T], data: Any) -> T:
-    """A `cls`, a dataclass or a type of its fields, from the `data` of to_plain. PlainError for wrong fields or types."""
+    """The `cls` of which `to_plain` made `data`: a dataclass, or any type that one may have as a field.
+
+    Raises PlainError for a field that is unknown or missing, and for a value of another type.
+    """
     return _made(cls, data, getattr(cls, "__name__", str(cls)))
 
 

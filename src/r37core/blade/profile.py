@@ -260,7 +260,10 @@ class Profile:
 
 
 def area_and_centroid(x: np.ndarray, y: np.ndarray) -> tuple[float, float, float]:
-    """Signed area (positive counter-clockwise) and centre of a polygon, by the shoelace formula about its mean corner."""
+    """Signed area (positive counter-clockwise) and centre of area of the closed polygon with corners (x, y).
+
+    Shoelace formula, about the mean corner to keep the digits of a small polygon far from the origin.
+    """
     x_mean, y_mean = float(np.mean(x)), float(np.mean(y))
     x, y = x - x_mean, y - y_mean
     x_next, y_next = np.roll(x, -1), np.roll(y, -1)

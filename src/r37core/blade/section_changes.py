@@ -41,7 +41,10 @@ class SpanLaw:
         return cls((0.0, 1.0), (hub, tip))
 
     def evaluate(self, spans: Sequence[float]) -> np.ndarray:
-        """Values at spans, shape (spans,), by a spline, at most cubic; equal values stay the same to the last bit."""
+        """Values at span fractions, shape (spans,): a spline as that of sweep and lean, at most cubic.
+
+        Equal values give themselves to the last bit, so that a law of neutral values changes nothing.
+        """
         if len(set(self.values)) == 1:
             return np.full(len(spans), self.values[0])
         order = min(3, len(self.values) - 1)
@@ -73,7 +76,10 @@ class SectionChangeError(BladeShapeError):
 
 
 def changed_profiles(profiles: Sequence[ProfileParameters], laws: Mapping[str, SpanLaw]) -> tuple[ProfileParameters, ...]:
-    """Profiles changed by laws, by SectionChange's fields. SectionChangeError for one that is impossible or crosses another."""
+    """The profiles with changes by laws over the span, by the names of SectionChange's fields.
+
+    Raises SectionChangeError for a profile that becomes impossible or crosses another.
+    """
     if not laws:
         return tuple(profiles)
     spans = [profile.span for profile in profiles]

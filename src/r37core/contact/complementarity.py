@@ -30,7 +30,10 @@ def list_nodes(nodes, listed):
 
 @inlined
 def _solve(p, columns, count):
-    """Zero gap at the listed nodes, by Gauss-Jordan elimination; False if a pivot all but cancels, rare for a P-matrix."""
+    """Zero gap at the listed nodes, by Gauss-Jordan elimination on whole columns; False if a pivot all but cancels.
+
+    Principal minors of a P-matrix are positive, so that is rare.
+    """
     nodes = lanes_used(p.gap, p.lanes)
     for g in range(0, nodes, LANES):
         for j in range(count):

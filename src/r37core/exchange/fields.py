@@ -84,7 +84,10 @@ def modal_stress(mode: str) -> str:
 def worst_instants(
     files: Iterable[Path | str], speeds: Sequence[float], stress: StressOperator, only_worst: bool
 ) -> dict[float, WorstInstant]:
-    """Worst instant of the last revolution at each speed (rad/s) not diverged, or of all. Raises InputFileError."""
+    """The worst instant of the last revolution at each of the `speeds` (rad/s), or the worst of all alone.
+
+    A run that diverged has none. Raises InputFileError for a file that cannot be read.
+    """
     instants: dict[float, WorstInstant] = {}
     for speed, file in zip(speeds, files, strict=True):
         run = read_speed(file)

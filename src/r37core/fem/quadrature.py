@@ -25,7 +25,10 @@ _TETRAHEDRON_ORBITS: dict[int, tuple[tuple[float, float, int, float], ...]] = {
 
 
 def wedge_rule(triangle_points: int, line_points: int) -> Rule:
-    """Triangle rule of 1, 3 or 6 points (Dunavant, Int. J. Num. Meth. Eng. 21, 1985), else KeyError, times Gauss along zeta."""
+    """A triangle rule (1, 3 or 6 points) times a Gauss rule through zeta.
+
+    Triangle rules: degree 1, 2 and 4 (Dunavant, Int. J. Num. Meth. Eng. 21, 1985). Raises KeyError for another number.
+    """
     triangle = []
     for a, weight in _TRIANGLE_ORBITS[triangle_points]:
         orbit = [(a, a, weight), (1.0 - 2.0 * a, a, weight), (a, 1.0 - 2.0 * a, weight)]

@@ -10,7 +10,11 @@ COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
 
 
 def stress_at(gradients: np.ndarray, displacement: np.ndarray, material: Material) -> np.ndarray:
-    """Stress (Pa), (elements, points, 3, 3), of gradients (elements, points, n, 3) and displacement (m), (elements, n, 3)."""
+    """Stress tensors (Pa), shape (elements, points, 3, 3).
+
+    `gradients`: shape-function gradients, shape (elements, points, n, 3); `displacement` of each element's nodes (m),
+    shape (elements, n, 3).
+    """
     lame, shear = material.lame_constants
     displacement_gradient = displacement.transpose(0, 2, 1)[:, None] @ gradients
     strain = 0.5 * (displacement_gradient + displacement_gradient.transpose(0, 1, 3, 2))

@@ -74,7 +74,10 @@ def patches(faces: list[Faces]) -> int:
 
 
 def loops(faces: list[Faces]) -> list[np.ndarray]:
-    """Closed lines round a patch, mid-nodes in them, counter-clockwise from outside; several round holes, by first node."""
+    """Closed lines round a patch: node numbers in order, mid-nodes among them, counter-clockwise seen from outside.
+
+    A patch with holes has several; the order of the loops is that of their first node.
+    """
     edges = np.concatenate([part.edges() for part in faces])
     keys = np.sort(edges[:, [0, 2]], axis=1)
     _, inverse, count = np.unique(keys, axis=0, return_inverse=True, return_counts=True)

@@ -65,7 +65,10 @@ def cached_object(name: str, sources: Sources, about: object, build: Callable[[]
 
 
 def object_code(assembly: str, symbol: str, name: str) -> bytes:
-    """Object code from LLVM's assembly, its function `symbol` called `name`. ObjectCodeError if it needs its compiler."""
+    """Object code for the processor from LLVM's assembly language, its function `symbol` renamed to `name`.
+
+    Raises ObjectCodeError if it needs functions that a process without the compiler lacks.
+    """
     _start_llvm()
     module = llvm.parse_assembly(assembly)
     module.verify()

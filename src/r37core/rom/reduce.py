@@ -69,7 +69,10 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
 
 
 def contact_nodes(weights: sp.csr_array, line: np.ndarray, chord: np.ndarray, every: RecoveryNodes) -> RecoveryNodes:
-    """Contact nodes as means of `every` node by `weights`, numbered by the nearest of the `line`; `chord`: fractions of all."""
+    """The contact nodes as means of `every` node, each with the number of the nearest node of the tip's `line`.
+
+    `weights`: as contact_weights has them; `chord`: fraction of the chord of every node.
+    """
     nearest = np.abs(chord[line] - (weights @ chord)[:, None]).argmin(axis=1)
     fields = (mean_fields(weights, nodes) for nodes in (every.basis, every.rotation_shapes))
     return RecoveryNodes(every.nodes[line[nearest]], mean_positions(every.points, weights), *fields)

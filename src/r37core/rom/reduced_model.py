@@ -38,7 +38,10 @@ class RecoveryNodes:
 
     @property
     def cone_angle(self) -> float:
-        """Half angle (rad) of the cone through first and last node, negative where it narrows downstream; 0 for one node."""
+        """Half angle (rad) of the cone through the first and the last node, negative where it narrows downstream.
+
+        Zero for a single node. The nodes of a tip line lie on the cone of the tip profile.
+        """
         radius, axial = np.hypot(self.points[:, 0], self.points[:, 1]), self.points[:, 2]
         length = axial[-1] - axial[0]
         return float(np.arctan((radius[-1] - radius[0]) / length)) if length != 0.0 else 0.0

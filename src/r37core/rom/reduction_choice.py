@@ -26,7 +26,10 @@ USUAL_POINTS, MOST_USUAL_PATCHES = 8, 12
 
 
 def usual_spacing(contact: str) -> str:
-    """The spacing where none is chosen: end patches are short, as the edge beyond their middle is held by nothing."""
+    """The spacing of contact nodes of a kind where none is chosen.
+
+    Between the middle of an end patch and the blade's corner nothing holds the edge, so end patches are short.
+    """
     return EVEN if contact == POINTS else COSINE
 
 

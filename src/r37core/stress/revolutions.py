@@ -89,7 +89,10 @@ def largest_cycles(alternating: np.ndarray, mean: np.ndarray) -> tuple[np.ndarra
 
 
 def _corners(revolution: np.ndarray, mean: np.ndarray, alternating: np.ndarray) -> np.ndarray:
-    """Mask of pairs above the line between neighbours, of ascending alternating stress, in a revolution: else no corner."""
+    """Mask of the pairs above the line between their neighbours, of ascending alternating stress, in the same revolution.
+
+    One on or below it is no corner, whatever becomes of its neighbours.
+    """
     kept = np.ones(len(revolution), dtype=bool)
     fall, rise = -np.diff(mean), np.diff(alternating)
     inner = (revolution[2:] == revolution[1:-1]) & (revolution[1:-1] == revolution[:-2])

@@ -11,6 +11,9 @@ from .recovery import stress_operator as stress_operator_of
 
 
 def stress_operator(input: Any, output: Any, params: Any) -> None:
-    """Prepare the stress. Input: rom. Params: material. Output: stress (npz). ValueError for a region without elements."""
+    """Prepare the stress of a blade for simulations. Input: rom. Params: material. Output: stress (npz).
+
+    Raises ValueError where the region of the stress has no elements.
+    """
     material = from_plain(Material, params.material)
     write_stress_operator(stress_operator_of(read_reduced_model(input.rom), material), output.stress)

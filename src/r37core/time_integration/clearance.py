@@ -15,7 +15,10 @@ class NoRoomError(ValueError):
 
 
 def clearances(model: ContactModel, scene: Scene, speeds: np.ndarray) -> np.ndarray:
-    """Clearance (m) of the round casing, shape (speeds, nodes), less what rotation and length take. Raises BucklingError."""
+    """Clearance (m) of the round casing at `speeds` (rad/s), shape (speeds, nodes).
+
+    The casing's own, with its growth, less what rotation and a longer blade bring the node nearer to it. Raises BucklingError.
+    """
     casing, nearer = scene.casing, np.zeros((len(speeds), len(model.theta)))
     if casing.centrifugal:
         nearer = growth(model, speeds, casing.angle(model.tip_cone_angle))
@@ -28,7 +31,10 @@ def growth(model: ContactModel, speeds: np.ndarray, cone_angle: float) -> np.nda
 
 
 def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:
-    """NoRoomError where the tip reaches the round casing: a run would begin with a blow. A lining is worn there by `cut`."""
+    """NoRoomError where the tip reaches the round casing; a lining in front of it is worn by `cut`.
+
+    A run that begins inside of a rigid casing would begin with a blow that is not there: the speed was reached slowly.
+    """
     room = clearances(model, scene, speeds) + (scene.lining.thickness if scene.lining else 0.0)
     if room.min() >= 0.0:
         return

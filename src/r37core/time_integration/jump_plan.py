@@ -1,4 +1,7 @@
-"""Jumps over free flight, planned before a run, in NumPy; time_integration.compiled.jump_steps says how they are used."""
+"""Jumps over free flight as they are planned before a run, in NumPy: many steps of every mode as one map, and its bounds.
+
+time_integration.compiled.jump_steps says how a run uses them.
+"""
 
 from dataclasses import dataclass
 

@@ -14,7 +14,10 @@ from .problem import Problem
 
 
 class Segments(NamedTuple):
-    """Parts of a problem in held modes at several speeds, the first axis; `coupling`, `increments`: None where not needed."""
+    """Parts of a problem that change with the speed while its modes are held: all with a first axis of `speeds` (rad/s).
+
+    `coupling`: of central differences alone. `increments`: None of a single speed.
+    """
 
     speeds: np.ndarray
     recursion: Recursion

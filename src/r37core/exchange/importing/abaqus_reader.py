@@ -73,7 +73,10 @@ def read_abaqus(file: Path) -> RawMesh:
 
 
 def _blocks(file: Path, known: set[Path]) -> Iterator[tuple[str, dict[str, str], list[list[str]]]]:
-    """Keyword, options and data rows of every block, without comments, included files in place unless `known` already."""
+    """Keyword, options and data rows of every block, comments left out and included files read in place.
+
+    A file that is included again is among the `known` ones: it would say the same once more.
+    """
     keyword = ""
     options: dict[str, str] = {}
     rows: list[list[str]] = []

@@ -47,7 +47,10 @@ _DEEPEST = 50
 
 
 def included_files(deck: Path) -> list[Path]:
-    """The files that a deck includes, directly or not, each once. ImportRefused for a missing one, a circle, a long chain."""
+    """The files that a deck includes, directly or not, each once.
+
+    Raises ImportRefused for a file that is not there, for one that includes itself, and for a long chain of files.
+    """
     files: dict[Path, None] = {}
     _include(deck, [], files)
     return list(files)

@@ -30,7 +30,10 @@ class Caught:
 
 @dataclass(frozen=True)
 class End(Caught):
-    """An end of the blade, the `rule` of a cone that catches it, and whether it is `straight`: on that cone."""
+    """An end of the blade, the `rule` of a cone that catches it, and whether it lies on that cone, `straight`.
+
+    One that does not may be curved, flat as the bottom of a foot, or run into a fillet.
+    """
 
     rule: Where
     straight: bool

@@ -21,7 +21,10 @@ _SAME_AXES = 0.2  # difference of unit vectors: radial may point anywhere within
 
 
 def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
-    """Keys of an entry and their YAML that fit the mesh `raw` (file's unit and axes) and differ from `source`; may be empty."""
+    """Keys of an entry and their values as YAML that differ from those of `source` and fit the shape of its mesh.
+
+    `raw`: the mesh in the file's unit and axes. Empty where the shape tells nothing.
+    """
     orientation = source.orientation
     entry: dict[str, str] = {}
     # the side and the axes of a turbine may both be meant otherwise

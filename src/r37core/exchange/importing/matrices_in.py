@@ -305,7 +305,10 @@ def wording(model: ReducedModel) -> str:
 
 
 def check_frequency(model: ReducedModel, chord: float) -> None:
-    """Refuse a first frequency that no blade with this `chord` (m) of its tip has, warn of an unusual one; 0: not judged."""
+    """Raise ImportRefused for a first frequency that no blade with this `chord` of its tip (m) has, warn of an unusual one.
+
+    One contact node has no chord, and is not judged.
+    """
     frequency = _first_frequency(model)
     if not chord > 0.0 or _USUAL[0] <= frequency * chord <= _USUAL[1]:
         return

@@ -19,7 +19,10 @@ _MOST_NUMBERS = 2**27
 
 
 def read_matrix(file: Path) -> sp.csr_array:
-    """The matrix of a .mtx or .npz file, made exactly symmetric. ImportRefused unless real, square, finite and symmetric."""
+    """The matrix of a .mtx or .npz file, symmetric to the last bit.
+
+    Raises ImportRefused for a file that is damaged, and for a matrix that is not real, square, finite and symmetric.
+    """
     try:
         matrix = _market(file) if file.suffix == ".mtx" else _archive(file)
     except ImportRefused as error:

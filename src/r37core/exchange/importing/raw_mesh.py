@@ -26,7 +26,10 @@ class RawMesh:
 
 
 def solid_blocks(cells: Iterable[tuple[str, np.ndarray]]) -> dict[str, np.ndarray]:
-    """Solid elements of `cells` (type, nodes), joined by type in the table's order. ImportRefused for unknown ones or none."""
+    """The solid elements among `cells` (type, nodes), joined by type in the order of the table of elements.
+
+    Raises ImportRefused for solids that the table lacks and where there are none.
+    """
     parts: dict[str, list[np.ndarray]] = {}
     for name, nodes in cells:
         if len(nodes) and not name.startswith(_SURFACE):

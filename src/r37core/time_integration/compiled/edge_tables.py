@@ -15,7 +15,10 @@ DEEPER = 0.1
 
 
 class EdgeTables:
-    """Tables of a problem's edge for a `kind`: few nodes, then all, in groups; lanes of `modes`, used by `mode_columns`."""
+    """Tables of the edge of a `problem`, for a program of this `kind`: a few nodes come first, then all, in groups.
+
+    `modes`: lanes of them, of which those of the problem's are the `mode_columns`.
+    """
 
     def __init__(self, problem: Problem, kind: Kind, modes: int, mode_columns: np.ndarray | slice):
         edge, capacity_nodes = problem.edge, padded(len(problem.casing.tip.radius))

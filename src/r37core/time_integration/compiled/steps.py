@@ -190,7 +190,10 @@ def set_friction_against_last(m):
 
 @inlined
 def friction_response(m, table, k, g):
-    """Effect of a unit normal force on a node, with its friction, on those from g on; `table`: by direction."""
+    """Effect of a unit normal force on a node on the nodes from g on, with the vector friction that comes with it.
+
+    `table`: what forces along the normal, the tangent and the meridian do.
+    """
     response = load(table, (NORMAL, k, g)) + load(table, (TANGENTIAL, k, g)) * m.friction_share[0, k]
     return response + load(table, (MERIDIONAL, k, g)) * m.friction_share[1, k]
 
@@ -431,7 +434,10 @@ def push_lanes(m, first, end, work, lost):
 
 @inlined
 def add_pushes(m, first, second, both):
-    """Add what the forces of two nodes, or of the first alone, are to all modes: two at once, as a sum waits for its store."""
+    """Add what the forces of two nodes, or of the first alone, are to all modes.
+
+    Two at once, because a sum that is kept in memory waits for its last store.
+    """
     # loaded once: a store may change them, for all that the compiler knows
     first_force = m.force[first], m.friction_force[0, first], m.friction_force[1, first]
     second_force = m.force[second], m.friction_force[0, second], m.friction_force[1, second]
@@ -511,7 +517,10 @@ def leave_casing(m):
 
 @inlined
 def record(m, block, row, pressed):
-    """Samples and, unless `row` is -1, a snapshot after a block, static modes if `pressed`; False beyond the limit."""
+    """Samples and, unless `row` is -1, a snapshot at the end of a block; returns whether the outputs are within the limit.
+
+    `pressed`: whether there are forces, which the static modes follow.
+    """
     samples, snapshots = numbers_at(m.call.samples), numbers_at(m.call.snapshots)
     outputs, modes, nodes = m.number_of_outputs, mode_lanes(m), node_lanes(m)
     if not PUBLISHED:
