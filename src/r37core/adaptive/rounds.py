@@ -44,7 +44,8 @@ def round_after(before: Round, gave: Mapping[float, Sequence[float]], plan: Spee
 def measure_members(yields: Sequence[float], speeds: Sequence[float], files: Iterable[Path | str]) -> dict[float, list[float]]:
     """Status and CURVES at each speed (rad/s), one member after the other, as Round has them; one blade alone is one member.
 
-    `yields`: yield stress (Pa) of each; `files`: member by member those of all speeds. Raises InputFileError.
+    `yields`: yield stress (Pa) of each; `files`: member by member those of all speeds. Raises InputFileError for a file that
+    cannot be read.
     """
     gave: dict[float, list[float]] = {speed: [] for speed in speeds}
     every = iter(files)

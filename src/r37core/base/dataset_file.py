@@ -133,7 +133,10 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
 
 
 def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> xr.Dataset:
-    """Read a netCDF file into memory, or the `part` at labels of such dimensions as it has. Raises InputFileError."""
+    """Read a netCDF file into memory; InputFileError when it cannot be read.
+
+    `part`: labels of dimensions, as far as the file has these, at which alone it is read.
+    """
     with open_dataset(file) as dataset:
         return dataset.sel({name: label for name, label in (part or {}).items() if name in dataset.dims}).load()
 

@@ -19,7 +19,8 @@ class Key:
     `unit`: end of the key, one of units.SUFFIXES; `name`: the key without its unit, where it is not called like the field;
     `ge`, `gt`, `le`, `lt`: bounds in the key's unit, of a list's entries where there is one; `one_of`: texts that are allowed;
     `words`: word -> value of a field that is true or false; `none`: word for a field that is None. `optional`: whether the key
-    may be left out; a field without default is then made otherwise. Several keys of a field: ways to give it.
+    may be left out, also of a field without default, which is then made otherwise. Several keys of one field are several
+    ways to give it.
     """
 
     description: str

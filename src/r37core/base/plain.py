@@ -1,4 +1,7 @@
-"""Frozen dataclasses as plain values, for parameters of rules and jobs, and back. Light: the simulation jobs import it."""
+"""Frozen dataclasses as plain dictionaries, and back: what a rule's parameter holds, and what a job makes of it.
+
+Light: the simulation jobs import it.
+"""
 
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass

@@ -94,7 +94,10 @@ class Blade:
         return np.linalg.det(np.stack(columns, axis=2))
 
     def _check_orientation(self) -> None:
-        """Refuse a map that folds: (chord, span, thickness) along (z, x, y) are right-handed, the determinant positive."""
+        """The map must not fold: neighbouring profiles, or the two sides, would cross.
+
+        (chord, span, thickness) point along (z, x, y), a right-handed order, so the determinant is positive.
+        """
         axes = np.linspace(0.001, 0.999, 21), np.linspace(0.005, 0.995, 60), [-0.99, 0.0, 0.99]
         chord, span, thickness = (a.ravel() for a in np.meshgrid(*axes, indexing="ij"))
         determinant = self._determinant(chord, span, thickness)

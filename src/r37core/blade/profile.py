@@ -67,7 +67,10 @@ class ProfileParameters:
 
 @dataclass(frozen=True)
 class DoubleArc:
-    """Two constant-rate paths, `rear` from the end of `front`, with lengths (m): a profile's centreline or one of its sides."""
+    """Two constant-rate paths, `rear` from the end of `front`, and their lengths (m).
+
+    The centreline of a profile, between the centres of its edge circles, or one of its sides, between the tangent points.
+    """
 
     front: ConstantRatePath
     front_length: float
@@ -164,7 +167,10 @@ class Profile:
         return DoubleArc(second.started_at(second_end), -second_end, beyond, first_end - junction)
 
     def _path_tangent_to(self, start: ConstantRatePath, side: int, m: float, theta: float, radius: float):
-        """Path from `start` tangent to a circle, and its length: back along the end's normal by the radius lies the centre."""
+        """The path from `start` that ends tangent to the circle (m, theta, radius). Returns (path, end length).
+
+        Tangency on the proper side: going back along the end point's normal by the radius lands on the centre.
+        """
         scale = abs(m - start.m)
 
         def miss(unknowns):

@@ -96,7 +96,10 @@ def read_designs(file: Path, kind: str) -> tuple[tuple[str, ...], dict[str, tupl
 
 
 def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...]:
-    """Rows of STACKING_COLUMNS in SI: span, sweep (m), lean (rad). BladeShapeError for spans out of order or not 0 to 100%."""
+    """Sweep and lean rows (keys as in STACKING_COLUMNS) in SI: (span, sweep (m), lean (rad)).
+
+    Raises BladeShapeError for spans out of order or not reaching 0 and 100%.
+    """
     table = tuple((_si_cell(row, "span_percent"), _si_cell(row, "sweep_cm"), _si_cell(row, "lean_deg")) for row in rows)
     if len(table) < 2:
         raise BladeShapeError("a sweep and lean table needs at least two rows, for 0 and 100% span")

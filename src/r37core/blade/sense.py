@@ -1,8 +1,9 @@
 """Check whether the tip of a blade agrees with the sense of rotation, and its concave side with the side of the pressure.
 
 Source: velocity triangles, as in Dixon and Hall, Fluid Mechanics and Thermodynamics of Turbomachinery, chapters 4, 5 and 7. The
-flow relative to a rotor runs against the rotation, at the inlet of a compressor and at the outlet of a turbine, so the leading
-edge is ahead. The pressure side is the concave one. It looks along the rotation in a compressor, against it in a turbine.
+flow relative to a rotor runs against the rotation, at the inlet of a compressor and at the outlet of a turbine, so the
+leading edge is ahead. The pressure side is the concave one. It looks along the rotation in a compressor, against it in a
+turbine.
 """
 
 from dataclasses import dataclass
@@ -37,7 +38,10 @@ class TipSense:
 
 
 def sense_of_line(points: np.ndarray) -> TipSense:
-    """Sense of the line between the sides, `points` (n, 3) in the blade's frame; camber: of an arc with its mean height."""
+    """Sense of the line half-way between the sides: `points`, shape (n, 3), from leading to trailing edge in the blade's frame.
+
+    The camber is that of the circular arc with the line's mean height over the chord.
+    """
     radius, angle = np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
     line = np.stack([radius.mean() * (angle - angle[0]), points[:, 2] - points[0, 2]], axis=1)
     stagger = float(np.arctan2(*line[-1]))

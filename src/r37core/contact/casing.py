@@ -96,7 +96,10 @@ class Casing:
         return not self.growth_speeds or speed <= self.growth_speeds[-1] * (1.0 + _ROUNDED)
 
     def opening(self, speeds: np.ndarray) -> np.ndarray:
-        """Clearance (m) that growth adds at `speeds` (rad/s), shape (speeds,). ValueError beyond those that it is given for."""
+        """Clearance (m) that the casing's growth adds at `speeds` (rad/s), shape (speeds,).
+
+        Raises ValueError beyond the speeds that it is given for.
+        """
         if not self.growth:
             return np.zeros(len(speeds))
         if not self.knows(highest := float(np.max(speeds))):

@@ -24,7 +24,10 @@ def displaced_position(
 
 
 def lobe_shape(theta: Any, period: float, width: float) -> Any:
-    """f(theta) of the lobed casing, exp(-[((theta mod p)/p - 1/2)/width]^2), `period` p (rad): section 5 of the benchmark."""
+    """f(theta) of the lobed casing for angles (rad): one lobe in each `period` (rad), `width` relative to it.
+
+    f = exp(-[((theta mod p)/p - 1/2)/width]^2). Source: section 5 of the benchmark.
+    """
     return np.exp(-((((theta % period) / period - 0.5) / width) ** 2))
 
 
@@ -32,9 +35,10 @@ def return_mapping(penetration: float, wear: float, elastic_modulus: float, lini
     """Stress (Pa) and new wear (m) of a bar whose surface is pressed to `penetration` (m) beyond its first position.
 
     `elastic_modulus` (Pa) of the bar, or of it in series with what holds the node; `lining`: whatever has the other fields of
-    r37core.contact.scene.Lining. Trial stress E (penetration - wear)/thickness against the yield stress plus plastic modulus
-    times plastic strain; beyond it, plastic strain grows by the excess over E plus the plastic modulus (Simo and Hughes,
-    Computational Inelasticity, box 1.4). A bar cannot pull, and wear never shrinks nor passes the thickness.
+    r37core.contact.scene.Lining. Trial stress E (penetration - wear)/thickness against
+    the yield stress plus plastic modulus times plastic strain; beyond it, plastic strain grows by the excess over E plus the
+    plastic modulus (Simo and Hughes, Computational Inelasticity, box 1.4). A bar cannot pull, and wear never shrinks nor
+    passes the thickness.
     """
     thickness = lining.thickness
     stiffness = elastic_modulus / thickness

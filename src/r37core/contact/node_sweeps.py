@@ -44,7 +44,10 @@ def set_laws(c, count, lining, lined):
 
 @inlined
 def forces_of_laws(c, g, penetration, thickness, lined):
-    """Normal forces (N) on the eight nodes from g on, of bar or casing, if they penetrate (m) without; negative where clear."""
+    """Normal forces (N) on the eight nodes from g on, which would penetrate so much (m), had they none: of bar or casing.
+
+    Negative where a node is clear.
+    """
     if not lined:
         return penetration * load(c.stiffness, g)
     elastic = load(c.elastic, g) * (penetration - load(c.wear, g))

@@ -22,7 +22,10 @@ MOST_NODAL_DIAMETERS = 100
 
 @dataclass(frozen=True)
 class RingMode:
-    """Mode of the casing in the frame that does not turn: `frequency` (rad/s), `modal_mass` of q_c and of q_s, shape."""
+    """Mode of the casing, in the frame that does not turn.
+
+    Angular `frequency` (rad/s); `modal_mass` of q_c and of q_s; `radial` and `tangential`: its shape.
+    """
 
     nodal_diameter: Annotated[int, Key("Number of waves round the circumference", ge=0, le=200)]
     frequency: Annotated[float, Key("Natural frequency of the standing casing", "_hz", ge=1e-3, le=1e7)]
@@ -34,7 +37,10 @@ class RingMode:
 
 @dataclass(frozen=True)
 class Ring:
-    """A ring of one material on an elastic foundation, whose two stiffnesses are per length of circumference."""
+    """A ring of one material on an elastic foundation.
+
+    `radial_foundation` and `tangential_foundation`: stiffness per length of its circumference.
+    """
 
     radius: Annotated[float, Key("Radius of the middle line, from the tip's to a quarter more", "_m", ge=1e-3, le=100)]
     thickness: Annotated[float, Key("Radial thickness, at most a fifth of the radius", "_m", ge=1e-6, le=10)]
@@ -132,7 +138,10 @@ class RingMotion:
         return self._twice([(mode.radial or mode.tangential) / np.sqrt(mode.modal_mass) for mode in self.modes])
 
     def displacement(self, theta: np.ndarray) -> np.ndarray:
-        """Displacement (m) radial, tangential, axial, at `theta` (rad), shape (nodes,), per coordinate: (3, nodes, 2 modes)."""
+        """Radial, tangential and axial displacement (m) of the casing at angles (rad), per coordinate.
+
+        `theta`, shape (nodes,). Returns shape (3, nodes, 2 modes).
+        """
         radial, tangential, mass = np.array([(mode.radial, mode.tangential, mode.modal_mass) for mode in self.modes]).T
         angles = theta[:, None] * self.nodal_diameters
         cosine, sine = np.cos(angles) / np.sqrt(mass), np.sin(angles) / np.sqrt(mass)

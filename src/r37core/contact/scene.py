@@ -88,7 +88,10 @@ class Lining:
 
 @dataclass(frozen=True)
 class Friction:
-    """Always-sliding Coulomb friction; `vector`: against the sliding of rotation and vibration, else of rotation alone."""
+    """Always-sliding Coulomb friction.
+
+    `vector`: along the real sliding velocity (rotation plus vibration), else the vibration is neglected.
+    """
 
     coefficient: Annotated[float, Key("Coulomb coefficient", ge=0, le=10)]
     vector: Annotated[

@@ -35,7 +35,10 @@ class Target:
 
 @dataclass(frozen=True)
 class WorstInstant:
-    """Instant `number` of a `revolution` (instants, coordinates) with the `largest` von Mises stress (Pa) of the submesh."""
+    """The instant `number` of the last revolution: that with the largest von Mises stress on the submesh, `largest` (Pa).
+
+    `revolution`: the reduced coordinates at all its instants, shape (instants, coordinates).
+    """
 
     largest: float
     revolution: np.ndarray

@@ -65,7 +65,10 @@ class Orientation:
 
     @property
     def rows(self) -> np.ndarray:
-        """Rows x, y, z of the blade's frame in the file's axes, left-handed if mirrored. ImportRefused for parallel axes."""
+        """Orthonormal rows x, y, z of the blade's frame in the file's axes, shape (3, 3); left-handed where mirrored.
+
+        Raises ImportRefused where the two directions are parallel.
+        """
         self.check()
         axis, radial = np.array(self.rotor_axis, dtype=float), np.array(self.radial, dtype=float)
         z = axis / np.linalg.norm(axis)

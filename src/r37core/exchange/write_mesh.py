@@ -17,7 +17,10 @@ _FACE_TYPES = {(3, False): "triangle", (3, True): "triangle6", (4, False): "quad
 
 
 def write_mesh(mesh: BladeMesh, file: Path | str) -> None:
-    """Write .vtu (node sets as marks), .msh (2.2), .med or .bdf (both with the groups of GROUPS); coordinates in m."""
+    """Write .vtu, .msh (2.2), .med or .bdf; coordinates in m.
+
+    .vtu has node sets as marks; the others have the groups of GROUPS: solids, and the faces of root and tip.
+    """
     file = Path(file)
     with atomic_write(file) as partial:
         quietly(lambda target: _WRITERS[file.suffix](mesh, target), partial)

@@ -20,7 +20,10 @@ Blocks = Mapping[str, np.ndarray]
 
 @dataclass(frozen=True)
 class NodePattern:
-    """Sparsity pattern of node pairs in compressed rows; `slots`, shape (elements, n, n) by type: place of the pair (a, b)."""
+    """Sparsity pattern of node pairs in compressed rows.
+
+    `slots`: for each element type, shape (elements, n, n), where the pair (a, b) of an element's nodes is stored.
+    """
 
     indptr: np.ndarray
     indices: np.ndarray

@@ -92,7 +92,10 @@ class Element:
         return np.stack(slopes, axis=2)
 
     def jacobian(self, coordinates: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Derivatives of x_i by local coordinate k, (elements, points, 3, 3), at local points, of nodes (elements, n, 3)."""
+        """Derivatives of x_i by local coordinate k, shape (elements, points, 3, 3).
+
+        `coordinates`: nodes of each element, shape (elements, n, 3); `points`: local points, shape (points, 3).
+        """
         return np.einsum("qak,eai->eqik", self.shape_gradients(points), coordinates, optimize=True)
 
     def physical_gradients(self, coordinates: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -82,7 +82,10 @@ class StructuralMatrices:
 
 
 def assemble(mesh: BladeMesh, material: Material) -> StructuralMatrices:
-    """Matrices of a mesh clamped at its root, with the geometric stiffness of the centrifugal stress at rest (linear)."""
+    """Assemble the matrices of a mesh clamped at its root, with the geometric stiffness of the centrifugal stress.
+
+    The static displacement under rotation comes from the elastic stiffness at rest (linear theory).
+    """
     blocks, points = mesh.blocks, mesh.points
     pattern = NodePattern.build(blocks, len(points))
     matrices = StructuralMatrices(

@@ -25,7 +25,10 @@ class Trace:
 
 
 def edge_traces(points: np.ndarray, blocks: Mapping[str, np.ndarray], members: np.ndarray) -> list[Trace]:
-    """Edges all of whose nodes are `members`, a mask over the nodes at `points` (m), (nodes, 3), of `blocks`; each once."""
+    """Edges all of whose nodes are `members`, a mask over the mesh's nodes; each edge once.
+
+    `points`: coordinates (m), shape (nodes, 3); `blocks`: element type -> node numbers, shape (elements, nodes of the type).
+    """
     edges: dict[int, list[np.ndarray]] = {}
     for name, elements in blocks.items():
         element = ELEMENTS[name]

@@ -1,9 +1,8 @@
 """Results that take long to make, in files by a hash of all that their content follows from; each is checked when it is read.
 
-They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says:
-structures in the user's cache, for calls from Python and runs of the workflow. A file that is cut short or damaged is made
-again; all may be removed at any time. Of several processes and threads that need the same one makes it and the others wait, so
-that a core is not busy twice with one thing. Light: simulation jobs import it.
+They lie beside the package, or in the user's cache folder where the package cannot be written, or where a caller says. A
+file that is cut short or damaged is made again; all may be removed at any time. Of several processes and threads that need
+the same one makes it and the others wait, so that a core is not busy twice with one thing. Light: simulation jobs import it.
 """
 
 import fcntl

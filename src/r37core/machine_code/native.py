@@ -1,4 +1,7 @@
-"""Object code for this processor, kept under a name of all it depends on, loaded without a compiler. Light: jobs import it."""
+"""Object code for this machine's processor: made once, kept, checked, and loaded without its compiler.
+
+Light: the simulation jobs import it. An object is kept (`kept`) under a name made of everything it depends on.
+"""
 
 import ctypes
 import hashlib

@@ -20,7 +20,10 @@ from .reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, boundary_nod
 
 
 def contact_weights(mesh: BladeMesh, choice: BoundaryChoice) -> sp.csr_array:
-    """Weights w_kj, shape (contact nodes, nodes), whose rows add up to one. BoundaryError for a line of too few nodes."""
+    """Weights w_kj of the mesh's nodes in each contact node's displacement, shape (contact nodes, nodes); rows add up to one.
+
+    Raises BoundaryError when the tip line has too few nodes.
+    """
     if choice.contact == POINTS:
         nodes = boundary_nodes(mesh, choice)
         return sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(mesh.points)))

@@ -26,7 +26,8 @@ def mode_label(name: str) -> str:
 def ideal_shapes(mesh: BladeMesh) -> dict[str, np.ndarray]:
     """Displacement fields, shape (nodes, 3), named 1B, 1T and 2B.
 
-    Bending: along the local normal as a clamped-free beam; torsion: about mid-chord by a quarter sine along the span.
+    Bending moves along the blade's local normal as a clamped-free beam; torsion turns each section about mid-chord by
+    a quarter sine along the span.
     """
     chord, span, _ = mesh.parameters.T
     twist = (chord - 0.5) * np.sin(0.5 * np.pi * span)

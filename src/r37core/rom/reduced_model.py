@@ -18,8 +18,9 @@ CORIOLIS_TERM = "M x'' + Omega G x' + K(Omega) x = f, for Omega > 0 and a rotor 
 class RecoveryNodes:
     """Nodes whose displacement can be recovered from the reduced coordinates.
 
-    `nodes`: mesh node numbers, shape (n,); `points` (m), shape (n, 3); `basis`, shape (n, 3, coordinates): displacement (x, y,
-    z) per unit of each reduced coordinate; `rotation_shapes` (m s2/rad2), shape (n, 3, shapes), see r37core.rom.rotation.
+    `nodes`: mesh node numbers, shape (n,); `points` (m), shape (n, 3); `basis`, shape (n, 3, coordinates): displacement
+    (x, y, z) per unit of each reduced coordinate; `rotation_shapes` (m s2/rad2), shape (n, 3, shapes): what rotation does,
+    see r37core.rom.rotation.
     """
 
     nodes: np.ndarray

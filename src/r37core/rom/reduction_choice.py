@@ -95,7 +95,10 @@ def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
 
 
 def patches_on(choice: BoundaryChoice, chord: np.ndarray, place: str) -> BoundaryChoice:
-    """Choice with a number of patches, of nodes at `chord`, called `place`. BoundaryError without nodes between patches."""
+    """The choice with a number of patches, made of nodes at fractions `chord` of the line.
+
+    Raises BoundaryError unless one of the nodes lies between any two patches; `place`: what they are nodes of.
+    """
     chosen = choice.on(chord)
     wanted = chosen.most_nodes
     if _resolves(choice, wanted, chord):

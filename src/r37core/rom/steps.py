@@ -21,7 +21,8 @@ from .rom_file import read_reduced_model, write_reduced_model
 def reduced_model(input: Any, output: Any, params: Any) -> None:
     """Assemble and reduce a blade. Input: mesh (vtu). Output: rom (nc).
 
-    Params: material, reduction, contact, kept (whether the user's cache has a copy), provenance, code.
+    Params: material, reduction, contact, kept (whether the user's cache has a copy, for all that is made of the same),
+    provenance, code.
     """
 
     def make(file: Path) -> None:

@@ -51,7 +51,8 @@ class StressOperator:
     def max_von_mises(self, coordinates: np.ndarray) -> np.ndarray:
         """Largest von Mises stress (Pa) over the submesh, shape (instants,).
 
-        `coordinates`, shape (instants, coordinates), of the vibration, with rotation's amplitudes after them for both together.
+        `coordinates`, shape (instants, coordinates), of the vibration alone, or with the amplitudes of rotation's shapes after
+        them: then it is the stress of both together.
         """
         operator = self.operator[:, :, : coordinates.shape[1]]
         stress = np.einsum("cnj,tj->ctn", operator, coordinates, optimize=True)

@@ -8,7 +8,10 @@ from .operator import StressOperator
 
 
 def stress_operator(model: ReducedModel, material: Material) -> StressOperator:
-    """Stress at the nodes of the submesh, averaged over the elements that share one. ValueError without elements."""
+    """Stress at the nodes of the model's stress submesh, averaged over the submesh elements that share a node.
+
+    Raises ValueError when the submesh has no elements.
+    """
     if not model.stress_elements:
         raise ValueError(
             f"the stress submesh ({model.stress_region}) has no elements; enlarge structure.stress_submesh in config.yaml (of "

@@ -1,7 +1,6 @@
-"""Stress of many revolutions: the largest of each, and the alternating and mean stress of their fatigue. Light: jobs import it.
+"""The largest stress of each of many revolutions, of those nodes and instants that may have it. Light: jobs import it.
 
-Equivalents of Sines for multiaxial stress, as in Dowling, Mechanical Behavior of Materials: the von Mises stress of the
-amplitudes, and the sum of the mean normal stresses.
+All nodes at all instants of a hundred revolutions would take ten times as long as the simulation.
 """
 
 from functools import reduce
@@ -14,14 +13,14 @@ from .operator import StressOperator
 def largest_of_revolutions(
     stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray, per_revolution: int
 ) -> np.ndarray:
-    """Largest von Mises stress (Pa) of each revolution, shape (revolutions,), in single precision.
+    """Largest von Mises stress (Pa) of each revolution, shape (revolutions,).
 
     `states`, shape (instants, numbers), of whole revolutions of `per_revolution` instants each; `shapes`, shape (coordinates,
     numbers): reduced coordinates per number; `rotation`, shape (shapes,): amplitudes of rotation's shapes, or none.
 
-    All nodes at all instants would take ten times as long as the simulation. Nodes that are the worst at some instant of the
-    last revolution are looked at in all instants, all nodes at the instant of each revolution that is the worst so far, until
-    neither gives another one. A node that is the worst at another instant alone is missed.
+    Nodes that are the worst at some instant of the last revolution are looked at in all instants, all nodes at the instant of
+    each revolution that is the worst so far, until neither gives another one. A node that is the worst at another instant
+    alone is missed. In single precision.
     """
     vibration_part, rotation_part = np.split(stress.deviatoric[:, :, : len(shapes) + len(rotation)], [len(shapes)], axis=2)
     per_number, still = vibration_part @ shapes.astype(np.float32), rotation_part @ rotation.astype(np.float32)

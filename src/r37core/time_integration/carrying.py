@@ -65,7 +65,10 @@ class CarriedMotion:
 
 
 def resolved_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
-    """The problem with steps so short that velocities follow from two displacements. Raises UnstableStepError, as Problem."""
+    """The problem at a speed (rad/s), with steps so short that the velocity of every mode follows from two displacements.
+
+    Raises what Problem raises; UnstableStepError for an explicit step that is too long.
+    """
     problem = stable_problem(model, speed, scene, choice)
     fastest = problem.contact.highest_frequency
     if choice.integrator == CENTRAL_DIFFERENCE or fastest * problem.grid.time_step < _LARGEST_TURN:

@@ -82,7 +82,10 @@ class CasingOfRun:
 
     @property
     def initial_wear(self) -> np.ndarray:
-        """Wear (m), shape (rings, 1), where the tip reaches into the lining: it has cut its way slowly and presses nothing."""
+        """Wear (m) of each ring of the lining where the tip reaches into it before anything vibrates, shape (rings, 1).
+
+        The speed was reached slowly, so the tip has cut its way and presses nothing.
+        """
         return np.maximum(-self.clearance, 0.0)[:, None]
 
     def gaps(self, clearance: np.ndarray, displacement: np.ndarray, step: int, angle: float) -> tuple[np.ndarray, np.ndarray]:

@@ -26,7 +26,10 @@ def clearances(model: ContactModel, scene: Scene, speeds: np.ndarray) -> np.ndar
 
 
 def growth(model: ContactModel, speeds: np.ndarray, cone_angle: float) -> np.ndarray:
-    """Distance (m), shape (speeds, nodes), that rotation brings nodes nearer to a cone of `cone_angle` (rad). BucklingError."""
+    """Distance (m) by which rotation at `speeds` (rad/s) brings the contact nodes nearer to a cone, shape (speeds, nodes).
+
+    `cone_angle`: its half angle (rad). Raises BucklingError.
+    """
     return approach(model.radius, model.displaced(speeds), cone_angle)
 
 

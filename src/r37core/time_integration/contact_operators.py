@@ -1,4 +1,4 @@
-"""Linear operators of a run: from the motion of all modes to contact nodes, edge, samples, snapshots, and from forces back."""
+"""Linear operators of a run: from the motion of all modes to its contact nodes, samples and snapshots, and from forces back."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +15,11 @@ from .stepped_blade import SteppedBlade
 
 @dataclass(frozen=True, eq=False)
 class ContactOperators:
-    """Operators of a stepped `blade` and its `casing`; "all modes" are the blade's, then those of an elastic casing."""
+    """Operators of a stepped `blade` and its `casing`.
+
+    The modes of an elastic casing follow those of the blade wherever "all modes" are meant: the recursion, the operators, a
+    snapshot.
+    """
 
     blade: SteppedBlade
     casing: CasingOfRun
@@ -38,7 +42,10 @@ class ContactOperators:
 
     @cached_property
     def _shapes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement in the modes at rest per u and per d (none without Coriolis) of all modes; zero for the casing's."""
+        """Displacement in the modes at rest per u and per d of all modes; no column of the second without Coriolis.
+
+        The casing's move no mode of the blade.
+        """
         none = np.zeros((len(self.blade.modes), len(self._ring_rows[0, 0])))
         if self.blade.complex_modes is None:
             return np.hstack([self.blade.modes, none]), np.empty((len(self.blade.modes), 0))
@@ -98,8 +105,9 @@ class ContactOperators:
     def static_shapes(self) -> np.ndarray:
         """Displacement that follows forces on the contact nodes at once, shape (modes at rest, 3 nodes).
 
-        Of the modes that are not stepped, by forces in the directions of `displacement_operator`: see static_modes. With
-        Coriolis also half of the kick by which a force at t_n acts on the stepped modes. Without forces at t_n no column.
+        That of the modes that are not stepped, of forces in the directions of `displacement_operator`: see static_modes. With
+        Coriolis also half of the kick by which a force at t_n acts on the stepped modes. No column where the forces are not
+        those at t_n.
         """
         if not self.blade.grid.choice.second_order:
             return np.empty((len(self.blade.modes), 0))
@@ -109,7 +117,10 @@ class ContactOperators:
         return residual if self.blade.complex_modes is None else residual + self._half_kick
 
     def static_energy(self, forces: np.ndarray) -> float:
-        """Elastic energy (J) of the static modes under `forces` (N), shape (3, nodes): all the work that these did on them."""
+        """Elastic energy (J) of the static modes under `forces` (N) on the nodes, shape (3, nodes).
+
+        It is all the work that the forces have done on them: what follows at once is elastic.
+        """
         frequencies, modes = self.blade.static_modes
         modal_forces = np.einsum("dk,dkm->m", forces, self.operator_at_rest @ modes) / frequencies
         return 0.5 * float(modal_forces @ modal_forces)
@@ -125,7 +136,10 @@ class ContactOperators:
 
     @property
     def state_shapes(self) -> np.ndarray:
-        """Displacement in the modes at rest per number of a snapshot: stepped modes' u, with Coriolis d, contact forces (N)."""
+        """Displacement in the modes at rest per number of a snapshot.
+
+        They are the stepped modes' u, with Coriolis their d, then the contact forces (N).
+        """
         return np.hstack([*self._shapes, self.static_shapes])
 
     @cached_property
@@ -157,7 +171,10 @@ class ContactOperators:
 
     @cached_property
     def coupling(self) -> np.ndarray:
-        """Normal displacement (m/N) of the last node one step on, per force on the first, by direction: (3, nodes, nodes)."""
+        """Normal displacement (m/N) of the last node, one step on, per normal, tangential or meridional force on the first.
+
+        Shape (3, nodes, nodes).
+        """
         return self.coupling_of(self.recursion.inverse)
 
     def coupling_of(self, inverse: np.ndarray) -> np.ndarray:

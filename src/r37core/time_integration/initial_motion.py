@@ -118,7 +118,10 @@ def _numbers(name: str, values: ArrayLike | None) -> np.ndarray | None:
 
 
 def _check_room(problem: Problem, displacement: np.ndarray, state: SimulationState) -> None:
-    """InitialMotionError where a `displacement` of the stepped modes reaches into casing or lining: its forces would lack."""
+    """InitialMotionError where a `displacement` of the stepped modes brings a node into casing or lining.
+
+    The contact forces of the first instant would be missing.
+    """
     nodes = np.array([rows @ (problem.blade.modes @ displacement) for rows in problem.contact.operator_at_rest])
     room, _ = problem.casing.gaps(problem.casing.clearance, nodes, 0, 0.0)
     if state.wear is not None:

@@ -30,7 +30,10 @@ class Recursion:
     lost: np.ndarray
 
     def __getitem__(self, row: int | slice | np.ndarray | None) -> Recursion:
-        """Select one or some of several recursions, arrays (recursions, modes), or some modes of one; None: one as several."""
+        """Select one or some of several recursions, whose arrays have shape (recursions, modes), or some modes of one.
+
+        None: one as several.
+        """
         return type(self)(self.keep[row], self.pull[row], self.inverse[row], self.lost[row])
 
     @property
@@ -40,7 +43,10 @@ class Recursion:
 
     @property
     def loss_form(self) -> list[np.ndarray]:
-        """Loss of a free step as a quadratic form of u and d before it, uu, ud, dd: of (1 + keep) d - pull u, see Recursion."""
+        """The loss of a free step as a quadratic form of u and d before it: uu, ud, dd.
+
+        It is that of the central difference (u' - u_before) = (1 + keep) d - pull u.
+        """
         keep, pull, loss = self.keep, self.pull, self.loss
         return [loss * pull**2, -2.0 * loss * pull * (1.0 + keep), loss * (1.0 + keep) ** 2]
 

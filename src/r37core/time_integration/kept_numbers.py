@@ -122,7 +122,10 @@ def casing_numbers(problem: Problem, record: SimulationRecord, revolutions: int,
 
 
 def append_rotation(coordinates: np.ndarray, model: ContactModel, speeds: float | np.ndarray) -> np.ndarray:
-    """Coordinates of the vibration, shape (instants, coordinates), then rotation's amplitudes at `speeds` (rad/s)."""
+    """Coordinates of the vibration, shape (instants, coordinates), and after them the amplitudes of rotation's shapes.
+
+    `speeds` (rad/s): one of all, or that of each instant.
+    """
     amplitudes = rotation_amplitudes(model.rotation_stiffening, speeds)
     return np.hstack([coordinates, np.broadcast_to(amplitudes, (len(coordinates), amplitudes.shape[-1]))])
 
@@ -163,7 +166,10 @@ def wear_numbers(wear: np.ndarray, angles: int, lining: Lining, cut: np.ndarray)
 
 
 def energy_balance(work: float, loss: float, change: float, stiffness_work: float = 0.0) -> dict[str, np.ndarray]:
-    """Contact work, damping loss, energy change and what does not close (J); `stiffness_work`: what a changing speed brings."""
+    """Work of the contact forces, loss to damping, change of energy, and what does not close (all J).
+
+    `stiffness_work`: what a changing speed brings to the vibration.
+    """
     return {
         "contact_work": np.array(work),
         "damping_loss": np.array(loss),

@@ -124,7 +124,10 @@ def kind_of_motion(simulation: Simulation, state: SimulationState) -> KindNumber
 
 
 def recurrence_of(simulation: Simulation, state: SimulationState) -> tuple[float, int]:
-    """Distance to which a motion from a `state`, which it changes, recurs, and its periods; infinite if it diverges."""
+    """How near a motion that goes on from a `state` comes to itself, and after how many periods of the casing (KindNumbers).
+
+    The state is changed. Infinite where it diverges.
+    """
     space, samples = PhaseSpace(simulation.problem), samples_of_period(simulation.problem)
     states = [space.coordinates(state)]
     for part in simulation.parts(state, 2 * MOST_PERIODS * [samples]):
@@ -155,7 +158,10 @@ def _bring_back(twin: SimulationState, state: SimulationState, growth: float) ->
 
 
 def _recurrence(states: np.ndarray, size: float) -> tuple[float, int]:
-    """Smallest distance of the last states from earlier ones, as a share of the size, and the least period that has it."""
+    """Smallest distance of the last states from those some periods before, as a share of the size, and that many periods.
+
+    Of several multiples of a period that a motion has, the smallest.
+    """
     last = states[-MOST_PERIODS:]
     counts = range(1, min(MOST_PERIODS, len(states) - len(last)) + 1)
     distances = [float(np.linalg.norm(last - states[-MOST_PERIODS - count : -count], axis=1).max()) / size for count in counts]

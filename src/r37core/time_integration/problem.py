@@ -74,7 +74,10 @@ class Problem:
 
 
 def stable_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
-    """The problem, with a shorter step where the chosen one is unstable and may be shortened. Raises what Problem raises."""
+    """The problem, with a shorter step than the chosen one where that is unstable and the choice allows it.
+
+    Raises what Problem raises.
+    """
     while True:
         try:
             return Problem(model, speed, scene, choice)

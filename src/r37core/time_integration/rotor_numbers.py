@@ -19,7 +19,8 @@ MOST_GROWTH = 200
 class RotorRun(FinishedRun):
     """A run of a `rotor` that is done, and where the samples of its blades lie in time.
 
-    Shape (blades,): `late`, in samples, after a blade at angle 0; `worn` (m3), off the lining by each.
+    `late`, shape (blades,): time of a blade's samples after those of a blade at angle 0, in samples; `worn` (m3), shape
+    (blades,): what each has worn off the lining.
     """
 
     rotor: Rotor
@@ -76,7 +77,10 @@ def _rms(samples: Sequence[np.ndarray]) -> np.ndarray:
 
 
 def span_maxima(values: np.ndarray) -> tuple[np.ndarray, int]:
-    """Largest of each of at most MOST_GROWTH spans along the last axis, in single precision, and the revolutions of a span."""
+    """The largest of every span of revolutions along the last axis, in single precision, and how many revolutions it has.
+
+    There are at most MOST_GROWTH spans; the last one may be shorter.
+    """
     revolutions = values.shape[-1]
     span = -(-revolutions // MOST_GROWTH)
     return np.maximum.reduceat(values, np.arange(0, revolutions, span), axis=-1).astype(np.float32), span

@@ -29,7 +29,10 @@ from .state import SimulationRecord, SimulationState
 
 
 class RotorSimulation:
-    """The time integration of all blades of a scene's rotor at a speed (rad/s). Raises what Problem and blade_problems do."""
+    """The time integration of all blades of a scene's rotor at one speed (rad/s).
+
+    Raises what Problem and blade_problems raise.
+    """
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         assert scene.rotor is not None
@@ -101,7 +104,10 @@ class RotorSimulation:
         return total
 
     def _start(self, angle: float) -> tuple[int, float]:
-        """Samples since a blade at an angle (rad) passed angle 0, at its first sample after time 0, and how late that is."""
+        """Samples since a blade that stands at an angle (rad) has passed angle 0 when it starts, and the share that it is late.
+
+        It starts with its first whole sample after time 0.
+        """
         per_revolution = self.problem.choice.samples_per_revolution
         # an angle that is a whole number of samples but for rounding has no share of one
         left = np.mod(angle, 2.0 * np.pi) / (2.0 * np.pi) * per_revolution

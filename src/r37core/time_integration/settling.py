@@ -1,4 +1,7 @@
-"""End of a run, by its last two windows of revolutions: whether it has settled, whether its motion grows, lasts or is over."""
+"""End of a run: whether it has settled, and whether its motion grows, lasts or has cut itself free there.
+
+Both are read off windows of revolutions: a run's last one, and the one before it.
+"""
 
 from dataclasses import dataclass
 from typing import Any
@@ -28,7 +31,10 @@ DECAYED = 0.1
 
 
 class MotionAtEnd(Outcome):
-    """State of the motion at the end of a run, the worst last, by motion_at_end; `UNKNOWN`: it diverged or was not run."""
+    """State of the motion at the end of a run, the worst last; see motion_at_end.
+
+    `UNKNOWN`: of a run that diverged, and of a speed that was not run.
+    """
 
     QUIET = 0
     CUT_FREE = 1
@@ -57,16 +63,20 @@ def window_of(revolutions: int) -> int:
 
 
 def revolution_rms(motion: np.ndarray, per_revolution: int) -> np.ndarray:
-    """Rms per revolution, shape (revolutions,), of a motion, shape (samples, directions), directions together; NaN stays."""
+    """Rms of a motion in several directions together in each revolution, shape (revolutions,).
+
+    `motion`, shape (samples, directions), with `per_revolution` samples in a revolution; NaN stays.
+    """
     return np.sqrt(np.einsum("ij,ij->i", motion, motion).reshape(-1, per_revolution).mean(axis=1))
 
 
 def has_settled(rms: np.ndarray, window: int, wear_growth: float, risen: float) -> bool:
     """True where the last window of a run brought no wear and no change of the motion.
 
-    No bar wore by more than NO_WEAR, and the rms of the last window differs from that of the window before by less than SAME of
-    the larger one, or than SAME_OF_LARGEST of the largest of all windows. `rms` (m) of each revolution, shape (revolutions,);
-    `wear_growth` (m), see Ending; `risen`: revolutions after which the lobes have grown.
+    That is: no bar wore by more than NO_WEAR, and the rms of the last window differs from that of the window before by less
+    than SAME of the larger one, or than SAME_OF_LARGEST of the largest of all windows. `rms` (m) of each revolution, shape
+    (revolutions,); `wear_growth` (m), see Ending; `risen`: revolutions after which the lobes have grown, before which nothing
+    has settled.
     """
     if len(rms) < 2 * window or len(rms) - 2 * window < risen or not wear_growth <= NO_WEAR:
         return False

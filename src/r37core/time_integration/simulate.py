@@ -32,7 +32,10 @@ _ENGINES: dict[str, type[CompiledEngine] | type[ReferenceEngine]] = {"compiled":
 
 
 class Simulation:
-    """The time integration of one blade, speed and scene: a `problem` and its `engine`. Raises what Problem raises."""
+    """The time integration of one blade at one speed in one scene: its `problem`, and the `engine` that advances a state.
+
+    Raises what Problem raises, of the step that `choice` leaves.
+    """
 
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         if scene.rotor is not None:
@@ -55,7 +58,10 @@ class Simulation:
         self.engine: Any = _ENGINES[problem.choice.engine](problem, segments or own_segment(problem), before, beside)
 
     def start(self, motion: InitialMotion | CarriedMotion | None = None) -> SimulationState:
-        """State at rest or in `motion`, in an unworn lining or one the tip has cut. Raises what InitialMotion.put raises."""
+        """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
+
+        Raises what InitialMotion.put raises.
+        """
         state = rest_state(self.problem)
         if motion is not None:
             motion.put(self.problem, state)
@@ -98,7 +104,10 @@ class Simulation:
     def parts(
         self, state: SimulationState, samples: Iterable[int], out: SimulationRecord | None = None
     ) -> Iterator[SimulationRecord]:
-        """Records of parts of so many samples, from `state`, which changes, until one diverges; `out`: room for all of them."""
+        """Go on by these numbers of samples one after another from `state`, which is changed, until a part diverges.
+
+        Yields the record of each; with `out`, the room for all of them, they lie there one after another.
+        """
         first, grid = state.samples, self.problem.grid
         for count in samples:
             done, room = state.samples - first, None

@@ -22,7 +22,10 @@ _READY = set[tuple[str, str]]()
 
 
 def simulate(input: Any, output: Any, params: Any) -> None:
-    """A step of the workflow: one simulation. Inputs: models, contact first. Output: npz. Params: job, about, see run_job."""
+    """A step of the workflow: one simulation. Inputs: models, that of contact first. Output: speed_*.npz.
+
+    Params: job, with speed (rad/s) and task, and about: see `run_job`. Raises what that raises.
+    """
     run_job(params.job["speed"], output[0], params.job["task"], str(params.about), *as_list(input.models))
 
 
@@ -41,7 +44,10 @@ def run_job(speed: str, output: str, task: str, about: str, *models: str, motion
 
 
 def prepare(input: Any, output: Any, params: Any) -> None:
-    """A step of the workflow: compile, or raise as Problem does. Inputs: models. Params: scene, choice, speed."""
+    """A step of the workflow: compile the time integration; refuse a step too long. Inputs: models, that of contact first.
+
+    Params: scene, choice, speed. Raises InputFileError, and what Problem raises.
+    """
     scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
     problem = simulation_of(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice).problem
     highest, step = problem.blade.frequencies[-1], problem.grid.time_step

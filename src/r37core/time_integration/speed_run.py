@@ -42,16 +42,17 @@ def run_speed(
     the statistic, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end
     of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics,
     `largest_penetration` (m) of the tip's edge into the casing among them. `clearance` (m), shape (nodes,): where it changes
-    with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion. `snapshots`:
-    the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes of rotation's
-    shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa), the largest of
-    each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in them; with
-    fatigue: see fatigue_numbers. `casing_...`: see casing_waves. A diverged run has NaN where a number would need the rest of
-    the run. With a rotor: the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and energies; the
-    spectrum of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade, see RotorRun.
-    `status` is that of the rotor: all blades end when one diverges, whose snapshots are kept then. With `motion` the blade
-    starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the energies `initial_energy` (J). Raises
-    what Problem raises, and InitialMotionError.
+    with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
+    `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
+    of rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa),
+    the largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
+    them; with fatigue: see fatigue_numbers. `casing_...`: see casing_waves. A diverged run has NaN where a number would need
+    the rest of the run. With a rotor: the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and
+    energies; the spectrum of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade,
+    see RotorRun. `status` is that of the rotor: all blades end when one diverges, whose snapshots are
+    kept then. With `motion` the blade starts in it and not at rest: `initial_energy_left_out`, see InitialMotion, and of the
+    energies `initial_energy` (J).
+    Raises what Problem raises, and InitialMotionError.
     """
     simulation = simulation_of(model, speed, scene, choice)
     left_out = None if motion is None else motion.left_out(simulation.problem)

@@ -46,8 +46,9 @@ class SimulationState:
 class Schedule:
     """Constant-speed segments one after another: what an engine is to do, and what it leaves of each.
 
-    `speed_indices`, `samples`, shape (segments,): the speed of each segment and its length. Filled by the engine: `ends`, shape
-    (segments, 2, 2, modes), displacement and increment at both ends; `wear` (m), shape (segments,), the largest then.
+    `speed_indices`, `samples`, shape (segments,): the speed of each segment and its length. Filled by the engine:
+    `ends`, shape (segments, 2, 2, modes), displacement and increment as a segment begins and as it ends; `wear` (m), shape
+    (segments,), the largest by its end.
     """
 
     def __init__(self, speed_indices: ArrayLike, samples: ArrayLike, modes: int):

@@ -40,10 +40,10 @@ class TooFewStaticModesError(ValueError):
 
 
 def residual_flexibility(frequencies: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Normal displacement (m/N) of the last node per force on the first, shape (3, nodes, nodes), by static modes.
+    """Normal displacement (m/N) of the last node per force on the first, along each direction, by static modes.
 
     Sum of phi phi^T/omega^2 over the modes of `frequencies` (rad/s) (Craig and Kurdila, Fundamentals of Structural Dynamics,
-    section 17.4); `rows`, shape (3, nodes, modes): displacement of the nodes.
+    section 17.4); `rows`, shape (3, nodes, modes): displacement of the nodes. Returns shape (3, nodes, nodes).
     """
     static = rows / frequencies
     return static @ static[0].T

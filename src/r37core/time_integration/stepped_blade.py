@@ -42,7 +42,10 @@ class SteppedBlade:
 
     @cached_property
     def gyroscopic_coupling(self) -> np.ndarray | None:
-        """Coupling (rad/s) of modes up to LARGEST_TURN, skew-symmetric, shape (modes, modes); None without Coriolis."""
+        """Coupling of the stepped modes at the speed (rad/s), skew-symmetric, shape (modes, modes); None without Coriolis.
+
+        Modes that turn by more than LARGEST_TURN in a step are not coupled.
+        """
         if self.model.coriolis is None:
             return None
         slow = self.frequencies * self.grid.time_step <= LARGEST_TURN

@@ -1,4 +1,7 @@
-"""Texts in the language of Abaqus and CalculiX: whether a file is one, lines, included files. Light: config imports it."""
+"""Texts in the language of Abaqus and CalculiX: whether a file is one, its lines, the files it includes.
+
+Light: the configuration imports it.
+"""
 
 import os
 import re

@@ -42,7 +42,8 @@ class End(Caught):
 def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     """The end `what` (root or tip) of a mesh with nodes at `points` (m), shape (nodes, 3), and these outer faces.
 
-    Smooth patch of faces along the radius, the outermost or innermost large one. None unless a cone catches it alone.
+    It is the smooth patch of faces that look along the radius, the outermost or innermost large one. None where no cone
+    catches all of it and nothing else.
     """
     vectors = area_vectors(surface, points)
     sizes = np.linalg.norm(vectors, axis=1)
@@ -69,7 +70,10 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
 
 
 def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> Caught:
-    """Outer faces in a set or rule for the end `what`; a set as the root has all its nodes. ImportRefused where none are."""
+    """The outer faces whose nodes are all in a set, or keep a rule, for the end `what`; a set as the root has all its nodes.
+
+    Raises ImportRefused where there are none.
+    """
     members = where.nodes(what, mesh)
     mask = mask_within(surface, members)
     faces = chosen(surface, mask)
@@ -85,7 +89,11 @@ def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> C
 
 
 def check_end(what: str, where: Where, caught: Caught, end: End | None) -> None:
-    """Refuse faces, `caught` by `where`, that differ from an `end` the shape tells; a set as the root may be any nodes."""
+    """Refuse faces, `caught` by `where`, that are not all of the `end` and nothing else.
+
+    Without an end that the shape tells for certain there is nothing to compare with. A set as the root says what it means:
+    any nodes may be clamped.
+    """
     any_nodes = what == "root" and where.set_name is not None
     if end is None or not end.straight or any_nodes or np.array_equal(caught.mask, end.mask):
         return

@@ -81,7 +81,10 @@ def size_in_words(mesh: BladeMesh) -> str:
 
 
 def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, TipLines]:
-    """Clamped nodes, tip nodes and tip lines of a mesh in the blade's frame; ImportRefused with all that is wrong at once."""
+    """The clamped nodes, those of the tip and lines along it, of a mesh in the blade's frame.
+
+    Raises ImportRefused for ends that cannot be meant: one message with all that is wrong, so that one change mends it.
+    """
     surface = outer_faces(raw.blocks)
     rules = {"root": source.root, "tip": source.tip}
     ends = {what: find_end(what, raw.points, surface) for what in rules}

@@ -45,7 +45,10 @@ _REACH = 20.0  # how far beyond the highest speed of the files the fit may be us
 
 @dataclass(frozen=True)
 class _InputMatrices:
-    """Mass (kg), stiffness at rest (N/m), its change per squared speed, nodes in the blade's frame, `tip_lengths` (m)."""
+    """Mass (kg), stiffness at rest (N/m) and its change per squared speed, and the nodes, in the blade's frame.
+
+    `tip_lengths` (m), shape (nodes,): lengths of tip that the nodes stand for, where the table has them.
+    """
 
     mass: sp.csr_array
     stiffness: sp.csr_array

@@ -26,7 +26,10 @@ def read_with_meshio(file: Path) -> RawMesh:
 
 
 def read_nastran(file: Path) -> RawMesh:
-    """The mesh of a bulk data file, also without BEGIN BULK (as of gmsh). ImportRefused for a lack of nodes or of an end."""
+    """The mesh of a bulk data file, which may lack the line BEGIN BULK (gmsh writes none).
+
+    Raises ImportRefused for a file without nodes or without its end.
+    """
     text = file.read_text(encoding="utf-8", errors="replace")
     begin = re.search(r"^[ \t]*BEGIN[ \t]+BULK.*$", text, re.MULTILINE | re.IGNORECASE)
     bulk = text if begin is None else text[begin.end() :]

@@ -30,7 +30,10 @@ SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
 
 @dataclass(frozen=True)
 class MeshSource:
-    """Mesh of a blade and how it is read; `sense_check`: whether rotation and side must fit; `digest`: hash of the files."""
+    """Where a blade's mesh is and how to read it.
+
+    `sense_check`: whether a tip that contradicts rotation or pressure side is refused; `digest`: hash of the files.
+    """
 
     file: str
     orientation: Orientation
@@ -58,7 +61,10 @@ class MeshSource:
 
 @dataclass(frozen=True)
 class MatricesSource:
-    """Matrices in a folder, their axes and units; `sense_check`: whether rotation must fit; `digest`: hash of the files."""
+    """A directory of matrices, the axes of its boundary nodes, units of mass and stiffness, and a hash of the files.
+
+    `sense_check`: whether a rotation that the nodes contradict is refused.
+    """
 
     folder: str
     orientation: Orientation
@@ -128,8 +134,9 @@ _MOST_NAMES = 30
 class Where:
     """A part of the mesh: the nodes in the set `set_name`, or those that keep all the limits given.
 
-    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or `at_most`;
-    `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and cone.
+    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
+    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and
+    cone.
     """
 
     set_name: str | None = None

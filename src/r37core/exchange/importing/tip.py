@@ -34,7 +34,10 @@ def check_revolution(points: np.ndarray, tolerance: float) -> None:
 
 
 def off_revolution(points: np.ndarray) -> np.ndarray:
-    """Distance (m) of `points`, shape (n, 3), from their meridian: the radius as a parabola of z, or a constant."""
+    """Difference (m) of the radius of `points`, shape (n, 3), from the meridian through all of them, shape (n,).
+
+    The meridian is fitted: radius as a parabola of z, a constant where the points have no axial length.
+    """
     radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
     size = np.ptp(points, axis=0).max()
     degree = min(2, len(np.unique(np.round(z / (1e-3 * size)))) - 1) if np.ptp(z) > 0.02 * size else 0

@@ -102,7 +102,10 @@ class Passage:
         m["call"]["ahead"] = (late - passed) * self._grid.steps_per_sample
 
     def blocks_at_once(self, blades: int) -> int:
-        """Blocks of one call for so many blades: about STEPS_AT_ONCE up to the end of a revolution, or what a schedule has."""
+        """Blocks of one call in which so many blades go on: about STEPS_AT_ONCE up to the end of a revolution.
+
+        A run may be stopped there with the same bits. With a schedule they are what that has.
+        """
         if not self._in_parts:
             return len(self._out.samples)
         grid, per_revolution = self._grid, self._grid.choice.samples_per_revolution
@@ -151,7 +154,10 @@ class Passage:
 
 
 def go_on(passages: Sequence[Passage], blocks: int) -> None:
-    """Do so many more blocks of blades that go step by step together, with interrupts; fewer beyond the limit or at NaN."""
+    """Do so many more blocks of blades that go step by step together; fewer when an output passes the limit or is NaN.
+
+    An interrupt is seen between two calls.
+    """
     engine, part, reached = passages[0].engine, 0, 0
     addresses = np.concatenate([passage.engine.addresses for passage in passages])
     while blocks > 0 and reached == part:

@@ -27,8 +27,9 @@ _ROWS_AT_ONCE = 2**17
 class LaidOutProblem:
     """A problem as its program reads it: its numbers in one `record`, sizes and choices that it is compiled for.
 
-    It is at the first speed of its `segments` until `take`. Of one `before`, of the same scene and choice at another speed, it
-    keeps what fits; that must not go on. With one `beside` it shares the tables of the casing that fit, and a larger capacity.
+    It is at the first speed of its `segments` until `take`. Of one `before`, of the same scene and choice at another
+    speed, it keeps what fits, and that one must not go on. With one `beside` it shares the tables of the casing, if they fit,
+    and has its capacity where that is larger.
     """
 
     record: np.ndarray

@@ -1,8 +1,9 @@
 """The reference engine: the time integration as it reads on paper, in dense NumPy. Slow; the compiled engine must equal it.
 
-Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity: u* = A u_n
-+ B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference.motion). Work per step is of the order of modes squared.
-Forces at t_n: time_integration.compiled.contact_steps. An elastic casing: in the frame at rest.
+Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
+u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference.motion). Work per step is of the order of modes
+squared. Forces at t_n, and the static modes with them: time_integration.compiled.contact_steps. An elastic casing is followed
+in the frame that does not turn.
 """
 
 from collections.abc import Sequence
@@ -23,7 +24,10 @@ _MOST_SWEEPS = 200
 
 
 class ReferenceEngine:
-    """The time integration of one problem with dense matrices; `angle` (rad): of the blade at time 0, beyond its model's."""
+    """The time integration of one problem with dense matrices, in the coordinates of the modes at rest.
+
+    `angle` (rad): at which the blade stands at time 0, beyond that of its model.
+    """
 
     angle = 0.0
     worn = 0.0
@@ -95,7 +99,10 @@ class ReferenceEngine:
             state.penetration[:], state.bar_position[:] = -gap, theta / (2.0 * np.pi) * state.wear.shape[1]
 
     def record(self, motion: Any, first: int, done: int, state: SimulationState, out: SimulationRecord) -> bool:
-        """Keep sample number `done` after the `first`, and a snapshot where one is due; False for outputs beyond the limit."""
+        """Keep sample number `done` after the `first`, and a snapshot where one is due.
+
+        Returns whether the outputs are within the limit.
+        """
         problem = self.problem
         static = state.contact_force.ravel() if problem.choice.second_order else np.empty(0)
         numbers = np.concatenate([self.motion.numbers(motion), static])
@@ -106,7 +113,10 @@ class ReferenceEngine:
         return bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit))
 
     def step(self, before: Any, n: int, state: SimulationState, force: np.ndarray) -> Any:
-        """The motion at t_n from that at t_{n-1}; `force`: modal forces at t_{n-1}, in an elastic casing of all blades."""
+        """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing.
+
+        `force`: modal forces at t_{n-1}, of forces at t_n; those of the state, and of other blades in an elastic casing.
+        """
         return self._pushed_step(before, n, state, force) if self.problem.choice.second_order else self._step(before, n, state)
 
     def _step(self, before: Any, n: int, state: SimulationState) -> Any:
@@ -181,7 +191,10 @@ class ReferenceEngine:
         return self.problem.casing.gaps(self.clearance, np.array([rows @ u for rows in self.rows]), n, self.angle)
 
     def _directions(self, d: np.ndarray) -> np.ndarray:
-        """Forces per unit normal force, shape (3, nodes): inwards, and friction; `d`: displacement of the blade in a step."""
+        """Forces per unit normal force on each node, shape (3, nodes): towards the axis, with friction against the sliding.
+
+        `d`: displacement of the blade in a step, by which its vibration slides.
+        """
         friction, towards_axis = self.problem.scene.friction, -np.ones(len(self.normal))
         if friction is None:
             return np.array([towards_axis, 0.0 * towards_axis, 0.0 * towards_axis])

@@ -13,9 +13,10 @@ from ..state import SimulationState
 
 
 class RealMotion:
-    """Modes without coupling, in u and d = u_n - u_{n-1} of the modes at rest; `response`: displacement per force, a step on.
+    """Modes without coupling, in u_n and d_n = u_n - u_{n-1} of the modes at rest.
 
-    A + B rounds to 1 - 1e-9 of omega^2 away, so the recursion is carried in these.
+    A + B rounds to 1 - 1e-9 of omega^2 away, so the recursion is carried in these. `response`: displacement of the modes at
+    rest one step on per force on them.
     """
 
     def __init__(self, problem: Problem, recursion: Recursion):
