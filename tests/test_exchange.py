@@ -50,7 +50,7 @@ def files(blade, steel, tmp_path_factory):
     folder = tmp_path_factory.mktemp("formats")
     mesh = generate_mesh(blade, 1500, 1, 14, folder / "gmsh.msh")
     write_abaqus(mesh, folder / "deck.inp", steel, "round trip")
-    write_vtu(mesh, folder / "vtk.vtu", mesh_quality(mesh).per_element)
+    write_vtu(mesh, folder / "vtk.vtu", mesh_quality(mesh))
     for suffix in ("vtu", "msh", "med", "bdf"):
         write_mesh(mesh, folder / f"mesh.{suffix}")
     return mesh, assemble(mesh, steel), folder
@@ -63,7 +63,7 @@ def test_our_own_mesh_comes_back_from_every_format(files, steel, name):
     again, quality = import_mesh(source(name, root=Where(sets[0]), tip=Where(sets[1])), folder)
     # a field of Nastran has sixteen characters: eleven digits
     assert difference(assemble(again, steel), matrices) < (1e-7 if name == "mesh.bdf" else 1e-12)
-    assert quality.min() == pytest.approx(mesh_quality(mesh).minimum, rel=1e-6)
+    assert quality.min() == pytest.approx(mesh_quality(mesh).min(), rel=1e-6)
     for line in ("root", "tip", "tip_pressure_edge", "tip_suction_edge"):
         np.testing.assert_array_equal(again.node_set(line), mesh.node_set(line))
     edge = mesh.node_set("tip_pressure_edge")

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from refinement_cases import CHOICE, GRID, PLAN, WINDOWS, asked, campbell, spiked
 
 from r37core.adaptive import criterion
-from r37core.adaptive.criterion import dense_ranges, known_of, next_speeds, window_speeds
+from r37core.adaptive.criterion import dense_ranges, next_speeds, window_speeds
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
 from r37core.adaptive.steps import refine as refine_step
 from r37core.base.io import InputFileError, Named
@@ -92,7 +92,7 @@ def test_refinement_refusals(config_copy, changes, message):
 
 def test_windows_are_looked_at_more_closely():
     expected = dense_ranges(campbell([1200.0]), WINDOWS)
-    assert [(one.low, one.high, one.step) for one in expected] == [(1200.0, 1260.0, 5.0)]
+    assert expected == [(1200.0, 1260.0, 5.0)]
     speeds = sorted({*PLAN.certain, *window_speeds(GRID, expected)})
     for first, last in pairwise(speeds):
         if first < 1260.0 and last > 1200.0:
@@ -105,13 +105,13 @@ def test_windows_are_looked_at_more_closely():
 def test_orders_above_the_highest_of_a_window_have_none():
     for highest, expected in ((3, []), (4, [1200.0])):
         windows = dense_ranges(campbell([1200.0, 960.0]), (replace(WINDOWS[0], highest_engine_order=highest),))
-        assert [one.low for one in windows] == expected
+        assert [low for low, _, _ in windows] == expected
 
 
 def asked_of(values):
     """Middles of intervals that are asked for next, of a curve over the coarse speeds from 750 to 2000 in steps of 20."""
     rows = {speed: [0, value, 1e-6, 0.0] for speed, value in zip(PLAN.certain, values, strict=True)}
-    return next_speeds(GRID, known_of(rows), replace(CHOICE, largest_share=1.0))
+    return next_speeds(GRID, rows, replace(CHOICE, largest_share=1.0))
 
 
 def test_a_change_counts_where_the_larger_value_does():
@@ -195,15 +195,15 @@ def test_a_round_takes_half_of_what_is_left_or_the_last_sixteen(left, next_round
     """Each round makes Snakemake plan again, so none is asked for a speed or two."""
     rows = {speed: [0, 1.0 + number % 2, 1.0, 0.1] for number, speed in enumerate(PLAN.certain)}
     share = (len(PLAN.certain) + left + 0.5) / 1251
-    assert len(next_speeds(GRID, known_of(rows), replace(CHOICE, largest_share=share))) == next_round
+    assert len(next_speeds(GRID, rows, replace(CHOICE, largest_share=share))) == next_round
 
 
 def test_diverged_and_missing_numbers_are_no_peaks_nor_are_speeds_off_the_grid():
     rows = {speed: [int(RunStatus.DIVERGED), np.nan, np.nan, np.nan] for speed in PLAN.certain}
-    assert next_speeds(GRID, known_of(rows), CHOICE) == []
+    assert next_speeds(GRID, rows, CHOICE) == []
     plan = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}, 999.5, 2500], 8.0)
     rows = {speed: [0, 1e-5, 1e-5, 0.1] for speed in plan.certain} | {999.5: [0, 1.0, 1.0, 9.0], 2500.0: [0, 1.0, 1.0, 9.0]}
-    assert next_speeds(plan.refined[0], known_of(rows), CHOICE) == []
+    assert next_speeds(plan.refined[0], rows, CHOICE) == []
 
 
 @given(st.lists(st.floats(0.0, 1.0), min_size=101, max_size=101), st.floats(0.1, 1.0), st.integers(1, 20))
@@ -268,9 +268,9 @@ def test_the_size_of_a_curve_does_not_matter_nor_does_the_order_of_what_is_known
     rows = {speed: [0, 1e-3 + 1e-2 * np.sin(0.01 * speed) ** 8, 1e-3, 1e-3] for speed in PLAN.certain}
     rows[PLAN.certain[3]] = [1, np.nan, np.nan, np.nan]
     small = {speed: [status, 1e-6 * normal, *others] for speed, (status, normal, *others) in rows.items()}
-    asked_for = next_speeds(GRID, known_of(rows), CHOICE)
-    assert asked_for and next_speeds(GRID, known_of(small), CHOICE) == asked_for
-    assert next_speeds(GRID, known_of(dict(reversed(rows.items()))), CHOICE) == asked_for
+    asked_for = next_speeds(GRID, rows, CHOICE)
+    assert asked_for and next_speeds(GRID, small, CHOICE) == asked_for
+    assert next_speeds(GRID, dict(reversed(rows.items())), CHOICE) == asked_for
 
 
 def test_without_a_width_a_peak_has_its_two_intervals():
@@ -282,8 +282,8 @@ def test_without_a_width_a_peak_has_its_two_intervals():
 
 def test_a_window_is_halved_to_the_end_and_not_where_it_only_touches():
     grid = RefinedRange(1000.0, 1.0, 8, 16)
-    window = criterion.DenseRange(1000.0, 1008.0, 1.0)
+    window = (1000.0, 1008.0, 1.0)
     assert window_speeds(grid, [window]) == [float(speed) for speed in range(1001, 1008)]
     # as far as the second interval's first speed and no farther; and from the first one's last
-    assert window_speeds(grid, [criterion.DenseRange(990.0, 1000.0, 1.0)]) == []
-    assert window_speeds(grid, [criterion.DenseRange(1016.0, 1030.0, 1.0)]) == []
+    assert window_speeds(grid, [(990.0, 1000.0, 1.0)]) == []
+    assert window_speeds(grid, [(1016.0, 1030.0, 1.0)]) == []

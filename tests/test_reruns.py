@@ -245,7 +245,7 @@ def test_a_new_time_of_any_file_of_ours_runs_nothing(project, profile):
         # how the lining is worn
         ("src/r37core/contact/laws.py", "wear + thickness * excess", "wear + excess", "prepare_time_integration", runs(SPEEDS)),
         ("src/r37core/stress/statistic.py", "HIGH = 0.9", "HIGH = 0.8", "response", set()),
-        ("src/r37core/stress/goodman.py", "largest > 1.0", "largest > 0.9", "response", set()),
+        ("src/r37core/stress/statistic.py", "largest > 1.0", "largest > 0.9", "response", set()),
         ("workflow/scripts/step.py", "return None", "return 0", "geometry", runs(SPEEDS)),
     ],
 )

@@ -7,24 +7,24 @@ from overlays import overlay
 from workflow_runs import snakemake
 
 from r37core.base.dataset_file import read_dataset
-from r37core.machine_code import user_cache
+from r37core.machine_code import kept
 
 
 def test_what_cannot_be_kept_is_made_where_it_is_needed(tmp_path, monkeypatch):
     """A cache folder that cannot be written is no failure of a run; what making raises is."""
     monkeypatch.setenv("R37_CACHE", str(tmp_path / "file" / "cache"))
     (tmp_path / "file").write_text("")
-    assert user_cache.kept_for_user("a.txt", "made of", lambda file: file.write_text("a")) is None
+    assert kept.kept_for_user("a.txt", "made of", lambda file: file.write_text("a")) is None
     monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
-    file = user_cache.kept_for_user("a.txt", "made of", lambda file: file.write_text("a"))
+    file = kept.kept_for_user("a.txt", "made of", lambda file: file.write_text("a"))
     assert file.read_text() == "a" and file.parent == tmp_path / "cache"
-    assert user_cache.kept_for_user("a.txt", "made of", None) == file
+    assert kept.kept_for_user("a.txt", "made of", None) == file
     with pytest.raises(ValueError, match="impossible"):
-        user_cache.kept_for_user("a.txt", "others", lambda file: (_ for _ in ()).throw(ValueError("impossible")))
+        kept.kept_for_user("a.txt", "others", lambda file: (_ for _ in ()).throw(ValueError("impossible")))
 
 
 def test_other_processors_and_libraries_make_other_numbers():
-    here = user_cache.numerics("numpy", "no such library")
+    here = kept.numerics("numpy", "no such library")
     assert here[:2] == [np.__version__, ""] and all(here[2:])
 
 

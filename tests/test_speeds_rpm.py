@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
+from r37core.adaptive.criterion import RefinementChoice, next_speeds
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import SpeedPlan, exact_text, plan_speeds
 from r37core.config import ConfigError, command_line_document
@@ -40,9 +40,7 @@ def test_ranges_in_rpm_refine_themselves_on_their_own_grid():
     choice = RefinementChoice(
         windows=(), change=0.25, peak=0.1, largest_share=1.0, prominence=0.1, steep_change=1, steep_prominence=1
     )
-    known = known_of(
-        {speed: (0, height, height, 0.0) for speed, height in zip(plan.certain, (9, 1, 1, 1, 1, 1, 1), strict=True)}
-    )
+    known = {speed: (0, height, height, 0.0) for speed, height in zip(plan.certain, (9, 1, 1, 1, 1, 1, 1), strict=True)}
     assert next_speeds(grid, known, choice) == [8100 * RAD_S]
 
 

@@ -14,7 +14,7 @@ from defaults import InteractionChoice
 from matplotlib.colors import to_rgb
 from test_interactions import campbell, response
 
-from r37core.adaptive.criterion import RefinementChoice, known_of, next_speeds
+from r37core.adaptive.criterion import RefinementChoice, next_speeds
 from r37core.base.dataset_file import write_dataset
 from r37core.base.io import InputFileError
 from r37core.base.speeds import RefinedRange
@@ -357,15 +357,15 @@ def curves(*heights):
 
 def test_members_share_their_speeds_where_some_see_something():
     quiet, early, late = [1e-3] * 5, [1e-3, 1.0, 0.9, 0.9, 0.9], [1e-3, 1e-3, 1e-3, 1.0, 0.95]
-    one = next_speeds(GRID, known_of(curves(early)), CHOICE)
+    one = next_speeds(GRID, curves(early), CHOICE)
     assert 104.0 in one and 120.0 not in one
-    assert next_speeds(GRID, known_of(curves(early, early)), CHOICE) == one
-    assert next_speeds(GRID, known_of(curves(quiet, quiet)), CHOICE) == []
-    both = next_speeds(GRID, known_of(curves(quiet, early, late)), CHOICE)
+    assert next_speeds(GRID, curves(early, early), CHOICE) == one
+    assert next_speeds(GRID, curves(quiet, quiet), CHOICE) == []
+    both = next_speeds(GRID, curves(quiet, early, late), CHOICE)
     assert {104.0, 120.0} <= set(both)
     # with room for one more speed it is where most members are
     narrow = replace(CHOICE, largest_share=6.5 / 33.0)
-    assert next_speeds(GRID, known_of(curves(early, late, late)), narrow) == [120.0]
+    assert next_speeds(GRID, curves(early, late, late), narrow) == [120.0]
 
 
 NUMBERS = ["friction.coefficient", "damping_ratio"]

@@ -12,7 +12,7 @@ from r37core.base.io import write_text
 from r37core.base.speeds import LARGEST_NUMBER
 from r37core.config import ConfigError
 from r37core.config.messages import single_line
-from r37core.machine_code.user_cache import kept_for_user, named_folder
+from r37core.machine_code.kept import kept_for_user, named_folder
 
 Speeds = Iterable[float | Mapping[str, float]] | Mapping[str, float]
 """Numbers, and ranges `{"start": ..., "stop": ..., "step": ..., "refine_to": ...}` as in config.yaml."""

@@ -14,8 +14,7 @@ from r37core.base.io import Named, room_for, scratch_folder
 from r37core.base.plain import to_plain
 from r37core.config import ConfigError, Settings
 from r37core.exchange.importing.source import MatricesSource, MeshSource
-from r37core.machine_code.kept import kept_file
-from r37core.machine_code.user_cache import named_folder, numerics, writable_folder
+from r37core.machine_code.kept import kept_file, named_folder, numerics, writable_folder
 from r37core.plans.code import CodeHashes
 from r37core.plans.provenance import Attributes, Provenance
 from r37core.plans.samples import NOMINAL

@@ -1,7 +1,6 @@
 """Criterion for the speeds that adaptive sampling runs next: windows above crossings first, then where the response changes."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -20,46 +19,25 @@ LEAST_OF_A_ROUND = 16
 """Speeds that a round may ask for where so many are left: each round makes Snakemake plan the whole run again."""
 
 
-@dataclass(frozen=True)
-class KnownSpeeds:
-    """Results of runs: `speeds` (rad/s), ascending; `curves`, shape (CURVES, speeds), NaN for no number; `status`."""
-
-    speeds: np.ndarray
-    curves: np.ndarray
-    status: np.ndarray
-
-
-@dataclass(frozen=True)
-class DenseRange:
-    """Speeds (rad/s) from `low` to `high` that are run every `step`."""
-
-    low: float
-    high: float
-    step: float
-
-
-def dense_ranges(campbell: xr.Dataset, windows: Sequence[Window]) -> list[DenseRange]:
-    """The windows above the crossings of one blade's Campbell diagram."""
+def dense_ranges(campbell: xr.Dataset, windows: Sequence[Window]) -> list[tuple[float, float, float]]:
+    """Windows above the crossings of one blade's Campbell diagram: first and last speed, longest interval (rad/s)."""
     windowed = []
     for window in windows:
         crossings = campbell["crossing_speed"].sel(mode=window.mode)
         window_orders = crossings["engine_order"] <= window.highest_engine_order
         for crossing in crossings.sel(engine_order=window_orders).dropna("engine_order").values.tolist():
-            windowed.append(DenseRange((1.0 + window.first) * crossing, (1.0 + window.last) * crossing, window.step))
+            windowed.append(((1.0 + window.first) * crossing, (1.0 + window.last) * crossing, window.step))
     return windowed
 
 
-def window_speeds(grid: RefinedRange, expected: Sequence[DenseRange]) -> list[float]:
-    """Speeds of the grid, beyond its coarse ones, that the dense ranges ask for, ascending."""
+def window_speeds(grid: RefinedRange, expected: Sequence[tuple[float, float, float]]) -> list[float]:
+    """Speeds of the grid, beyond its coarse ones, that `dense_ranges` ask for, ascending."""
     added: list[int] = []
     waiting = list(pairwise(grid.coarse_indices()))
     while waiting:
         first, last = waiting.pop()
-        length = (last - first) * grid.interval
-        too_long = any(
-            dense.low < grid.speed(last) and grid.speed(first) < dense.high and length > (1.0 + 1e-9) * dense.step
-            for dense in expected
-        )
+        start, end, length = grid.speed(first), grid.speed(last), (last - first) * grid.interval
+        too_long = any(low < end and start < high and length > (1.0 + 1e-9) * step for low, high, step in expected)
         if too_long and last - first > 1:
             middle = (first + last) // 2
             added.append(middle)
@@ -67,18 +45,19 @@ def window_speeds(grid: RefinedRange, expected: Sequence[DenseRange]) -> list[fl
     return [grid.speed(index) for index in sorted(added)]
 
 
-def next_speeds(grid: RefinedRange, members: Sequence[KnownSpeeds], choice: RefinementChoice) -> list[float]:
+def next_speeds(grid: RefinedRange, measured: Mapping[float, Sequence[float]], choice: RefinementChoice) -> list[float]:
     """Speeds (rad/s), ascending, in the middle of the intervals that are worth halving; none when all is known.
 
-    `members`: what runs have given, of one run or of several members of a sample, all at the same speeds; an interval is worth
-    what it is worth to them on average. Every coarse speed of the grid must be known. The result depends on nothing but the
-    arguments.
+    `measured`: status and CURVES, NaN for no number, at each speed (rad/s), of one run or of several members of a sample after
+    each other; an interval has their mean worth. Every coarse speed of the grid must be known.
     """
-    indices = _grid_indices(grid, members[0].speeds)
+    speeds = np.array(sorted(measured))
+    rows = np.array([measured[speed] for speed in speeds], dtype=float).reshape(len(speeds), -1, 1 + len(CURVES))
+    indices = _grid_indices(grid, speeds)
     places = np.flatnonzero(indices >= 0)
     indices = indices[places]
     room = int(choice.largest_share * (grid.last + 1)) - len(indices)
-    worth = np.mean([_worth(run.curves[:, places], run.status[places], _scale(run), choice) for run in members], axis=0)
+    worth = np.mean([_worth(member.T, places, choice) for member in rows.swapaxes(0, 1)], axis=0)
     open_intervals = np.flatnonzero((np.diff(indices) > 1) & (worth > 0.0))
     # the largest first; half of the room, so that later rounds can follow what this one finds
     most = max(-(-room // 2), min(room, LEAST_OF_A_ROUND), 0)
@@ -93,16 +72,17 @@ def _grid_indices(grid: RefinedRange, speeds: np.ndarray) -> np.ndarray:
     return np.where([0 <= index <= grid.last and grid.speed(int(index)) == speed for index, speed in pairs], nearest, -1)
 
 
-def _scale(known: KnownSpeeds) -> np.ndarray:
-    """Largest value of each curve, shape (CURVES,); 1 for one without numbers, which then marks nothing."""
-    top = np.nan_to_num(known.curves, nan=0.0).max(axis=1, initial=0.0)
-    return np.where(top > 0.0, top, 1.0)
+def _worth(measured: np.ndarray, places: np.ndarray, choice: RefinementChoice) -> np.ndarray:
+    """Worth of halving each interval, shape (places - 1,): 0 for nothing, else the height in shares of a curve's top.
 
-
-def _worth(curves: np.ndarray, status: np.ndarray, scale: np.ndarray, choice: RefinementChoice) -> np.ndarray:
-    """Worth of halving each interval, shape (speeds - 1,): 0 for nothing, else the height in shares of a curve's top."""
-    worth = np.zeros(len(status) - 1)
-    for name, curve, top in zip(CURVES, np.nan_to_num(curves, nan=0.0) / scale[:, None], scale, strict=True):
+    `measured`: status and curves of one member, shape (1 + CURVES, speeds), of which those on the grid are at `places`.
+    """
+    status, curves = measured[0, places], np.nan_to_num(measured[1:], nan=0.0)
+    worth = np.zeros(len(places) - 1)
+    for name, values in zip(CURVES, curves, strict=True):
+        # a curve without numbers marks nothing
+        top = values.max(initial=0.0) or 1.0
+        curve = values[places] / top
         larger, change = np.maximum(curve[:-1], curve[1:]), np.abs(np.diff(curve))
         seen = (change > choice.change * larger) & (larger > choice.prominence)
         seen |= (change > choice.steep_change * larger) & (larger > choice.steep_prominence)
@@ -127,10 +107,3 @@ def _near_a_peak(curve: np.ndarray, choice: RefinementChoice) -> np.ndarray:
         after = np.flatnonzero(~high[peak:])
         near[(low[-1] + 1 if len(low) else 0) : (peak + after[0] if len(after) else len(curve))] = True
     return near[:-1] | near[1:]
-
-
-def known_of(measured: Mapping[float, Sequence[float]]) -> list[KnownSpeeds]:
-    """Known speeds of each member, from status and CURVES at each speed (rad/s), one member after the other."""
-    speeds = np.array(sorted(measured))
-    rows = np.array([measured[speed] for speed in speeds], dtype=float).reshape(len(speeds), -1, 1 + len(CURVES))
-    return [KnownSpeeds(speeds, member[:, 1:].T, member[:, 0].astype(int)) for member in rows.swapaxes(0, 1)]

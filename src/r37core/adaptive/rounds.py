@@ -13,7 +13,7 @@ from r37core.base.speeds import SpeedPlan
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
-from .criterion import RefinementChoice, dense_ranges, known_of, next_speeds, window_speeds
+from .criterion import RefinementChoice, dense_ranges, next_speeds, window_speeds
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,7 @@ def first_round(plan: SpeedPlan, campbell: xr.Dataset, choice: RefinementChoice)
 def round_after(before: Round, gave: Mapping[float, Sequence[float]], plan: SpeedPlan, choice: RefinementChoice) -> Round:
     """The round after one whose new speeds `gave` a status and CURVES each."""
     measured = {**before.measured, **gave}
-    known = known_of(measured)
-    new = {speed for grid in plan.refined for speed in next_speeds(grid, known, choice)}
+    new = {speed for grid in plan.refined for speed in next_speeds(grid, measured, choice)}
     return Round(tuple(sorted(new)), measured)
 
 

@@ -39,13 +39,6 @@ NETCDF_LOCK = ThreadLock()
 
 
 @contextmanager
-def open_netcdf(file: Path | str) -> Iterator[netCDF4.Dataset]:
-    """A netCDF file to read from. Raises InputFileError when it cannot be read."""
-    with NETCDF_LOCK, readable(file), netCDF4.Dataset(file) as dataset:
-        yield dataset
-
-
-@contextmanager
 def new_netcdf(file: Path | str, provenance: Mapping[str, object]) -> Iterator[netCDF4.Dataset]:
     """A netCDF file to write, atomically, with version and `provenance` as global attributes."""
     with NETCDF_LOCK, atomic_write(file) as partial, netCDF4.Dataset(partial, "w") as dataset:
@@ -154,7 +147,7 @@ def attributes_of(files: Iterable[Path | str]) -> list[dict[str, Any]]:
     """Global attributes of each file but for those of all; InputFileError for a file that cannot be read."""
     attributes = []
     for file in files:
-        with open_netcdf(file) as dataset:
+        with NETCDF_LOCK, readable(file), netCDF4.Dataset(file) as dataset:
             attributes.append({name: dataset.getncattr(name) for name in dataset.ncattrs() if name not in FILE_ATTRIBUTES})
     return attributes
 

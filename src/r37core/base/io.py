@@ -21,7 +21,6 @@ FILE_ATTRIBUTES = {"Conventions": "CF-1.11", "r37core_version": __version__}
 JOB_LOG = logging.getLogger("r37core")
 """Logger of the steps, for the log of their job; from Python nobody hears it who does not ask for this logger's level DEBUG."""
 
-
 FULL_DISK = 2**20
 """Bytes left on a disk that counts as full."""
 

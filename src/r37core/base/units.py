@@ -8,26 +8,10 @@ RPM = 30.0 / math.pi
 RAD_S = {"rad/s": 1.0, "rpm": math.pi / 30.0}
 """Angular speed (rad/s) of one of each unit that speeds may be given in."""
 
-SUFFIXES = {
-    "_m": 1.0,
-    "_cm": 0.01,
-    "_m2": 1.0,
-    "_s": 1.0,
-    "_hz": 1.0,
-    "_pa": 1.0,
-    "_kg": 1.0,
-    "_kg_m3": 1.0,
-    "_n_m2": 1.0,
-    "_rad_s": 1.0,
-    "_rad_s2": 1.0,
-    "_rpm": RAD_S["rpm"],
-    "_rpm_s": RAD_S["rpm"],
-    "_deg": math.pi / 180.0,
-    "_percent": 0.01,
-    "_clearances": 1.0,
-}
+_PLAIN = ("_m", "_m2", "_s", "_hz", "_pa", "_kg", "_kg_m3", "_n_m2", "_rad_s", "_rad_s2", "_clearances")
+SUFFIXES = dict.fromkeys(_PLAIN, 1.0) | dict.fromkeys(("_rpm", "_rpm_s"), RAD_S["rpm"])
+SUFFIXES |= {"_cm": 0.01, "_percent": 0.01, "_deg": math.pi / 180.0}
 """End of a key or of a table's column -> what one of its unit is in the SI."""
-
 
 LENGTH_UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048}
 """Name of a length unit -> metres."""

@@ -3,12 +3,10 @@
 Families of designs, tolerances and searches vary the same numbers. An entry is a mapping of plain values, as in the files.
 """
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 T = TypeVar("T")
 
@@ -26,7 +24,7 @@ class VariedNumber:
     key: str
 
     @classmethod
-    def named(cls, name: str) -> VariedNumber:
+    def named(cls, name: str) -> Self:
         """Number by its name among those of a blade and its scenes, such as `stagger_deg.tip` or `scene.damping_ratio`."""
         return cls(SCENE, name.removeprefix(_OF_SCENES)) if name.startswith(_OF_SCENES) else cls(BLADE, name)
 

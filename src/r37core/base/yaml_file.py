@@ -115,7 +115,6 @@ def scalar(text: str) -> Any:
 
 
 def _explained(error: yaml.MarkedYAMLError) -> tuple[int, str]:
-    """Line and reason."""
     mark = error.problem_mark or error.context_mark
     problem = error.problem or error.context or "malformed"
     if "\\t" in problem:

@@ -14,21 +14,18 @@ from .blade_surface import Blade
 from .profile import PRESSURE, SUCTION, Profile, ProfileParameters
 from .stacking import Placement, conical_stacking
 
-_UNITS = {"span": "1", "inlet_angle": "rad", "transition_angle": "rad", "outlet_angle": "rad"}
+_COLUMNS = dict.fromkeys((field.name for field in fields(ProfileParameters)), "m")
+_COLUMNS |= {"span": "1", "inlet_angle": "rad", "transition_angle": "rad", "outlet_angle": "rad"}
+"""Units of the profiles' parameters."""
 _STEPS = np.linspace(0.0, 1.0, 41)
 """Shares of chord and span at which the surfaces are sampled."""
-_COLUMNS = [field.name for field in fields(ProfileParameters)]
 
 
 def write_geometry(blade: Blade, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
     """Write the blade: table rows, placement, section properties, surface rates, volume, and both surfaces sampled."""
     data: dict = {
-        name: (
-            "profile",
-            [getattr(p.parameters, name) for p in blade.profiles],
-            {"units": _UNITS.get(name, "m"), "long_name": name.replace("_", " ")},
-        )
-        for name in _COLUMNS
+        name: ("profile", [getattr(p.parameters, name) for p in blade.profiles], about(units, name.replace("_", " ")))
+        for name, units in _COLUMNS.items()
     }
     conical = conical_stacking(blade.profiles)
     chord, span = (a.ravel() for a in np.meshgrid(_STEPS, _STEPS, indexing="ij"))

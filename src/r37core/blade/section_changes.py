@@ -20,9 +20,6 @@ from .cone import Cone, ConstantRatePath
 from .profile import BladeShapeError, ProfileParameters, centreline
 from .profile_tables import check_profile_order
 
-_NO_ANGLE, _WHOLE = 0.0, 1.0
-"""Changes that change nothing: no angle is added, the whole of a length is kept."""
-
 _SMALLER = "; a smaller change near this span may be possible"
 
 
@@ -59,10 +56,10 @@ class SpanLaw:
 class SectionChange:
     """Angles added to a profile's stagger and camber (rad), shares of its chord and thickness; the defaults change nothing."""
 
-    stagger: float = _NO_ANGLE
-    camber: float = _NO_ANGLE
-    chord: float = _WHOLE
-    thickness: float = _WHOLE
+    stagger: float = 0.0
+    camber: float = 0.0
+    chord: float = 1.0
+    thickness: float = 1.0
 
     @property
     def names(self) -> list[str]:

@@ -23,8 +23,7 @@ from r37core.stress.recovery import stress_operator
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.speed_file import read_speed, write_speed
-from r37core.time_integration.speed_job import prepared
-from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.speed_run import run_speed, simulation_of
 
 from .case import Case
 
@@ -160,7 +159,7 @@ def _run(case: Case, model: ContactModel, recovery: StressOperator | None, speed
     assert case.scene is not None
     scene, choice = case.scene, _choice(case, model, speed)
     # compiled before it is timed
-    prepared(model, speed, scene, choice)
+    simulation_of(model, speed, scene, choice)
     simulate = partial(run_speed, model, speed, scene, choice, case.results, motion=None, stress=recovery, **case.kept)
     run, cpu, wall = timed(simulate)
     _, file_cpu, _ = timed(lambda: write_speed(run, file, {}))

@@ -21,7 +21,7 @@ from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
 from r37core.rom.reduction_choice import StressSubmesh
-from r37core.stress.goodman import Strengths
+from r37core.stress.statistic import Strengths
 
 from .bases import chain_of_bases
 from .blade_sections import CONTACT_IN_WORDS, REQUIRED_OF_MATERIAL, Contact, MaterialSection

@@ -33,10 +33,7 @@ class Casing:
     that they are of, None where they are given.
     """
 
-    clearance: Annotated[
-        float,
-        Key("Clearance at every speed, normal to the casing", "_m", ge=1e-6, le=0.1, optional=True),
-    ]
+    clearance: Annotated[float, Key("Clearance at every speed, normal to the casing", "_m", ge=1e-6, le=0.1, optional=True)]
     lobes: Annotated[int, Key("Number of lobes; 0 is a circular casing", ge=0, le=100)] = 2
     width: Annotated[float, Key("Width of a lobe in shares of its period", ge=1e-3, le=100)] = 0.15
     amplitude: Annotated[float, Key("Height of the lobes; 2 without amplitude_m", "_clearances", ge=0, le=1000)] = 2.0

@@ -45,22 +45,16 @@ class WorstInstant:
     number: int
 
 
-@dataclass(frozen=True)
-class ModeShapes:
-    """Modes at one speed: `frequencies` (Hz) and mass-normalised `displacement` (kg^-1/2), shape (modes, nodes, 3)."""
+def mode_shapes(model: ReducedModel, speed: float, count: int) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
+    """Names, frequencies (Hz) and mass-normalised displacement (kg^-1/2), shape (modes, nodes, 3), of the lowest modes.
 
-    names: tuple[str, ...]
-    frequencies: np.ndarray
-    displacement: np.ndarray
-
-
-def mode_shapes(model: ReducedModel, speed: float, count: int) -> ModeShapes:
-    """The `count` lowest modes at `speed` (rad/s); ValueError for a model that does not recover the whole blade."""
+    `speed` in rad/s. Raises ValueError for a model that does not recover the whole blade.
+    """
     basis = _whole(model).basis
     frequencies, shapes = model.modes(speed, max(count, _NAMED_AMONG))
     names, order = name_modes(model, shapes, count)
     displacement = np.array([(basis @ shapes[:, mode]).real for mode in order])
-    return ModeShapes(names, frequencies[order] / (2.0 * np.pi), displacement)
+    return names, frequencies[order] / (2.0 * np.pi), displacement
 
 
 def write_modes(
@@ -74,11 +68,12 @@ def write_modes(
     shown = target.orientation.mesh_to_file(mesh)
     files = {}
     for speed in speeds:
-        modes = mode_shapes(model, speed, count)
-        fields = {f"mode {name}": u @ target.orientation.rows for name, u in zip(modes.names, modes.displacement, strict=True)}
+        names, frequencies, displacement = mode_shapes(model, speed, count)
+        fields = {f"mode {name}": u @ target.orientation.rows for name, u in zip(names, displacement, strict=True)}
         if material is not None:
-            fields |= dict(zip(map(modal_stress, modes.names), _von_mises_of(mesh, modes, material), strict=True))
-        notes = {f"frequency of mode {name} (Hz)": f for name, f in zip(modes.names, modes.frequencies, strict=True)}
+            stress = nodal_stress(mesh.blocks, mesh.points, np.moveaxis(displacement, 0, 2), material)
+            fields |= dict(zip(map(modal_stress, names), von_mises(stress).T, strict=True))
+        notes = {f"frequency of mode {name} (Hz)": f for name, f in zip(names, frequencies, strict=True)}
         files[speed] = f"modes_{exact_text(speed)}"
         _write_fields(shown, fields, notes, files[speed], target)
     _write_collection(files, "modes", target)
@@ -87,13 +82,6 @@ def write_modes(
 def modal_stress(mode: str) -> str:
     """Name of the field of a mode's von Mises stress."""
     return f"von Mises stress of mode {mode}"
-
-
-def _von_mises_of(mesh: BladeMesh, modes: ModeShapes, material: Material) -> np.ndarray:
-    """Von Mises stress (Pa kg^-1/2) of each mode, shape (modes, nodes)."""
-    displacement = np.moveaxis(modes.displacement, 0, 2)
-    stress = nodal_stress(mesh.blocks, mesh.points, displacement, material)
-    return np.array([von_mises(stress[:, :, number]) for number in range(stress.shape[2])])
 
 
 def worst_instants(

@@ -46,11 +46,7 @@ class Orientation:
     rotor_axis: Annotated[Vector, Key("Downstream direction of the rotor axis, in the file's axes", ge=-1e9, le=1e9)]
     radial: Annotated[Vector, Key("Direction from the axis to the blade, in the file's axes", ge=-1e9, le=1e9)]
     rotation: Annotated[
-        str,
-        Key(
-            "Sense of the rotation about rotor_axis, by the right-hand rule",
-            one_of=("positive", "negative"),
-        ),
+        str, Key("Sense of the rotation about rotor_axis, by the right-hand rule", one_of=("positive", "negative"))
     ]
     axis_point: Annotated[Vector, Key("A point of the axis, in the file's unit", ge=-1e9, le=1e9)] = (0.0, 0.0, 0.0)
 

@@ -5,10 +5,9 @@ mass and the geometric stiffness are a scalar times the identity there, and are 
 `blocks`: name of an element type -> node numbers, shape (elements, nodes of the type).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 import scipy.sparse as sp
@@ -31,7 +30,7 @@ class NodePattern:
     slots: Mapping[str, np.ndarray]
 
     @classmethod
-    def build(cls, blocks: Blocks, nodes: int) -> NodePattern:
+    def build(cls, blocks: Blocks, nodes: int) -> Self:
         """The pattern of a mesh with `nodes` nodes."""
         pairs = {name: block[:, :, None].astype(np.int64) * nodes + block[:, None, :] for name, block in blocks.items()}
         unique, slot = np.unique(np.concatenate([part.ravel() for part in pairs.values()]), return_inverse=True)

@@ -1,9 +1,7 @@
 """Material of the blade."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 
@@ -23,15 +21,14 @@ class Material:
         float, Key("Stress above which results mark a speed; the model stays linear", "_pa", ge=1, le=1e12)
     ] = float("inf")
     fatigue_strength: Annotated[
-        float,
-        Key("Stress amplitude that it endures at zero mean, for the result fatigue", "_pa", ge=1, le=1e12, optional=True),
+        float, Key("Stress amplitude that it endures at zero mean, for the result fatigue", "_pa", ge=1, le=1e12, optional=True)
     ] = float("inf")
     ultimate_strength: Annotated[
         float, Key("Tensile strength, for the result fatigue", "_pa", ge=1, le=1e12, optional=True)
     ] = float("inf")
 
     @property
-    def elastic(self) -> Material:
+    def elastic(self) -> Self:
         """The material without its strengths: none of them changes what is computed of a linear blade."""
         return replace(self, yield_stress=float("inf"), fatigue_strength=float("inf"), ultimate_strength=float("inf"))
 
@@ -55,19 +52,12 @@ class Material:
 
     def check_strengths(self) -> None:
         """Raise ValueError for one strength of the Goodman line without the other, and for amplitudes that break the blade."""
-        known = {
-            key: getattr(self, key.removesuffix("_pa"))
-            for key in ("fatigue_strength_pa", "ultimate_strength_pa")
-            if np.isfinite(getattr(self, key.removesuffix("_pa")))
-        }
+        known = [f"{name}_pa" for name in ("fatigue_strength", "ultimate_strength") if np.isfinite(getattr(self, name))]
         if len(known) == 1:
-            raise ValueError(f"{min(known)} alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both or neither")
-        if known and not self.fatigue_strength < self.ultimate_strength:
-            raise ValueError(
-                f"fatigue_strength_pa: found {self.fatigue_strength:g}; allowed: less than ultimate_strength_pa "
-                f"({self.ultimate_strength:g})"
-            )
+            raise ValueError(f"{known[0]} alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both or neither")
         low, high = self.fatigue_strength, self.ultimate_strength
+        if known and not low < high:
+            raise ValueError(f"fatigue_strength_pa: found {low:g}; allowed: less than ultimate_strength_pa ({high:g})")
         if known and np.isfinite(self.yield_stress) and not low <= self.yield_stress <= high:
             between = f"{low:g} to {high:g}, from fatigue_strength_pa to ultimate_strength_pa"
             raise ValueError(f"yield_stress_pa: found {self.yield_stress:g}; allowed: {between}")

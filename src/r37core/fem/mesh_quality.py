@@ -1,6 +1,5 @@
 """Mesh quality: the scaled Jacobian at the integration points."""
 
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -16,42 +15,23 @@ class MeshQualityError(ValueError):
     """A mesh too distorted to compute with."""
 
 
-@dataclass(frozen=True)
-class MeshQuality:
-    """Scaled Jacobian of a mesh: smallest over each element's integration points, shape (elements,); 1 is ideal.
-
-    `spans`: of the middle of each element, from the root (0) to the tip (1), shape (elements,).
-    """
-
-    per_element: np.ndarray
-    spans: np.ndarray
-
-    @property
-    def minimum(self) -> float:
-        """Smallest value of the mesh."""
-        return float(np.min(self.per_element))
-
-    @property
-    def one_percent_quantile(self) -> float:
-        """Value that 1% of the elements fall below."""
-        return float(np.quantile(self.per_element, 0.01))
-
-    def check(self, allowed_minimum: float) -> None:
-        """Raise MeshQualityError when an element lies below `allowed_minimum`."""
-        if not self.minimum >= allowed_minimum:
-            worst = int(np.argmin(self.per_element))
-            raise MeshQualityError(
-                f"span {100 * self.spans[worst]:.1f}%: element {worst + 1} has a scaled Jacobian of {self.minimum:.3g}, below "
-                f"minimum_scaled_jacobian ({allowed_minimum:g}); use a finer or less layered mesh, blunt edges, or a smoother "
-                f"blade{SMALLER_CHANGES}"
-            )
+def mesh_quality(mesh: BladeMesh) -> np.ndarray:
+    """Scaled Jacobian of every element, block after block, shape (elements,): smallest over its points; 1 is ideal."""
+    parts = typed_blocks(mesh.blocks, mesh.points)
+    return np.concatenate([scaled_jacobian(element, coordinates) for _, element, coordinates in parts])
 
 
-def mesh_quality(mesh: BladeMesh) -> MeshQuality:
-    """Scaled Jacobian of every element, block after block."""
-    per_block = [scaled_jacobian(element, coordinates) for _, element, coordinates in typed_blocks(mesh.blocks, mesh.points)]
-    spans = [mesh.parameters[nodes, 1].mean(axis=1) for nodes in mesh.blocks.values()]
-    return MeshQuality(np.concatenate(per_block), np.concatenate(spans))
+def check_quality(mesh: BladeMesh, quality: np.ndarray, allowed_minimum: float) -> None:
+    """Raise MeshQualityError when an element, of this `quality` by mesh_quality, lies below `allowed_minimum`."""
+    if not np.min(quality) >= allowed_minimum:
+        worst = int(np.argmin(quality))
+        # of the middle of each element
+        spans = np.concatenate([mesh.parameters[nodes, 1].mean(axis=1) for nodes in mesh.blocks.values()])
+        raise MeshQualityError(
+            f"span {100 * spans[worst]:.1f}%: element {worst + 1} has a scaled Jacobian of {quality[worst]:.3g}, below "
+            f"minimum_scaled_jacobian ({allowed_minimum:g}); use a finer or less layered mesh, blunt edges, or a smoother "
+            f"blade{SMALLER_CHANGES}"
+        )
 
 
 def scaled_jacobian(element: Element, coordinates: np.ndarray) -> np.ndarray:

@@ -9,7 +9,6 @@ import scipy.sparse.linalg as sla
 Solve = Callable[[np.ndarray], np.ndarray]
 """Displacements, shape (dofs,) or (dofs, loads), under forces of that shape."""
 
-
 _TOLERANCE = 1e-12
 """Relative tolerance of eigenvalues; the rounding of the factors changes them by more."""
 

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import numpy as np
+
 from r37core.base.io import JOB_LOG, atomic_write
 from r37core.base.plain import from_plain
 from r37core.blade.geometry_file import read_geometry
@@ -10,7 +12,7 @@ from r37core.mesh.mesh_files import read_vtu, write_vtu
 
 from .abaqus_deck import write_abaqus
 from .material import Material
-from .mesh_quality import mesh_quality
+from .mesh_quality import check_quality, mesh_quality
 
 
 def mesh(input: Any, output: Any, params: Any) -> None:
@@ -19,10 +21,10 @@ def mesh(input: Any, output: Any, params: Any) -> None:
     with atomic_write(output.msh) as msh_file:
         made = generate_mesh(read_geometry(input.geometry), level["nodes"], level["layers"], level["tip_elements"], msh_file)
         quality = mesh_quality(made)
-        JOB_LOG.debug(f"{len(made.points)} nodes, {len(quality.per_element)} wedges")
-        JOB_LOG.debug(f"scaled Jacobian: minimum {quality.minimum:.3f}, 1% quantile {quality.one_percent_quantile:.3f}")
-        quality.check(level["minimum_scaled_jacobian"])
-    write_vtu(made, output.vtu, quality.per_element)
+        JOB_LOG.debug(f"{len(made.points)} nodes, {len(quality)} wedges")
+        JOB_LOG.debug(f"scaled Jacobian: minimum {np.min(quality):.3f}, 1% quantile {np.quantile(quality, 0.01):.3f}")
+        check_quality(made, quality, level["minimum_scaled_jacobian"])
+    write_vtu(made, output.vtu, quality)
 
 
 def abaqus_deck(input: Any, output: Any, params: Any) -> None:

@@ -100,10 +100,8 @@ def area_vectors(faces: list[Faces], points: np.ndarray) -> np.ndarray:
     for part in faces:
         corners = points[part.nodes[:, : part.corners]]
         # of a quadrangle both diagonals, of a triangle two edges
-        first, second = corners[:, 2] - corners[:, 0], corners[:, -1] - corners[:, 1]
-        outer.append(
-            0.5 * np.cross(first, second) if part.corners == 4 else 0.5 * np.cross(corners[:, 1] - corners[:, 0], first)
-        )
+        (a, b), (c, d) = ((0, 2), (1, 3)) if part.corners == 4 else ((0, 1), (0, 2))
+        outer.append(0.5 * np.cross(corners[:, b] - corners[:, a], corners[:, d] - corners[:, c]))
     return np.concatenate(outer)
 
 

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from r37core.base.io import readable
 from r37core.results.measures import has_strengths
-from r37core.stress.goodman import Strengths
+from r37core.stress.statistic import Strengths
 
 from .offscreen import look, new_plotter, rendered, without_margins
 from .style import PAGE

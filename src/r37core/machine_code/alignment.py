@@ -18,8 +18,9 @@ def padded(count: int) -> int:
     return -(-count // LANES) * LANES
 
 
-def aligned_record(fields: Sequence[Field]) -> np.dtype:
-    """A record whose arrays start on a vector's boundary; plain numbers are packed."""
+def aligned_record(*groups: Sequence[Field]) -> np.dtype:
+    """A record of groups of fields, whose arrays start on a vector's boundary; plain numbers are packed."""
+    fields = [field for group in groups for field in group]
     offsets, end = [], 0
     for _, kind, shape in fields:
         if shape or np.dtype(kind).names:  # type: ignore[call-overload]

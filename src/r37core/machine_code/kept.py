@@ -11,6 +11,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
@@ -31,6 +32,13 @@ def kept_file(name: str, made_of: object, make: Callable[[Path], None], folder: 
                 if not _sound(file):
                     _put(made, file)
     return file
+
+
+def kept_for_user(name: str, made_of: object, make: Callable[[Path], None]) -> Path | None:
+    """`kept_file` in the user's folder; None where that cannot be written. Raises what `make` raises but OSErrors."""
+    with suppress(OSError):
+        return kept_file(name, made_of, make, writable_folder())
+    return None
 
 
 def kept_bytes(name: str, made_of: object, make: Callable[[], bytes], worth_keeping: Callable[[], bool]) -> bytes:
@@ -77,6 +85,33 @@ def users_cache() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "r37"
 
 
+def named_folder() -> Path:
+    """The user's folder of structures, which may not be there yet: that of R37_CACHE, else the user's cache folder."""
+    named = os.environ.get("R37_CACHE")
+    return Path(named) if named else users_cache()
+
+
+def writable_folder() -> Path:
+    """The folder of structures, made where it is missing. Raises OSError where it cannot be written."""
+    folder = named_folder()
+    folder.mkdir(parents=True, exist_ok=True)
+    tempfile.TemporaryFile(dir=folder).close()
+    return folder
+
+
+@cache
+def numerics(*libraries: str) -> list[str]:
+    """Versions of libraries and kernels of linear algebra that numbers depend on; empty for a library not installed by pip."""
+    # slow to import, and no simulation job asks
+    from importlib.metadata import distributions
+
+    from threadpoolctl import threadpool_info
+
+    kernels = {str(library["architecture"]) for library in threadpool_info() if "architecture" in library}
+    versions = (next((package.version for package in distributions(name=library)), "") for library in libraries)
+    return [*versions, *sorted(kernels)]
+
+
 def _hashed(name: str, made_of: object) -> str:
     digest = hashlib.sha256(repr((name, made_of)).encode()).hexdigest()[:32]
     return f"{Path(name).stem}-{digest}{Path(name).suffix}"
@@ -102,7 +137,6 @@ def _alone(file: Path) -> Iterator[None]:
 
 
 def _is_at(opened: BinaryIO, name: Path) -> bool:
-    """True if an opened file still has this name."""
     try:
         return os.path.samestat(os.fstat(opened.fileno()), name.stat())
     except FileNotFoundError:

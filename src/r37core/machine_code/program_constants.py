@@ -41,12 +41,10 @@ def _used(function: Any, constants: Mapping[str, int]) -> dict[str, int]:
 
 
 def _called(function: Any) -> dict[str, Any]:
-    """The compiled functions that a compiled function calls, by their names in it."""
     python = function.py_func
     named = {name: python.__globals__.get(name) for name in _globals_of(python)}
     return {name: other for name, other in named.items() if hasattr(other, "py_func")}
 
 
 def _globals_of(python: Callable) -> set[str]:
-    """Names of the globals that a function reads."""
     return {step.argval for step in get_instructions(python) if step.opname == "LOAD_GLOBAL"}

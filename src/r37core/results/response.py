@@ -7,8 +7,7 @@ import netCDF4
 import numpy as np
 
 from r37core.base.dataset_file import new_netcdf
-from r37core.stress.goodman import UNKNOWN, Strengths, goodman_statistic
-from r37core.stress.statistic import stress_statistic
+from r37core.stress.statistic import UNKNOWN, Strengths, goodman_statistic, stress_statistic
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 

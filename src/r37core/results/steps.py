@@ -9,7 +9,7 @@ from r37core.base.io import as_list, write_json
 from r37core.base.plain import from_plain
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.rom.rom_file import read_reduced_model
-from r37core.stress.goodman import Strengths
+from r37core.stress.statistic import Strengths
 
 from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table

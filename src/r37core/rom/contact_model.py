@@ -7,11 +7,9 @@ speed's own modes follow from a plain symmetric eigenproblem, without loss of di
 force couples: r37core.time_integration.gyroscopic.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -64,18 +62,13 @@ class ContactModel:
         return float(np.max(self.radius))
 
     @property
-    def edge(self) -> ContactModel:
+    def edge(self) -> Self:
         """The model with the nodes of the tip's edge in place of the contact nodes."""
         if self.edge_displacement_operator is None:
             return self
         edge: dict[str, Any] = {name: getattr(self, f"edge_{name}") for name in _NODE_FIELDS}
         edge |= dict.fromkeys((f"edge_{name}" for name in _NODE_FIELDS), None)
         return replace(self, **edge)
-
-    @property
-    def edge_is_known(self) -> bool:
-        """True where the tip's edge has nodes between the contact nodes."""
-        return len(self.edge.theta) > len(self.theta)
 
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
         """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed`; see BucklingError."""
@@ -90,11 +83,8 @@ class ContactModel:
         amplitudes = rotation_amplitudes(self.rotation_stiffening, speeds)
         return amplitudes @ self.rotation_shapes.swapaxes(1, 2)
 
-    def spun(self, speed: float) -> ContactModel:
-        """The model with its contact nodes where rotation at `speed` (rad/s) holds them; BucklingError where nothing does.
-
-        Radial and tangential are those of the displaced nodes. The outputs keep those of rest.
-        """
+    def spun(self, speed: float) -> Self:
+        """The model with nodes where rotation at `speed` (rad/s) holds them; outputs stay as at rest. Raises BucklingError."""
         out, aside, _ = self.displaced(np.array([speed]))[:, 0]
         radius, turned = np.hypot(self.radius + out, aside), np.arctan2(aside, self.radius + out)
         radial, tangential, axial = self.displacement_operator

@@ -5,7 +5,6 @@ of quasi-cyclic disks with variable rotation speeds" (2006), for the combination
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as la
@@ -16,18 +15,6 @@ from r37core.fem.solver import Solve, factorise, lowest_modes
 from .reduction_choice import ReductionChoice
 
 
-@dataclass(frozen=True)
-class MultiSpeedBasis:
-    """A reduction basis whose first coordinates are those of the boundary, displacements or weighted means of them.
-
-    `vectors`, shape (dofs, boundary coordinates + internal): constraint modes at rest, then internal vectors that vanish on the
-    boundary and are mass-orthonormal. `singular_values`: of the columns computed over all speeds, one for each, normalised.
-    """
-
-    vectors: np.ndarray
-    singular_values: np.ndarray
-
-
 def multi_speed_basis(
     stiffness_at: Callable[[float], sp.csr_array],
     mass: sp.csr_array,
@@ -35,12 +22,12 @@ def multi_speed_basis(
     choice: ReductionChoice,
     solve_at_rest: Solve,
     load: np.ndarray | None = None,
-) -> tuple[MultiSpeedBasis, np.ndarray]:
-    """Constraint modes and fixed-interface modes at each of the choice's speeds, combined into one basis.
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Constraint modes and fixed-interface modes at each of the choice's speeds, as one basis: see combine_columns.
 
     `boundary`, shape (boundary coordinates, dofs): each row gives one of them from the displacements, by a 1 or by weights.
     `stiffness_at` gives the stiffness at a speed (rad/s); `solve_at_rest` solves with that at rest. The first speed's
-    constraint modes stay as they are, so that static responses to boundary loads at that speed are exact. Also, from the same
+    constraint modes stay as they are, so that static responses to boundary loads at that speed are exact. Last, from the same
     factors, the displacements (m) under a `load` (N), shape (dofs, speeds); none without it.
     """
     columns: list[np.ndarray] = []
@@ -51,17 +38,18 @@ def multi_speed_basis(
         columns += constraint_and_fixed_modes(stiffness, mass, boundary, choice.fixed_interface_modes, solve)
         if load is not None:
             displaced[:, number] = solve(load)
-    return combine_columns(columns[0], np.hstack(columns), mass, boundary, choice.basis_tolerance), displaced
+    return *combine_columns(columns[0], np.hstack(columns), mass, boundary, choice.basis_tolerance), displaced
 
 
 def combine_columns(
     constraint_modes: np.ndarray, columns: np.ndarray, mass: sp.csr_array, boundary: sp.csr_array, tolerance: float
-) -> MultiSpeedBasis:
-    """Basis spanning `columns`, shape (dofs, columns): `constraint_modes` as they are, then internal vectors.
+) -> tuple[np.ndarray, np.ndarray]:
+    """Basis of `columns`, shape (dofs, columns), and their normalised singular values, shape (columns,).
 
-    Columns with singular values below `tolerance` times the largest are dropped as numerically dependent. Each is scaled to
-    unit length and the rows by the root of the nodal mass, so that neither the scale nor the order of the columns nor the
-    mesh's density matters.
+    The basis, shape (dofs, boundary coordinates + internal): `constraint_modes` as they are, whose coordinates are those of the
+    boundary, then internal vectors that vanish there and are mass-orthonormal. Columns with singular values below `tolerance`
+    times the largest are dropped as numerically dependent. Each is scaled to unit length and the rows by the root of the nodal
+    mass, so that neither the scale nor the order of the columns nor the mesh's density matters.
     """
     weight = np.sqrt(mass.diagonal())[:, None]
     weighted = weight * columns
@@ -72,7 +60,7 @@ def combine_columns(
     free[_alone(boundary)] = 0.0
     factor = la.cholesky(free.T @ (mass @ free), lower=True)
     internal = la.solve_triangular(factor, free.T, lower=True).T
-    return MultiSpeedBasis(np.hstack([constraint_modes, internal]), singular_values)
+    return np.hstack([constraint_modes, internal]), singular_values
 
 
 def constraint_and_fixed_modes(

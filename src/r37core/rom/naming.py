@@ -7,7 +7,6 @@ from r37core.mesh.blade_mesh import BladeMesh
 # roots of cos(x) cosh(x) = -1: clamped-free beam (Blevins, Formulas for Natural Frequency and Mode Shape)
 _BEAM_ROOTS = (1.875104068711961, 4.694091132974175)
 
-
 NAMED_MODES = ("1B", "1T", "2B")
 """Modes with names of their own: first bending, first torsion, second bending."""
 

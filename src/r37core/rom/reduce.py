@@ -22,10 +22,9 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
     weights = contact_weights(mesh, choice.boundary)
     boundary = sp.csr_array(sp.kron(weights[:, matrices.free_nodes], sp.eye_array(3)))
     load = matrices.centrifugal_load[matrices.free_nodes].ravel()
-    basis, displaced = multi_speed_basis(
+    vectors, singular_values, displaced = multi_speed_basis(
         lambda speed: sp.csr_array(stiffness + speed**2 * per_square), mass, boundary, choice, matrices.solve_at_rest, load
     )
-    vectors = basis.vectors
     rotation_shapes, rotation_stiffening = shapes_of_rotation(stiffness, per_square, displaced, load)
 
     def whole_field(free_field: np.ndarray) -> np.ndarray:
@@ -63,7 +62,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         shape_products=np.array([shape @ mass_times_vectors for shape in shapes.values()]),
         shape_norms=np.array([np.sqrt(shape @ (mass @ shape)) for shape in shapes.values()]),
         tolerance=choice.basis_tolerance,
-        singular_values=basis.singular_values,
+        singular_values=singular_values,
         rotation_stiffening=rotation_stiffening,
         quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, static, max(choice.speeds)),
     )

@@ -55,29 +55,27 @@ class RecoveryNodes:
         return np.stack([cosine * x + sine * y, cosine * y - sine * x, z], axis=-1)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class ReducedModel:
     """Reduced matrices and recovery data; coordinates 0 to 3 n_c - 1 are the contact nodes' displacements (x y z of each).
 
-    `stiffness` (N/m), `geometric_stiffness` (per Omega^2), `mass` (kg), and, only when asked for, `spin_softening`
-    (per Omega^2) and `coriolis` (see CORIOLIS_TERM): each of shape (coordinates, coordinates). `contact`: what contact acts
-    on (see r37core.rom.contact_weights); `contact_nodes`: mean displacements there, with the number of the nearest node of the
-    tip line; `contact_chord`: their chord fractions; `contact_tip_lengths` (m): see r37core.rom.contact_weights.
-    `tip_lines`: recovery along each tip line; `stress_submesh` with `stress_elements`, element type -> shape (elements, nodes
-    of the type), indexing its nodes, and `stress_region`, what it is in words; `whole_blade` only on request.
-    `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the
-    ideal bending and torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis, one for each of
-    its columns over all speeds.
-    `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation; none of a blade whose
-    load is not known. `quadratic_residual`: size of the Omega^4 term of the reduced stiffness at the highest speed against
-    the stiffness.
+    `stiffness` (N/m), `geometric_stiffness` (per Omega^2), `mass` (kg), and, only when asked for, `spin_softening` (per
+    Omega^2) and `coriolis` (see CORIOLIS_TERM): each of shape (coordinates, coordinates). `contact`: what contact acts on (see
+    r37core.rom.contact_weights); `contact_nodes`: mean displacements there, with the number of the nearest node of the tip
+    line; `contact_chord`: their chord fractions; `contact_tip_lengths` (m): see r37core.rom.contact_weights. `tip_lines`:
+    recovery along each tip line; `stress_submesh` with `stress_elements`, element type -> shape (elements, nodes of the type),
+    indexing its nodes, and `stress_region`, what it is in words; `whole_blade` only on request. `shape_names`,
+    `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the ideal bending and
+    torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis, one for each of its columns over all
+    speeds. `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation; none of a blade
+    whose load is not known. `quadratic_residual`: share of the Omega^4 term in the reduced stiffness at the highest speed.
     """
 
     stiffness: np.ndarray
     geometric_stiffness: np.ndarray
     mass: np.ndarray
-    spin_softening: np.ndarray | None
-    coriolis: np.ndarray | None
+    spin_softening: np.ndarray | None = None
+    coriolis: np.ndarray | None = None
     contact: str
     contact_nodes: RecoveryNodes
     contact_chord: np.ndarray
@@ -86,7 +84,7 @@ class ReducedModel:
     stress_submesh: RecoveryNodes
     stress_elements: dict[str, np.ndarray]
     stress_region: str
-    whole_blade: RecoveryNodes | None
+    whole_blade: RecoveryNodes | None = None
     shape_names: tuple[str, ...]
     shape_products: np.ndarray
     shape_norms: np.ndarray

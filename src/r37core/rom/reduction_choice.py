@@ -1,11 +1,9 @@
 """Choices of a reduced model: its boundary nodes, basis and nodes of stress. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 
@@ -20,10 +18,8 @@ class BoundaryError(ValueError):
 POINTS, PATCHES, AREA_PATCHES = "points", "patches", "area_patches"
 """Kinds of contact nodes: nodes of the mesh, patches of the tip line, or patches of the tip's whole face."""
 
-
 EVEN, COSINE = "even", "cosine"
 """Spacings of the contact nodes along the chord: equal distances, or smaller ones towards the leading and trailing edge."""
-
 
 USUAL_POINTS, MOST_USUAL_PATCHES = 8, 12
 """Numbers of contact nodes where none is chosen: of points, and of patches the most, as a coarse tip has room for fewer."""
@@ -48,8 +44,7 @@ class BoundaryChoice:
 
     tip_line: Annotated[str, Key("Tip line of the contact nodes", one_of=TIP_LINES)] = "pressure_edge"
     nodes: Annotated[
-        int | None,
-        Key("Number of contact nodes; by default 8 points, or 12 patches, fewer on a coarse mesh", ge=1, le=200),
+        int | None, Key("Number of contact nodes; by default 8 points, or 12 patches, fewer on a coarse mesh", ge=1, le=200)
     ] = None
     corners: Annotated[bool, Key("Whether the leading and trailing corners are among them")] = True
     contact: str = field(kw_only=True)
@@ -67,7 +62,7 @@ class BoundaryChoice:
         """True where the contact nodes have equal distances."""
         return (self.spacing or usual_spacing(self.contact)) == EVEN
 
-    def on(self, chord: np.ndarray) -> BoundaryChoice:
+    def on(self, chord: np.ndarray) -> Self:
         """The choice with a number of contact nodes, on a tip with nodes at fractions `chord` of its line."""
         if self.nodes is not None or self.contact == POINTS:
             return replace(self, nodes=self.most_nodes)

@@ -12,20 +12,19 @@ from r37core.base.io import readable
 
 from .reduced_model import CORIOLIS_TERM, RecoveryNodes, ReducedModel
 
-_MATRICES = {
-    "stiffness": ("N m-1", "reduced elastic stiffness"),
-    "geometric_stiffness": ("N m-1 s2 rad-2", "reduced geometric stiffness per squared speed"),
-    "mass": ("kg", "reduced mass"),
-    "spin_softening": ("kg", "reduced spin softening per squared speed"),
-    "coriolis": ("kg", f"reduced Coriolis matrix G per speed, skew-symmetric: {CORIOLIS_TERM}"),
-}
-_ARRAYS: dict[str, tuple[str | tuple[str, str], str, str]] = {
-    "contact_chord": ("contact_node", "1", "chord fraction of the contact nodes"),
-    "contact_tip_lengths": ("contact_node", "m", "length of tip along the casing's meridian of each contact node"),
+_SQUARE = ("row", "column")
+_ARRAYS = {
+    "stiffness": (_SQUARE, "N m-1", "reduced elastic stiffness"),
+    "geometric_stiffness": (_SQUARE, "N m-1 s2 rad-2", "reduced geometric stiffness per squared speed"),
+    "mass": (_SQUARE, "kg", "reduced mass"),
+    "spin_softening": (_SQUARE, "kg", "reduced spin softening per squared speed"),
+    "coriolis": (_SQUARE, "kg", f"reduced Coriolis matrix G per speed, skew-symmetric: {CORIOLIS_TERM}"),
+    "contact_chord": (("contact_node",), "1", "chord fraction of the contact nodes"),
+    "contact_tip_lengths": (("contact_node",), "m", "length of tip along the casing's meridian of each contact node"),
     "shape_products": (("shape", "column"), "kg1/2", "mass product with ideal shapes"),
-    "shape_norms": ("shape", "kg1/2", "mass norm of the ideal shapes"),
-    "rotation_stiffening": ("rotation_shape", "s2 rad-2", "relative stiffening of these shapes per squared speed"),
-    "singular_values": ("basis_column", "1", "singular values of the basis columns"),
+    "shape_norms": (("shape",), "kg1/2", "mass norm of the ideal shapes"),
+    "rotation_stiffening": (("rotation_shape",), "s2 rad-2", "relative stiffening of these shapes per squared speed"),
+    "singular_values": (("basis_column",), "1", "singular values of the basis columns"),
 }
 _OF_NODES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "nodes": ((), "1", "mesh node numbers"),
@@ -38,8 +37,8 @@ _ELEMENTS = "stress_elements_"
 
 def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
     """Write the model; terms that it lacks are absent from the file."""
-    matrices = {name: matrix for name in _MATRICES if (matrix := getattr(model, name)) is not None}
-    data: dict = {name: (("row", "column"), matrix, about(*_MATRICES[name])) for name, matrix in matrices.items()}
+    arrays = {name: array for name in _ARRAYS if (array := getattr(model, name)) is not None}
+    data: dict = {name: (_ARRAYS[name][0], array, about(*_ARRAYS[name][1:])) for name, array in arrays.items()}
     node_groups = {f"tip_{line}": nodes for line, nodes in model.tip_lines.items()}
     node_groups |= {"contact": model.contact_nodes, "stress": model.stress_submesh}
     if model.whole_blade is not None:
@@ -48,7 +47,6 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
         for part, (axes, units, text) in _OF_NODES.items():
             content = getattr(recovery, part), about(units, f"{text} ({group})")
             data[f"{group}_{part}"] = ((f"{group}_node", *axes), *content)
-    data |= {name: (dims, getattr(model, name), about(units, text)) for name, (dims, units, text) in _ARRAYS.items()}
     for name, elements in model.stress_elements.items():
         dims = (f"stress_{name}", f"node_of_{name}")
         data[_ELEMENTS + name] = (dims, elements, about("1", f"submesh elements of type {name}"))
@@ -70,10 +68,9 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
     dataset = read_dataset(file)
     with readable(file):
         elements = [name for name in map(str, dataset) if name.startswith(_ELEMENTS)]
-        matrices: dict[str, Any] = {name: dataset[name].values if name in dataset else None for name in _MATRICES}
+        arrays: dict[str, Any] = {name: dataset[name].values for name in _ARRAYS if name in dataset}
         return ReducedModel(
-            **matrices,
-            **{name: dataset[name].values for name in _ARRAYS},
+            **arrays,
             contact=str(dataset.attrs["contact"]),
             contact_nodes=_recovery(dataset, "contact"),
             tip_lines={line: _recovery(dataset, f"tip_{line}") for line in np.atleast_1d(dataset.tip_line_names)},

@@ -7,8 +7,7 @@ from r37core.base.io import JOB_LOG
 from r37core.base.plain import from_plain
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
-from r37core.machine_code.kept import content_digest
-from r37core.machine_code.user_cache import kept_for_user, numerics
+from r37core.machine_code.kept import content_digest, kept_for_user, numerics
 from r37core.mesh.mesh_files import read_vtu
 
 from .contact_model import write_contact_model

@@ -49,7 +49,7 @@ def propose_round(input: Any, output: Any, params: Any) -> str:
 def shape(input: Any, output: Any, params: Any) -> None:
     """Test whether a design can be built. Output: shape (json). Params: shape, edges, mesh, stress_submesh."""
     # gmsh takes a second to load, which rounds have no use for
-    from r37core.fem.mesh_quality import mesh_quality
+    from r37core.fem.mesh_quality import check_quality, mesh_quality
     from r37core.mesh.generate import generate_mesh
 
     refused, level = params.shape["refused"], params.mesh
@@ -57,7 +57,7 @@ def shape(input: Any, output: Any, params: Any) -> None:
         try:
             blade = from_plain(BladeDefinition, params.shape["definition"]).build(round_edges=params.edges == "round")
             mesh = generate_mesh(blade, level["nodes"], level["layers"], level["tip_elements"])
-            mesh_quality(mesh).check(level["minimum_scaled_jacobian"])
+            check_quality(mesh, mesh_quality(mesh), level["minimum_scaled_jacobian"])
             submesh = from_plain(StressSubmesh, params.stress_submesh)
             # elements next to contact nodes, which are known with the model, count here
             if not submesh.elements(mesh, np.empty(0, dtype=int)):

@@ -41,7 +41,7 @@ def write_mode_shapes(mesh: BladeMesh, model: ReducedModel, material: Material, 
     times = np.linspace(0.0, _MODE_SECONDS, _MODE_STEPS + 1)
     swing = np.sin(2.0 * np.pi * times / _MODE_SECONDS)[:, None]
     entries = []
-    for name, frequency, displacement in zip(modes.names, modes.frequencies, modes.displacement, strict=True):
+    for name, frequency, displacement in zip(*modes, strict=True):
         size = np.linalg.norm(displacement, axis=1)
         target = displacement[nodes] * (LARGEST_SHOWN * _height(mesh) / size.max())
         about = {

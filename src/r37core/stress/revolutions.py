@@ -45,3 +45,55 @@ def largest_of_revolutions(
         new = np.setdiff1d(worst_squares.argmax(axis=1), nodes)
         nodes = np.union1d(nodes, new)
     return np.sqrt(largest.reshape(-1, per_revolution).max(axis=1).astype(float))
+
+
+def stress_cycles(
+    stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray, per_revolution: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Alternating stress (Pa), shape (revolutions, nodes), and mean stress (Pa), shape (nodes,); arguments as above.
+
+    Alternating: largest von Mises stress of the tensor less its mean over time, in each revolution. With the mean it does not
+    depend on the axes, and is at least the radius of the smallest sphere about the path of the tensor: of a wave whose halves
+    differ it is more than half of the range. Mean: sum of the mean normal stresses, negative in compression. All nodes at all
+    instants, in single precision: stress is linear, so the mean is that of the states, and rotation changes it alone.
+    """
+    mean_state = states.mean(axis=0)
+    parts = stress.deviatoric[:, :, : len(shapes)] @ shapes.astype(np.float32)
+    vibration = (states - mean_state).astype(np.float32)
+
+    def largest_square(revolution: np.ndarray) -> np.ndarray:
+        return reduce(np.add, (np.square(revolution @ part.T) for part in parts)).max(axis=0)
+
+    revolutions = vibration.reshape(-1, per_revolution, vibration.shape[1])
+    alternating = np.sqrt(np.stack([largest_square(revolution) for revolution in revolutions]))
+    mean = stress.trace[:, : len(shapes) + len(rotation)] @ np.concatenate([shapes @ mean_state, rotation])
+    return alternating, mean.astype(np.float32)
+
+
+def largest_cycles(alternating: np.ndarray, mean: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pairs of stress_cycles that can be the largest by alternating/S_f + mean/S_u in a revolution, whatever the strengths.
+
+    Alternating and mean stress (Pa), shape (pairs,), revolution by revolution, and how many are of each, shape (revolutions,).
+    They are the corners of the upper right convex hull of all nodes' pairs, compression as a mean of 0.
+    """
+    order, revolutions = np.argsort(-mean, kind="stable"), len(alternating)
+    mean, alternating = np.maximum(mean[order], 0.0), alternating[:, order]
+    highest = np.maximum.accumulate(alternating, axis=1)
+    # only where it is above that of all nodes with a larger mean
+    revolution, node = np.nonzero(np.diff(highest, axis=1, prepend=-1.0) > 0.0)
+    mean, alternating = mean[node], alternating[revolution, node]
+    while not (kept := _corners(revolution, mean.astype(float), alternating.astype(float))).all():
+        revolution, mean, alternating = revolution[kept], mean[kept], alternating[kept]
+    return alternating, mean, np.bincount(revolution, minlength=revolutions).astype(np.int32)
+
+
+def _corners(revolution: np.ndarray, mean: np.ndarray, alternating: np.ndarray) -> np.ndarray:
+    """Mask of the pairs above the line between their neighbours, of ascending alternating stress, in the same revolution.
+
+    One on or below it is no corner, whatever becomes of its neighbours.
+    """
+    kept = np.ones(len(revolution), dtype=bool)
+    fall, rise = -np.diff(mean), np.diff(alternating)
+    inner = (revolution[2:] == revolution[1:-1]) & (revolution[1:-1] == revolution[:-2])
+    kept[1:-1] = ~inner | (rise[:-1] * fall[1:] > rise[1:] * fall[:-1])
+    return kept

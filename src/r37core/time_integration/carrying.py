@@ -17,7 +17,6 @@ from .step_limit import UnstableStepError
 _LARGEST_TURN = 3.0
 """Largest turn of a mode in a step (rad) with which its velocity follows from two displacements."""
 
-
 _KEPT = ("touched", "contact_force", "penetration", "bar_position")
 """Fields that a motion and a state have alike."""
 

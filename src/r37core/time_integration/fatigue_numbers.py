@@ -3,8 +3,8 @@
 import numpy as np
 
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.stress.cycles import StressCycles, largest_cycles, stress_cycles
 from r37core.stress.operator import StressOperator
+from r37core.stress.revolutions import largest_cycles, stress_cycles
 
 from .finished_run import FinishedRun
 from .problem import Problem
@@ -18,20 +18,17 @@ def fatigue_numbers(run: FinishedRun, stress: StressOperator, shown: int) -> dic
     blades, see LargestCycles. A diverged run has NaN and no pairs.
     """
     if run.first_diverged is not None:
-        nothing = np.full(stress.operator.shape[1], np.nan, dtype=np.float32)
-        cycles = StressCycles(np.empty((0, 0), dtype=np.float32), np.empty(0, dtype=np.float32))
-        node_numbers = {"alternating_stress": nothing, "mean_stress": nothing}
+        alternating_stress = mean_stress = np.full(stress.operator.shape[1], np.nan, dtype=np.float32)
+        alternating, mean = np.empty((0, 0), dtype=np.float32), np.empty(0, dtype=np.float32)
     else:
         blades = [_cycles(problem, part.snapshots, stress) for problem, part in zip(run.problems, run.records, strict=True)]
-        node_numbers = {"alternating_stress": blades[shown].alternating.max(axis=0), "mean_stress": blades[shown].mean}
-        alternating, mean = ([getattr(blade, name) for blade in blades] for name in ("alternating", "mean"))
-        cycles = StressCycles(np.concatenate(alternating, axis=1), np.concatenate(mean))
-    largest = largest_cycles(cycles)
-    pairs = {"cycle_alternating": largest.alternating, "cycle_mean": largest.mean, "cycle_counts": largest.counts}
-    return node_numbers | pairs
+        alternating_stress, mean_stress = blades[shown][0].max(axis=0), blades[shown][1]
+        alternating, mean = (np.concatenate(parts, axis=-1) for parts in zip(*blades, strict=True))
+    pairs = zip(("cycle_alternating", "cycle_mean", "cycle_counts"), largest_cycles(alternating, mean), strict=True)
+    return {"alternating_stress": alternating_stress, "mean_stress": mean_stress, **dict(pairs)}
 
 
-def _cycles(problem: Problem, snapshots: np.ndarray, stress: StressOperator) -> StressCycles:
+def _cycles(problem: Problem, snapshots: np.ndarray, stress: StressOperator) -> tuple[np.ndarray, np.ndarray]:
     """Stress of one blade in the revolutions of the statistic, the last of its snapshots."""
     choice, model = problem.choice, problem.model
     states = snapshots[-choice.revolutions_in_statistic * choice.snapshots_per_revolution :]

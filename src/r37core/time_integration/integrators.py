@@ -8,6 +8,8 @@ import numpy as np
 
 CENTRAL_DIFFERENCE, EXACT_MODAL = INTEGRATORS = ("central_difference", "exact_modal")
 
+Numbers = float | np.ndarray
+
 
 @dataclass(frozen=True)
 class Recursion:
@@ -60,7 +62,7 @@ def joined(first: Recursion, second: Recursion) -> Recursion:
     return Recursion(*(np.concatenate(part, axis=-1) for part in parts))
 
 
-def central_difference(frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray) -> Recursion:
+def central_difference(frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Recursion:
     """Central differences for modes of angular `frequencies` (rad/s), stable for steps (s) below 2/frequency.
 
     c = (1/h^2 + xi omega/h)^-1, b = c (xi omega/h - 1/h^2), a = c (2/h^2 - omega^2) = 1 - b - c omega^2: section 5 of the
@@ -75,7 +77,7 @@ def central_difference(frequencies: np.ndarray, damping_ratio: float | np.ndarra
     )
 
 
-def exact_modal(frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray) -> Recursion:
+def exact_modal(frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Recursion:
     """The free motion of underdamped modes (damping ratio below 1) without error, for any step (s).
 
     u(t) = e^(-xi omega t) (A cos omega_d t + B sin omega_d t) satisfies u_{n+1} = a u_n + b u_{n-1} with
@@ -90,9 +92,7 @@ def exact_modal(frequencies: np.ndarray, damping_ratio: float | np.ndarray, step
     return Recursion(keep=np.exp(-2.0 * decay), pull=pull, inverse=pull / frequencies**2, lost=-np.expm1(-2.0 * decay))
 
 
-def recursion(
-    integrator: str, frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray
-) -> Recursion:
+def recursion(integrator: str, frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Recursion:
     """The recursion of one of INTEGRATORS; of several with steps of shape (recursions, 1)."""
     stepping = {CENTRAL_DIFFERENCE: central_difference, EXACT_MODAL: exact_modal}
     return stepping[integrator](frequencies, damping_ratio, step)
@@ -114,9 +114,7 @@ class Increments:
         return (increment - self.displacement_factor[row] * displacement) / self.velocity_factor[row]
 
 
-def increments(
-    integrator: str, frequencies: np.ndarray, damping_ratio: float | np.ndarray, step: float | np.ndarray
-) -> Increments:
+def increments(integrator: str, frequencies: np.ndarray, damping_ratio: Numbers, step: Numbers) -> Increments:
     """Increments of the modes of a recursion.
 
     With exact_modal the closed form taken a step back; with central differences from v_n = (u_{n+1} - u_{n-1})/(2h) and the

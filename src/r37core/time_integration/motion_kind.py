@@ -171,7 +171,6 @@ def _recurrence(states: np.ndarray, size: float) -> tuple[float, int]:
 
 
 def _kind(exponent: float, error: float, recurrence: float, period: int) -> MotionKind:
-    """Kind of a motion in contact."""
     if recurrence < RECURS:
         return MotionKind.PERIODIC if period == 1 else MotionKind.MULTIPLE
     if exponent < -_ERRORS * error:

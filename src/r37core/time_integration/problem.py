@@ -11,8 +11,7 @@ from r37core.rom.contact_model import ContactModel
 
 from .casing_of_run import CasingOfRun
 from .clearance import check_ring, check_room
-from .contact_operators import ContactOperators
-from .edge_operators import EdgeOperators
+from .contact_operators import ContactOperators, EdgeOperators
 from .integration_choice import IntegrationChoice
 from .integrators import CENTRAL_DIFFERENCE
 from .step_checks import check_step

@@ -8,7 +8,6 @@ starts with its first sample after time 0, at rest, where the casing is still ro
 In an elastic casing that is not so: all blades move it at once. There all go step by step together, each at its angle.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -40,7 +39,10 @@ class RotorSimulation:
         if choice.until_settled:
             raise ValueError(f"until: settled in a scene with a rotor; allowed: {NO_ROTOR}")
         self.rotor = scene.rotor
-        self.blades = _beside_each_other(blade_problems(model, speed, scene, self.rotor, choice))
+        problems = blade_problems(model, speed, scene, self.rotor, choice)
+        # all with the capacity and the casing's tables of the problem of the most modes
+        largest = Simulation.build(max(problems, key=lambda problem: len(problem.blade.frequencies)))
+        self.blades = [Simulation.build(problem, beside=largest.engine) for problem in problems]
 
     @property
     def problem(self) -> Problem:
@@ -135,9 +137,3 @@ class RotorSimulation:
         for passage in passages:
             passage.end()
         return [passage.done for passage in passages], [passage.worn for passage in passages]
-
-
-def _beside_each_other(problems: Sequence[Problem]) -> list[Simulation]:
-    """Simulations, one for each problem, with the capacity and the casing's tables of that of the most modes."""
-    largest = Simulation.build(max(problems, key=lambda problem: len(problem.blade.frequencies)))
-    return [Simulation.build(problem, beside=largest.engine) for problem in problems]

@@ -14,7 +14,6 @@ from r37core.stress.operator import read_stress_operator
 
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
-from .problem import Problem
 from .speed_file import write_speed
 from .speed_run import run_speed, simulation_of
 
@@ -50,7 +49,7 @@ def prepare(input: Any, output: Any, params: Any) -> None:
     Params: scene, choice, speed. Raises InputFileError, and what Problem raises.
     """
     scene, choice = from_plain(Scene, params.scene), from_plain(IntegrationChoice, params.choice)
-    problem = prepared(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice)
+    problem = simulation_of(read_contact_model(as_list(input.models)[0]), params.speed, scene, choice).problem
     highest, step = problem.blade.frequencies[-1], problem.grid.time_step
     JOB_LOG.debug(f"{params.speed:g} rad/s: highest mode {highest:.6g} rad/s, steps of {step:.6g} s")
 
@@ -61,18 +60,12 @@ def make_ready(input: Any, params: Any) -> None:
     if (model, task) in _READY:
         return
     _READY.add((model, task))
-    prepared(*_given(model, params.job["speed"], json.loads(task)))
+    simulation_of(*_given(model, params.job["speed"], json.loads(task)))
     if stress:
         _ = _kept(read_stress_operator, *stress).deviatoric
 
 
-def prepared(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:
-    """The problem of a simulation, of a rotor's first blade, with its program compiled. Raises what Problem raises."""
-    return simulation_of(model, speed, scene, choice).problem
-
-
 def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:
-    """Model, speed, scene and choice of a simulation."""
     scene, choice = from_plain(Scene, wanted["scene"]), from_plain(IntegrationChoice, wanted["choice"])
     return _kept(read_contact_model, model), float(speed), scene, choice
 

@@ -8,23 +8,11 @@ from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperator
 
+from . import kept_numbers
 from .fatigue_numbers import fatigue_numbers
 from .finished_run import FinishedRun
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
-from .kept_numbers import (
-    KEPT,
-    casing_numbers,
-    energy_balance,
-    extended,
-    largest_of_each,
-    snapshot_numbers,
-    spectrum,
-    status_numbers,
-    stress_histories,
-    wear_numbers,
-    whole,
-)
 from .lining_at_tip import lining_at_tip
 from .motion_kind import kind_numbers
 from .rotor_simulation import RotorSimulation
@@ -69,9 +57,8 @@ def run_speed(
     simulation = simulation_of(model, speed, scene, choice)
     left_out = None if motion is None else motion.left_out(simulation.problem)
     run = simulation.run(motion)
-    numbers = numbers_of_run(
-        run, results, spectrum_highest_order=spectrum_highest_order, wear_angles=wear_angles, stress=stress
-    )
+    sizes = {"spectrum_highest_order": spectrum_highest_order, "wear_angles": wear_angles}
+    numbers = numbers_of_run(run, results, **sizes, stress=stress)
     if left_out is not None:
         numbers["initial_energy_left_out"] = np.array(left_out)
         if "energy" in results:
@@ -97,16 +84,15 @@ def numbers_of_run(
     """Numbers of a run that is done: see run_speed."""
     problem, scene, ended = run.problem, run.problem.scene, run.first_diverged
     choice, model = problem.choice, problem.model
+    edge_is_known = len(model.edge.theta) > len(model.theta)
     totals = np.array([state.totals for state in run.states])
     per_revolution, revolutions = choice.samples_per_revolution, run.ending.revolutions
     first = max(revolutions - choice.revolutions_in_statistic, 0)
-    samples = [
-        whole(part.samples.reshape(-1, len(TIP_POINTS), len(DIRECTIONS)), revolutions * per_revolution, part.diverged)
-        for part in run.records
-    ]
+    count, shape = revolutions * per_revolution, (-1, len(TIP_POINTS), len(DIRECTIONS))
+    samples = [kept_numbers.whole(part.samples.reshape(shape), count, part.diverged) for part in run.records]
     statistic = [part[first * per_revolution :] for part in samples]
-    maxima = [extended(largest_of_each(revolutions, part), choice.revolutions) for part in samples]
-    numbers = status_numbers(problem, None if ended is None else len(run.records[ended].samples) / per_revolution)
+    maxima = [kept_numbers.extended(kept_numbers.largest_of_each(revolutions, part), choice.revolutions) for part in samples]
+    numbers = kept_numbers.status_numbers(problem, None if ended is None else len(run.records[ended].samples) / per_revolution)
     numbers |= lining_at_tip(model, scene)
     numbers |= {
         "rms": np.max([np.sqrt(np.mean(part**2, axis=0)) for part in statistic], axis=0),
@@ -115,7 +101,7 @@ def numbers_of_run(
         "share_of_time_in_contact": np.array((totals["steps_in_contact"] / np.maximum(totals["steps"], 1.0)).max()),
         "largest_normal_force": np.array(totals["largest_force"].max()),
         # a tip line that is known at its contact nodes alone does not say it
-        "largest_penetration": np.array(totals["largest_penetration"].max() if model.edge_is_known else np.nan),
+        "largest_penetration": np.array(totals["largest_penetration"].max() if edge_is_known else np.nan),
         "casing_hits": np.array(totals["casing_hits"].sum()),
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
     }
@@ -124,23 +110,24 @@ def numbers_of_run(
         numbers["clearance"] = np.min([each.casing.clearance for each in run.problems], axis=0)
     if "spectrum" in results:
         leading = statistic[run.leader(statistic)]
-        numbers |= spectrum(leading[:, 0, KEPT].T, len(leading) // per_revolution, spectrum_highest_order)
+        motion = leading[:, 0, LEADING_EDGE].T
+        numbers |= kept_numbers.spectrum(motion, len(leading) // per_revolution, spectrum_highest_order)
     history = None
     if "stress" in results:
         if stress is not None:
-            history = stress_histories(run, stress, "static_stress" in results)
+            history = kept_numbers.stress_histories(run, stress, "static_stress" in results)
         numbers |= _stress(run, stress, history, results)
     if "wear" in results:
         assert scene.lining is not None
         wear = np.max([state.wear for state in run.states if state.wear is not None], axis=0)
         cut = np.max([each.casing.initial_wear for each in run.problems], axis=0)
-        numbers |= wear_numbers(wear, min(wear_angles, scene.lining.bars), scene.lining, cut)
+        numbers |= kept_numbers.wear_numbers(wear, min(wear_angles, scene.lining.bars), scene.lining, cut)
         numbers["wear_growth"] = np.array(run.ending.wear_growth)
     if "energy" in results:
-        numbers |= energy_balance(run.contact_work, float(totals["loss"].sum()), run.energy_change)
+        numbers |= kept_numbers.energy_balance(run.contact_work, float(totals["loss"].sum()), run.energy_change)
     if "casing" in results:
         # the record of any blade has it
-        numbers |= casing_numbers(problem, run.records[0], revolutions, spectrum_highest_order)
+        numbers |= kept_numbers.casing_numbers(problem, run.records[0], revolutions, spectrum_highest_order)
     if "motion_kind" in results:
         numbers |= kind_numbers(problem, run.states[0], diverged=ended is not None)
     return numbers | run.numbers_of_each(samples, history)
@@ -175,7 +162,7 @@ def _stress(
     if history is not None and run.first_diverged is None:
         shown = int(np.nan_to_num(history[:, -1]).argmax())
     # a blade that another one ends may have no snapshots: of a diverged run they are of the one that diverged
-    numbers = snapshot_numbers(run.problems[shown], run.records[shown], stress, "static_stress" in results)
+    numbers = kept_numbers.snapshot_numbers(run.problems[shown], run.records[shown], stress, "static_stress" in results)
     if stress is None or history is None:
         return numbers
     if "fatigue" in results:

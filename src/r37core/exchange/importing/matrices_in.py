@@ -94,17 +94,15 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
         if choice.boundary.contact != POINTS:
             # other coordinates for the same motions
             constraint, _ = constraint_and_fixed_modes(matrices.stiffness, matrices.mass, boundary, 0, matrices.solve_at_rest)
-            vectors = combine_columns(constraint, vectors, matrices.mass, boundary, 0.0).vectors
+            vectors, _ = combine_columns(constraint, vectors, matrices.mass, boundary, 0.0)
         tolerance, singular = 0.0, np.ones(rows)
     else:
-        basis, _ = multi_speed_basis(
-            lambda speed: sp.csr_array(matrices.stiffness + speed**2 * matrices.per_square),
-            matrices.mass,
-            boundary,
-            choice,
-            matrices.solve_at_rest,
-        )
-        vectors, tolerance, singular = basis.vectors, choice.basis_tolerance, basis.singular_values
+
+        def stiffness_at(speed: float) -> sp.csr_array:
+            return sp.csr_array(matrices.stiffness + speed**2 * matrices.per_square)
+
+        tolerance, solve = choice.basis_tolerance, matrices.solve_at_rest
+        vectors, singular, _ = multi_speed_basis(stiffness_at, matrices.mass, boundary, choice, solve)
     mass, stiffness = projected(matrices.mass, vectors), projected(matrices.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(matrices)
@@ -115,8 +113,6 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
         stiffness=stiffness,
         geometric_stiffness=projected(matrices.per_square, vectors),
         mass=mass,
-        spin_softening=None,
-        coriolis=None,
         contact=choice.boundary.contact,
         contact_nodes=contact_nodes(weights, nodes, chord, line),
         contact_chord=weights @ chord,
@@ -125,7 +121,6 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
         stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
         stress_elements={},
         stress_region="none",
-        whole_blade=None,
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ (matrices.mass @ vectors) for shape in shapes.values()]),
         shape_norms=np.array([np.sqrt(shape @ (matrices.mass @ shape)) for shape in shapes.values()]),
@@ -137,7 +132,6 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
 
 
 def _contact_weights(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice) -> sp.csr_array:
-    """Weights of the table's nodes in the contact nodes' displacements."""
     if choice.contact == POINTS:
         return sp.csr_array(sp.eye_array(len(points)))
     if choice.contact == AREA_PATCHES:
@@ -156,7 +150,6 @@ def _tip_lengths(matrices: _InputMatrices, chord: np.ndarray, choice: BoundaryCh
 
 
 def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:
-    """ImportRefused for a mass or stiffness at rest that is not positive."""
     lowest = np.linalg.eigvalsh(mass)[0]
     if not lowest > 0.0:
         raise ImportRefused(f"the mass is not positive (lowest eigenvalue {lowest:.3g} kg); leave no massless rows")
@@ -201,7 +194,6 @@ def _read(files: Mapping[str, Path], source: MatricesSource, fastest: float) -> 
 
 
 def _speed(name: str, file: Path) -> float:
-    """The speed (rad/s) of a stiffness by its name."""
     try:
         speed = float(name.removeprefix("K_"))
     except ValueError:

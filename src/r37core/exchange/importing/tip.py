@@ -16,7 +16,6 @@ _STEPS = np.linspace(0.0, 1.0, 201)  # fractions of the edges at which they are 
 _DOWNSTREAM = 0.02  # of the chord: how far the trailing edge lies downstream at least
 _OVERRIDE = "sense_check: false takes the blade as it is"
 
-
 TipLines = dict[str, tuple[np.ndarray, np.ndarray]]
 """Name of a node set along the tip -> nodes from leading to trailing edge, fraction of the line's length of each."""
 

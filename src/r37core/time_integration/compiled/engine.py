@@ -1,10 +1,9 @@
 """The compiled engine: runs of laid-out problems by their program. Light: simulation jobs never import numba."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Callable, Sequence
 from functools import cache
+from typing import Self
 
 import numpy as np
 
@@ -33,9 +32,7 @@ SOURCES = Sources(
 class CompiledEngine(LaidOutProblem):
     """The time integration of one problem, compiled for what its scene has; `before`, `beside`: see LaidOutProblem."""
 
-    def __init__(
-        self, problem: Problem, segments: Segments, before: CompiledEngine | None = None, beside: CompiledEngine | None = None
-    ):
+    def __init__(self, problem: Problem, segments: Segments, before: Self | None = None, beside: Self | None = None):
         super().__init__(problem, segments, before, beside)
         self._advance = _program(self.capacity, self.kind)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -36,9 +36,7 @@ class LaidOutProblem:
     _corners: dict[tuple[str, tuple[int, ...]], np.ndarray]
     _tables: _CasingTables
 
-    def __init__(
-        self, problem: Problem, segments: Segments, before: LaidOutProblem | None = None, beside: LaidOutProblem | None = None
-    ):
+    def __init__(self, problem: Problem, segments: Segments, before: Self | None = None, beside: Self | None = None):
         self.problem = problem
         _, self._nodes, self._modes = problem.contact.displacement_operator.shape
         blade, pairs = len(problem.blade.frequencies), len(problem.scene.casing.ring)
@@ -89,7 +87,6 @@ class LaidOutProblem:
         m["call"]["speed_index"] = speed_index
 
     def _take_room(self, before: LaidOutProblem | None) -> None:
-        """Make the record, or take that of the one before."""
         sizes = (self.capacity, self.kind, self._nodes, self._modes, self.mode_lanes)
         if before is not None and sizes == (before.capacity, before.kind, before._nodes, before._modes, before.mode_lanes):
             self.record, self._corners = before.record, before._corners

@@ -44,7 +44,6 @@ NORMAL, TANGENTIAL, MERIDIONAL = range(3)
 FEWEST_MODES, FEWEST_NODES = 96, 8
 """Smallest capacity. A program takes seconds to make, and a step costs what is used of its record, not its room."""
 
-
 OF_MODES, OF_NODES = range(2)
 """Places of the numbers of vectors in the record."""
 
@@ -71,7 +70,7 @@ def capacity_of(modes: int, nodes: int) -> Capacity:
     return Capacity(most_modes, most_nodes)
 
 
-def _fields(names: str, *shape: int, kind: type = np.float64) -> list[Field]:
+def _fields(names: str, *shape: int, kind: type | np.dtype = np.float64) -> list[Field]:
     return [(name, kind, shape) for name in names.split()]
 
 
@@ -86,34 +85,30 @@ def complementarity_record(nodes: int) -> np.dtype:
     """The record of a complementarity problem of `nodes` nodes, whole vectors of them; see contact.complementarity."""
     groups = padded(nodes) // padded(1)
     return aligned_record(
-        [
-            *_fields("gap multiplier answer short diagonal", nodes),
-            *_fields("left", nodes + 1, nodes),
-            *_fields("matrix", nodes, nodes + 1),
-            *_fields("listed", nodes, kind=np.int64),
-            *_fields("touching wrong among", groups, kind=np.int64),
-            *_fields("lanes", kind=np.int64),  # that the nodes fill
-        ]
+        _fields("gap multiplier answer short diagonal", nodes),
+        _fields("left", nodes + 1, nodes),
+        _fields("matrix", nodes, nodes + 1),
+        _fields("listed", nodes, kind=np.int64),
+        _fields("touching wrong among", groups, kind=np.int64),
+        _fields("lanes", kind=np.int64),  # that the nodes fill
     )
 
 
 def contact_record(nodes: int) -> np.dtype:
     """The record of the contact problem at t_n of `nodes` nodes, whole vectors of them; see contact.node_sweeps."""
     return aligned_record(
-        [
-            # gaps (m) without forces and with those found, and these (N); what the last sweep changed (m)
-            *_fields("gap opened pressure change", nodes),
-            # the laws of the listed nodes: own flexibility (m/N) and one over it; pressed area (m2) and wear (m) of the bar;
-            # lines of the bar's law in series with the node
-            *_fields("own stiffness area wear elastic offset plastic", nodes),
-            # opening of the last node's gap per force on the one before (m/N)
-            *_fields("columns", nodes, nodes),
-            # numbers of the listed nodes; the bar of each node
-            *_fields("listed bar", nodes, kind=np.int64),
-            *_fields("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
-            *_fields("settles_at_once", kind=np.int64),  # whether a sweep gives all nodes their forces at once
-            *_fields("lanes", kind=np.int64),  # that the nodes fill
-        ]
+        # gaps (m) without forces and with those found, and these (N); what the last sweep changed (m)
+        _fields("gap opened pressure change", nodes),
+        # the laws of the listed nodes: own flexibility (m/N) and one over it; pressed area (m2) and wear (m) of the bar;
+        # lines of the bar's law in series with the node
+        _fields("own stiffness area wear elastic offset plastic", nodes),
+        # opening of the last node's gap per force on the one before (m/N)
+        _fields("columns", nodes, nodes),
+        # numbers of the listed nodes; the bar of each node
+        _fields("listed bar", nodes, kind=np.int64),
+        _fields("found", padded(nodes) // padded(1), kind=np.int64),  # set of the listed nodes
+        _fields("settles_at_once", kind=np.int64),  # whether a sweep gives all nodes their forces at once
+        _fields("lanes", kind=np.int64),  # that the nodes fill
     )
 
 
@@ -135,56 +130,48 @@ MODAL_ROWS = len(_MODAL_CONSTANTS.split()) + STRIDES * _NUMBERS_OF_A_JUMP
 def constants_record(modes: int, nodes: int) -> np.dtype:
     """Record of what changes with the speed while its modes are held, of whole vectors of modes and nodes."""
     return aligned_record(
-        [
-            *_fields(_MODAL_CONSTANTS, modes),
-            *_fields("jumps", STRIDES, _NUMBERS_OF_A_JUMP, modes),
-            # normal displacement of the last node per force in the three directions on the one before
-            *_fields("coupling", 3, nodes, nodes),
-            *_fields("clearance", nodes),  # of the round casing (m)
-            *_fields("slow_modes", STRIDES, kind=np.int64),
-        ]
+        _fields(_MODAL_CONSTANTS, modes),
+        _fields("jumps", STRIDES, _NUMBERS_OF_A_JUMP, modes),
+        # normal displacement of the last node per force in the three directions on the one before
+        _fields("coupling", 3, nodes, nodes),
+        _fields("clearance", nodes),  # of the round casing (m)
+        _fields("slow_modes", STRIDES, kind=np.int64),
     )
 
 
 def _flight_record(modes: int, nodes: int) -> np.dtype:
     """Record of jumps: amplitudes of the modes, and how far these get beyond in one; how far they bring the nodes; strides."""
     return aligned_record(
-        [
-            *_fields("amplitude beyond", modes),
-            *_fields("reach", STRIDES, nodes),
-            *_fields("across towards", nodes),
-            *_fields("decay", STRIDES),
-            *_fields("lengths reach_known", STRIDES, kind=np.int64),
-        ]
+        _fields("amplitude beyond", modes),
+        _fields("reach", STRIDES, nodes),
+        _fields("across towards", nodes),
+        _fields("decay", STRIDES),
+        _fields("lengths reach_known", STRIDES, kind=np.int64),
     )
 
 
 EDGE = aligned_record(
-    [
-        *_fields("position shape meridional", LANES),  # of eight nodes
-        # groups of eight nodes: the few, and these with all of them; columns of a row of a group
-        *_fields("few groups width", kind=np.int64),
-        # distance of a contact node to the casing behind a lining below which the edge is looked at
-        *_fields("near"),
-        # addresses: displacement per mode, shape (directions, groups, width, 8), and per force, (groups, 3 contact nodes, 8);
-        # clearance, radius and angle of the nodes; the casing's shape at two turns of steps, the step of each node's angle, and
-        # the shares of the four values round it
-        *_fields("rows flexibility clearance radius theta table steps shares", kind=np.int64),
-    ]
+    _fields("position shape meridional", LANES),  # of eight nodes
+    # groups of eight nodes: the few, and these with all of them; columns of a row of a group
+    _fields("few groups width", kind=np.int64),
+    # distance of a contact node to the casing behind a lining below which the edge is looked at
+    _fields("near"),
+    # addresses: displacement per mode, shape (directions, groups, width, 8), and per force, (groups, 3 contact nodes, 8);
+    # clearance, radius and angle of the nodes; the casing's shape at two turns of steps, the step of each node's angle, and
+    # the shares of the four values round it
+    _fields("rows flexibility clearance radius theta table steps shares", kind=np.int64),
 )
 """The tip's edge: see edge_steps. Without groups it is not looked at."""
 
 CALL = aligned_record(
-    [
-        # where it begins, how many blocks of steps it asks for, and the speed it is at
-        *_fields("first_step blocks speed_index", kind=np.int64),
-        # how many steps the time is ahead of their number
-        *_fields("ahead"),
-        # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each interval
-        *_fields("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
-        # constants of all speeds; speed and blocks of each segment; motion at its ends, and largest wear by then
-        *_fields("constants speed_indices lasting ends worn", kind=np.int64),
-    ]
+    # where it begins, how many blocks of steps it asks for, and the speed it is at
+    _fields("first_step blocks speed_index", kind=np.int64),
+    # how many steps the time is ahead of their number
+    _fields("ahead"),
+    # addresses of arrays whose sizes are known only then: f(theta) at every step, and the largest of each interval
+    _fields("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
+    # constants of all speeds; speed and blocks of each segment; motion at its ends, and largest wear by then
+    _fields("constants speed_indices lasting ends worn", kind=np.int64),
 )
 """Arguments of a call of the program."""
 
@@ -195,55 +182,53 @@ def integration_record(capacity: Capacity) -> np.dtype:
     modes, nodes = capacity
     groups = nodes // padded(1)
     return aligned_record(
-        [
-            ("speed", constants_record(modes, nodes), ()),
-            # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; with Coriolis the increment of the last one,
-            # had there been no force
-            *_fields("u increment last_increment last_second_difference", modes),
-            *_fields("push increment_push", modes),  # forces on the modes and, with Coriolis, on their increments
-            # displacement of the nodes per mode, and the size of it per amplitude that turns
-            *_fields("displacement_operator size_operator", 3, nodes, modes),
-            *_fields("outputs", 1, modes, modes),
-            *_fields("sample", modes),
-            # with Coriolis the same per increment
-            *_fields("increment_operator", 3, nodes, modes),
-            *_fields("increment_outputs", 1, modes, modes),
-            *_fields("friction_share", 2, nodes),  # tangential and meridional force per normal force
-            # with central differences: opening of the last node's gap per unit multiplier of the one before, with friction
-            *_fields("response", nodes, nodes),
-            *_fields("force", nodes),
-            *_fields("friction_force", 2, nodes),
-            # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
-            # at a sample, and the static modes' part of it; the contact problem
-            *_fields("flexibility", 3, nodes, nodes),
-            *_fields("static_force", 3 * nodes),
-            *_fields("force_outputs", 1, modes, 3 * nodes),
-            ("contact", contact_record(nodes), ()),
-            *_fields("rotation", nodes),  # signed sliding in a step by the rotation (m)
-            # angle at step 0, in bars; surface (m2) of the casing under a bar; penetration (m) and, with the
-            # exact gap, angle in bars at t_n
-            *_fields("bar_position bar_surface penetration last_position", nodes),
-            *_fields("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
-            ("problem", complementarity_record(nodes), ()),
-            *_fields("beyond touched", groups, kind=np.int64),
-            # by how much pairs of the casing's modes turn in a jump and, in the last row, in a step
-            *_fields("turn_cosine turn_sine", STRIDES + 1, modes // 2),
-            ("flight", _flight_record(modes, nodes), ()),
-            ("lining", LINING, ()),
-            ("casing", CASING, ()),
-            ("edge", EDGE, ()),
-            ("totals", TOTALS, ()),
-            # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
-            *_fields("block_work block_loss", LANES),
-            *_fields("follows", kind=np.int64),
-            *_fields("worn largest_wear"),  # off the lining by this blade (m3); of all bars (m)
-            *_fields("limit friction"),
-            # how much of the record is used: vectors of modes and of nodes; numbers
-            *_fields("vectors", 2, kind=np.int64),
-            *_fields("pairs number_of_outputs nodes", kind=np.int64),
-            # whether it jumps, and the direction of friction follows the sliding
-            *_fields("jumping follows_sliding", kind=np.int64),
-            *_fields("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),
-            ("call", CALL, ()),
-        ]
+        _fields("speed", kind=constants_record(modes, nodes)),
+        # displacement u_n; its increments u_n - u_{n-1} and u_{n-1} - u_{n-2}; with Coriolis the increment of the last one,
+        # had there been no force
+        _fields("u increment last_increment last_second_difference", modes),
+        _fields("push increment_push", modes),  # forces on the modes and, with Coriolis, on their increments
+        # displacement of the nodes per mode, and the size of it per amplitude that turns
+        _fields("displacement_operator size_operator", 3, nodes, modes),
+        _fields("outputs", 1, modes, modes),
+        _fields("sample", modes),
+        # with Coriolis the same per increment
+        _fields("increment_operator", 3, nodes, modes),
+        _fields("increment_outputs", 1, modes, modes),
+        _fields("friction_share", 2, nodes),  # tangential and meridional force per normal force
+        # with central differences: opening of the last node's gap per unit multiplier of the one before, with friction
+        _fields("response", nodes, nodes),
+        _fields("force", nodes),
+        _fields("friction_force", 2, nodes),
+        # of forces at t_n: normal displacement of the last node by the static modes per force on the one before; all forces
+        # at a sample, and the static modes' part of it; the contact problem
+        _fields("flexibility", 3, nodes, nodes),
+        _fields("static_force", 3 * nodes),
+        _fields("force_outputs", 1, modes, 3 * nodes),
+        _fields("contact", kind=contact_record(nodes)),
+        _fields("rotation", nodes),  # signed sliding in a step by the rotation (m)
+        # angle at step 0, in bars; surface (m2) of the casing under a bar; penetration (m) and, with the
+        # exact gap, angle in bars at t_n
+        _fields("bar_position bar_surface penetration last_position", nodes),
+        _fields("radius theta shift", nodes),  # m; angle at step 0 and what vibration adds to it (rad)
+        _fields("problem", kind=complementarity_record(nodes)),
+        _fields("beyond touched", groups, kind=np.int64),
+        # by how much pairs of the casing's modes turn in a jump and, in the last row, in a step
+        _fields("turn_cosine turn_sine", STRIDES + 1, modes // 2),
+        _fields("flight", kind=_flight_record(modes, nodes)),
+        _fields("lining", kind=LINING),
+        _fields("casing", kind=CASING),
+        _fields("edge", kind=EDGE),
+        _fields("totals", kind=TOTALS),
+        # of a blade beside others: work, doubled, and energy lost in a block, and whether there are forces at t_n
+        _fields("block_work block_loss", LANES),
+        _fields("follows", kind=np.int64),
+        _fields("worn largest_wear"),  # off the lining by this blade (m3); of all bars (m)
+        _fields("limit friction"),
+        # how much of the record is used: vectors of modes and of nodes; numbers
+        _fields("vectors", 2, kind=np.int64),
+        _fields("pairs number_of_outputs nodes", kind=np.int64),
+        # whether it jumps, and the direction of friction follows the sliding
+        _fields("jumping follows_sliding", kind=np.int64),
+        _fields("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),
+        _fields("call", kind=CALL),
     )

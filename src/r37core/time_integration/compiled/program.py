@@ -83,7 +83,6 @@ def _measure(addresses, blades, place, lobes):
 
 @inlined
 def _begin_block(addresses, blades):
-    """Set work and loss of the block to zero."""
     for b in range(blades):
         m = pointed_at(addresses[b])
         store(m.block_work, 0, 0.0)
@@ -104,7 +103,6 @@ def _choose_jump(addresses, blades, interval, first_stride, left, remaining):
 
 @inlined
 def _jump(addresses, blades, stride):
-    """Let all blades do the steps of a jump."""
     for b in range(blades):
         m = pointed_at(addresses[b])
         store(m.block_loss, 0, jump_ahead(m, stride, load(m.block_loss, 0)))
@@ -129,7 +127,6 @@ def _fly(addresses, blades):
 
 @inlined
 def _first_of_casing(m):
-    """The first lane of the casing's modes."""
     return mode_lanes(m) - 2 * m.pairs
 
 

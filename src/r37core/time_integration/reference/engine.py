@@ -6,10 +6,8 @@ squared. Forces at t_n, and the static modes with them: time_integration.compile
 in the frame that does not turn.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -35,9 +33,7 @@ class ReferenceEngine:
     worn = 0.0
     """Wear (m3) of the lining by the blade."""
 
-    def __init__(
-        self, problem: Problem, segments: Segments, before: ReferenceEngine | None = None, beside: ReferenceEngine | None = None
-    ):
+    def __init__(self, problem: Problem, segments: Segments, before: Self | None = None, beside: Self | None = None):
         self.problem, self._segments = problem, segments
         self._blade_rows = problem.contact.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
         self._edge_rows = problem.edge.motion.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
