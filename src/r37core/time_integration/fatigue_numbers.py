@@ -15,7 +15,7 @@ def fatigue_numbers(run: FinishedRun, stress: StressOperator, shown: int) -> dic
 
     `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, the former the largest of
     all revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), and `cycle_counts`, shape (revolutions,): those of all
-    blades, see LargestCycles. A diverged run has NaN and no pairs.
+    blades, see largest_cycles. A diverged run has NaN and no pairs.
     """
     if run.first_diverged is not None:
         alternating_stress = mean_stress = np.full(stress.operator.shape[1], np.nan, dtype=np.float32)

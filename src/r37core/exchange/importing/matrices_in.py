@@ -72,7 +72,7 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
     With contact on points the contact nodes are those of the table; patches, as many as `choice` says, are made of them.
     Raises ImportRefused for files that do not fit together, matrices that are not symmetric, and a stiffness that is not
     linear in the squared speed; BoundaryError for patches that the table has too few nodes for. Spin softening must be in the
-    stiffness already; a Coriolis matrix, as r37core.exchange.exporting writes one, is not read.
+    stiffness already; a Coriolis matrix is not read.
     """
     with blamed("matrices"):
         files = matrix_files(source.folder, Path(folder))

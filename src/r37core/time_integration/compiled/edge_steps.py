@@ -1,4 +1,4 @@
-"""The largest penetration of the tip's edge in a step with contact forces, compiled: see time_integration.edge_operators.
+"""The largest penetration of the tip's edge in a step with contact forces, compiled: see time_integration.contact_operators.
 
 The edge has some hundred nodes, as many times eight as the contact nodes. A few of them are looked at in each such step, and
 all where these come near the largest penetration so far. Nodes are lanes.
