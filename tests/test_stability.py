@@ -54,7 +54,7 @@ def test_extremes_that_are_chosen(root):
     assert cases["lobes_1__direct"].model.nodes == 5000
     # another blade is run: there is nothing to make
     settings = read_settings(root, command_line_document({"blades": ["L50"], "stability": {"blade": "Ref"}}))
-    assert filled(plan.targets(Sweep(settings))) == [] and plan.cases(settings) == {}
+    assert filled(plan.EXTENSION.all_targets(Sweep(settings))) == [] and plan.cases(settings) == {}
 
 
 @pytest.fixture

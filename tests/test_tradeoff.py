@@ -158,7 +158,7 @@ def test_blades_of_ones_own_alone(config_copy):
 
 def test_a_blade_that_is_not_run_asks_for_nothing(root):
     settings = read_settings(root, command_line_document({"blades": ["L50"], "tradeoff": {"blade": "Ref"}}))
-    assert filled(plan.targets(Sweep(settings))) == [] and plan.left_out(settings) == ""
+    assert filled(plan.EXTENSION.all_targets(Sweep(settings))) == [] and plan.left_out(settings) == ""
 
 
 @pytest.mark.slow

@@ -75,7 +75,6 @@ EXTENSION = Extension(
         Figure(
             rule="estimate_figure",
             name="estimate",
-            runs=lambda _: [{}],
             draw="estimate.figures.draw_estimate",
             files={"table": TABLE},
             label="cost of the sweep",

@@ -1,8 +1,10 @@
 """An extension: what one capability adds to the pipeline, as plain data. `r37core.product.extensions` names all of them."""
 
 import re
+from collections import ChainMap
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -31,28 +33,37 @@ class Panel:
     program: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Figure:
-    """Figure of an extension, from which its rule, its targets and its entry in the report follow.
+    """Figure, from which its rule, its targets and its entry in the report follow.
 
     `rule`: name of its rule; `name`: of its files, with wildcards in braces; `runs`: these wildcards.
     `draw`: function, as `folder.module.function`, that takes what the `files` hold and `arguments`, which may be functions of
     wildcards; of title, blade, scene and family those that it names.
+    `files`: a pattern each, or a function of the plan and the wildcards, which gives an empty list for none.
     `label`: name in the report; `caption`: what is seen, with names (blade, scene, family) in braces.
     `category`: in the report; without one its blade, or all of them.
-    `offered`: file of another extension that it takes, too (product.targets.offered).
+    `offered`: file of an extension that it takes, too (product.targets.offered).
     """
 
     rule: str
     name: str
-    runs: Callable[[Sweep], Wildcards]
+    runs: Callable[[Sweep], Wildcards] = lambda _: [{}]
     draw: str
-    files: Mapping[str, str]
+    files: Mapping[str, str | Callable[[Sweep, Any], str | list[str]]]
     label: str
     caption: str
     category: str = ""
     arguments: Callable[[Sweep], Mapping[str, Any]] = lambda _: {}
-    offered: Literal["verdict", ""] = ""
+    offered: Literal["motions", "verdict", ""] = ""
+
+    def targets(self, sweep: Sweep) -> dict[str, Wildcards]:
+        """Its files, as PNG and PDF."""
+        return pictures(self.name, self.runs(sweep))
+
+    def inputs(self, sweep: Sweep) -> dict[str, Any]:
+        """Inputs of its rule."""
+        return {name: partial(file, sweep) if callable(file) else file for name, file in self.files.items()}
 
     def constraints(self, sweep: Sweep) -> dict[str, str]:
         """Patterns of the wildcards that are neither blade nor scene."""
@@ -102,5 +113,5 @@ class Extension:
 
     def all_targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """All that a run makes of it."""
-        figures = {file: runs for each in self.figures for file, runs in pictures(each.name, each.runs(sweep)).items()}
-        return {**self.simulated(sweep), **self.targets(sweep), **figures}
+        figures = [figure.targets(sweep) for figure in self.figures]
+        return dict(ChainMap(*figures, self.targets(sweep), self.simulated(sweep)))

@@ -26,9 +26,6 @@ KINDS = ("rms", "spectrum", "stress", "fatigue", "wear", "casing")
 MOST_DRAWN = 6
 """Designs of families of scenes in one figure of responses."""
 
-MAPS = ("spectrum", "wear", "casing")
-"""Kinds that are drawn as maps over speed."""
-
 
 @dataclass(frozen=True)
 class Sweep:
@@ -260,15 +257,3 @@ class Datasets:
     def casings(self) -> dict[str, Any]:
         """The casing of each scene with a flexible one, as plain values."""
         return {name: to_plain(casing) for name, casing in elastic_casings(self.sweep.settings).items()}
-
-    def response_pictured(self, wildcards: Any) -> dict[str, str]:
-        """Datasets that a blade's response is drawn from."""
-        return _drawn(includes_stress=any(blade == wildcards.blade for blade, _ in self.sweep.runs_with("stress")))
-
-    def compared(self, wildcards: Any) -> dict[str, str]:
-        """Datasets that the blades of a scene are compared by."""
-        return _drawn(includes_stress=any(scene == wildcards.scene for _, scene in self.sweep.runs_with("stress")))
-
-
-def _drawn(includes_stress: bool) -> dict[str, str]:
-    return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if includes_stress else []))}

@@ -4,9 +4,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from r37core.config.remarks import elastic_casings
+from r37core.figures.declared import FIGURES
 from r37core.plans.extension import Panel
-from r37core.plans.paths import Wildcards, filled, of, pictures, run_keys
-from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
+from r37core.plans.paths import Wildcards, filled
+from r37core.plans.sweep_plan import KINDS, Sweep
 
 from .extensions import EXTENSIONS
 
@@ -36,24 +37,11 @@ def simulated(sweep: Sweep) -> list[str]:
 
 
 def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
-    settings = sweep.settings
-    growing = [name for name in sweep.drawn_scenes if settings.scenes[name].scene.casing.changes_with_speed]
-    ranked: Wildcards = [{}] if "stress" in sweep.kinds else []
-    figures = {
-        "campbell_{blade}": of("blade", settings.blades),
-        "response_{blade}": of("blade", settings.blades),
-        **{f"{kind}_{{blade}}__{{scene}}": run_keys(sweep.drawn_runs(kind)) for kind in MAPS},
-        "fatigue_{blade}__{scene}": run_keys(sweep.drawn_runs("fatigue")),
-        "waterfall_{blade}__{scene}": run_keys(sweep.drawn_runs("spectrum")),
-        "comparison_{scene}": of("scene", sweep.drawn_scenes),
-        "ranking": ranked,
-        "clearance_{scene}": of("scene", growing),
-    }
     targets: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
     targets["<results>/ranking.csv"] = [{}]
-    targets["<results>/coincidences.csv"] = [{}] if elastic_casings(settings) else []
-    for name, wildcards in figures.items():
-        targets |= pictures(name, wildcards)
+    targets["<results>/coincidences.csv"] = [{}] if elastic_casings(sweep.settings) else []
+    for figure in FIGURES:
+        targets |= figure.targets(sweep)
     return targets
 
 
