@@ -1,7 +1,5 @@
 """The plan of families of designs: what is compared, what is drawn, and where it lies."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -14,7 +12,6 @@ from r37core.config import Settings
 from r37core.config.families import Family
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure, Panel
-from r37core.plans.sweep_plan import Sweep
 
 from .compared import BOTH, Compared
 
@@ -98,17 +95,8 @@ class Families:
         return maps
 
     def compared(self, wildcards: Any) -> dict[str, Any]:
-        """Designs that one figure compares, as plain values."""
-        return to_plain(self.figures[wildcards.family])
-
-    def mapped(self, wildcards: Any) -> dict[str, Any]:
-        """Designs that one map compares, as plain values."""
-        return to_plain(self.maps[wildcards.family])
-
-
-def tables_of_maps(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The table of designs, in a run with a map of them."""
-    return {TABLE: [{}] if sweep.settings.made(Families).maps else []}
+        """Designs that one figure or map compares, as plain values."""
+        return to_plain((self.figures | self.maps)[wildcards.family])
 
 
 def families_have_shapes(settings: Settings) -> None:
@@ -157,10 +145,15 @@ EXTENSION = Extension(
             caption="Family {family} over two numbers that vary. Colour: length of the speeds above yield in most "
             "revolutions, in the operating range where there is one. Lines: where a requirement is just met.",
             category="Families",
-            arguments=lambda sweep: {"compared": sweep.settings.made(Families).mapped},
+            arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
             offered="verdict",
         ),
     ),
     closing="designs.table.closing",
-    panel=Panel(tables_of_maps, "designs.panel.contents", "designs/panel.js"),
+    panel=Panel(
+        TABLE,
+        "designs.panel.contents",
+        "designs/panel.js",
+        shown=lambda sweep: bool(sweep.settings.made(Families).maps),
+    ),
 )

@@ -81,6 +81,6 @@ EXTENSION = Extension(
             caption="Core hours of the whole sweep, projected from a sample of its runs, by what they are spent on.",
         ),
     ),
-    closing="estimate.projection.closing",
+    closing="estimate.steps.closing",
     made_on_request=True,
 )

@@ -3,7 +3,7 @@
 import re
 from collections import ChainMap
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal
@@ -23,14 +23,15 @@ Targets = Callable[[Sweep], dict[str, Wildcards]]
 class Panel:
     """Panel of an extension in the explorer of a run that has its dataset.
 
-    `dataset`: that one file, a dataset or a table, none in a run without it.
+    `dataset`: that one file among the targets, a dataset or a table; `shown`: whether a run that makes it has the panel.
     `contents`: function of what it holds, as `folder.module.function`, that gives what JSON can carry.
     `program`: file of this package that draws it (`explorer/panels.js`).
     """
 
-    dataset: Targets
+    dataset: str
     contents: str
     program: str
+    shown: Callable[[Sweep], bool] = lambda _: True
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,9 +84,9 @@ class Extension:
     the folder of the results.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
     `targets`: what is made of them; part of all_blades unless `made_on_request`.
-    `motions`: a dataset of more motions at a speed than that from rest (results/other_motions.py), none in a run without it; it
-    stands in summary, ranking and the figures of the response.
-    `verdict`: a table of requirements and whether blades meet them, none in a run without it; maps of designs show it.
+    `offers`: files among the targets that other rules take where a run makes them. `motions`: a dataset of more motions at a
+    speed than that from rest (results/other_motions.py), for summary, ranking and the figures of the response; `verdict`: a
+    table of requirements and whether blades meet them, for maps of designs.
     `remarks`: what a run should say of it before it starts.
     `figures`: what is drawn of them, made with the targets.
     `panel`: what the explorer shows of it.
@@ -102,8 +103,7 @@ class Extension:
     later: Callable[[Settings, Path], Callable[[str], Mapping[Pair, Sample]]] | None = None
     simulated: Targets = lambda _: {}
     targets: Targets = lambda _: {}
-    motions: Targets = lambda _: {}
-    verdict: Targets = lambda _: {}
+    offers: Mapping[Literal["motions", "verdict"], str] = field(default_factory=dict)
     remarks: Callable[[Settings], list[str]] = lambda _: []
     figures: tuple[Figure, ...] = ()
     panel: Panel | None = None

@@ -57,6 +57,12 @@ class Sweep:
         """The stress of a blade per motion, for a scene whose stress is wanted."""
         return [self._model_file(wildcards, paths.STRESS_OPERATOR)] if "stress" in self.results(wildcards) else []
 
+    def run_inputs(self, wildcards: Any) -> dict[str, str]:
+        """Files that further runs of a blade and scene start from: prepared, model, and stress where it is wanted."""
+        stamp = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
+        operator = dict(zip(["stress"], self.stress_operator(wildcards), strict=False))
+        return {"prepared": stamp, "model": self.contact_model(wildcards), **operator}
+
     def reduced_model(self, wildcards: Any) -> str:
         """The reduced model of a blade, with the contact nodes of a scene."""
         return self._model_file(wildcards, paths.REDUCED_MODEL)

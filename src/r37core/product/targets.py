@@ -50,13 +50,14 @@ _PACKAGE = Path(__file__).parent.parent
 
 def offered(what: Literal["motions", "verdict"], sweep: Sweep) -> dict[str, str]:
     """File that an extension offers to other rules, `motions` or `verdict`, as the input of that name; none without one."""
-    files = [file for extension in EXTENSIONS for file in filled(getattr(extension, what)(sweep))]
+    offering = ((extension, extension.offers[what]) for extension in EXTENSIONS if what in extension.offers)
+    files = [file for extension, file in offering if extension.targets(sweep)[file]]
     return {what: files[0]} if files else {}
 
 
 def panel_files(sweep: Sweep) -> dict[str, str]:
     """Extension -> the dataset that its panels show; those of extensions that have one in this run."""
-    return {name: file for name, panel in _panels(sweep).items() for file in filled(panel.dataset(sweep))}
+    return {name: panel.dataset for name, panel in _panels(sweep).items()}
 
 
 def panel_modules(sweep: Sweep) -> list[str]:
@@ -75,5 +76,5 @@ def panel_parameters(sweep: Sweep) -> dict[str, Any]:
 
 def _panels(sweep: Sweep) -> dict[str, Panel]:
     """Extension -> its panel, of those that have one in this run."""
-    panels = {extension.name: extension.panel for extension in EXTENSIONS if extension.panel}
-    return {name: panel for name, panel in panels.items() if filled(panel.dataset(sweep))}
+    panels = ((extension, extension.panel) for extension in EXTENSIONS if extension.panel)
+    return {each.name: panel for each, panel in panels if each.targets(sweep)[panel.dataset] and panel.shown(sweep)}

@@ -152,6 +152,6 @@ EXTENSION = Extension(
             "run. Unsound: a wrong number that no status reports.",
         ),
     ),
-    closing="stability.judging.closing",
+    closing="stability.steps.closing",
     made_on_request=True,
 )
