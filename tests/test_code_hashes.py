@@ -164,12 +164,7 @@ def rules(root):
     settings = read_settings(root)
     structure, made, sweep = Structure(settings), Provenance(settings), Sweep(settings)
     shared = {**structure_stages(structure, made), **sweep_stages(sweep, made), "run_up": RunUps(sweep).stage(made)}
-    motions = SecondMotions(sweep)
-    shared |= {
-        "second_motion_sweep": motions.sweep_stage(made),
-        "second_motion_dwells": motions.dwell_stage(made),
-        "second_motion_branches": motions.branch_stage(made),
-    }
+    shared |= SecondMotions(sweep).stages(made)
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]

@@ -19,9 +19,7 @@ from r37core.product.extensions import beside, sampling_of
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
     offered,
-    panel_files,
-    panel_modules,
-    panel_parameters,
+    panels,
     simulated,
     tables,
     targets,

@@ -2,6 +2,7 @@
 from r37core.second_motions import plan as motions_plan
 
 second_motions = motions_plan.SecondMotions(sweep)
+stages |= second_motions.stages(made)
 
 
 use rule step as second_motion_sweep with:
@@ -15,7 +16,7 @@ use rule step as second_motion_sweep with:
     wildcard_constraints:
         motion="up|down|rest",
     params:
-        **stage(second_motions.sweep_stage(made)),
+        **stage(stages["second_motion_sweep"]),
 
 
 use rule step as second_motion_dwells with:
@@ -26,7 +27,7 @@ use rule step as second_motion_dwells with:
     log:
         "<logs>/{blade}/{scene}/second_motions_dwells.log",
     params:
-        **stage(second_motions.dwell_stage(made)),
+        **stage(stages["second_motion_dwells"]),
 
 
 use rule step as second_motion_branches with:
@@ -37,7 +38,7 @@ use rule step as second_motion_branches with:
     log:
         "<logs>/{blade}/{scene}/second_motions_orbits.log",
     params:
-        **stage(second_motions.branch_stage(made)),
+        **stage(stages["second_motion_branches"]),
 
 
 use rule step as second_motions_dataset with:

@@ -1,7 +1,6 @@
 """Files that the rule all_blades makes where the configuration asks for it, and what extensions add to it and the explorer."""
 
-from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from r37core.config.remarks import elastic_casings
 from r37core.figures.declared import FIGURES
@@ -45,9 +44,6 @@ def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
     return targets
 
 
-_PACKAGE = Path(__file__).parent.parent
-
-
 def offered(what: Literal["motions", "verdict"], sweep: Sweep) -> dict[str, str]:
     """File that an extension offers to other rules, `motions` or `verdict`, as the input of that name; none without one."""
     offering = ((extension, extension.offers[what]) for extension in EXTENSIONS if what in extension.offers)
@@ -55,26 +51,7 @@ def offered(what: Literal["motions", "verdict"], sweep: Sweep) -> dict[str, str]
     return {what: files[0]} if files else {}
 
 
-def panel_files(sweep: Sweep) -> dict[str, str]:
-    """Extension -> the dataset that its panels show; those of extensions that have one in this run."""
-    return {name: panel.dataset for name, panel in _panels(sweep).items()}
-
-
-def panel_modules(sweep: Sweep) -> list[str]:
-    """Modules of the functions that make the panels' contents, which the explorer's step imports by name."""
-    return [panel.contents.rpartition(".")[0] for panel in _panels(sweep).values()]
-
-
-def panel_parameters(sweep: Sweep) -> dict[str, Any]:
-    """Parameters of the explorer's step: functions and programs of the panels."""
-    panels = _panels(sweep)
-    return {
-        "panels": {name: f"r37core.{panel.contents}" for name, panel in panels.items()},
-        "programs": [str(_PACKAGE / panel.program) for panel in panels.values()],
-    }
-
-
-def _panels(sweep: Sweep) -> dict[str, Panel]:
+def panels(sweep: Sweep) -> dict[str, Panel]:
     """Extension -> its panel, of those that have one in this run."""
-    panels = ((extension, extension.panel) for extension in EXTENSIONS if extension.panel)
-    return {each.name: panel for each, panel in panels if each.targets(sweep)[panel.dataset] and panel.shown(sweep)}
+    declared = ((extension, extension.panel) for extension in EXTENSIONS if extension.panel)
+    return {each.name: panel for each, panel in declared if each.targets(sweep)[panel.dataset] and panel.shown(sweep)}

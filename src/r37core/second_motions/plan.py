@@ -60,40 +60,33 @@ class SecondMotions:
         states = [paths.fill(STATES, blade=wildcards.blade, scene=wildcards.scene, motion=motion) for motion in MOTIONS]
         return {"model": self.sweep.contact_model(wildcards), "states": states}
 
-    def sweep_stage(self, made: Provenance) -> Stage:
-        """Stage of a sweep."""
-        return Stage(
-            "second_motions.steps.carry",
-            {
-                **self._common(made),
-                "motion": lambda wildcards: wildcards.motion,
-                "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in KEPT],
-                "kept": self.sweep.kept,
-                "yield_stress": self.sweep.yield_stress,
-            },
-        )
-
-    def dwell_stage(self, made: Provenance) -> Stage:
-        """Stage of the dwells of a blade and scene."""
-        return Stage("second_motions.steps.dwell", {**self._common(made), "dwell": to_plain(self._section.dwells())})
-
-    def branch_stage(self, made: Provenance) -> Stage:
-        """Stage of the branches of a blade and scene."""
-        return Stage("second_motions.steps.follow", {**self._common(made), "branches": to_plain(self._section.followed())})
+    def stages(self, made: Provenance) -> dict[str, Stage]:
+        """Stage of each rule of a blade and scene."""
+        section = self._section
+        common = {
+            "scene": Simulations(self.sweep).plain_scene,
+            # of a run from rest: those of the pipeline
+            "choice": lambda of: to_plain(self.sweep.settings.integration_choice(of.blade, of.scene, 0.0)),
+            # without any speed where there are none, as the rules are there all the same
+            "sweep": to_plain(section.sweep()) if section.asked else None,
+            "provenance": made.sweep,
+        }
+        carried = {
+            "motion": lambda wildcards: wildcards.motion,
+            "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in KEPT],
+            "kept": self.sweep.kept,
+            "yield_stress": self.sweep.yield_stress,
+        }
+        dwell, branches = {"dwell": to_plain(section.dwells())}, {"branches": to_plain(section.followed())}
+        return {
+            "second_motion_sweep": Stage("second_motions.steps.carry", common | carried),
+            "second_motion_dwells": Stage("second_motions.steps.dwell", common | dwell),
+            "second_motion_branches": Stage("second_motions.steps.follow", common | branches),
+        }
 
     @property
     def _section(self) -> SecondMotionSection:
         return self.sweep.settings.section(SECTION)
-
-    def _common(self, made: Provenance) -> dict[str, Any]:
-        return {
-            "scene": Simulations(self.sweep).plain_scene,
-            # of a run from rest: those of the pipeline
-            "choice": lambda of: to_plain(self.sweep.settings.integration_choice(of.blade, of.scene, 0.0)),
-            # without any speed where there are none, as the rule is there all the same
-            "sweep": to_plain(self._section.sweep()) if self._section.asked else None,
-            "provenance": made.sweep,
-        }
 
 
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
