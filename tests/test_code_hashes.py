@@ -175,7 +175,8 @@ def rules(root):
         if steps:
             found[rule] = ("step", f"r37core.{steps[0]}")
     drawn = {figure.rule: f"r37core.{figure.draw.rpartition('.')[0]}" for figure in FIGURES}
-    return found | {rule: ("step", "r37core.figures.steps.draw", module) for rule, module in drawn.items()}
+    found |= {rule: ("step", "r37core.figures.steps.draw", module) for rule, module in drawn.items()}
+    return found | {"case": ("step", "r37core.cases.steps.run")}
 
 
 def test_every_rule_of_a_step_names_one_that_is_there(rules):

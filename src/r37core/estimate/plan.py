@@ -70,6 +70,7 @@ def values(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> d
 EXTENSION = Extension(
     name="estimate",
     section=SECTION,
+    cases=cases,
     targets=lambda _: {TABLE: [{}]},
     figures=(
         Figure(

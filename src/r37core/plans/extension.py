@@ -83,6 +83,7 @@ class Extension:
     `later`: of samples that are named while a run goes on, by the part of their folder below one of the extension's name; takes
     the folder of the results.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
+    `cases`: runs of one blade beside the sweep (r37core.cases), by name.
     `targets`: what is made of them; part of all_blades unless `made_on_request`.
     `offers`: files among the targets that other rules take where a run makes them. `motions`: a dataset of more motions at a
     speed than that from rest (results/other_motions.py), for summary, ranking and the figures of the response; `verdict`: a
@@ -102,6 +103,7 @@ class Extension:
     sampling: Sampling | None = None
     later: Callable[[Settings, Path], Callable[[str], Mapping[Pair, Sample]]] | None = None
     simulated: Targets = lambda _: {}
+    cases: Callable[[Settings], Mapping[str, Any]] | None = None
     targets: Targets = lambda _: {}
     offers: Mapping[Literal["motions", "verdict"], str] = field(default_factory=dict)
     remarks: Callable[[Settings], list[str]] = lambda _: []

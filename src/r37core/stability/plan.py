@@ -138,6 +138,7 @@ EXTENSION = Extension(
     name="stability",
     section=SECTION,
     checks=(can_be_run,),
+    cases=cases,
     targets=lambda sweep: {TABLE: _once(sweep)},
     figures=(
         Figure(

@@ -165,6 +165,7 @@ EXTENSION = Extension(
     name="tradeoff",
     section=SECTION,
     checks=(can_be_run,),
+    cases=cases,
     targets=lambda sweep: dict.fromkeys((DATASET, TABLE, LEVELS, GROWTH), _once(sweep)),
     figures=(
         Figure(
