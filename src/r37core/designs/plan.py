@@ -122,19 +122,7 @@ EXTENSION = Extension(
     checks=(families_have_shapes, families_differ_in_name),
     targets=lambda sweep: {TABLE: [{}] if sweep.settings.made(Families).figures else []},
     figures=(
-        Figure(
-            rule="design_figure",
-            name="designs_{family}",
-            runs=lambda sweep: paths.of("family", sweep.settings.made(Families).figures),
-            draw="designs.figures.draw_designs",
-            files={"table": TABLE},
-            label="{family}",
-            caption="Family {family}: what each design is and how robust, over what varies. Of blades frequencies and largest "
-            "loss of clearance as the tip swings along free modes; where interactions lie, speeds above yield in most and in "
-            "some revolutions, largest stress.",
-            category="Families",
-            arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
-        ),
+        # a run that has a map names it first
         Figure(
             rule="design_map",
             name="map_{family}",
@@ -147,6 +135,19 @@ EXTENSION = Extension(
             category="Families",
             arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
             offered="verdict",
+        ),
+        Figure(
+            rule="design_figure",
+            name="designs_{family}",
+            runs=lambda sweep: paths.of("family", sweep.settings.made(Families).figures),
+            draw="designs.figures.draw_designs",
+            files={"table": TABLE},
+            label="{family}",
+            caption="Family {family}: what each design is and how robust, over what varies. Of blades frequencies and largest "
+            "loss of clearance as the tip swings along free modes; where interactions lie, speeds above yield in most and in "
+            "some revolutions, largest stress.",
+            category="Families",
+            arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
         ),
     ),
     closing="designs.table.closing",

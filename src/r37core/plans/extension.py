@@ -1,7 +1,6 @@
 """An extension: what one capability adds to the pipeline, as plain data. `r37core.product.extensions` names all of them."""
 
 import re
-from collections import ChainMap
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -115,5 +114,7 @@ class Extension:
 
     def all_targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """All that a run makes of it."""
-        figures = [figure.targets(sweep) for figure in self.figures]
-        return dict(ChainMap(*figures, self.targets(sweep), self.simulated(sweep)))
+        targets = {**self.simulated(sweep), **self.targets(sweep)}
+        for figure in self.figures:
+            targets |= figure.targets(sweep)
+        return targets
