@@ -25,7 +25,7 @@ _DIRECTIONS = ((0.35, -1.0, -0.25), (0.35, 1.0, 0.25))
 
 
 def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str) -> Figure:
-    """As draw_fatigue, with the nodes of the reduced model in the file `rom`."""
+    """Draw as draw_fatigue does, with the nodes of the reduced model in the file `rom`."""
     return draw_fatigue(mesh, read_reduced_model(rom).stress_submesh.nodes, response, title)
 
 

@@ -58,11 +58,11 @@ class Figure:
     offered: Literal["motions", "verdict", ""] = ""
 
     def targets(self, sweep: Sweep) -> dict[str, Wildcards]:
-        """Its files, as PNG and PDF."""
+        """Files of the figure, as PNG and PDF."""
         return pictures(self.name, self.runs(sweep))
 
     def inputs(self, sweep: Sweep) -> dict[str, Any]:
-        """Inputs of its rule."""
+        """Inputs of the rule of the figure."""
         return {name: partial(file, sweep) if callable(file) else file for name, file in self.files.items()}
 
     def constraints(self, sweep: Sweep) -> dict[str, str]:
