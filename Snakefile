@@ -44,5 +44,4 @@ rule all_blades:
         rules.configuration.output,
         rules.summary.output,
         rules.explorer.output,
-        rules.response_overview.output,
         paths.filled(targets(sweep)),

@@ -19,7 +19,7 @@ from r37core.plans.stages import structure_stages, sweep_stages
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
-from r37core.product.reporting import drawing
+from r37core.product.reporting import FIGURES, drawing
 from r37core.run_ups.plan import RunUps
 from r37core.second_motions.plan import SecondMotions
 
@@ -164,25 +164,19 @@ def rules(root):
     settings = read_settings(root)
     structure, made, sweep = Structure(settings), Provenance(settings), Sweep(settings)
     shared = {**structure_stages(structure, made), **sweep_stages(sweep, made), "run_up": RunUps(sweep).stage(made)}
-    motions = SecondMotions(sweep)
-    shared |= {
-        "second_motion_sweep": motions.sweep_stage(made),
-        "second_motion_dwells": motions.dwell_stage(made),
-        "second_motion_branches": motions.branch_stage(made),
-    }
+    shared |= SecondMotions(sweep).stages(made)
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]
         steps = re.findall(r'\*\*step\("([\w.]+)"(?:\)|, \*)', block)
         steps += [shared[rule].step] if "**stage(" in block else []
-        drawn = re.findall(r'drawing\(\s*"([\w.]+)\.\w+"', block)
-        needed = re.match(r"use rule (step|figure) as|(?:(?!\nfor )[\s\S])*scripts/step\.py", block) is not None
-        assert len(steps) + len(drawn) == (needed and rule not in ("step", "figure")), rule
-        if drawn:
-            found[rule] = ("step", "r37core.figures.steps.draw", f"r37core.{drawn[0]}")
-        elif steps:
+        needed = re.match(r"use rule step as|(?:(?!\nfor )[\s\S])*scripts/step\.py", block) is not None
+        assert len(steps) == (needed and rule != "step"), rule
+        if steps:
             found[rule] = ("step", f"r37core.{steps[0]}")
-    return found
+    drawn = {figure.rule: f"r37core.{figure.draw.rpartition('.')[0]}" for figure in FIGURES}
+    found |= {rule: ("step", "r37core.figures.steps.draw", module) for rule, module in drawn.items()}
+    return found | {"case": ("step", "r37core.cases.steps.run")}
 
 
 def test_every_rule_of_a_step_names_one_that_is_there(rules):
@@ -195,9 +189,9 @@ def test_every_rule_of_a_step_names_one_that_is_there(rules):
 def test_a_figure_s_parameters_have_the_code_of_its_module(root):
     code = CodeHashes(root / "src", root / "workflow/scripts")
     step = "r37core.figures.steps.draw"
-    assert (
-        drawing(code, None, "figures.maps.draw_map")["code"] == code("step", step, "r37core.figures.maps") != code("step", step)
-    )
+    (wear,) = (figure for figure in FIGURES if figure.rule == "wear_figure")
+    made = drawing(code, None, wear, Sweep(read_settings(root)))
+    assert made["code"] == code("step", step, "r37core.figures.maps") != code("step", step)
     names = {file.name for file in code.closure("step", step, "r37core.figures.maps")}
     assert "maps.py" in names
     assert not {"waterfall.py", "comparison.py", "response_curves.py", "blade_shapes.py"} & names

@@ -6,7 +6,7 @@ import pytest
 from r37.command import main
 from r37core.config import command_line_document, read_document
 from r37core.estimate import plan
-from r37core.estimate.projection import closing, projected_costs
+from r37core.estimate.steps import closing, projected_costs
 from r37core.plans.extent import extent_of, extents
 from r37core.product.extensions import beside
 from r37core.product.reading import read_settings

@@ -17,10 +17,11 @@ from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.orientation import OURS
 from r37core.exports.plan import Exports
 from r37core.exports.plan import targets as exported_targets
+from r37core.figures.declared import FIGURES
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
 from r37core.plans.structure_plan import Imported, Structure
-from r37core.plans.sweep_plan import Datasets, Simulations, Sweep
+from r37core.plans.sweep_plan import Simulations, Sweep
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.signals.plan import Signals
@@ -222,7 +223,9 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     assert sweep.runs_with("stress") == [(blade, scene) for blade in ("Ref", "Fan") for scene in ("abradable", "direct")]
     assert "stress" not in sweep.results(given)
     assert '"snapshots_per_revolution": 0' in Simulations(sweep).task(given)
-    assert set(Datasets(sweep).response_pictured(given)) == {"campbell", "rms"}
+    response = next(figure for figure in FIGURES if figure.rule == "response_figure")
+    stress = response.inputs(sweep)["stress"]
+    assert stress({"blade": "Given"}) == [] and stress({"blade": "Fan"}) == "<results>/stress.nc"
     monkeypatch.chdir(tmp_path / "config")
     assert all(file.startswith("/") for file in imported.files(fan))
 

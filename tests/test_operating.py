@@ -10,9 +10,8 @@ from r37core.base.units import RPM
 from r37core.config.config_file import OperatingSection
 from r37core.figures import style
 from r37core.results.columns import OPERATING, ROBUSTNESS, names
-from r37core.results.operating import operating_measures
 from r37core.results.operating_range import OperatingDwell, OperatingRange
-from r37core.results.ranking import ranking_table
+from r37core.results.ranking import operating_measures, ranking_table
 
 
 def response(speeds, shares, lined=1.0):

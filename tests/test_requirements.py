@@ -10,9 +10,9 @@ from r37core.base.io import write_json
 from r37core.config import ConfigError, command_line_document
 from r37core.fem.assembly import mesh_volume
 from r37core.product.reading import read_settings
-from r37core.requirements.checks import remarks
 from r37core.requirements.choice import CampbellMargin, Requirements
-from r37core.requirements.judging import FAILS, MEETS, UNKNOWN, Evidence, Numbers, judge
+from r37core.requirements.judging import FAILS, MEETS, UNKNOWN, Evidence, judge
+from r37core.requirements.plan import remarks
 from r37core.requirements.table import closing, operating_table, overall, reason, verdict_table
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.results.table_file import write_table
@@ -166,7 +166,7 @@ def judged():
     datasets["campbell"] = campbell().expand_dims(blade=["Ref"])
     pairs = [("Ref", "above"), ("Ref", "below")]
     needs = Requirements(above_yield=0.0, mass=0.1)
-    return verdict_table(pairs, needs, FLOWN, datasets, Numbers(mass={"Ref": 0.05})), datasets, pairs
+    return verdict_table(pairs, needs, FLOWN, datasets, {"mass": {"Ref": 0.05}}), datasets, pairs
 
 
 def test_the_verdict_of_a_run(judged, tmp_path):

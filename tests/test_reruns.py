@@ -16,8 +16,8 @@ pytestmark = pytest.mark.slow
 SPEEDS = ("750", "1150", "1550")
 
 # what follows any change of a simulation
-DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview", "map_figure"}
-DATASETS |= {"waterfall_figure", "comparison_figure", "ranking", "ranking_figure"}
+DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview"}
+DATASETS |= {"spectrum_figure", "wear_figure", "waterfall_figure", "comparison_figure", "ranking", "ranking_figure"}
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "reduced_model", "campbell_of_blade", "campbell_figure"}
 OF_ALL_BLADES = {"campbell_of_all", "campbell_overview", "blade_shapes_figure"}
 

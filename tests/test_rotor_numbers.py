@@ -21,7 +21,7 @@ from r37core.results.table_file import read_table
 from r37core.rotors.dataset import RUNS, rotor_dataset, rotor_table
 from r37core.rotors.figures import draw_rotor
 from r37core.rotors.panel import MOST_SPANS, rotor_contents
-from r37core.rotors.plan import joined_dataset, remarks, rotor_runs, targets
+from r37core.rotors.plan import EXTENSION, remarks, rotor_runs
 from r37core.rotors.steps import join, rotor_of_run
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.kept_numbers import KEPT as KEPT_DIRECTIONS
@@ -375,14 +375,13 @@ def test_a_rotor_has_a_dataset_a_table_and_figures_where_there_is_one(root):
     chosen = {"blades": ["Ref", "S100"], "scenes": ["abradable", "direct"], "fidelity": "draft"}
     sweep = Sweep(load_settings(chosen, root))
     assert not rotor_runs(sweep) and remarks(sweep.settings) == []
-    assert not any(targets(sweep).values()) and not any(joined_dataset(sweep).values())
+    assert not any(EXTENSION.all_targets(sweep).values())
     above = command_line_document({"abradable": {"rotor": {"blades": 5, "missing": [2]}, "results": ["stress"]}})
     sweep = Sweep(load_settings(chosen, root, scenes_above=above))
     assert rotor_runs(sweep) == [("Ref", "abradable"), ("S100", "abradable")]
-    assert joined_dataset(sweep) == {"<results>/rotor.nc": [{}]}
     figures = {
         f"<results>/figures/rotor_{{blade}}__{{scene}}.{suffix}": paths.run_keys(rotor_runs(sweep)) for suffix in ("png", "pdf")
     }
-    assert targets(sweep) == {"<results>/rotor.nc": [{}], "<results>/rotors.csv": [{}]} | figures
+    assert EXTENSION.all_targets(sweep) == {"<results>/rotor.nc": [{}], "<results>/rotors.csv": [{}]} | figures
     (remark,) = remarks(sweep.settings)
     assert remark.startswith("scene 'abradable': 4 blades on one lining cost as many times a single one")

@@ -15,7 +15,7 @@ from r37core.config import ConfigError, command_line_document
 from r37core.designs.compared import Compared
 from r37core.designs.maps import draw_design_map
 from r37core.designs.panel import contents
-from r37core.designs.plan import Families, targets
+from r37core.designs.plan import EXTENSION, Families
 from r37core.designs.table import compared_in
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
@@ -129,7 +129,7 @@ def test_what_is_compared_and_drawn(with_scenes, config_copy):
     assert families.figures["Room"].blades == ("Sweep_50", "Sweep_100", "Ref")
     assert list(families.maps) == ["Room", "Sweep__Lobes"]
     assert families.maps["Sweep__Lobes"].keys == ("sweep_percent", "scene.casing.lobes")
-    files = targets(Sweep(settings))
+    files = EXTENSION.all_targets(Sweep(settings))
     assert [names["family"] for names in files["<results>/figures/map_{family}.png"]] == ["Room", "Sweep__Lobes"]
 
 

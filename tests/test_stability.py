@@ -21,10 +21,9 @@ from r37core.config import command_line_document
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
-from r37core.stability import judging, plan
+from r37core.stability import plan, steps
 from r37core.stability.figures import COLOURS, draw_stability
-from r37core.stability.judging import OUTCOMES, judge
-from r37core.stability.steps import words
+from r37core.stability.steps import OUTCOMES, judge, words
 
 
 def test_every_extreme_has_a_name_of_its_own_and_says_what_the_configuration_refuses(settings):
@@ -54,7 +53,7 @@ def test_extremes_that_are_chosen(root):
     assert cases["lobes_1__direct"].model.nodes == 5000
     # another blade is run: there is nothing to make
     settings = read_settings(root, command_line_document({"blades": ["L50"], "stability": {"blade": "Ref"}}))
-    assert filled(plan.targets(Sweep(settings))) == [] and plan.cases(settings) == {}
+    assert filled(plan.EXTENSION.all_targets(Sweep(settings))) == [] and plan.cases(settings) == {}
 
 
 @pytest.fixture
@@ -65,7 +64,7 @@ def judged(contact, tmp_path):
         for name, each in (("case", case), ("half", replace(case, half_step=True))):
             run_case(each, contact, None, tmp_path / f"{name}.nc")
         responses = {name: read_dataset(tmp_path / f"{name}.nc") for name in ("case", "half")}
-        rows = case_table(responses, judging.numbers).to_dict("index")
+        rows = case_table(responses, steps.numbers).to_dict("index")
         outcome, detail = judge(rows["case"], rows["half"])
         return {**rows["case"], "outcome": outcome, "detail": detail}
 
@@ -86,7 +85,7 @@ def test_judging_a_case(judged):
 
 
 def test_a_silent_wrong_number_is_no_accurate_run(judged, monkeypatch):
-    monkeypatch.setattr(judging, "ENERGY_WITHIN", 1e-30)
+    monkeypatch.setattr(steps, "ENERGY_WITHIN", 1e-30)
     outcome = judged(case_of(IntegrationChoice(2e-7, 4, 62)))
     assert outcome["outcome"] == "unsound" and outcome["detail"].startswith("energy balance open by ")
 

@@ -24,10 +24,9 @@ from r37core.product.reading import read_settings
 from r37core.tradeoff import plan
 from r37core.tradeoff.errors import QUANTITIES, gather_cases
 from r37core.tradeoff.figures import draw_growth, draw_parameter, draw_tradeoff
-from r37core.tradeoff.growth import exponent_of, growth_table
 from r37core.tradeoff.plan import CHANGES
 from r37core.tradeoff.section import Parameters
-from r37core.tradeoff.tables import level_table, parameter_table
+from r37core.tradeoff.tables import exponent_of, growth_table, level_table, parameter_table
 
 PLACES = {"peak": [1, 2, 3], "jump": [4], "off_resonance": [0]}
 
@@ -158,7 +157,7 @@ def test_blades_of_ones_own_alone(config_copy):
 
 def test_a_blade_that_is_not_run_asks_for_nothing(root):
     settings = read_settings(root, command_line_document({"blades": ["L50"], "tradeoff": {"blade": "Ref"}}))
-    assert filled(plan.targets(Sweep(settings))) == [] and plan.left_out(settings) == ""
+    assert filled(plan.EXTENSION.all_targets(Sweep(settings))) == [] and plan.left_out(settings) == ""
 
 
 @pytest.mark.slow

@@ -24,7 +24,6 @@ from r37core.base.dataset_file import read_dataset
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError
 from r37core.product.reading import read_settings
-from r37core.product.reporting import caption
 from r37core.time_integration.speed_file import read_speed
 
 pytestmark = pytest.mark.slow
@@ -240,7 +239,7 @@ def test_only_what_a_scene_requires(project, structure_copy):
     assert with_stress == {"abradable": False, "direct": True}
     counts = Counter(job.rule for job in jobs)
     assert counts["simulate"] == counts["prepare_time_integration"] == 2
-    assert "map_figure" not in counts
+    assert not {"spectrum_figure", "wear_figure"} & set(counts)
     assert {job.outputs[0] for job in jobs if job.rule == "sweep_dataset"} == {"results/rms.nc", "results/stress.nc"}
     campbell = planned(project, "campbell")
     assert not {"simulate", "prepare_time_integration", "contact_model", "response"} & set(campbell)
@@ -345,7 +344,7 @@ def test_report_opens_offline(sweep_copy, tmp_path):
         page.get_by_text("CS100", exact=True).first.click()
         page.get_by_text("abradable", exact=True).first.click()
         page.locator("a[iconname=information-circle]").first.click()
-        page.get_by_text(caption("spectrum", blade="CS100", scene="abradable")[:60]).first.wait_for()
+        page.get_by_text("Spectral map of blade CS100 in scene abradable: amplitude of").first.wait_for()
         page.goto(page_file.as_uri())
         page.get_by_text("Configuration", exact=True).first.click()
         page.locator("a[iconname=information-circle]").first.click()
@@ -391,9 +390,9 @@ def test_names_that_begin_alike_keep_their_files_apart(project):
     scenes = load_yaml(project / "config/scenes.yaml")
     (project / "config/scenes.yaml").write_text(yaml.safe_dump({"b_c": scenes["abradable"], "c": scenes["abradable"]}))
     jobs = plan(project, "all_blades", "--config", "blades=[A,A_b]", "scenes=[b_c,c]", "speeds=[900,1e3]")
-    maps = [job for job in jobs if job.rule == "map_figure" and job.wildcards["kind"] == "spectrum"]
+    maps = [job for job in jobs if job.rule == "spectrum_figure"]
     assert {job.outputs[0]: job.wildcards for job in maps} == {
-        f"results/figures/spectrum_{blade}__{scene}.png": {"kind": "spectrum", "blade": blade, "scene": scene}
+        f"results/figures/spectrum_{blade}__{scene}.png": {"blade": blade, "scene": scene}
         for blade in ("A", "A_b")
         for scene in ("b_c", "c")
     }

@@ -14,10 +14,16 @@ from r37core.plans.code import CodeHashes, EngineNumbers
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage, structure_stages, sweep_stages
 from r37core.plans.structure_plan import Imported, Structure
-from r37core.plans.sweep_plan import MAPS, Datasets, Rounds, Simulations, Sweep
+from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep
 from r37core.product.extensions import beside, sampling_of
-from r37core.product.reporting import EVERY_SCENE, TOGETHER, captioned, drawing as drawing_of
-from r37core.product.targets import offered, panel_files, panel_modules, panel_parameters, simulated, tables, targets
+from r37core.product.reporting import EVERY_SCENE, TOGETHER, drawing as drawing_of
+from r37core.product.targets import (
+    offered,
+    panels,
+    simulated,
+    tables,
+    targets,
+)
 
 ROOT = Path(workflow.current_basedir).parent.parent
 ENVIRONMENT = ROOT / "envs" / "r37.yaml"

@@ -85,14 +85,15 @@ use rule step as coincidences with:
         casings=joined.casings,
 
 
-shown_by_extensions = panel_parameters(sweep)
+shown_panels = panels(sweep)
+programs = [str(PACKAGE / panel.program) for panel in shown_panels.values()]
 
 
 use rule step as explorer with:
     input:
         **datasets,
         **({"members": sampling.dataset} if sampling else {}),
-        **panel_files(sweep),
+        **{name: panel.dataset for name, panel in shown_panels.items()},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         ranking=rules.ranking.output[0],
@@ -101,9 +102,10 @@ use rule step as explorer with:
     log:
         "<logs>/explorer.log",
     params:
-        **step("explorer.steps.explorer", *panel_modules(sweep)),
-        **shown_by_extensions,
+        **step("explorer.steps.explorer", *(panel.contents.rpartition(".")[0] for panel in shown_panels.values())),
+        panels={name: f"r37core.{panel.contents}" for name, panel in shown_panels.items()},
+        programs=programs,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         operating=operating,
         shapes=sweep.runs_with("shapes"),
-        parts=parts_hash(page_parts(shown_by_extensions["programs"])),
+        parts=parts_hash(page_parts(programs)),

@@ -1,6 +1,6 @@
 # A search for better designs, in rounds: each proposes some by what all before them gave, until the budget is spent. A design's
 # models and runs are made by the rules of the structure and the sweep, as members of samples are.
-from r37core.search.plan import BUILT, DATASET, DESIGN_NAME, MEASURES, SHAPE, TABLE, BEST, Search, is_asked
+from r37core.search.plan import BUILT, DATASET, DESIGN_NAME, MEASURES, SHAPE, TABLE, BEST, Search, choice_of
 from r37core.search.plan import ROUND as SEARCH_ROUND
 
 search = Search(
@@ -47,7 +47,7 @@ use rule step as search_shape with:
         shape=search.shape,
         edges=settings.structure.edges,
         mesh=plain(settings.fidelity.mesh),
-        stress_submesh=search.stress_submesh,
+        stress_submesh=lambda wildcards: to_plain(settings.reduction_choice(search.designs.entry.blade).stress_submesh),
 
 
 checkpoint search_built:
@@ -78,7 +78,7 @@ use rule step as search_measures with:
     priority: 5
     params:
         **step("search.steps.measure"),
-        quantities=search.quantities,
+        quantities=lambda wildcards: to_plain(choice_of(settings).quantities),
         scenes=search.responses_of_scenes,
         density=search.density,
         highest_speed=settings.structure.maximum_speed_rad_s,

@@ -1,61 +1,52 @@
 # Motions that a start from rest does not show: sweeps up and down with the state carried on, dwells, branches of periodic motions.
-from r37core.second_motions.plan import (
-    ALL_DWELLS,
-    ALL_ORBITS,
-    BIFURCATIONS,
-    DATASET,
-    DWELL_TABLE,
-    DWELLS,
-    ORBITS,
-    TABLE,
-)
-from r37core.second_motions.plan import RESPONSE, STATES, SecondMotions
+from r37core.second_motions import plan as motions_plan
 
-second_motions = SecondMotions(sweep)
+second_motions = motions_plan.SecondMotions(sweep)
+stages |= second_motions.stages(made)
 
 
 use rule step as second_motion_sweep with:
     input:
-        unpack(second_motions.models),
+        unpack(sweep.run_inputs),
     output:
-        response=RESPONSE,
-        states=STATES,
+        response=motions_plan.RESPONSE,
+        states=motions_plan.STATES,
     log:
         "<logs>/{blade}/{scene}/second_motions_{motion}.log",
     wildcard_constraints:
         motion="up|down|rest",
     params:
-        **stage(second_motions.sweep_stage(made)),
+        **stage(stages["second_motion_sweep"]),
 
 
 use rule step as second_motion_dwells with:
     input:
         unpack(second_motions.swept_files),
     output:
-        dwells=DWELLS,
+        dwells=motions_plan.DWELLS,
     log:
         "<logs>/{blade}/{scene}/second_motions_dwells.log",
     params:
-        **stage(second_motions.dwell_stage(made)),
+        **stage(stages["second_motion_dwells"]),
 
 
 use rule step as second_motion_branches with:
     input:
         unpack(second_motions.swept_files),
     output:
-        orbits=ORBITS,
+        orbits=motions_plan.ORBITS,
     log:
         "<logs>/{blade}/{scene}/second_motions_orbits.log",
     params:
-        **stage(second_motions.branch_stage(made)),
+        **stage(stages["second_motion_branches"]),
 
 
 use rule step as second_motions_dataset with:
     input:
-        responses=paths.filled({RESPONSE: second_motions.runs}),
-        states=paths.filled({STATES: second_motions.runs}),
+        responses=paths.filled({motions_plan.RESPONSE: second_motions.runs}),
+        states=paths.filled({motions_plan.STATES: second_motions.runs}),
     output:
-        dataset=DATASET,
+        dataset=motions_plan.DATASET,
     log:
         "<logs>/second_motions_dataset.log",
     params:
@@ -68,9 +59,9 @@ use rule step as second_motions_dataset with:
 
 use rule step as second_motions_all_dwells with:
     input:
-        parts=paths.filled({DWELLS: paths.run_keys(second_motions.pairs)}),
+        parts=paths.filled({motions_plan.DWELLS: paths.run_keys(second_motions.pairs)}),
     output:
-        dataset=ALL_DWELLS,
+        dataset=motions_plan.ALL_DWELLS,
     log:
         "<logs>/second_motions_all_dwells.log",
     params:
@@ -82,9 +73,9 @@ use rule step as second_motions_all_dwells with:
 
 use rule step as second_motions_all_orbits with:
     input:
-        parts=paths.filled({ORBITS: paths.run_keys(second_motions.bare)}),
+        parts=paths.filled({motions_plan.ORBITS: paths.run_keys(second_motions.bare)}),
     output:
-        dataset=ALL_ORBITS,
+        dataset=motions_plan.ALL_ORBITS,
     log:
         "<logs>/second_motions_all_orbits.log",
     params:
@@ -96,11 +87,11 @@ use rule step as second_motions_all_orbits with:
 
 use rule step as second_motions_tables with:
     input:
-        dataset=DATASET,
-        dwells=ALL_DWELLS,
+        dataset=motions_plan.DATASET,
+        dwells=motions_plan.ALL_DWELLS,
     output:
-        ranges=shown(TABLE, PACKAGE / "second_motions/report.rst", TOGETHER, "second motions"),
-        dwells=DWELL_TABLE,
+        ranges=shown(motions_plan.TABLE, PACKAGE / "second_motions/report.rst", TOGETHER, "second motions"),
+        dwells=motions_plan.DWELL_TABLE,
     log:
         "<logs>/second_motions_tables.log",
     params:
@@ -109,9 +100,9 @@ use rule step as second_motions_tables with:
 
 use rule step as second_motions_bifurcations with:
     input:
-        orbits=ALL_ORBITS,
+        orbits=motions_plan.ALL_ORBITS,
     output:
-        table=BIFURCATIONS,
+        table=motions_plan.BIFURCATIONS,
     log:
         "<logs>/second_motions_bifurcations.log",
     params:

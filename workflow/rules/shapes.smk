@@ -1,6 +1,6 @@
 # Shapes to look at: modes, and the worst instant of each interaction, for scenes with `shapes` among their results.
 from r37core.shapes import PARTS as SHAPE_PARTS
-from r37core.shapes.plan import MODE_SHAPES, PAGE, WORST_SHAPES, Shapes
+from r37core.shapes.plan import MODE_SHAPES, PAGE, SECTION as SHAPES, WORST_SHAPES, Shapes
 
 shown_shapes = Shapes(sweep)
 
@@ -15,7 +15,7 @@ use rule step as mode_shapes with:
         "<logs>/shapes/{blade}_modes.log",
     params:
         **step("shapes.steps.modes"),
-        modes=shown_shapes.modes,
+        modes=settings.section(SHAPES).modes,
         material=structure.elastic,
 
 

@@ -7,6 +7,7 @@ section of it, and with that the schema, the messages and the tables of docs/con
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from functools import cache
+from itertools import chain
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from .units import SUFFIXES
@@ -41,6 +42,14 @@ class Key:
         return SUFFIXES[self.unit] if self.unit else None
 
 
+def speed_keys(description: str, name: str = "") -> tuple[Key, Key]:
+    """Keys of a speed, in rad/s or rpm, as one part of an annotation."""
+    return (
+        Key(description, "_rad_s", name, ge=1e-3, le=1e6, optional=True),
+        Key("The same speed in revolutions per minute", "_rpm", name, ge=0.01, le=9.5e6, optional=True),
+    )
+
+
 @dataclass(frozen=True)
 class DeclaredKey:
     """A `key` of the configuration, the `field` that it gives, and that field's `kind` and `default` (in SI units)."""
@@ -60,6 +69,7 @@ def declared_keys(kind: type) -> tuple[DeclaredKey, ...]:
     for field in fields(kind):
         if get_origin(hints[field.name]) is Annotated:
             kind, *metadata = get_args(hints[field.name])
-            keys = [part for part in metadata if isinstance(part, Key)]
+            parts = chain.from_iterable(part if isinstance(part, tuple) else (part,) for part in metadata)
+            keys = [part for part in parts if isinstance(part, Key)]
             declared += [DeclaredKey((key.name or field.name) + key.unit, field.name, key, kind, field.default) for key in keys]
     return tuple(declared)

@@ -1,7 +1,5 @@
 """The plan of families of designs: what is compared, what is drawn, and where it lies."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -14,7 +12,6 @@ from r37core.config import Settings
 from r37core.config.families import Family
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure, Panel
-from r37core.plans.sweep_plan import Sweep
 
 from .compared import BOTH, Compared
 
@@ -98,17 +95,8 @@ class Families:
         return maps
 
     def compared(self, wildcards: Any) -> dict[str, Any]:
-        """Designs that one figure compares, as plain values."""
-        return to_plain(self.figures[wildcards.family])
-
-    def mapped(self, wildcards: Any) -> dict[str, Any]:
-        """Designs that one map compares, as plain values."""
-        return to_plain(self.maps[wildcards.family])
-
-
-def tables_of_maps(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The table of designs, in a run with a map of them."""
-    return {TABLE: [{}] if sweep.settings.made(Families).maps else []}
+        """Designs that one figure or map compares, as plain values."""
+        return to_plain((self.figures | self.maps)[wildcards.family])
 
 
 def families_have_shapes(settings: Settings) -> None:
@@ -134,6 +122,20 @@ EXTENSION = Extension(
     checks=(families_have_shapes, families_differ_in_name),
     targets=lambda sweep: {TABLE: [{}] if sweep.settings.made(Families).figures else []},
     figures=(
+        # a run that has a map names it first
+        Figure(
+            rule="design_map",
+            name="map_{family}",
+            runs=lambda sweep: paths.of("family", sweep.settings.made(Families).maps),
+            draw="designs.maps.draw_design_map",
+            files={"table": TABLE},
+            label="map of {family}",
+            caption="Family {family} over two numbers that vary. Colour: length of the speeds above yield in most "
+            "revolutions, in the operating range where there is one. Lines: where a requirement is just met.",
+            category="Families",
+            arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
+            offered="verdict",
+        ),
         Figure(
             rule="design_figure",
             name="designs_{family}",
@@ -147,20 +149,12 @@ EXTENSION = Extension(
             category="Families",
             arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
         ),
-        Figure(
-            rule="design_map",
-            name="map_{family}",
-            runs=lambda sweep: paths.of("family", sweep.settings.made(Families).maps),
-            draw="designs.maps.draw_design_map",
-            files={"table": TABLE},
-            label="map of {family}",
-            caption="Family {family} over two numbers that vary. Colour: length of the speeds above yield in most "
-            "revolutions, in the operating range where there is one. Lines: where a requirement is just met.",
-            category="Families",
-            arguments=lambda sweep: {"compared": sweep.settings.made(Families).mapped},
-            offered="verdict",
-        ),
     ),
     closing="designs.table.closing",
-    panel=Panel(tables_of_maps, "designs.panel.contents", "designs/panel.js"),
+    panel=Panel(
+        TABLE,
+        "designs.panel.contents",
+        "designs/panel.js",
+        shown=lambda sweep: bool(sweep.settings.made(Families).maps),
+    ),
 )

@@ -70,18 +70,18 @@ def values(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> d
 EXTENSION = Extension(
     name="estimate",
     section=SECTION,
+    cases=cases,
     targets=lambda _: {TABLE: [{}]},
     figures=(
         Figure(
             rule="estimate_figure",
             name="estimate",
-            runs=lambda _: [{}],
             draw="estimate.figures.draw_estimate",
             files={"table": TABLE},
             label="cost of the sweep",
             caption="Core hours of the whole sweep, projected from a sample of its runs, by what they are spent on.",
         ),
     ),
-    closing="estimate.projection.closing",
+    closing="estimate.steps.closing",
     made_on_request=True,
 )

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from r37core.base.io import readable
 from r37core.results.measures import has_strengths
+from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.statistic import Strengths
 
 from .offscreen import look, new_plotter, rendered, without_margins
@@ -21,6 +22,11 @@ from .style import PAGE
 _COLOUR_MAP: Final = "viridis"
 _PIXELS, _HEIGHT = (600, 800), 3.2
 _DIRECTIONS = ((0.35, -1.0, -0.25), (0.35, 1.0, 0.25))
+
+
+def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str) -> Figure:
+    """Draw as draw_fatigue does, with the nodes of the reduced model in the file `rom`."""
+    return draw_fatigue(mesh, read_reduced_model(rom).stress_submesh.nodes, response, title)
 
 
 def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, title: str) -> Figure:

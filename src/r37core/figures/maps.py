@@ -18,13 +18,6 @@ _MOST_BINS = 400
 DIRECTIONS = {"amplitude": "normal", "amplitude_tangential": "tangential"}
 
 
-def draw_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
-    """The map of wear, of the casing's waves or of spectra, whichever the dataset has."""
-    if "casing_energy" in maps:
-        return draw_casing_map(maps, title)
-    return (draw_wear_map if "wear" in maps else draw_spectral_map)(maps, campbell, title)
-
-
 def draw_spectral_map(maps: xr.Dataset, campbell: xr.Dataset, title: str) -> Figure:
     """Amplitudes, normal and tangential, over speed and engine order, with the named modes' frequencies as lines.
 

@@ -2,7 +2,8 @@
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -21,38 +22,48 @@ Targets = Callable[[Sweep], dict[str, Wildcards]]
 class Panel:
     """Panel of an extension in the explorer of a run that has its dataset.
 
-    `dataset`: that one file, a dataset or a table, none in a run without it.
+    `dataset`: that one file among the targets, a dataset or a table; `shown`: whether a run that makes it has the panel.
     `contents`: function of what it holds, as `folder.module.function`, that gives what JSON can carry.
     `program`: file of this package that draws it (`explorer/panels.js`).
     """
 
-    dataset: Targets
+    dataset: str
     contents: str
     program: str
+    shown: Callable[[Sweep], bool] = lambda _: True
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Figure:
-    """Figure of an extension, from which its rule, its targets and its entry in the report follow.
+    """Figure, from which its rule, its targets and its entry in the report follow.
 
     `rule`: name of its rule; `name`: of its files, with wildcards in braces; `runs`: these wildcards.
     `draw`: function, as `folder.module.function`, that takes what the `files` hold and `arguments`, which may be functions of
     wildcards; of title, blade, scene and family those that it names.
+    `files`: a pattern each, or a function of the plan and the wildcards, which gives an empty list for none.
     `label`: name in the report; `caption`: what is seen, with names (blade, scene, family) in braces.
     `category`: in the report; without one its blade, or all of them.
-    `offered`: file of another extension that it takes, too (product.targets.offered).
+    `offered`: file of an extension that it takes, too (product.targets.offered).
     """
 
     rule: str
     name: str
-    runs: Callable[[Sweep], Wildcards]
+    runs: Callable[[Sweep], Wildcards] = lambda _: [{}]
     draw: str
-    files: Mapping[str, str]
+    files: Mapping[str, str | Callable[[Sweep, Any], str | list[str]]]
     label: str
     caption: str
     category: str = ""
     arguments: Callable[[Sweep], Mapping[str, Any]] = lambda _: {}
-    offered: Literal["verdict", ""] = ""
+    offered: Literal["motions", "verdict", ""] = ""
+
+    def targets(self, sweep: Sweep) -> dict[str, Wildcards]:
+        """Files of the figure, as PNG and PDF."""
+        return pictures(self.name, self.runs(sweep))
+
+    def inputs(self, sweep: Sweep) -> dict[str, Any]:
+        """Inputs of the rule of the figure."""
+        return {name: partial(file, sweep) if callable(file) else file for name, file in self.files.items()}
 
     def constraints(self, sweep: Sweep) -> dict[str, str]:
         """Patterns of the wildcards that are neither blade nor scene."""
@@ -71,10 +82,11 @@ class Extension:
     `later`: of samples that are named while a run goes on, by the part of their folder below one of the extension's name; takes
     the folder of the results.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
+    `cases`: runs of one blade beside the sweep (r37core.cases), by name.
     `targets`: what is made of them; part of all_blades unless `made_on_request`.
-    `motions`: a dataset of more motions at a speed than that from rest (results/other_motions.py), none in a run without it; it
-    stands in summary, ranking and the figures of the response.
-    `verdict`: a table of requirements and whether blades meet them, none in a run without it; maps of designs show it.
+    `offers`: files among the targets that other rules take where a run makes them. `motions`: a dataset of more motions at a
+    speed than that from rest (results/other_motions.py), for summary, ranking and the figures of the response; `verdict`: a
+    table of requirements and whether blades meet them, for maps of designs.
     `remarks`: what a run should say of it before it starts.
     `figures`: what is drawn of them, made with the targets.
     `panel`: what the explorer shows of it.
@@ -90,9 +102,9 @@ class Extension:
     sampling: Sampling | None = None
     later: Callable[[Settings, Path], Callable[[str], Mapping[Pair, Sample]]] | None = None
     simulated: Targets = lambda _: {}
+    cases: Callable[[Settings], Mapping[str, Any]] | None = None
     targets: Targets = lambda _: {}
-    motions: Targets = lambda _: {}
-    verdict: Targets = lambda _: {}
+    offers: Mapping[Literal["motions", "verdict"], str] = field(default_factory=dict)
     remarks: Callable[[Settings], list[str]] = lambda _: []
     figures: tuple[Figure, ...] = ()
     panel: Panel | None = None
@@ -102,5 +114,7 @@ class Extension:
 
     def all_targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """All that a run makes of it."""
-        figures = {file: runs for each in self.figures for file, runs in pictures(each.name, each.runs(sweep)).items()}
-        return {**self.simulated(sweep), **self.targets(sweep), **figures}
+        targets = {**self.simulated(sweep), **self.targets(sweep)}
+        for figure in self.figures:
+            targets |= figure.targets(sweep)
+        return targets

@@ -29,9 +29,6 @@ MOST_DRAWN = 6
 MOST_BLADES_DRAWN = 24
 """Blades of a run that all have figures of their own."""
 
-MAPS = ("spectrum", "wear", "casing")
-"""Kinds that are drawn as maps over speed."""
-
 
 @dataclass(frozen=True)
 class Sweep:
@@ -62,6 +59,12 @@ class Sweep:
     def stress_operator(self, wildcards: Any) -> list[str]:
         """The stress of a blade per motion, for a scene whose stress is wanted."""
         return [self._model_file(wildcards, paths.STRESS_OPERATOR)] if "stress" in self.results(wildcards) else []
+
+    def run_inputs(self, wildcards: Any) -> dict[str, str]:
+        """Files that further runs of a blade and scene start from: prepared, model, and stress where it is wanted."""
+        stamp = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
+        operator = dict(zip(["stress"], self.stress_operator(wildcards), strict=False))
+        return {"prepared": stamp, "model": self.contact_model(wildcards), **operator}
 
     def reduced_model(self, wildcards: Any) -> str:
         """The reduced model of a blade, with the contact nodes of a scene."""
@@ -278,15 +281,3 @@ class Datasets:
     def casings(self) -> dict[str, Any]:
         """The casing of each scene with a flexible one, as plain values."""
         return {name: to_plain(casing) for name, casing in elastic_casings(self.sweep.settings).items()}
-
-    def response_pictured(self, wildcards: Any) -> dict[str, str]:
-        """Datasets that a blade's response is drawn from."""
-        return _drawn(includes_stress=any(blade == wildcards.blade for blade, _ in self.sweep.runs_with("stress")))
-
-    def compared(self, wildcards: Any) -> dict[str, str]:
-        """Datasets that the blades of a scene are compared by."""
-        return _drawn(includes_stress=any(scene == wildcards.scene for _, scene in self.sweep.runs_with("stress")))
-
-
-def _drawn(includes_stress: bool) -> dict[str, str]:
-    return {kind: f"<results>/{kind}.nc" for kind in ("campbell", "rms", *(["stress"] if includes_stress else []))}

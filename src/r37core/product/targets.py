@@ -1,12 +1,12 @@
 """Files that the rule all_blades makes where the configuration asks for it, and what extensions add to it and the explorer."""
 
-from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from r37core.config.remarks import elastic_casings
+from r37core.figures.declared import FIGURES
 from r37core.plans.extension import Panel
-from r37core.plans.paths import Wildcards, filled, of, pictures, run_keys
-from r37core.plans.sweep_plan import KINDS, MAPS, Sweep
+from r37core.plans.paths import Wildcards, filled
+from r37core.plans.sweep_plan import KINDS, Sweep
 
 from .extensions import EXTENSIONS
 
@@ -36,56 +36,22 @@ def simulated(sweep: Sweep) -> list[str]:
 
 
 def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
-    settings = sweep.settings
-    growing = [name for name in sweep.drawn["scene"] if settings.scenes[name].scene.casing.changes_with_speed]
-    ranked: Wildcards = [{}] if "stress" in sweep.kinds else []
-    figures = {
-        "campbell_{blade}": of("blade", sweep.drawn["blade"]),
-        "response_{blade}": of("blade", sweep.drawn["blade"]),
-        **{f"{kind}_{{blade}}__{{scene}}": run_keys(sweep.drawn_runs(kind)) for kind in MAPS},
-        "fatigue_{blade}__{scene}": run_keys(sweep.drawn_runs("fatigue")),
-        "waterfall_{blade}__{scene}": run_keys(sweep.drawn_runs("spectrum")),
-        "comparison_{scene}": of("scene", sweep.drawn["scene"]),
-        "ranking": ranked,
-        "clearance_{scene}": of("scene", growing),
-    }
     targets: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
     targets["<results>/ranking.csv"] = [{}]
-    targets["<results>/coincidences.csv"] = [{}] if elastic_casings(settings) else []
-    for name, wildcards in figures.items():
-        targets |= pictures(name, wildcards)
+    targets["<results>/coincidences.csv"] = [{}] if elastic_casings(sweep.settings) else []
+    for figure in FIGURES:
+        targets |= figure.targets(sweep)
     return targets
-
-
-_PACKAGE = Path(__file__).parent.parent
 
 
 def offered(what: Literal["motions", "verdict"], sweep: Sweep) -> dict[str, str]:
     """File that an extension offers to other rules, `motions` or `verdict`, as the input of that name; none without one."""
-    files = [file for extension in EXTENSIONS for file in filled(getattr(extension, what)(sweep))]
+    offering = ((extension, extension.offers[what]) for extension in EXTENSIONS if what in extension.offers)
+    files = [file for extension, file in offering if extension.targets(sweep)[file]]
     return {what: files[0]} if files else {}
 
 
-def panel_files(sweep: Sweep) -> dict[str, str]:
-    """Extension -> the dataset that its panels show; those of extensions that have one in this run."""
-    return {name: file for name, panel in _panels(sweep).items() for file in filled(panel.dataset(sweep))}
-
-
-def panel_modules(sweep: Sweep) -> list[str]:
-    """Modules of the functions that make the panels' contents, which the explorer's step imports by name."""
-    return [panel.contents.rpartition(".")[0] for panel in _panels(sweep).values()]
-
-
-def panel_parameters(sweep: Sweep) -> dict[str, Any]:
-    """Parameters of the explorer's step: functions and programs of the panels."""
-    panels = _panels(sweep)
-    return {
-        "panels": {name: f"r37core.{panel.contents}" for name, panel in panels.items()},
-        "programs": [str(_PACKAGE / panel.program) for panel in panels.values()],
-    }
-
-
-def _panels(sweep: Sweep) -> dict[str, Panel]:
+def panels(sweep: Sweep) -> dict[str, Panel]:
     """Extension -> its panel, of those that have one in this run."""
-    panels = {extension.name: extension.panel for extension in EXTENSIONS if extension.panel}
-    return {name: panel for name, panel in panels.items() if filled(panel.dataset(sweep))}
+    declared = ((extension, extension.panel) for extension in EXTENSIONS if extension.panel)
+    return {each.name: panel for each, panel in declared if each.targets(sweep)[panel.dataset] and panel.shown(sweep)}

@@ -1,9 +1,7 @@
 """Requirements judged: the value of each, its margin, where it is worst, and how certain that is."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -244,12 +242,3 @@ def distance_from_operation(crossing: float, operating: OperatingRange) -> float
         return 1.0
     ranges = [(dwell.start, dwell.stop) for dwell in operating.dwell] or [(operating.first, operating.last)]
     return min(max(begin - crossing, crossing - end, 0.0) for begin, end in ranges) / crossing
-
-
-@dataclass(frozen=True)
-class Numbers:
-    """Numbers of the configuration that evidence needs: by scene, and the mass (kg) by blade, where they are known."""
-
-    clearance: Mapping[str, float] = field(default_factory=dict)
-    thickness: Mapping[str, float] = field(default_factory=dict)
-    mass: Mapping[str, float] = field(default_factory=dict)

@@ -11,7 +11,6 @@ from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table, write_table
 
 from .choice import Requirements
-from .judging import Numbers
 from .table import operating_table, verdict_table
 
 
@@ -24,10 +23,10 @@ def judge(input: Any, output: Any, params: Any) -> None:
     files = dict(input.items())
     shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)
     masses = {blade: density * _volume(file) for (blade, density), file in shapes}
-    numbers = Numbers(params.clearance, params.thickness, masses)
+    numbers = {"clearance": params.clearance, "thickness": params.thickness, "mass": masses}
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
-    write_table(verdict_table(_pairs(params), requirements, operating, datasets, numbers), output.verdict, digits=6)
+    write_table(verdict_table(params.pairs, requirements, operating, datasets, numbers), output.verdict, digits=6)
 
 
 def _volume(file: str) -> float:
@@ -46,9 +45,5 @@ def list_operating(input: Any, output: Any, params: Any) -> None:
     files = dict(input.items())
     interactions = read_table(files.pop("summary"))
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
-    table = operating_table(_pairs(params), from_plain(OperatingRange, params.operating), datasets, interactions)
+    table = operating_table(params.pairs, from_plain(OperatingRange, params.operating), datasets, interactions)
     write_table(table, output.table, digits=6)
-
-
-def _pairs(params: Any) -> list[tuple[str, str]]:
-    return [(blade, scene) for blade, scene in params.pairs]

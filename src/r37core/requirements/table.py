@@ -1,9 +1,8 @@
 """verdict.csv and operating.csv: what each blade keeps in operation, and what lies inside the operating range."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -18,7 +17,7 @@ from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table
 
 from .choice import Requirements
-from .judging import COLUMNS, FAILS, MEETS, UNKNOWN, Evidence, Numbers, distance_from_operation, judge
+from .judging import COLUMNS, FAILS, MEETS, UNKNOWN, VERDICTS, Evidence, distance_from_operation, judge
 
 CROSSING, INTERACTION, ABOVE_YIELD = "crossing", "interaction", "above_yield"
 """Kinds of what lies in the operating range."""
@@ -42,23 +41,22 @@ def verdict_table(
     requirements: Requirements,
     operating: OperatingRange,
     datasets: Mapping[str, xr.Dataset],
-    numbers: Numbers,
+    numbers: Mapping[str, Mapping[str, float]],
 ) -> pd.DataFrame:
     """A row for each requirement of each of the `pairs` of blade and scene: COLUMNS.
 
-    `datasets`: campbell, rms and, if there, stress, wear, members and motions.
+    `datasets`: campbell, rms and, if there, stress, wear, members and motions. `numbers`: clearance and thickness by scene,
+    mass by blade, of Evidence, where they are known.
     """
     rows = []
     for blade, scene in pairs:
-        several = {name: _part(datasets.get(name), blade, scene) for name in ("members", "motions")}
+        more: dict[str, Any] = {name: _part(datasets.get(name), blade, scene) for name in ("members", "motions")}
+        more |= {name: known.get(blade if name == "mass" else scene, np.nan) for name, known in numbers.items()}
         evidence = Evidence(
             response_of(datasets, blade, scene),
             datasets["campbell"].sel(blade=blade),
             operating,
-            **several,
-            clearance=numbers.clearance.get(scene, np.nan),
-            thickness=numbers.thickness.get(scene, np.nan),
-            mass=numbers.mass.get(blade, np.nan),
+            **more,
         )
         rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
     return pd.DataFrame(rows, columns=["blade", "scene", *COLUMNS])
@@ -151,6 +149,27 @@ def _unit(row: pd.Series) -> str:
     return "" if row["unit"] == "1" else f" {row['unit']}"
 
 
+def contents(verdict: pd.DataFrame) -> dict[str, object]:
+    """`pairs`: blade, scene, verdict and reason of each, those that meet all first; `requirements`: rows of verdict.csv."""
+    shown = verdict.astype(object).where(verdict.notna(), None)
+    rows = [
+        {
+            **{key: row[key] for key in ("blade", "scene", "requirement", "verdict", "limit", "unit", "note")},
+            **_numbers(row, full),
+        }
+        for (_, row), (_, full) in zip(shown.iterrows(), verdict.iterrows(), strict=True)
+    ]
+    pairs = sorted(overall(verdict).to_dict("records"), key=lambda pair: VERDICTS.index(pair["verdict"]))
+    return {"pairs": pairs, "requirements": rows}
+
+
+def _numbers(row: pd.Series, full: pd.Series) -> dict[str, object]:
+    """Value, margin and speeds as JSON can have them, and how certain they are."""
+    numbers = {key: row[key] for key in ("value", "margin", "from_rad_s", "to_rad_s")}
+    finite = {key: value if value is not None and abs(value) < float("inf") else None for key, value in numbers.items()}
+    return {**finite, "certainty": certainty(full)}
+
+
 _MOST_LINES = 8
 """Blades and scenes of which each has a line when a run ends."""
 
@@ -164,7 +183,8 @@ def closing(results: Path) -> str:
     if len(judged) <= _MOST_LINES:
         lines = []
         for row in judged.itertuples():
-            sure = [f"{line['requirement']}{certainty(line)}" for _, line in _rows(table, row).iterrows() if certainty(line)]
+            lines_of_pair = table[(table["blade"] == row.blade) & (table["scene"] == row.scene)].iterrows()
+            sure = [f"{line['requirement']}{certainty(line)}" for _, line in lines_of_pair if certainty(line)]
             text = row.reason if row.reason else ", ".join(sure)
             lines.append(f"{row.blade} in {row.scene} {row.verdict}{f': {text}' if text else ''}")
         return "\n  ".join(["verdict", *lines])
@@ -180,7 +200,3 @@ def _is_judged(results: Path) -> bool:
     """True if the last run had requirements: the verdict of one before it says nothing of this."""
     requirements = read_json(results / "configuration.json")["config"].get("requirements", {})
     return any(value not in (None, []) for value in requirements.values())
-
-
-def _rows(table: pd.DataFrame, row: object) -> pd.DataFrame:
-    return table[(table["blade"] == row.blade) & (table["scene"] == row.scene)]  # type: ignore[attr-defined]

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from r37core.base.declared import Key
+from r37core.base.declared import Key, speed_keys
 
 _ROUNDING = 1e-9
 """Share of a speed by which a margin in percent may miss a whole number."""
@@ -18,16 +18,8 @@ _ROUNDING = 1e-9
 class OperatingDwell:
     """A `share` of the operating time that the speed (rad/s) lies between `start` and `stop`."""
 
-    start: Annotated[
-        float,
-        Key("Lowest speed of the dwell", "_rad_s", "from", ge=1e-3, le=1e6, optional=True),
-        Key("The same speed in revolutions per minute", "_rpm", "from", ge=0.01, le=9.5e6, optional=True),
-    ]
-    stop: Annotated[
-        float,
-        Key("Highest speed of the dwell", "_rad_s", "to", ge=1e-3, le=1e6, optional=True),
-        Key("The same speed in revolutions per minute", "_rpm", "to", ge=0.01, le=9.5e6, optional=True),
-    ]
+    start: Annotated[float, speed_keys("Lowest speed of the dwell", "from")]
+    stop: Annotated[float, speed_keys("Highest speed of the dwell", "to")]
     share: Annotated[float, Key("Share of the operating time", "_percent", ge=1e-6, le=100)]
 
 
@@ -38,16 +30,8 @@ class OperatingRange:
     `margin`: share of the speed by which the judged range reaches beyond both ends.
     """
 
-    idle: Annotated[
-        float,
-        Key("Lowest speed in operation", "_rad_s", ge=1e-3, le=1e6, optional=True),
-        Key("The same speed in revolutions per minute", "_rpm", ge=0.01, le=9.5e6, optional=True),
-    ]
-    redline: Annotated[
-        float,
-        Key("Highest speed in operation", "_rad_s", ge=1e-3, le=1e6, optional=True),
-        Key("The same speed in revolutions per minute", "_rpm", ge=0.01, le=9.5e6, optional=True),
-    ]
+    idle: Annotated[float, speed_keys("Lowest speed in operation")]
+    redline: Annotated[float, speed_keys("Highest speed in operation")]
     margin: Annotated[
         float, Key("Share of the speed by which the judged range reaches beyond both ends", "_percent", ge=0, lt=100)
     ] = 0.0

@@ -12,10 +12,9 @@ from r37core.base.rounding import rounded_to
 from r37core.base.units import si_name
 from r37core.time_integration.status import RunStatus
 
-from .columns import CERTAIN, CHANCE, ENDS, POSSIBLE, ROBUSTNESS, names
+from .columns import CERTAIN, CHANCE, ENDS, OPERATING, POSSIBLE, ROBUSTNESS, names
 from .exceedance import exceedance_of
 from .measures import drop_after, has_strengths, lasts, motion, peak_of, speeds_above_yield
-from .operating import operating_measures
 from .operating_range import OperatingRange
 from .table_file import read_table
 
@@ -27,6 +26,28 @@ RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "diverged_runs", "
 
 _STEP = 1.0
 """Smallest distinguishable length (rad/s) without scatter: the distance of the closest speeds."""
+
+
+def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chance_scatter: bool = True) -> dict[str, float]:
+    """OPERATING of one blade in one scene; NaN without stress, and where the runs do not reach over the judged range.
+
+    `chance_scatter`: whether chance is drawn.
+    """
+    measures = dict.fromkeys(names(OPERATING), np.nan)
+    if "share_of_revolutions_above_yield" not in response:
+        return measures
+    exceedance = exceedance_of(response)
+    if not operating.is_covered(exceedance.speeds):
+        return measures
+    measures["length_certain_operating_rad_s"] = operating.length(exceedance.ranges(CERTAIN))
+    measures["exceedance_integral_operating_rad_s"] = operating.integral(exceedance.speeds, exceedance.shares)
+    if exceedance.chance and chance_scatter:
+        drawn = [operating.integral(exceedance.speeds, shares) for shares in exceedance.drawn]
+        measures["exceedance_integral_operating_scatter_rad_s"] = float(np.std(drawn))
+    if has_strengths(response):
+        fatigue = exceedance_of(response, "share_of_revolutions_above_goodman")
+        measures["goodman_integral_operating_rad_s"] = operating.integral(fatigue.speeds, fatigue.shares)
+    return measures
 
 
 def robustness(

@@ -20,11 +20,6 @@ def rotor_runs(sweep: Sweep) -> list[tuple[str, str]]:
     return [(blade, scene) for blade in sweep.settings.blade_names for scene in scene_rotors(sweep.settings)]
 
 
-def joined_dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The dataset of all rotors."""
-    return {DATASET: [{}] if rotor_runs(sweep) else []}
-
-
 def remarks(settings: Settings) -> list[str]:
     """Remarks on scenes whose numbers are those of many blades."""
     return [
@@ -52,5 +47,5 @@ EXTENSION = Extension(
         ),
     ),
     closing="rotors.dataset.closing",
-    panel=Panel(joined_dataset, "rotors.panel.rotor_contents", "rotors/panel.js"),
+    panel=Panel(DATASET, "rotors.panel.rotor_contents", "rotors/panel.js"),
 )

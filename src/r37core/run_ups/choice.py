@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
-from r37core.base.declared import Key
+from r37core.base.declared import Key, speed_keys
 from r37core.rom.naming import NAMED_MODES
 
 from .schedule import RunUp
@@ -42,16 +42,8 @@ class RunUpChoice:
     Of `rate` (rad/s2, positive) and `revolutions` one is given; `before`, `after` and `worn`: see RunUp.
     """
 
-    start: Annotated[
-        float,
-        Key("First speed, at which the lobes grow", "_rad_s", "from", ge=1e-3, le=1e6, optional=True),
-        Key("The same speed in revolutions per minute", "_rpm", "from", ge=0.01, le=9.5e6, optional=True),
-    ]
-    stop: Annotated[
-        float,
-        Key("Last speed; a lower one makes a run-down", "_rad_s", "to", ge=1e-3, le=1e6, optional=True),
-        Key("The same speed in revolutions per minute", "_rpm", "to", ge=0.01, le=9.5e6, optional=True),
-    ]
+    start: Annotated[float, speed_keys("First speed, at which the lobes grow", "from")]
+    stop: Annotated[float, speed_keys("Last speed; a lower one makes a run-down", "to")]
     crossing: Crossing | None
     rate: Annotated[
         float | None,

@@ -55,10 +55,6 @@ class Search:
         """Variables, objectives and constraints, as plain values."""
         return to_plain(choice_of(self.sweep.settings))
 
-    def quantities(self, wildcards: Any) -> dict[str, Any]:
-        """Quantities of objectives and constraints, as plain values."""
-        return to_plain(choice_of(self.sweep.settings).quantities)
-
     def number_of_designs(self, wildcards: Any) -> int:
         """Designs of a round."""
         entry, number = self.designs.entry, int(wildcards.round)
@@ -102,10 +98,6 @@ class Search:
             return {"definition": None, "refused": None}
         (blade, *_) = (member.blade for sample in samples.values() for member in sample.members.values())
         return {"definition": to_plain(blade.definition), "refused": None}
-
-    def stress_submesh(self, wildcards: Any) -> dict[str, Any]:
-        """Where the stress of a design is looked for, as plain values."""
-        return to_plain(self.sweep.settings.reduction_choice(self.designs.entry.blade).stress_submesh)
 
     def measured(self, wildcards: Any) -> dict[str, Any]:
         """Files of the structure and the runs of a design, or of the start."""
@@ -272,5 +264,5 @@ EXTENSION = Extension(
         ),
     ),
     closing="search.dataset.closing",
-    panel=Panel(lambda sweep: {DATASET: _once(sweep)}, "search.panel.search_contents", "search/panel.js"),
+    panel=Panel(DATASET, "search.panel.search_contents", "search/panel.js"),
 )

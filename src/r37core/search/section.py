@@ -100,18 +100,14 @@ class SearchSection(Section):
     constraints: Annotated[dict[Name, ConstraintSection], AfterValidator(check_names)] = Field(
         default={}, description="Limits, by name"
     )
-    designs: Annotated[int, Field(ge=2, le=2000)] = Field(default=60, description="Number of designs to run")
-    first: Annotated[int, Field(ge=2, le=2000)] = Field(
-        default=16, description="Number of first designs, from a quasi-random sequence"
-    )
-    batch: Annotated[int, Field(ge=1, le=500)] = Field(default=4, description="Number of designs per round, run in parallel")
+    designs: int = Field(default=60, ge=2, le=2000, description="Number of designs to run")
+    first: int = Field(default=16, ge=2, le=2000, description="Number of first designs, from a quasi-random sequence")
+    batch: int = Field(default=4, ge=1, le=500, description="Number of designs per round, run in parallel")
     method: Literal["surrogate", "quasi_random"] = Field(
         default="surrogate", description="Way to propose designs; quasi_random spreads them evenly, for comparison"
     )
     seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the search")
-    best: Annotated[int, Field(ge=1, le=50)] = Field(
-        default=3, description="Number of best designs written as entries and STEP files"
-    )
+    best: int = Field(default=3, ge=1, le=50, description="Number of best designs written as entries and STEP files")
     tolerances: SearchTolerances | LeftOut = Field(default=None, description="Tolerances of objectives with a quantile")
 
     @model_validator(mode="after")

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from r37core.base.declared import Key
+from r37core.base.declared import Key, speed_keys
 from r37core.base.speeds import spaced
 
 MOTIONS = UP, DOWN, REST = ("up", "down", "rest")
@@ -23,16 +23,8 @@ class SweepChoice:
     `worn`: whether the lining is carried on as it is worn, or new at each speed.
     """
 
-    first: Annotated[
-        float,
-        Key("Lowest speed", "_rad_s", "from", ge=1e-3, le=1e6, optional=True),
-        Key("The same speed in revolutions per minute", "_rpm", "from", ge=0.01, le=9.5e6, optional=True),
-    ]
-    last: Annotated[
-        float,
-        Key("Highest speed, if the step reaches it", "_rad_s", "to", ge=1e-3, le=1e6, optional=True),
-        Key("The same speed in revolutions per minute", "_rpm", "to", ge=0.01, le=9.5e6, optional=True),
-    ]
+    first: Annotated[float, speed_keys("Lowest speed", "from")]
+    last: Annotated[float, speed_keys("Highest speed, if the step reaches it", "to")]
     step: Annotated[
         float,
         Key("Step between the speeds; by default 5 rad/s", "_rad_s", ge=1e-3, le=1e4, optional=True),

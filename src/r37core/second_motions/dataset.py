@@ -49,7 +49,8 @@ def second_motions_dataset(
         for motion in MOTIONS:
             response = read_dataset(responses[blade, scene, motion], {"tip_point": "leading_edge"})
             motions.append(response[[name for name in (*KEPT, *OF_ALL) if name in response]].reset_coords(drop=True))
-        part = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=_over_motions(motions[0]))
+        over_motions = [str(name) for name in motions[0].data_vars if name not in OF_ALL]
+        part = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=over_motions)
         levels = levels_of({motion: SweptStates(states[blade, scene, motion]) for motion in MOTIONS})
         over = ("motion", "speed")
         mean = np.where(np.isinf(levels.mean), np.nan, levels.mean)
@@ -63,7 +64,3 @@ def second_motions_dataset(
     joined = xr.combine_by_coords(parts, combine_attrs="drop_conflicts")
     assert isinstance(joined, xr.Dataset)
     return joined.reindex(blade=list(blades), scene=list(scenes))
-
-
-def _over_motions(response: xr.Dataset) -> list[str]:
-    return [str(name) for name in response.data_vars if name not in OF_ALL]

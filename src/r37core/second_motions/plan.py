@@ -5,13 +5,17 @@ from functools import cached_property
 from typing import Any
 
 from r37core.base.plain import to_plain
+from r37core.base.yaml_file import KeyPath
+from r37core.config import Settings, scenes_named
+from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
+from r37core.config.document import ConfigRefusals
+from r37core.config.speed_choice import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure, Panel
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Simulations, Sweep
 
-from .checks import can_be_swept
 from .choice import MOTIONS
 from .section import SECTION, SecondMotionSection, pairs_of
 
@@ -51,56 +55,38 @@ class SecondMotions:
         """Wildcards of all sweeps."""
         return [{**key, "motion": motion} for key in paths.run_keys(self.pairs) for motion in MOTIONS]
 
-    def models(self, wildcards: Any) -> dict[str, Any]:
-        """Files that a sweep starts from, with the stress operator where its stress is wanted."""
-        files = {"prepared": paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)}
-        files["model"] = self.sweep.contact_model(wildcards)
-        for file in self.sweep.stress_operator(wildcards):
-            files["stress"] = file
-        return files
-
     def swept_files(self, wildcards: Any) -> dict[str, Any]:
         """Files that dwells and branches start from."""
         states = [paths.fill(STATES, blade=wildcards.blade, scene=wildcards.scene, motion=motion) for motion in MOTIONS]
         return {"model": self.sweep.contact_model(wildcards), "states": states}
 
-    def sweep_stage(self, made: Provenance) -> Stage:
-        """Stage of a sweep."""
-        return Stage(
-            "second_motions.steps.carry",
-            {
-                **self._common(made),
-                "motion": lambda wildcards: wildcards.motion,
-                "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in KEPT],
-                "kept": self.sweep.kept,
-                "yield_stress": self.sweep.yield_stress,
-            },
-        )
-
-    def dwell_stage(self, made: Provenance) -> Stage:
-        """Stage of the dwells of a blade and scene."""
-        return Stage("second_motions.steps.dwell", {**self._common(made), "dwell": to_plain(self._section.dwells())})
-
-    def branch_stage(self, made: Provenance) -> Stage:
-        """Stage of the branches of a blade and scene."""
-        return Stage("second_motions.steps.follow", {**self._common(made), "branches": to_plain(self._section.followed())})
+    def stages(self, made: Provenance) -> dict[str, Stage]:
+        """Stage of each rule of a blade and scene."""
+        section = self._section
+        common = {
+            "scene": Simulations(self.sweep).plain_scene,
+            # of a run from rest: those of the pipeline
+            "choice": lambda of: to_plain(self.sweep.settings.integration_choice(of.blade, of.scene, 0.0)),
+            # without any speed where there are none, as the rules are there all the same
+            "sweep": to_plain(section.sweep()) if section.asked else None,
+            "provenance": made.sweep,
+        }
+        carried = {
+            "motion": lambda wildcards: wildcards.motion,
+            "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in KEPT],
+            "kept": self.sweep.kept,
+            "yield_stress": self.sweep.yield_stress,
+        }
+        dwell, branches = {"dwell": to_plain(section.dwells())}, {"branches": to_plain(section.followed())}
+        return {
+            "second_motion_sweep": Stage("second_motions.steps.carry", common | carried),
+            "second_motion_dwells": Stage("second_motions.steps.dwell", common | dwell),
+            "second_motion_branches": Stage("second_motions.steps.follow", common | branches),
+        }
 
     @property
     def _section(self) -> SecondMotionSection:
         return self.sweep.settings.section(SECTION)
-
-    def _common(self, made: Provenance) -> dict[str, Any]:
-        return {
-            "scene": Simulations(self.sweep).plain_scene,
-            "choice": self.choice,
-            # without any speed where there are none, as the rule is there all the same
-            "sweep": to_plain(self._section.sweep()) if self._section.asked else None,
-            "provenance": made.sweep,
-        }
-
-    def choice(self, wildcards: Any) -> dict[str, Any]:
-        """Numbers of the time integration of a run from rest: those of the pipeline."""
-        return to_plain(self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, 0.0))
 
 
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
@@ -118,9 +104,39 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     return dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), once) | dict.fromkeys((ALL_ORBITS, BIFURCATIONS), followed)
 
 
-def dataset(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The dataset of all sweeps."""
-    return {DATASET: [{}] if pairs_of(sweep.settings) else []}
+MOST_SPEEDS = 20_000
+"""Speeds of a sweep: one job runs all of them."""
+
+
+def can_be_swept(settings: Settings) -> None:
+    """Blades and scenes are there, without rotor or Coriolis force, and the speeds within the model's and not too many."""
+    section, document = settings.section(SECTION), settings.documents.config
+    if not section.asked:
+        return
+    names_are_there(settings, ("second_motions",), section)
+    sweep, path, refusals = section.sweep(), ("second_motions",), ConfigRefusals()
+    if settings.structure.coriolis:
+        raise document.refusal(path, "sweeps with structure.coriolis: true", "none; they do not carry the Coriolis force yet")
+    for scene in [] if section.scenes == "all" else scenes_named(settings, section.scenes):
+        entry = settings.scene_designs.entries[scene]
+        if entry.rotor is not None:
+            raise document.refusal((*path, "scenes"), f"'{scene}', which has a rotor", "scenes of a single blade")
+    count = (sweep.last - sweep.first) / sweep.step + 1.0
+    if count > MOST_SPEEDS:
+        raise document.refusal(path, f"{count:.8g} speeds", f"at most {MOST_SPEEDS}; a larger step has fewer")
+    highest = settings.structure.maximum_speed_rad_s
+    last_key: KeyPath = ("to_rad_s" if section.to_rpm is None else "to_rpm",)
+    dwelt = [(("dwell", "speeds_rad_s", number), speed) for number, speed in enumerate(section.dwell.speeds_rad_s)]
+    for key, speed in [(last_key, sweep.speeds[-1]), *dwelt]:
+        if speed > highest:
+            raise document.refusal((*path, *key), f"{speed:g} rad/s", f"up to structure.maximum_speed_rad_s, {highest:g}")
+    for _, scene in pairs_of(settings):
+        if sweep.worn and section.scenes != "all" and settings.scenes[scene].scene.lining is None:
+            raise document.refusal((*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new")
+        longest = max(sweep.revolutions, section.dwell.revolutions, settings.scenes[scene].revolutions)
+        slowest = min([sweep.first, *section.dwell.speeds_rad_s])
+        refusals.of(slow_run_can_be_done, length_of_run(settings, scene, slowest, longest), settings, path)
+    refusals.tell()
 
 
 EXTENSION = Extension(
@@ -129,7 +145,7 @@ EXTENSION = Extension(
     checks=(can_be_swept,),
     simulated=simulated,
     targets=targets,
-    motions=dataset,
+    offers={"motions": DATASET},
     figures=(
         Figure(
             rule="second_motions_figure",
@@ -155,5 +171,5 @@ EXTENSION = Extension(
     ),
     closing="second_motions.tables.closing",
     look_at=TABLE,
-    panel=Panel(dataset, "second_motions.panel.contents", "second_motions/panel.js"),
+    panel=Panel(DATASET, "second_motions.panel.contents", "second_motions/panel.js"),
 )

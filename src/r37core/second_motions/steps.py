@@ -1,6 +1,7 @@
 """Steps of the workflow (docs/architecture.md): sweeps with the state carried on, dwells, branches, their tables."""
 
 import hashlib
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from .choice import DOWN, MOTIONS, BranchChoice, DwellChoice, SweepChoice
 from .dataset import second_motions_dataset
 from .examining import branches_of, dwells_of
 from .motion_files import SweptStates, dwell_dataset, orbit_dataset, write_states
-from .sweeping import CarriedSweep, discard
+from .sweeping import CarriedSweep
 from .tables import bifurcation_table, dwell_table, range_table
 
 
@@ -35,7 +36,7 @@ def carry(input: Any, output: Any, params: Any) -> None:
     folder = Path(f"{output.states}.parts")
     for other in folder.glob("*"):
         if other.name != made_of:
-            discard(other)
+            shutil.rmtree(other, ignore_errors=True)
     files = run.run(folder / made_of)
     ascending = files[::-1] if params.motion == DOWN else files
     write_response(
@@ -47,7 +48,7 @@ def carry(input: Any, output: Any, params: Any) -> None:
         provenance={**params.provenance, "motion": params.motion},
     )
     write_states(ascending, run.sweep.speeds, run.scene.casing.clearance, output.states)
-    discard(folder)
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def dwell(input: Any, output: Any, params: Any) -> None:

@@ -1,6 +1,5 @@
 """Sweeps through the speeds with the state carried on from each to the next, and the runs from rest beside them."""
 
-import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -128,8 +127,3 @@ def carried_of(numbers: Mapping[str, np.ndarray]) -> CarriedMotion | None:
     if int(numbers["status"]) != RunStatus.COMPLETED:
         return None
     return CarriedMotion(**{name: numbers[name] for name in CARRIED}, wear=numbers.get(END_WEAR))
-
-
-def discard(folder: Path) -> None:
-    """Remove the files of a run that is done."""
-    shutil.rmtree(folder, ignore_errors=True)

@@ -34,11 +34,6 @@ class Shapes:
     sweep: Sweep
 
     @property
-    def modes(self) -> int:
-        """Number of modes of each blade."""
-        return self.sweep.settings.section(SECTION).modes
-
-    @property
     def runs(self) -> list[tuple[str, str]]:
         """Pairs of blade and scene with shapes."""
         return self.sweep.runs_with("shapes")

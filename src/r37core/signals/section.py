@@ -1,8 +1,6 @@
 """signals of config.yaml: time signals of chosen blades, scenes and speeds."""
 
-from __future__ import annotations
-
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -49,7 +47,7 @@ class SignalSection(Section):
     )
 
     @model_validator(mode="after")
-    def _has_speeds(self) -> SignalSection:
+    def _has_speeds(self) -> Self:
         if self.speeds_rad_s is not None and self.speeds_rpm is not None:
             refuse_both_units("speeds_rad_s", "speeds_rpm")
         for key in ("gauges", "probes_deg"):

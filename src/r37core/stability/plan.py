@@ -138,6 +138,7 @@ EXTENSION = Extension(
     name="stability",
     section=SECTION,
     checks=(can_be_run,),
+    cases=cases,
     targets=lambda sweep: {TABLE: _once(sweep)},
     figures=(
         Figure(
@@ -152,6 +153,6 @@ EXTENSION = Extension(
             "run. Unsound: a wrong number that no status reports.",
         ),
     ),
-    closing="stability.judging.closing",
+    closing="stability.steps.closing",
     made_on_request=True,
 )

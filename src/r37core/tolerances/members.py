@@ -1,17 +1,39 @@
-"""Members of a sample: a blade and a scene with other values of the numbers under `tolerances`."""
+"""tolerances of config.yaml, and members of a sample: a blade and a scene with other values of the numbers under tolerances."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from pydantic import Field
+
 from r37core.base.varied_number import VariedNumber
 from r37core.config import BladeSettings, ConfigError, Settings, blades_named, scenes_named
 from r37core.config.changed_numbers import ImpossibleValueError, changed_pair, check_known, nominal_value, scene_numbers
 from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are_there
+from r37core.config.section import AllOrNames, ExtensionSection
+from r37core.config.spread import MemberCount, Spreads
 from r37core.contact.scene import Scene
 from r37core.plans.member_values import drawn, is_of_sample, number_of, sobol_points
 
-from .section import SECTION
+
+class ToleranceSection(Spreads):
+    """Distributions of numbers, and the sample drawn from them; both may be empty."""
+
+    members: MemberCount = Field(
+        default=32, description="Number of members, a power of two; a larger sample contains the smaller ones"
+    )
+    seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the sample")
+    sensitivity: bool = Field(
+        default=False, description="Whether Sobol indices are computed; for n numbers this runs n + 2 times the members"
+    )
+    blades: AllOrNames = Field(default="all", description="Blades with tolerances")
+    scenes: AllOrNames = Field(default="all", description="Scenes with tolerances")
+    largest_share: float = Field(
+        default=0.2, ge=1e-3, le=1, description="Largest share of the finest grid of adaptive speeds that a member runs"
+    )
+
+
+SECTION = ExtensionSection("tolerances", ToleranceSection, ToleranceSection())
 
 
 @dataclass(frozen=True)

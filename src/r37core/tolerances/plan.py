@@ -12,9 +12,8 @@ from r37core.plans.member_values import is_of_sample
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, Sampling, path_part
 from r37core.plans.sweep_plan import Sweep
 
-from .members import Members, members_can_be_drawn, members_of
+from .members import SECTION, Members, members_can_be_drawn, members_of
 from .number_ranks import remarks_on_rankings
-from .section import SECTION
 
 FOLDER = "tolerances"
 """Folder of the members' files: the extension's name."""
@@ -110,11 +109,6 @@ class Tolerances:
         return [list(every[run["blade"], run["scene"]][run["member"]].values) for run in self.runs]
 
 
-def samples(settings: Settings) -> dict[Pair, Sample]:
-    """Members by blade and scene."""
-    return settings.made(Tolerances).samples
-
-
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The responses of the members, and first rounds where their speeds are adaptive."""
     planned = sweep.settings.made(Tolerances)
@@ -126,7 +120,7 @@ def remarks(settings: Settings) -> list[str]:
     members, entry = members_of(settings), settings.section(SECTION)
     if not members.pairs:
         return []
-    most = extent_of(settings, {FOLDER: samples(settings)}).members
+    most = extent_of(settings, {FOLDER: settings.made(Tolerances).samples}).members
     counted = f"tolerances: {entry.members} members, {most} simulations of theirs at most, beside those of the sweep"
     return [counted, *_without_width(members), *remarks_on_rankings(entry.members, len(members.numbers), entry.sensitivity)]
 
@@ -150,7 +144,7 @@ EXTENSION = Extension(
     name=FOLDER,
     section=SECTION,
     checks=(members_can_be_drawn,),
-    sampling=Sampling(samples, ranges=TABLE, dataset=DATASET),
+    sampling=Sampling(lambda settings: settings.made(Tolerances).samples, ranges=TABLE, dataset=DATASET),
     simulated=simulated,
     targets=lambda sweep: dict.fromkeys((DATASET, TABLE), [{}] if members_of(sweep.settings).pairs else []),
     remarks=remarks,

@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from r37core.figures import style
 
 from .errors import QUANTITIES
-from .growth import costs_of
 from .plan import LEVEL
+from .tables import costs_of
 
 _FLOOR = 1e-7
 """Smallest error that is drawn: the reference has none."""

@@ -49,23 +49,18 @@ CHANGES: Mapping[str, Changes] = {
 """Parameter -> what a value of it changes in the case of the base level."""
 
 
-def base_case(settings: Settings) -> BaseCase:
-    """The case that all others differ from."""
-    return BaseCase(settings, SECTION)
-
-
 def cases(settings: Settings) -> dict[str, Case]:
     """One case for each value of each parameter in each scene."""
     return {
         f"{name}/{_text(value)}__{scene}": _case(settings, name, value, scene)
         for name, entry in varied(settings).items()
         for value in entry.values
-        for scene in base_case(settings).scenes
+        for scene in BaseCase(settings, SECTION).scenes
     }
 
 
 def _case(settings: Settings, parameter: str, value: Any, scene: str) -> Case:
-    base, chosen = base_case(settings), settings.scenes[scene]
+    base, chosen = BaseCase(settings, SECTION), settings.scenes[scene]
     assert base.blade is not None
     stress = () if settings.blades[base.blade].is_matrices else ("stress", "instants")
     results = (
@@ -90,7 +85,7 @@ def _every_share(section: TradeoffSection) -> list[float]:
 def varied(settings: Settings) -> dict[str, Parameter[Any]]:
     """The parameters that are varied, with the values that can be run; none without a blade or a scene."""
     entries = {}
-    for name, entry in _wanted(settings).items() if base_case(settings).scenes else ():
+    for name, entry in _wanted(settings).items() if BaseCase(settings, SECTION).scenes else ():
         possible = [value for value in entry.values if _is_possible(settings, name, value)]
         if len(possible) > 1:
             reference = entry.reference if entry.reference in possible else possible[-1]
@@ -108,7 +103,7 @@ def _wanted(settings: Settings) -> dict[str, Parameter[Any]]:
 
 def _is_possible(settings: Settings, parameter: str, value: Any) -> bool:
     """True where this run can have the value, and the stress is wanted at samples of the motion."""
-    base = base_case(settings)
+    base = BaseCase(settings, SECTION)
     case = _case(settings, parameter, value, base.scenes[0])
     samples = case.choice.samples_per_revolution
     sampled = samples % (case.choice.snapshots_per_revolution or samples) == 0
@@ -117,7 +112,7 @@ def _is_possible(settings: Settings, parameter: str, value: Any) -> bool:
 
 def left_out(settings: Settings) -> str:
     """The parameters that are wanted and not varied, and why; empty where all of them are."""
-    base, wanted = base_case(settings), _wanted(settings)
+    base, wanted = BaseCase(settings, SECTION), _wanted(settings)
     missing = wanted.keys() - varied(settings) if base.blade else ()
     reasons = {name: base.lacking(CHANGES[name](entry.reference)) for name, entry in wanted.items() if name in missing}
     lines = []
@@ -130,7 +125,7 @@ def left_out(settings: Settings) -> str:
 
 def values(settings: Settings) -> dict[str, Any]:
     """Places of the speeds, reference values, and what the tables and the dataset report of the run."""
-    section, base = settings.section(SECTION), base_case(settings)
+    section, base = settings.section(SECTION), BaseCase(settings, SECTION)
     every = _every_share(section)
     return {
         "blade": base.blade,
@@ -153,7 +148,7 @@ def _once(sweep: Sweep) -> paths.Wildcards:
 
 def can_be_run(settings: Settings) -> None:
     """Blade, scenes and levels are there, and stress instants are among the samples of a revolution."""
-    section, base = settings.section(SECTION), base_case(settings)
+    section, base = settings.section(SECTION), BaseCase(settings, SECTION)
     wanted = section.parameters.varied() if section.parameters else {}
     base.check_names(wanted[LEVEL].values if LEVEL in wanted else [])
     if "stress_instants" not in wanted:
@@ -170,6 +165,7 @@ EXTENSION = Extension(
     name="tradeoff",
     section=SECTION,
     checks=(can_be_run,),
+    cases=cases,
     targets=lambda sweep: dict.fromkeys((DATASET, TABLE, LEVELS, GROWTH), _once(sweep)),
     figures=(
         Figure(

@@ -7,8 +7,7 @@ from r37core.cases.table import read_cases
 from r37core.results.table_file import write_table
 
 from .errors import gather_cases
-from .growth import growth_table
-from .tables import level_table, parameter_table
+from .tables import growth_table, level_table, parameter_table
 
 
 def report(input: Any, output: Any, params: Any) -> None:

@@ -1,0 +1,183 @@
+"""The pipeline's figures, each declared once; a caption stands in the file itself, in the report and in the gallery."""
+
+from typing import Any
+
+from r37core.plans.extension import Figure
+from r37core.plans.paths import CAMPBELL, MESH, RESPONSE, Wildcards, nominal, of, run_keys
+from r37core.plans.sweep_plan import Datasets, Sweep
+
+ALL_CAMPBELL, RMS, STRESS = (f"<results>/{kind}.nc" for kind in ("campbell", "rms", "stress"))
+
+
+def _stress(sweep: Sweep, wildcards: Any) -> str | list[str]:
+    """The dataset of the stress, where a run that the figure shows has one."""
+    shown = dict(wildcards.items()).items()
+    runs = (dict(blade=blade, scene=scene) for blade, scene in sweep.runs_with("stress"))
+    return STRESS if any(shown <= run.items() for run in runs) else []
+
+
+def _drawn(sweep: Sweep) -> dict[str, Any]:
+    return {"drawn": sweep.drawn}
+
+
+def _about_crossings(sweep: Sweep) -> dict[str, Any]:
+    interactions = sweep.settings.config.interactions
+    return {"below": interactions.below, "above": interactions.above, **_drawn(sweep)}
+
+
+def _growing(sweep: Sweep) -> Wildcards:
+    """Scenes whose clearance changes with the speed."""
+    scenes = sweep.settings.scenes
+    return of("scene", [name for name in sweep.drawn["scene"] if scenes[name].scene.casing.changes_with_speed])
+
+
+BLADES = "The blades, seen from the side, each in its colour of all figures. The arrow shows the rotation, LE the leading edge."
+"""Caption of the blades' picture, which is rendered into its file."""
+
+FIGURES = (
+    Figure(
+        rule="campbell_figure",
+        name="campbell_{blade}",
+        runs=lambda sweep: of("blade", sweep.drawn["blade"]),
+        draw="figures.campbell_diagram.draw_campbell",
+        files={"campbell": nominal(CAMPBELL)},
+        label="Campbell diagram",
+        caption="Campbell diagram of blade {blade}. Left: natural frequencies of the reduced model over speed, each mode in "
+        "its colour, with its crossings with engine orders (grey) as dots. Right: change of the clearance at the leading "
+        "edge, normal to the casing, over the tangential displacement. The blade swings freely in its first bending (1B) or "
+        "first torsion mode (1T); below zero the gap closes. With an elastic casing: its waves as seen from the rotor (thin), "
+        "and where a named mode meets one (diamonds).",
+        arguments=lambda sweep: {"casings": Datasets(sweep).casings},
+    ),
+    Figure(
+        rule="campbell_overview",
+        name="campbell",
+        draw="figures.campbell_diagram.draw_campbell_overview",
+        files={"campbell": ALL_CAMPBELL},
+        label="Campbell diagrams",
+        caption="Frequencies of the first bending (1B), first torsion (1T) and second bending mode (2B) of all blades over "
+        "speed, with engine orders as grey lines.",
+        arguments=_drawn,
+    ),
+    Figure(
+        rule="response_figure",
+        name="response_{blade}",
+        runs=lambda sweep: of("blade", sweep.drawn["blade"]),
+        draw="figures.response_curves.draw_response",
+        files={"campbell": ALL_CAMPBELL, "rms": RMS, "stress": _stress},
+        label="response",
+        caption="Response of blade {blade} over speed in every scene. Above: root mean square of the leading edge's "
+        "displacement over the last half of the run, normal to the casing and tangential. Below: largest von Mises stress of "
+        "the last revolution; where it is above yield (tinted) it is outside the linear model. Dotted: crossings of 1B with "
+        "engine orders; red crosses: runs that diverged. Open circles: the blade has cut itself free by the end of the run; "
+        "open triangles: its motion or the wear still grows there.",
+        arguments=_drawn,
+        offered="motions",
+    ),
+    Figure(
+        rule="response_overview",
+        name="response",
+        draw="figures.response_curves.draw_response_overview",
+        files={"rms": RMS},
+        label="responses",
+        caption="Response of all blades over speed in every scene: root mean square of the leading edge's displacement over "
+        "the last half of the run. Left: normal to the casing; right: tangential, each column on one scale. Red crosses: runs "
+        "that diverged; open circles: cut free, and open triangles: growing at the end of the run.",
+        arguments=_drawn,
+    ),
+    Figure(
+        rule="spectrum_figure",
+        name="spectrum_{blade}__{scene}",
+        runs=lambda sweep: run_keys(sweep.drawn_runs("spectrum")),
+        draw="figures.maps.draw_spectral_map",
+        files={"campbell": ALL_CAMPBELL, "maps": "<results>/spectrum.nc"},
+        label="spectrum",
+        caption="Spectral map of blade {blade} in scene {scene}: amplitude of the leading edge's motion, normal to the casing "
+        "(left) and tangential (right), over speed and engine order. Colours are decibels below the largest amplitude at the "
+        "same speed, which stands above the map; order 0 does not count. Dashed: frequencies of 1B, 1T and 2B. Where they "
+        "meet a bright row of a whole engine order, the blade interacts with the casing.",
+    ),
+    Figure(
+        rule="wear_figure",
+        name="wear_{blade}__{scene}",
+        runs=lambda sweep: run_keys(sweep.drawn_runs("wear")),
+        draw="figures.maps.draw_wear_map",
+        files={"campbell": ALL_CAMPBELL, "maps": "<results>/wear.nc"},
+        label="wear",
+        caption="Wear of the lining at the end of the run, over speed and the angle round the casing, for blade {blade} in "
+        "scene {scene}. Dotted: crossings of 1B with engine orders; an interaction wears as many lobes as its engine order. "
+        "White triangles: speeds at which the lining is worn through to the casing behind it.",
+    ),
+    Figure(
+        rule="casing_figure",
+        name="casing_{blade}__{scene}",
+        runs=lambda sweep: run_keys(sweep.drawn_runs("casing")),
+        draw="figures.maps.draw_casing_map",
+        files={"maps": "<results>/casing.nc"},
+        label="casing",
+        caption="Waves round the elastic casing for blade {blade} in scene {scene}: rms of those with the rotor (left) and "
+        "against it (right), over speed and nodal diameters. Below: mean energy of the casing over the last half of the run, "
+        "and rms of all waves.",
+    ),
+    Figure(
+        rule="fatigue_figure",
+        name="fatigue_{blade}__{scene}",
+        runs=lambda sweep: run_keys(sweep.drawn_runs("fatigue")),
+        draw="figures.fatigue_map.draw_fatigue_map",
+        files={"mesh": nominal(MESH), "rom": Sweep.reduced_model, "response": nominal(RESPONSE)},
+        label="fatigue",
+        caption="Share of the Goodman line on blade {blade} in scene {scene}, at the speed where it is largest. It is the "
+        "alternating stress over the fatigue strength, plus the mean stress, with that of rotation, over the ultimate "
+        "strength. Dots are nodes, each with its largest share of the later revolutions. Red: largest of all; grey: outside "
+        "the region of the stress.",
+    ),
+    Figure(
+        rule="waterfall_figure",
+        name="waterfall_{blade}__{scene}",
+        runs=lambda sweep: run_keys(sweep.drawn_runs("spectrum")),
+        draw="figures.waterfall.draw_waterfall",
+        files={"campbell": ALL_CAMPBELL, "maps": "<results>/spectrum.nc"},
+        label="waterfall",
+        caption="Waterfall of blade {blade} in scene {scene}: spectra of the leading edge's motion, normal to the casing "
+        "(left) and tangential (right), one above the other by speed. Speeds with the largest amplitudes are drawn, as far as "
+        "they lie apart. All heights have one logarithmic scale, 60 dB below the largest amplitude. Dotted: engine orders; "
+        "dashed: frequencies of 1B, 1T and 2B.",
+    ),
+    Figure(
+        rule="comparison_figure",
+        name="comparison_{scene}",
+        runs=lambda sweep: of("scene", sweep.drawn["scene"]),
+        draw="figures.comparison.draw_comparison",
+        files={"campbell": ALL_CAMPBELL, "rms": RMS, "stress": _stress},
+        label="around an interaction",
+        caption="All blades in scene {scene} around the same interaction: 1B with the engine order that most of them meet. "
+        "Over the speed above each blade's own crossing: rms of the leading edge, normal to the casing and tangential, and "
+        "largest stress, tinted above yield. Contact stiffens a blade, so peaks lie above the crossing. Crosses at the upper "
+        "edge: runs that diverged.",
+        arguments=_about_crossings,
+    ),
+    Figure(
+        rule="ranking_figure",
+        name="ranking",
+        runs=lambda sweep: [{}] if "stress" in sweep.kinds else [],
+        draw="figures.comparison.draw_ranking",
+        files={"ranking": "<results>/ranking.csv"},
+        label="ranking",
+        caption="Which blade? Length of the speeds above yield of every blade, scene by scene, in the order of the first "
+        "scene. Dark: in more than half of the revolutions in a run's second half; light: in more than a twentieth of them. "
+        "Lines: standard deviation by chance, on the bare casing; with members: the range that contains nine tenths of them.",
+        arguments=lambda sweep: {"scenes": sweep.drawn["scene"]},
+    ),
+    Figure(
+        rule="clearance_figure",
+        name="clearance_{scene}",
+        runs=_growing,
+        draw="figures.response_curves.draw_clearance",
+        files={"rms": RMS},
+        label="clearance",
+        caption="Clearance of the round casing over speed, of all blades in scene {scene}, at the first contact node (leading "
+        "edge) and the last one (trailing edge). It is what the casing leaves less what rotation brings the blade nearer to "
+        "it, before anything vibrates.",
+        arguments=_drawn,
+    ),
+)
