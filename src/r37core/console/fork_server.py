@@ -56,6 +56,9 @@ def serve(channel: Connection) -> None:
                 jobs[process] = number
     for process in jobs:
         os.kill(process, signal.SIGTERM)
+    # whoever waits for the end of this process then knows that none is left
+    for process in jobs:
+        os.waitpid(process, 0)
 
 
 def _ended(jobs: dict[int, int]) -> list[tuple[int, int]]:
