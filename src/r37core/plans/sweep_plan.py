@@ -14,6 +14,7 @@ from r37core.base.plain import to_plain
 from r37core.base.speeds import SpeedPlan
 from r37core.config import Settings, si_form
 from r37core.config.remarks import elastic_casings
+from r37core.contact.scene import Scene
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import OF_RUNS
 
@@ -192,13 +193,9 @@ class Simulations:
 
     def task(self, wildcards: Any) -> str:
         """Parameters of one simulation, as JSON text."""
-        task = {
-            "scene": self.plain_scene(wildcards),
-            "choice": to_plain(self._choice(wildcards, float(wildcards.speed))),
-            "results": [result for result in self.sweep.results(wildcards) if result in OF_RUNS],
-            "kept": self.sweep.kept,
-        }
-        return json.dumps(task)
+        results = tuple(result for result in self.sweep.results(wildcards) if result in OF_RUNS)
+        scene, choice = self.sweep.samples.member(wildcards).scene, self._choice(wildcards, float(wildcards.speed))
+        return _task(scene, choice, results, tuple(self.sweep.kept.items()))
 
     def _choice(self, wildcards: Any, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at a speed (rad/s)."""
@@ -217,6 +214,12 @@ class Simulations:
         """Priority of a blade's simulations, above 0 and up to 1: results are to be complete one blade after another."""
         blades = list(self.sweep.settings.blades)
         return 1 - blades.index(wildcards.blade) / len(blades)
+
+
+@cache
+def _task(scene: Scene, choice: IntegrationChoice, results: tuple[str, ...], kept: tuple[tuple[str, int], ...]) -> str:
+    """Of the many speeds of a scene most have the same text, which is made and kept once."""
+    return json.dumps({"scene": to_plain(scene), "choice": to_plain(choice), "results": results, "kept": dict(kept)})
 
 
 @dataclass(frozen=True)
