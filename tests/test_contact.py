@@ -81,10 +81,7 @@ def test_bar_pushed_released_and_pushed_again():
 
 
 @given(
-    st.lists(st.floats(-1e-3, 8e-3), min_size=1, max_size=30),
-    st.floats(1e6, 1e12),
-    st.floats(0.0, 1e12),
-    st.floats(0.0, 1e9),
+    st.lists(st.floats(-1e-3, 8e-3), min_size=1, max_size=30), st.floats(1e6, 1e12), st.floats(0.0, 1e12), st.floats(0.0, 1e9)
 )
 def test_wear_never_shrinks_and_a_bar_never_pulls(pushes, elastic, plastic, yield_stress):
     wear, bar = 0.0, Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3)

@@ -9,9 +9,7 @@ import pytest
 import xarray as xr
 from browser import opened
 from explorer_cases import BLADES, SCENES, SPEEDS, beside, interaction_rows, sweep
-from overlays import overlay
-from plans_of_snakemake import planned
-from workflow_runs import copy_project
+from workflow_runs import copy_project, overlay, planned
 
 from r37core.explorer import FOLDER, page_parts, write_page
 from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded

@@ -4,9 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from overlays import overlay
-from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
+from workflow_runs import overlay, planned_outputs
 
 from r37core.base.plain import to_plain
 from r37core.blade import section_changes

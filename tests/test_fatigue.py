@@ -5,9 +5,9 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from box_mesh import inner_places
 from defaults import IntegrationChoice
 from integration_cases import DIRECT, NARROW
-from stress_cases import inner_places
 
 from r37core.base.dataset_file import read_dataset
 from r37core.config import ConfigError
@@ -267,10 +267,7 @@ def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):
     [
         ("fatigue_strength_pa: 4e+8", "fatigue_strength_pa alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both"),
         ("ultimate_strength_pa: 9e+8", "ultimate_strength_pa alone"),
-        (
-            "fatigue_strength_pa: 3e+8, ultimate_strength_pa: 9e+8",
-            r"yield_stress_pa: found 1\.38e\+09; allowed: 3e\+08 to 9",
-        ),
+        ("fatigue_strength_pa: 3e+8, ultimate_strength_pa: 9e+8", r"yield_stress_pa: found 1\.38e\+09; allowed: 3e\+08 to 9"),
         ("fatigue_strength_pa: 9e+8, ultimate_strength_pa: 9e+8", r"fatigue_strength_pa: found 9e\+08; allowed: less than ult"),
     ],
 )
@@ -297,7 +294,7 @@ def test_strengths_vary_and_change_no_model(with_blades):
 
 
 def test_fatigue_needs_stress(config_copy):
-    from overlays import overlay
+    from workflow_runs import overlay
 
     from r37core.product.reading import read_settings
 

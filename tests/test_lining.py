@@ -7,7 +7,7 @@ import pytest
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import NARROW, oscillator, random_model, with_static_modes
 from integration_runs import ENGINES, whole_run
-from overlays import overlay
+from workflow_runs import overlay
 
 from r37core.config import ConfigError
 from r37core.config.remarks import remarks_on_laws

@@ -8,7 +8,7 @@ import pytest
 import yaml
 from defaults import IntegrationChoice
 from integration_cases import ABRADABLE, DIRECT, random_model, with_static_modes
-from overlays import overlay
+from workflow_runs import overlay
 
 import r37
 from r37core.config import ConfigError, checked_scene, command_line_document

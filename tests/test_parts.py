@@ -5,9 +5,8 @@ import subprocess
 
 import pytest
 import yaml
-from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
-from workflow_runs import SNAKEMAKE, snakemake
+from workflow_runs import SNAKEMAKE, copy_odd_project, planned_outputs, run_in_odd_project, snakemake
 
 from r37core.config import ConfigError
 from r37core.config.document import command_line_document
@@ -71,3 +70,12 @@ def test_batches_of_the_named_rule(root, tmp_path):
     copy_stubbed(root, tmp_path)
     first, second = (planned_outputs(tmp_path, "responses", "--batch", f"responses={number}/3") for number in (1, 2))
     assert first["simulate"] and not first["simulate"] & second.get("simulate", set())
+
+
+@pytest.mark.slow
+def test_a_part_of_a_sweep_on_slurm(root, tmp_path):
+    """What Slurm would run, without Slurm."""
+    folder = copy_odd_project(root, tmp_path)
+    slurm = {f"SLURM_{name}": "1" for name in ("CPUS_PER_TASK", "ARRAY_TASK_ID", "ARRAY_TASK_COUNT")}
+    slurm["SLURM_SUBMIT_DIR"] = str(folder)
+    assert "simulate" in run_in_odd_project(folder, "bash", "cluster/sweep.sbatch", "--dry-run", "--forceall", **slurm)

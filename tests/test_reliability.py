@@ -18,10 +18,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
-from plans_of_snakemake import planned_outputs
 from snakemake.exceptions import InputFunctionException, WorkflowError, format_exception_to_string
 from stubbed_runs import copy_stubbed
-from workflow_runs import copy_project, kill_snakemake, snakemake
+from workflow_runs import copy_project, kill_snakemake, planned_outputs, snakemake
 
 from r37 import structure_files
 from r37core.base.dataset_file import SPEED, Variable, about, read_dataset, write_dataset

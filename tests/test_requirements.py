@@ -214,53 +214,25 @@ def with_requirements(config_copy):
     return read
 
 
-def margin(orders):
-    return {"mode": "1B", "engine_orders": orders, "at_least_percent": 5}
-
-
 RANGE = {"idle_rad_s": 1100.0, "redline_rad_s": 1300.0}
+
+
+def margin(mode, orders, percent=5, operating=RANGE):
+    """Sections with a margin of a mode's crossings with these engine orders."""
+    of_mode = {"mode": mode, "engine_orders": orders, "at_least_percent": percent}
+    return {"operating": operating, "requirements": {"campbell_margins": [of_mode]}}
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         ({"requirements": {"mass_at_most_kg": 1.0}}, "requirements without operating"),
-        (
-            {
-                "operating": RANGE,
-                "requirements": {"campbell_margins": [{"mode": "3B", "engine_orders": [4], "at_least_percent": 5}]},
-            },
-            "'3B'; allowed: 1B, 1T, 2B, 4",
-        ),
-        (
-            {
-                "operating": RANGE,
-                "requirements": {"campbell_margins": [{"mode": "1B", "engine_orders": [99], "at_least_percent": 5}]},
-            },
-            "99; allowed: at most campbell.highest_engine_order",
-        ),
+        (margin("3B", [4]), "'3B'; allowed: 1B, 1T, 2B, 4"),
+        (margin("1B", [99]), "99; allowed: at most campbell.highest_engine_order"),
         ({"operating": RANGE, "requirements": {"mass_at_most_kg": -1.0}}, "-1"),
-        (
-            {
-                "operating": RANGE,
-                "requirements": {"campbell_margins": [{"mode": "1B", "engine_orders": [], "at_least_percent": 5}]},
-            },
-            "found none",
-        ),
-        (
-            {
-                "operating": RANGE,
-                "requirements": {"campbell_margins": [{"mode": "1B", "engine_orders": [4, 4], "at_least_percent": 5}]},
-            },
-            "4 of 1B twice",
-        ),
-        (
-            {
-                "operating": RANGE | {"redline_rad_s": 1990.0},
-                "requirements": {"campbell_margins": [{"mode": "1T", "engine_orders": [8], "at_least_percent": 3}]},
-            },
-            "crossings up to 2051.55 rad/s count",
-        ),
+        (margin("1B", []), "found none"),
+        (margin("1B", [4, 4]), "4 of 1B twice"),
+        (margin("1T", [8], 3, RANGE | {"redline_rad_s": 1990.0}), "crossings up to 2051.55 rad/s count"),
     ],
 )
 def test_requirement_refusals(with_requirements, changes, message):

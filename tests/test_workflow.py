@@ -16,9 +16,7 @@ import pandas as pd
 import pytest
 import yaml
 from browser import opened
-from overlays import overlay
-from plans_of_snakemake import plan, planned
-from workflow_runs import LONGEST, copy_odd_project, digests, lose_speed, run_in_odd_project, snakemake
+from workflow_runs import LONGEST, copy_odd_project, digests, lose_speed, overlay, plan, planned, run_in_odd_project, snakemake
 
 from r37core.base.dataset_file import read_dataset
 from r37core.base.yaml_file import load_yaml
