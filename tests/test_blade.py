@@ -36,14 +36,11 @@ def test_unrolled_distance_is_distance_on_the_flat_sector():
     assert np.hypot(*cone.unroll(*first, *second)) == pytest.approx(abs(flat[1] - flat[0]), rel=1e-13)
 
 
-def test_constant_angle_on_a_cylinder_is_a_helix():
+def test_paths_on_a_cylinder_are_a_helix_and_a_circular_arc():
     path = ConstantRatePath(Cone(0.2, 0.0), 0.0, 0.0, 0.7, 0.0)
     m, theta = path.point(0.05)
     assert m == pytest.approx(0.05 * np.cos(0.7), rel=1e-14)
     assert theta == pytest.approx(0.05 * np.sin(0.7) / 0.2, rel=1e-14)
-
-
-def test_constant_rate_on_a_cylinder_is_a_circular_arc():
     rate = 12.0
     path = ConstantRatePath(Cone(0.2, 0.0), 0.0, 0.0, 0.4, rate)
     m, theta = path.point(np.linspace(0.0, 0.05, 7))
@@ -244,15 +241,12 @@ def test_sweep_and_lean_pass_through_the_table():
     np.testing.assert_allclose(sweep_and_lean(np.array([0.5]), table).axial, np.polyval(cubic, 0.5), rtol=1e-9)
 
 
-def test_crossing_profiles_are_refused_with_blade_and_span(settings):
+def test_crossing_profiles_and_a_wild_sweep_are_refused_with_blade_and_span(settings):
     definition = settings.blades["Ref"].definition
     rows = list(definition.profiles)
     rows[5] = replace(rows[5], maximum_thickness=0.06, inlet_thickness=0.05)
     with pytest.raises(BladeShapeError, match=r"blade Odd: span \d+"):
         BladeDefinition("Odd", tuple(rows)).build(round_edges=True)
-
-
-def test_wild_sweep_is_refused(settings):
     definition = settings.blades["Ref"].definition
     rows = ((0.0, 0.0, 0.0), (0.5, 0.0, 2.5), (0.52, 0.0, -2.5), (1.0, 0.0, 0.0))
     with pytest.raises(BladeShapeError, match="blade Ref: span"):

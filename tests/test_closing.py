@@ -46,21 +46,16 @@ def test_found_where_and_how_long(tmp_path):
     assert "(1B/7)" in closing_lines(written(tmp_path, ROWS[0]), 400.0, 500.0)[0]
 
 
-def test_the_largest_stress_is_that_of_all_scenes(tmp_path):
-    """Rows of direct contact have no stress of a single revolution."""
+def test_more_columns_say_more(tmp_path):
+    """Of all scenes the largest stress, the linings that are worn through, and the digits that a range bears."""
+    # rows of direct contact have no stress of a single revolution
     rows = ("Ref,abradable,1B,4,1725,30,7.26e8,1725,1700,7.1e8", "S100,direct,,2,,,,1344,900,4.12e10")
     folder = written(tmp_path, *rows, columns=",peak_speed_rad_s,certain_from_rad_s,high_von_mises_pa")
     said = closing_lines(folder, 0.0, 1.0)[0]
     assert said.endswith("; the largest stress 41.20 GPa, S100 in direct about 1344 rad/s (engine order 2)")
-
-
-def test_a_lining_that_is_worn_through_is_counted(tmp_path):
     rows = [f"{row},{share}" for row, share in zip(ROWS, ("0.2", "0", "", ""), strict=True)]
     said = closing_lines(written(tmp_path, *rows, columns=",worn_through_share"), 0.0, 1.0)[0]
     assert ", 2 of them above yield, 1 with the lining worn through to the casing; the largest" in said
-
-
-def test_a_stress_with_a_range_has_the_digits_that_it_bears(tmp_path):
     columns = ",max_von_mises_pa_low,max_von_mises_pa_median,max_von_mises_pa_high"
     for ends, said in ((",2.02e9,8.6e9,1.41e10", "9 GPa (2 to 14 in nine tenths of the members)"), (",,,", "8.56 GPa")):
         folder = written(tmp_path, ROWS[0] + ends, columns=columns)

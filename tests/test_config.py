@@ -197,15 +197,12 @@ def test_missing_key_is_named_where_it_should_stand(config_copy):
         read_settings(config_copy)
 
 
-def test_a_message_points_into_the_file_that_said_it(config_copy):
+def test_a_message_points_into_the_file_that_said_it_and_changes_keep_what_they_do_not_name(config_copy):
     (config_copy / "mine.yaml").write_text("# mine\n\nstructure:\n  boundary:\n    nodes: 0\n")
     with pytest.raises(ConfigError, match=r"^mine\.yaml:5: structure\.boundary\.nodes: found 0"):
         read_settings(config_copy, read_document(config_copy, "mine.yaml"))
     with pytest.raises(ConfigError, match=r"^--config: structure\.boundary\.nodes: found 0"):
         read_settings(config_copy, command_line_document({"structure": {"boundary": {"nodes": "0"}}}))
-
-
-def test_changes_keep_what_they_do_not_name(config_copy):
     settings = read_settings(config_copy, command_line_document({"structure": {"boundary": {"nodes": "4"}}}))
     assert (settings.structure.boundary.nodes, settings.structure.boundary.tip_line) == (4, "pressure_edge")
 
@@ -256,23 +253,12 @@ def test_mistakes_in_three_files(config_copy):
     assert lines[2].endswith(".casing.lobes: found -2; allowed: integer, at least 0, at most 100")
 
 
-def test_three_mistakes_in_one_file(config_copy):
+def test_mistakes_in_one_file_are_told_once_each(config_copy):
+    """In it, among names, which nearly every other check looks up, in extensions, and in one section."""
     lines = told(config_copy, tolerance=5, campbell={"modes": 99}, interaction={})
     starts(
         lines, "--config: top level: found unknown key", "--config: tolerance: found 5", "--config: campbell.modes: found 99"
     )
-
-
-def test_a_missing_key_beside_an_unknown_one_is_not_told(config_copy):
-    """The unknown one may be meant for it."""
-    edit(config_copy / "config/scenes.yaml", "coefficient: 0.15", "coeficient: 0.15")
-    (line,) = told(config_copy)
-    assert "found unknown key coeficient" in line
-    assert line.endswith("(did you mean coefficient?)")
-
-
-def test_names_that_are_not_there_are_told_once_each(config_copy):
-    """Nearly every other check looks them up."""
     lines = told(config_copy, fidelity="finest", blades=["Reff"], scenes=["wet"])
     starts(
         lines,
@@ -280,9 +266,6 @@ def test_names_that_are_not_there_are_told_once_each(config_copy):
         "--config: blades: found 'Reff'; allowed: Ref, L50",
         "--config: scenes: found 'wet'; allowed: abradable, direct",
     )
-
-
-def test_mistakes_of_the_pipeline_and_of_extensions(config_copy):
     run_ups = {"a": {"from_rad_s": 900, "to_rad_s": 2100, "revolutions": 5}, "b": {"blades": ["Reff"]}}
     run_ups["b"] |= run_ups["a"]
     lines = told(config_copy, speeds=[900, 900], run_ups=run_ups, signals={"speeds_rad_s": [900], "blades": ["Reff"]})
@@ -293,14 +276,19 @@ def test_mistakes_of_the_pipeline_and_of_extensions(config_copy):
         "--config: run_ups.a.revolutions: found 2100 rad/s",
         "--config: run_ups.b.blades: found 'Reff'",
     )
-
-
-def test_mistakes_in_one_section(config_copy):
     rules = [{"blades": ["Reff"], "scenes": ["wet"], "speeds": [900]}, {"scenes": ["dry"], "speeds": [900]}]
     stability = {"base": "rough", "scenes": ["wet"]}
     lines = told(config_copy, speeds_for=rules, stability=stability)
     places = "speeds_for.0.blades speeds_for.0.scenes speeds_for.1.scenes stability.base stability.scenes"
     assert sorted(line.split(":")[1].strip() for line in lines) == places.split()
+
+
+def test_a_missing_key_beside_an_unknown_one_is_not_told(config_copy):
+    """The unknown one may be meant for it."""
+    edit(config_copy / "config/scenes.yaml", "coefficient: 0.15", "coeficient: 0.15")
+    (line,) = told(config_copy)
+    assert "found unknown key coeficient" in line
+    assert line.endswith("(did you mean coefficient?)")
 
 
 @pytest.mark.parametrize("text", [new for old, new, _ in CONFIG_REFUSALS if old == "exports: #"][::5])

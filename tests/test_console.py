@@ -78,14 +78,10 @@ def test_messages_have_the_fields_that_the_line_is_made_of(source, event, names)
     assert [name for name in names if name not in about] == []
 
 
-def test_the_limit_that_a_run_takes_away_is_still_there():
-    """Of jobs per second: the console sets it to None, which must not become a name that nobody reads."""
+def test_the_limit_of_jobs_per_second_and_the_interpreter_s_name_are_used_as_they_stand():
+    """The limit is set to None, which must not become a name that nobody reads; a name quoted twice would start nothing."""
     scheduler = job_scheduler.JobScheduler
     assert all("job_rate_limiter" in function.__code__.co_names for function in (scheduler.__init__, scheduler.schedule))
-
-
-def test_scripts_are_started_with_the_interpreter_s_name_as_it_stands():
-    """The console quotes it, once: a Snakemake that quotes it too would start nothing."""
     about = inspect.getsource(script.PythonScript)
     assert "py_exec = sys.executable" in about
     assert '"{py_exec} {fname:q}"' in about

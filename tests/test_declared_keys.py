@@ -148,15 +148,12 @@ def test_a_key_reaches_its_field_only(path):
     assert {name for name in before if before[name] != after[name]} == {field}
 
 
-def test_every_field_has_a_key():
+def test_every_field_has_a_key_and_by_default_the_tip_decides_the_cone_angle():
     """Those of a clearance that changes with the speed: see test_clearance; of an elastic casing: test_elastic_casing."""
     elsewhere = {"casing.centrifugal", "casing.growth_speeds", "casing.growth", "casing.ring", "casing.ring_radius"}
     # of the blades of a rotor
     elsewhere |= {"rotor", "casing.longer"}
     assert {field for _, field, _ in REACHES.values()} | elsewhere == set(flat(checked_scene(ENTRY)))
-
-
-def test_by_default_the_tip_decides_the_cone_angle_and_all_of_it_has_a_lining():
     scene = checked_scene(ENTRY)
     assert (scene.casing.cone_angle, scene.lining.published) == (None, False)
     assert scene.casing.angle(-0.26) == -0.26
@@ -194,16 +191,13 @@ def test_a_number_with_a_unit_becomes_one_of_the_si(suffix):
     assert si_fields([(f"some{suffix}", [number, 0.0])])["some"] == (pytest.approx(expected, rel=1e-15), 0.0)
 
 
-def test_every_unit_of_a_key_is_known():
+def test_every_unit_of_a_key_is_known_and_what_is_left_out_has_no_field():
     """A key that ends in a unit without a suffix of its own would reach its field under a wrong name."""
     keys = {key for section in SECTIONS.values() for key in section.model_fields}
     with_units = {key for key in keys if UNIT.search(key)}
     assert {"clearance_m", "time_step_s", "density_kg_m3", "speeds_rpm", "cone_angle_deg"} <= with_units
     assert not {key for key in with_units if not key.endswith(tuple(SUFFIXES))}
     assert {suffix for suffix in SUFFIXES if any(key.endswith(suffix) for key in keys)} == set(SUFFIXES)
-
-
-def test_what_is_left_out_has_no_field():
     assert si_fields([("bar_area_m2", None), ("cone_angle_deg", "tip"), ("bars", 7)]) == {"bars": 7}
 
 

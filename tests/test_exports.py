@@ -332,14 +332,11 @@ def test_headers_that_promise_too_much(tmp_path, head, message):
         read_matrix(tmp_path / "M.mtx")
 
 
-def test_a_small_matrix_of_matrix_market_fits_its_header(tmp_path):
-    """The shortest entries that there can be."""
+def test_a_small_matrix_fits_its_header_and_an_archive_has_one_matrix(tmp_path):
+    """The shortest entries of Matrix Market that there can be."""
     for text in ("array integer symmetric\n2 2\n2\n1\n2\n", "coordinate integer symmetric\n2 2 2\n1 1 3\n2 2 3\n"):
         (tmp_path / "M.mtx").write_text(f"%%MatrixMarket matrix {text}")
         assert read_matrix(tmp_path / "M.mtx").shape == (2, 2)
-
-
-def test_an_archive_has_one_matrix(tmp_path):
     np.savez(tmp_path / "M.npz", SMALL, 2.0 * SMALL)
     with pytest.raises(ImportRefused, match=r"^M\.npz: found 2 arrays \(arr_0, arr_1\); allowed: one, or a sparse matrix"):
         read_matrix(tmp_path / "M.npz")

@@ -24,12 +24,6 @@ SPEEDS = np.arange(750.0, 2000.1, 25.0)
 draw_comparison = partial(comparison.draw_comparison, below=0.02, above=0.06)
 
 
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
-
-
 @pytest.fixture(scope="module")
 def datasets():
     """Three blades whose 1B meets engine order 4 at 1672, 1621 and 1635 rad/s, with a peak 2% above; one run diverged."""

@@ -96,7 +96,7 @@ def compiled_for(wide, deep):
     return of
 
 
-def test_what_is_ruled_out_is_not_compiled():
+def test_what_is_ruled_out_is_not_compiled_and_the_module_keeps_its_own_values():
     assert compiled_for(False, False)(1.0) == 3.0
     assert compiled_for(False, True)(1.0) == 303.0
     # the error names file and line of the source
@@ -104,6 +104,9 @@ def test_what_is_ruled_out_is_not_compiled():
         compiled_for(True, False)(1.0)
     assert "test_lanes.py" in str(refused.value)
     assert "number = number.of_no_such_name" in str(refused.value)
+    specialised(measured, {"WIDE": False, "DEEP": True})
+    assert DEEP is False
+    assert measured.py_func.__globals__["DEEP"] is False
 
 
 def test_choices_share_what_does_not_tell_them_apart():
@@ -113,12 +116,6 @@ def test_choices_share_what_does_not_tell_them_apart():
     assert specialised(measured, shallow) is not specialised(measured, deep)
     assert specialised(measured, shallow) is specialised(measured, dict(shallow))
     assert specialised(doubled, deep) is doubled
-
-
-def test_the_module_keeps_its_own_values():
-    specialised(measured, {"WIDE": False, "DEEP": True})
-    assert DEEP is False
-    assert measured.py_func.__globals__["DEEP"] is False
 
 
 def test_the_steps_know_every_constant_of_a_kind_by_its_name():

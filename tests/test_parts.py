@@ -31,21 +31,16 @@ def test_what_is_no_part_is_refused(root, part):
         settings_of(root, part)
 
 
-def test_more_parts_than_blades_are_refused(root):
+def test_a_part_makes_nothing_of_all_blades(root):
+    """Nor are there more parts than blades; the profile of a node has all that the usual one has."""
     with pytest.raises(ConfigError, match=r"run\.part: found 1/3 of 2 blades; allowed: at most 2 parts"):
         settings_of(root, "1/3", blades=["Ref", "S50"])
-
-
-def test_a_part_makes_nothing_of_all_blades(root):
     part = settings_of(root, "1/3")
     check_part(part, {"responses"})
     check_part(read_settings(root), set())
     for targets in (set(), {"all_blades"}, {"responses", "results/rms.nc"}):
         with pytest.raises(ConfigError, match=r"run\.part: found 1/3 with the target .*; allowed: the target responses, as in"):
             check_part(part, targets)
-
-
-def test_the_profile_of_a_node_has_all_that_the_usual_one_has(root):
     usual, node = (yaml.safe_load((root / f"profiles/{name}/config.yaml").read_text()) for name in ("default", "node"))
     assert node == usual | {"cores": "all"}
 

@@ -184,9 +184,9 @@ def test_free_flight_from_outside(config):
     assert "initial_state" not in r37.simulate("Ref", far, speed, config=config, results=[]).attrs
 
 
-def call(name, *arguments, **named):
+def call(function, /, *arguments, **named):
     """A call of r37 that is to be refused."""
-    return lambda: getattr(r37, name)(*arguments, **named)
+    return lambda: getattr(r37, function)(*arguments, **named)
 
 
 def scene(**changes):
@@ -389,7 +389,6 @@ def test_plots_are_those_of_the_workflow_and_leave_matplotlib_alone(finished, co
     assert len(r37.plot_response(part).axes) == 2 and "dotted" not in r37.plot_response(part).axes[0].get_title()
     assert len(r37.plot_response(response.sel(speed=1150.0)).axes) == 3
     assert dict(plt.rcParams) == before
-    plt.close("all")
 
 
 @pytest.mark.slow
@@ -408,7 +407,6 @@ def test_python_of_the_pages_runs(root, finished, monkeypatch):
     names = {"r37": r37}
     for block in blocks:
         exec(block.replace('"draft"', '"tiny"').replace('"blades": 36', '"blades": 4'), names)
-    plt.close("all")
 
 
 @pytest.mark.slow

@@ -245,6 +245,7 @@ def test_what_is_refused_in_blades_yaml(with_blades, text, message):
         ("abradable:", "abradable__x:", r"abradable__x: found 'abradable__x'"),
         ("abradable:", '"abradable\\n":', r"abradable\\n: found 'abradable\\n'; allowed: a name of letters"),
         ("    bars: 10000", "    bars: 10_000", r"lining\.bars: found '10_000'; allowed: integer"),
+        ("\ndirect:", "\ndirect:\n  stress_history_speeds_rad_s: [1717.5]", "stress_history.*: found 1717.5; allowed: speeds"),
     ],
 )
 def test_what_is_refused_in_scenes_yaml(config_copy, old, new, message):
@@ -357,13 +358,10 @@ def test_tables_that_cannot_be_read(config_copy, name, change, message):
         read_settings(config_copy)
 
 
-def test_numbers_are_read_alike_everywhere(tmp_path):
+def test_numbers_are_read_alike_everywhere_and_as_a_key_a_whole_one_is_its_text(tmp_path):
     file = tmp_path / "a.yaml"
     file.write_text("[1e-1, 2.5E-3, 1e9, 010, .5, -3., 1E+3, 12:30, 1_000, 0x10, 2020-01-01, +7]")
     assert load_yaml(file) == [0.1, 0.0025, 1e9, 10, 0.5, -3.0, 1000.0, "12:30", "1_000", "0x10", "2020-01-01", 7]
-
-
-def test_a_whole_number_as_a_key_is_its_text(tmp_path):
     file = tmp_path / "a.yaml"
     file.write_text("{ 1: 0.4, 010: 2, '3': 1, -4: x }")
     assert load_yaml(file) == {"1": 0.4, "010": 2, "3": 1, "-4": "x"}

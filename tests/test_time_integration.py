@@ -155,15 +155,12 @@ def test_energy_balance_closes(contact, scene, integrator, step):
     assert abs(simulation.energy(state) - work + loss) < 1e-9 * (abs(work) + loss)
 
 
-def test_unstable_step_is_refused_with_the_limit(contact):
+def test_a_step_that_is_unstable_or_too_long_for_the_lining_is_refused_with_the_limit(contact):
     highest = np.sqrt(contact.modes_at(1000.0)[0][-1] ** 2)
     limit = 2.0 / highest
     with pytest.raises(UnstableStepError, match=rf"time_step_s: .* stability limit .* {limit:.6g} s"):
         Problem(contact, 1000.0, DIRECT, IntegrationChoice(1.02 * limit, 1, 62))
     Problem(contact, 1000.0, DIRECT, IntegrationChoice(0.98 * limit, 1, 62))
-
-
-def test_step_too_long_for_the_lining_is_refused(contact):
     stiff = replace(ABRADABLE, lining=replace(LINING, elastic_modulus=20e12))
     with pytest.raises(UnstableStepError, match=r"limit for this lining, about .* N/m"):
         Problem(contact, 1000.0, stiff, IntegrationChoice(2e-7, 1, 62))
