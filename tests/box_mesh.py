@@ -1,4 +1,4 @@
-"""A box of elements, clamped at one end: the structure whose exact answers are known."""
+"""A box of elements, clamped at one end, whose exact answers are known, and nodes of meshes that tests share."""
 
 from itertools import permutations, product
 
@@ -70,3 +70,11 @@ def write_deck(file, change=lambda text: text, element="hexahedron20"):
     """The plate's deck, changed as text."""
     write_abaqus(plate(element), file, TITANIUM, "plate")
     file.write_text(change(file.read_text()))
+
+
+def inner_places(model, mesh):
+    """Places in the region of the stress of three nodes all of whose elements belong to it."""
+    region = model.stress_submesh.nodes
+    outside = [nodes[~np.isin(nodes, region).all(axis=1)] for nodes in mesh.blocks.values()]
+    inner = np.flatnonzero(~np.isin(region, np.concatenate([nodes.ravel() for nodes in outside])))
+    return inner[[0, len(inner) // 2, -1]]

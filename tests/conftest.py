@@ -5,6 +5,7 @@ import filecmp
 import io
 import os
 import shutil
+import sys
 import tempfile
 from collections import Counter
 from dataclasses import replace
@@ -55,7 +56,13 @@ LONGEST += ("search_calls", "your_blade", "native", "examples", "explorer", "rer
 
 
 def pytest_collection_modifyitems(items):
-    """The longest files first, then those with slow tests, so that at the end no core waits for one of them."""
+    """The longest files first, then those with slow tests, so that at the end no core waits for one of them.
+
+    A test of a page in the browser is slow.
+    """
+    for item in items:
+        if "page" in item.fixturenames:
+            item.add_marker("slow")
     slow = {item.path for item in items if item.get_closest_marker("slow")}
     rank = {f"test_{name}.py": number for number, name in enumerate(LONGEST)}
     items.sort(key=lambda item: (rank.get(item.path.name, len(rank)), item.path not in slow))
@@ -104,6 +111,14 @@ def elsewhere(tmp_path_factory):
     """A working directory without results: no test sees those of the checkout."""
     with contextlib.chdir(tmp_path_factory.mktemp("elsewhere")):
         yield
+
+
+@pytest.fixture(autouse=True)
+def figures_closed():
+    """Whatever a test has drawn is closed after it."""
+    yield
+    if pyplot := sys.modules.get("matplotlib.pyplot"):
+        pyplot.close("all")
 
 
 @pytest.fixture(scope="session")

@@ -2,8 +2,7 @@
 
 import re
 
-from overlays import overlay
-from workflow_runs import copy_project
+from workflow_runs import copy_project, overlay
 
 BLADES, SCENES = ("Ref", "CS100"), ("abradable", "direct")
 REFINED = "{ start: 750, stop: 1550, step: 400, refine_to: 0.5 }"

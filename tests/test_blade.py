@@ -1,17 +1,152 @@
-"""Stacking, sweep and lean, and the blade as a map."""
+"""The blade's geometry: cones, profiles, stacking, sweep and lean, and the blade as a map."""
 
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
+from r37core.blade.cone import Cone, ConstantRatePath
 from r37core.blade.definition import BladeDefinition
 from r37core.blade.geometry_file import read_geometry, write_geometry
-from r37core.blade.profile import BladeShapeError, area_and_centroid
+from r37core.blade.profile import PRESSURE, SUCTION, BladeShapeError, Profile, area_and_centroid
 from r37core.blade.profile_tables import read_profile_table
 from r37core.blade.stacking import chordwise_sweep, conical_stacking, plane_section_stacking, sweep_and_lean
+
+angles = st.floats(-1.2, 1.2)
+half_angles = st.one_of(st.just(0.0), st.floats(-0.9, 0.9))
+
+
+@given(half_angles, angles, st.floats(1e-4, 0.05), st.floats(0.0, 0.04))
+def test_offset_and_unroll_are_inverse(half_angle, direction, distance, m):
+    cone = Cone(0.2, half_angle)
+    along, across = cone.unroll(m, 0.3, *cone.offset(m, 0.3, direction, distance))
+    assert along == pytest.approx(distance * np.cos(direction), abs=1e-14)
+    assert across == pytest.approx(distance * np.sin(direction), abs=1e-14)
+
+
+def test_unrolled_distance_is_distance_on_the_flat_sector():
+    cone = Cone(0.2, 0.5)
+    first, second = (0.01, 0.1), (0.03, 0.25)
+    apex = [(cone.radius(m) / np.sin(0.5), theta * np.sin(0.5)) for m, theta in (first, second)]
+    flat = [rho * np.exp(1j * phi) for rho, phi in apex]
+    assert np.hypot(*cone.unroll(*first, *second)) == pytest.approx(abs(flat[1] - flat[0]), rel=1e-13)
+
+
+def test_paths_on_a_cylinder_are_a_helix_and_a_circular_arc():
+    path = ConstantRatePath(Cone(0.2, 0.0), 0.0, 0.0, 0.7, 0.0)
+    m, theta = path.point(0.05)
+    assert m == pytest.approx(0.05 * np.cos(0.7), rel=1e-14)
+    assert theta == pytest.approx(0.05 * np.sin(0.7) / 0.2, rel=1e-14)
+    rate = 12.0
+    path = ConstantRatePath(Cone(0.2, 0.0), 0.0, 0.0, 0.4, rate)
+    m, theta = path.point(np.linspace(0.0, 0.05, 7))
+    centre = np.array([-np.sin(0.4), np.cos(0.4)]) / rate
+    np.testing.assert_allclose(np.hypot(m - centre[0], 0.2 * theta - centre[1]), 1.0 / rate, rtol=1e-13)
+
+
+@given(half_angles, angles, st.floats(-15.0, 15.0))
+def test_path_obeys_its_differential_equations(half_angle, kappa, rate):
+    cone = Cone(0.2, half_angle)
+    path = ConstantRatePath(cone, 0.003, 0.1, kappa, rate)
+    s, step = 0.012, 1e-6
+    (m_before, theta_before), (m_after, theta_after) = path.point(s - step), path.point(s + step)
+    angle = path.angle(s)
+    assert (m_after - m_before) / (2 * step) == pytest.approx(np.cos(angle), abs=1e-7)
+    slope = np.sin(angle) / cone.radius(path.meridional(s))
+    assert (theta_after - theta_before) / (2 * step) == pytest.approx(slope, abs=1e-6)
+
+
+def test_path_between_two_angles_ends_where_asked():
+    path, length = ConstantRatePath.between(Cone(0.2, 0.3), 0.0, 0.0, 0.9, 0.02, 0.3)
+    assert path.meridional(length) == pytest.approx(0.02, rel=1e-14)
+    assert path.angle(length) == pytest.approx(0.3, rel=1e-14)
+    assert path.length_to(0.02) == pytest.approx(length, rel=1e-12)
+
+
+PRINTED_RATES = {  # 1/cm: suction inlet, suction outlet, pressure inlet, pressure outlet
+    0: (-0.0844, -0.1996, -0.0021, -0.1012),
+    50: (-0.0332, -0.1386, 0.0091, -0.0508),
+    100: (-0.0093, -0.1682, 0.0114, -0.0761),
+}
+PRINTED_AREAS = {0: 1.8427, 30: 1.4094, 50: 1.1842, 70: 0.9806, 100: 0.7059}  # cm2
+
+
+def at_span(profiles, percent):
+    return next(p for p in profiles if round(100 * p.parameters.span) == percent)
+
+
+@pytest.mark.parametrize("percent", PRINTED_RATES)
+def test_surface_turning_rates(profiles, percent):
+    surfaces = at_span(profiles, percent).surfaces
+    rates = [path.rate / 100.0 for side in (SUCTION, PRESSURE) for path in (surfaces[side].front, surfaces[side].rear)]
+    np.testing.assert_array_equal(np.round(rates, 4), PRINTED_RATES[percent])
+
+
+@pytest.mark.parametrize("percent", PRINTED_AREAS)
+def test_areas(profiles, percent):
+    assert round(1e4 * at_span(profiles, percent).area, 4) == PRINTED_AREAS[percent]
+
+
+@pytest.mark.parametrize("side", [PRESSURE, SUCTION])
+def test_surfaces_are_tangent_to_the_edge_circles(profiles, side):
+    for profile in profiles:
+        for chord, edge in ((0.0, profile.leading_edge), (1.0, profile.trailing_edge)):
+            on_surface = profile.surfaces[side].point(chord)
+            on_circle = edge.point(float(side))
+            np.testing.assert_allclose(on_surface, on_circle, atol=1e-11)
+            along, across = profile.cone.unroll(edge.m, edge.theta, *on_surface)
+            assert np.hypot(along, across) == pytest.approx(edge.radius, rel=1e-8)
+
+
+def test_surfaces_are_smooth_at_the_junction(profiles):
+    for profile in profiles:
+        for surface in profile.surfaces.values():
+            assert surface.front.angle(surface.front_length) == pytest.approx(surface.rear.kappa, abs=1e-12)
+
+
+def test_thickness_is_the_maximum_thickness_where_printed(profiles):
+    hub = profiles[0]
+    p = hub.parameters
+    m_thickest = p.maximum_thickness_axial / np.cos(hub.cone.half_angle)
+    rear = hub.centreline.rear
+    s = rear.length_to(m_thickest)
+    m, theta = rear.point(s)
+    for side in (PRESSURE, SUCTION):
+        wall = hub.surfaces[side].point(np.linspace(0.0, 1.0, 20001))
+        along, across = hub.cone.unroll(m, theta, *wall)
+        assert np.min(np.hypot(along, across)) == pytest.approx(p.maximum_thickness / 2.0, rel=1e-4)
+
+
+def test_edge_arcs_pass_the_nose(profiles):
+    for profile in profiles:
+        assert profile.leading_edge.point(0.0)[0] < 0.0
+        end = profile.parameters.outlet_axial / np.cos(profile.cone.half_angle)
+        assert profile.trailing_edge.point(0.0)[0] > end
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("maximum_thickness", -0.001, ".*maximum_thickness"),
+        ("inlet_thickness", 0.0, ".*inlet_thickness"),
+        ("inlet_angle", np.radians(95.0), ".*inlet_angle"),
+        ("transition_axial", 0.06, ".*transition_axial"),
+        ("outlet_radius", 0.0, ".*outlet_radius"),
+        # surfaces that cannot close
+        ("maximum_thickness", 0.04, ": (no|the) (suction|pressure)"),
+        ("inlet_angle", np.radians(89.0), ": (no|the) (suction|pressure)"),
+        ("outlet_angle", np.radians(-89.0), ": (no|the) (suction|pressure)"),
+        ("maximum_thickness_axial", 0.0003, ": (no|the) (suction|pressure)"),
+    ],
+)
+def test_impossible_profiles_are_refused_with_the_span(profiles, name, value, message):
+    with pytest.raises(BladeShapeError, match=f"span 50%{message}"):
+        Profile(replace(at_span(profiles, 50).parameters, **{name: value}))
+
 
 PRINTED_AXIAL = [0, 0.0096, 0.0188, 0.0267, 0.0473, 0.0687, 0.0872, 0.0987, 0.1015, 0.1030, 0.1030]  # cm
 PRINTED_ROTATION = [
@@ -106,15 +241,12 @@ def test_sweep_and_lean_pass_through_the_table():
     np.testing.assert_allclose(sweep_and_lean(np.array([0.5]), table).axial, np.polyval(cubic, 0.5), rtol=1e-9)
 
 
-def test_crossing_profiles_are_refused_with_blade_and_span(settings):
+def test_crossing_profiles_and_a_wild_sweep_are_refused_with_blade_and_span(settings):
     definition = settings.blades["Ref"].definition
     rows = list(definition.profiles)
     rows[5] = replace(rows[5], maximum_thickness=0.06, inlet_thickness=0.05)
     with pytest.raises(BladeShapeError, match=r"blade Odd: span \d+"):
         BladeDefinition("Odd", tuple(rows)).build(round_edges=True)
-
-
-def test_wild_sweep_is_refused(settings):
     definition = settings.blades["Ref"].definition
     rows = ((0.0, 0.0, 0.0), (0.5, 0.0, 2.5), (0.52, 0.0, -2.5), (1.0, 0.0, 0.0))
     with pytest.raises(BladeShapeError, match="blade Ref: span"):

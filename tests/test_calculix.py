@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_mesh import box_mesh
-from stress_cases import inner_places
+from box_mesh import box_mesh, inner_places
 
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS

@@ -60,14 +60,10 @@ def oscillators(model, geometric_stiffness):
     return replace(model, stiffness=stiffness, geometric_stiffness=stiffening, mass=np.eye(6), **shapes)
 
 
-def test_continuity_is_the_smallest_of_all_steps(model):
-    """Two coupled oscillators turn by atan(2 g W^2 / 3) / 2: far in the first step, little in the second."""
+def test_modes_are_followed_through_a_crossing_and_continuity_is_the_smallest_of_all_steps(model):
+    """Two coupled oscillators turn by atan(2 g W^2 / 3) / 2, far in the first step; of two uncoupled ones names stay."""
     followed = campbell_diagram(oscillators(model, [[0.0, 1.0], [1.0, 0.0]]), np.array([0.0, 1.0, 1.1]), 4)
     np.testing.assert_allclose(followed.continuity[:2], np.cos(0.5 * np.arctan(2.0 / 3.0)) ** 2, rtol=1e-9)
-
-
-def test_modes_are_followed_through_a_crossing(model):
-    """Two uncoupled oscillators whose frequencies cross: the names stay with the shapes."""
     followed = campbell_diagram(oscillators(model, np.diag([5.0, 0.1])), np.linspace(0.0, 2.0, 21), 4)
     speeds = followed.speeds
     np.testing.assert_allclose(2 * np.pi * followed.frequencies[0], np.sqrt(1.0 + 5.0 * speeds**2))

@@ -7,9 +7,7 @@ import sys
 
 import pandas as pd
 import pytest
-from overlays import overlay
-from plans_of_snakemake import planned
-from workflow_runs import own_package, snakemake
+from workflow_runs import overlay, own_package, planned, snakemake
 
 import r37
 

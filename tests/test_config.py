@@ -1,16 +1,22 @@
-"""Configuration: what is accepted, and what the refusals say."""
+"""Configuration: what is accepted, schemas for editors, and what the refusals say, of several mistakes at once, too."""
+
+import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
 import yaml
-from overlays import overlay
-from test_refusals import edit
+from test_refusals import CONFIG_REFUSALS, edit
+from workflow_runs import overlay
 
 from r37core.base.yaml_file import load_yaml
-from r37core.config import ConfigError, plain
+from r37core.config import ConfigError, Settings, command_line_document, plain, read_document
+from r37core.config.document import ConfigRefusals
 from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws
 from r37core.plans.provenance import structure_hash
 from r37core.product.reading import load_settings, read_settings
+from r37core.product.schemas import schemas
 
 
 def load(folder, **changes):
@@ -138,3 +144,184 @@ def test_laws_beyond_what_a_run_can_bear_are_remarked_on(config_copy, scene, cha
     begins = f"scene '{scene}': {said}"
     assert [remark[: len(begins)] for remark in remarks] == ([begins] if said else [])
     assert set(remarks) <= set(remarks_of_pipeline(read_settings(config_copy)))
+
+
+def test_schemas_are_fresh(root):
+    """`python -m r37core.product.schemas` renews them."""
+    folder = root / "config/schemas"
+    assert {file.name: file.read_text() for file in folder.iterdir()} == schemas()
+
+
+@pytest.mark.parametrize("name", ["config", "blades", "scenes", "fidelity", "physical"])
+def test_files_name_their_schema(root, name):
+    first = (root / f"config/{name}.yaml").read_text().splitlines()[0]
+    schema = re.fullmatch(r"# yaml-language-server: \$schema=(schemas/[\w.]+)", first)[1]
+    assert (root / "config" / schema).exists()
+
+
+def line_of(file, text):
+    return next(number for number, line in enumerate(file.read_text().splitlines(), 1) if text in line)
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "key"),
+    [
+        ("config", "# nodes: 12", "nodes: 0", r"structure\.boundary\.nodes: found 0; allowed: integer, at least 1"),
+        ("config", "modes: 10", "moods: 10", r"campbell: found unknown key moods; allowed keys: .*\(did you mean modes\?\)"),
+        (
+            "config",
+            "# nodes: 12 # left",
+            "nodes: # left",
+            r"structure\.boundary\.nodes: found nothing; allowed: a value, or the key left out",
+        ),
+        ("config", "fidelity: standard", "fidelity: standart", r"fidelity: found 'standart'; allowed: draft, standard"),
+        ("blades", "ratio: 0.3", "ratio: 0.5", r"Ref\.material\.poissons_ratio: found 0\.5; allowed: number, "),
+        ("scenes", "thickness_m: 0.005", "thickness_m: 5 mm", r"abradable\.lining\.thickness_m: found '5 mm'; allowed: number"),
+        ("scenes", "gap: linear #", "gap: curved #", r"abradable\.gap: found 'curved'; allowed: one of linear, exact"),
+        ("fidelity", "mesh: { nodes: 5000,", "mesh: { nodes: 5e3,", r"draft\.mesh\.nodes: found 5000\.0; allowed: integer"),
+    ],
+)
+def test_messages_name_file_line_key_found_and_allowed(config_copy, name, old, new, key):
+    file = config_copy / f"config/{name}.yaml"
+    edit(file, old, new)
+    with pytest.raises(ConfigError, match=rf"^config/{name}\.yaml:{line_of(file, new)}: {key}"):
+        read_settings(config_copy)
+
+
+def test_missing_key_is_named_where_it_should_stand(config_copy):
+    file = config_copy / "config/scenes.yaml"
+    line = line_of(file, "friction:")
+    file.write_text(file.read_text().replace(", coefficient: 0.15", "", 1))
+    expected = rf"scenes\.yaml:{line}: abradable\.friction: missing key coefficient; allowed keys: form, coefficient"
+    with pytest.raises(ConfigError, match=expected):
+        read_settings(config_copy)
+
+
+def test_a_message_points_into_the_file_that_said_it_and_changes_keep_what_they_do_not_name(config_copy):
+    (config_copy / "mine.yaml").write_text("# mine\n\nstructure:\n  boundary:\n    nodes: 0\n")
+    with pytest.raises(ConfigError, match=r"^mine\.yaml:5: structure\.boundary\.nodes: found 0"):
+        read_settings(config_copy, read_document(config_copy, "mine.yaml"))
+    with pytest.raises(ConfigError, match=r"^--config: structure\.boundary\.nodes: found 0"):
+        read_settings(config_copy, command_line_document({"structure": {"boundary": {"nodes": "0"}}}))
+    settings = read_settings(config_copy, command_line_document({"structure": {"boundary": {"nodes": "4"}}}))
+    assert (settings.structure.boundary.nodes, settings.structure.boundary.tip_line) == (4, "pressure_edge")
+
+
+IMPORTED = {
+    # by what forks for each of thousands of jobs
+    "import r37core.console.fork_server, r37core.time_integration.speed_job": {"pydantic", "yaml", "netCDF4", "xarray"},
+    # by every Snakemake, before ours sets the number of threads
+    "import snakemake_executor_plugin_warm": {"numpy", "yaml"},
+    "import r37core.base.plain": {"numpy", "pydantic", "yaml"},
+    # it takes half a second at every start of Snakemake, and a plan builds no blade
+    "import r37core.config, r37core.plans.sweep_plan": {"scipy.optimize", "scipy.interpolate"},
+}
+"""Imports -> what they must not bring along."""
+
+
+@pytest.mark.parametrize("imports", IMPORTED)
+def test_what_starts_often_is_light(imports):
+    code = f"import sys\n{imports}\nprint({IMPORTED[imports]} & set(sys.modules))"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "set()\n"
+
+
+def test_settings_have_few_members():
+    """What is of one subject stands with that: remarks, places, hashes, numbers of speeds."""
+    own = {name for name in vars(Settings) if not name.startswith("__")} | set(Settings.__dataclass_fields__)
+    assert len(own) <= 25
+
+
+def told(folder, **changes):
+    """Lines of the refusal of a configuration."""
+    with pytest.raises(ConfigError) as refused:
+        read_settings(folder, command_line_document(changes))
+    return str(refused.value).splitlines()
+
+
+def starts(lines, *expected):
+    assert [line[: len(start)] for line, start in zip(lines, expected, strict=True)] == list(expected)
+
+
+def test_mistakes_in_three_files(config_copy):
+    edit(config_copy / "config/config.yaml", "tolerance: 0.05", "tolerance: 5")
+    edit(config_copy / "config/blades.yaml", "density_kg_m3: 8000", "density_kg_m3: 0")
+    edit(config_copy / "config/scenes.yaml", "lobes: 2", "lobes: -2")
+    lines = told(config_copy)
+    starts(lines, "config/config.yaml:", "config/blades.yaml:", "config/scenes.yaml:")
+    assert lines[0].endswith("tolerance: found 5; allowed: number, at least 1e-06, at most 1")
+    assert lines[1].endswith("Ref.material.density_kg_m3: found 0.0; allowed: number, at least 1, at most 100000")
+    assert lines[2].endswith(".casing.lobes: found -2; allowed: integer, at least 0, at most 100")
+
+
+def test_mistakes_in_one_file_are_told_once_each(config_copy):
+    """In it, among names, which nearly every other check looks up, in extensions, and in one section."""
+    lines = told(config_copy, tolerance=5, campbell={"modes": 99}, interaction={})
+    starts(
+        lines, "--config: top level: found unknown key", "--config: tolerance: found 5", "--config: campbell.modes: found 99"
+    )
+    lines = told(config_copy, fidelity="finest", blades=["Reff"], scenes=["wet"])
+    starts(
+        lines,
+        "--config: fidelity: found 'finest'; allowed: draft, standard",
+        "--config: blades: found 'Reff'; allowed: Ref, L50",
+        "--config: scenes: found 'wet'; allowed: abradable, direct",
+    )
+    run_ups = {"a": {"from_rad_s": 900, "to_rad_s": 2100, "revolutions": 5}, "b": {"blades": ["Reff"]}}
+    run_ups["b"] |= run_ups["a"]
+    lines = told(config_copy, speeds=[900, 900], run_ups=run_ups, signals={"speeds_rad_s": [900], "blades": ["Reff"]})
+    starts(
+        lines,
+        "--config: speeds: found 900 rad/s twice",
+        "--config: signals.blades: found 'Reff'",
+        "--config: run_ups.a.revolutions: found 2100 rad/s",
+        "--config: run_ups.b.blades: found 'Reff'",
+    )
+    rules = [{"blades": ["Reff"], "scenes": ["wet"], "speeds": [900]}, {"scenes": ["dry"], "speeds": [900]}]
+    stability = {"base": "rough", "scenes": ["wet"]}
+    lines = told(config_copy, speeds_for=rules, stability=stability)
+    places = "speeds_for.0.blades speeds_for.0.scenes speeds_for.1.scenes stability.base stability.scenes"
+    assert sorted(line.split(":")[1].strip() for line in lines) == places.split()
+
+
+def test_a_missing_key_beside_an_unknown_one_is_not_told(config_copy):
+    """The unknown one may be meant for it."""
+    edit(config_copy / "config/scenes.yaml", "coefficient: 0.15", "coeficient: 0.15")
+    (line,) = told(config_copy)
+    assert "found unknown key coeficient" in line
+    assert line.endswith("(did you mean coefficient?)")
+
+
+@pytest.mark.parametrize("text", [new for old, new, _ in CONFIG_REFUSALS if old == "exports: #"][::5])
+def test_no_check_stumbles_over_what_another_has_refused(config_copy, text):
+    edit(config_copy / "config/config.yaml", "exports: #", text)
+    lines = told(config_copy, blades=["Reff"], scenes=["wet"], fidelity="finest")
+    assert len(set(lines)) == len(lines)
+    assert all(": found " in line or ": missing key " in line for line in lines)
+
+
+def test_a_table_that_many_blades_share_is_told_of_once(config_copy):
+    edit(config_copy / "config/profiles/rotor37.csv", "58.470", "abc")
+    add = "\nOther: { base: Ref, chordwise_sweep_deg: 5, material: { yield_stress_pa: 1e9 }, stacking_table: none.csv }\n"
+    (config_copy / "config/blades.yaml").write_text((config_copy / "config/blades.yaml").read_text() + add)
+    lines = told(config_copy)
+    assert len(lines) == 1
+    edit(config_copy / "config/blades.yaml", " chordwise_sweep_deg: 5,", "")
+    (line,) = told(config_copy)
+    assert "rotor37.csv:6" in line or "line 6" in line
+    edit(config_copy / "config/profiles/rotor37.csv", "abc", "58.470")
+    (line,) = told(config_copy)
+    assert "Other.stacking_table: there is no file none.csv" in line
+
+
+def test_not_more_is_told_than_anybody_reads(config_copy):
+    def refuse(number):
+        raise ConfigError(f"mistake {number}")
+
+    refusals = ConfigRefusals()
+    for number in [*range(30), *range(30)]:
+        refusals.of(refuse, number)
+    with pytest.raises(ConfigError) as refused:
+        refusals.tell()
+    lines = str(refused.value).splitlines()
+    assert (lines[0], lines[-1], len(lines)) == ("mistake 0", "and 10 more", 21)
+    ConfigRefusals().tell()

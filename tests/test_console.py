@@ -1,21 +1,32 @@
-"""What r37 knows of Snakemake's inside: the version it was written for, and each name that it uses, looked for in it."""
+"""What r37 knows of Snakemake's inside, each name looked for in it; and one line about thousands of jobs."""
 
 import inspect
+import io
+import logging
 import re
 import sys
 from dataclasses import fields
 from importlib.metadata import version
 from pathlib import Path
 
+import numpy as np
 import pytest
-from snakemake import api, jobs, logging, modules, script
+from conftest import Terminal
+from snakemake import api, jobs, modules, script
+from snakemake import logging as snakemake_logging
 from snakemake.persistence import file as persistence
 from snakemake.scheduling import job_scheduler
 from snakemake.settings import types
 from snakemake_interface_logger_plugins.common import LogEvent
+from stubbed_runs import copy_stubbed
+from workflow_runs import snakemake
 
-from r37core.console import failures, progress, snakemake_run
+from r37core.console import failures, snakemake_run
+from r37core.console.failures import show
 from r37core.console.lock import _LOCKS
+from r37core.console.progress import HANDLER, QUIET_EVENTS, Progress, quieten
+from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.status import RunStatus
 
 
 def test_the_version_is_the_one_that_the_console_was_written_for(root):
@@ -50,8 +61,8 @@ def test_what_is_asked_of_snakemake_is_there():
     # where the lock lies that is lifted
     assert f'os.path.join(self.path, "{_LOCKS.name}")' in inspect.getsource(persistence)
     assert _LOCKS.parent == Path(".snakemake")
-    assert f'"{progress.HANDLER}"' in inspect.getsource(logging.LoggerManager._default_streamhandler)
-    assert {str(event) for event in LogEvent} >= progress.QUIET_EVENTS
+    assert f'"{HANDLER}"' in inspect.getsource(snakemake_logging.LoggerManager._default_streamhandler)
+    assert {str(event) for event in LogEvent} >= QUIET_EVENTS
 
 
 @pytest.mark.parametrize(
@@ -67,14 +78,10 @@ def test_messages_have_the_fields_that_the_line_is_made_of(source, event, names)
     assert [name for name in names if name not in about] == []
 
 
-def test_the_limit_that_a_run_takes_away_is_still_there():
-    """Of jobs per second: the console sets it to None, which must not become a name that nobody reads."""
+def test_the_limit_of_jobs_per_second_and_the_interpreter_s_name_are_used_as_they_stand():
+    """The limit is set to None, which must not become a name that nobody reads; a name quoted twice would start nothing."""
     scheduler = job_scheduler.JobScheduler
     assert all("job_rate_limiter" in function.__code__.co_names for function in (scheduler.__init__, scheduler.schedule))
-
-
-def test_scripts_are_started_with_the_interpreter_s_name_as_it_stands():
-    """The console quotes it, once: a Snakemake that quotes it too would start nothing."""
     about = inspect.getsource(script.PythonScript)
     assert "py_exec = sys.executable" in about
     assert '"{py_exec} {fname:q}"' in about
@@ -92,3 +99,125 @@ def test_an_interruption_while_the_rules_are_read_is_one_line(root, capsys, monk
     lines = [line for line in (root / "Snakefile").read_text().splitlines() if line and not line.startswith("#")]
     before = lines[: lines.index("failures.end_interruptions_in_one_line()")]
     assert before == ["import os", "import sys", "from r37core.console import failures"]
+
+
+@pytest.fixture
+def clock():
+    def clock():
+        return clock.now
+
+    clock.now = 0.0
+    return clock
+
+
+def said(progress, event=None, message="", **fields):
+    record = logging.LogRecord("snakemake", logging.INFO, "", 0, message, None, None)
+    record.__dict__ |= {"event": event, **fields}
+    return progress.filter(record)
+
+
+def simulate(progress, clock, number, blade, output="none.npz"):
+    """One simulation of a hundred jobs, which ends as many seconds after the start as its number."""
+    clock.now = float(number)
+    said(progress, "job_info", "rule simulate", jobid=number, rule_name="simulate", wildcards={"blade": blade}, output=[output])
+    said(progress, "job_started", "")
+    said(progress, "job_finished", f"Finished jobid: {number}", job_id=number)
+    said(progress, "progress", "steps", done=number, total=100)
+
+
+def test_messages_of_single_jobs_are_kept_back_and_failures_are_not(clock):
+    progress = Progress(10, io.StringIO(), clock)
+    assert not said(progress, "job_started", "Execute 1 jobs...")
+    assert not said(progress, None, "Select jobs to execute...")
+    assert not said(progress, None, "")
+    assert said(progress, "job_error", "Error in rule simulate")
+    assert said(progress, None, "config/config.yaml:3: speeds: found nothing")
+    assert said(progress, "run_info", "Job stats")
+
+
+def test_plain_lines_come_once_a_minute_and_at_the_end(clock):
+    stream = io.StringIO()
+    progress = Progress(250, stream, clock)
+    for number in range(1, 101):
+        simulate(progress, clock, number, "Ref" if number <= 60 else "L50")
+    lines = stream.getvalue().splitlines()
+    assert len(lines) == 3
+    simulations = "simulations 100 of at most 250 (Ref 60, L50 40); 0 diverged"
+    assert lines[-1] == f"jobs 100 of 100; {simulations}; 1.0 a second; 0 s for those known"
+    assert "\r" not in stream.getvalue()
+
+
+def test_no_bound_is_said_that_windows_have_passed(clock):
+    progress = Progress(2, io.StringIO(), clock)
+    for number in range(1, 4):
+        simulate(progress, clock, number, "Ref")
+        assert ("of at most 2" in progress.line()) == (number <= 2)
+
+
+def test_on_a_terminal_the_line_renews_itself(clock):
+    stream = Terminal()
+    progress = Progress(10, stream, clock)
+    for number in range(1, 4):
+        simulate(progress, clock, number, "Ref")
+    assert stream.getvalue().count("\r") == 3
+    assert "\n" not in stream.getvalue()
+    # a message of its own begins on a line of its own
+    assert said(progress, "job_error", "Error in rule simulate")
+    assert stream.getvalue().endswith("\n")
+
+
+def test_a_job_of_the_structure_is_named_when_it_begins(clock):
+    """Of these nobody knows how long the rest takes; a plain log has no line of each."""
+    stream, log = Terminal(), io.StringIO()
+    for progress in (Progress(10, stream, clock), Progress(10, log, clock)):
+        for number, rule in enumerate(("geometry", "mesh")):
+            said(progress, "job_info", "", jobid=number, rule_name=rule, wildcards={"blade": "Ref"}, output=["mesh.vtu"])
+        said(progress, "job_finished", "", job_id=0)
+    assert stream.getvalue().endswith("now geometry Ref, mesh Ref") and log.getvalue() == ""
+    clock.now = 1.0
+    said(progress, "progress", "steps", done=1, total=100)
+    assert log.getvalue() == "jobs 1 of 100; 1.0 a second; now mesh Ref\n"
+
+
+def test_a_message_of_a_job_takes_the_place_of_the_line(clock):
+    stream, log = Terminal(), io.StringIO()
+    for where in (stream, log):
+        show("size of the import", where)
+    assert (stream.getvalue(), log.getvalue()) == ("\r\x1b[Ksize of the import\n", "size of the import\n")
+
+
+def test_diverged_runs_are_counted(clock, tmp_path):
+    for name, status in (("a", RunStatus.COMPLETED), ("b", RunStatus.DIVERGED)):
+        write_speed({"status": np.array(int(status))}, tmp_path / f"{name}.npz", {})
+    (tmp_path / "c.npz").write_text("no archive")
+    progress = Progress(10, io.StringIO(), clock)
+    for number, name in enumerate("abc", 1):
+        simulate(progress, clock, number, "Ref", str(tmp_path / f"{name}.npz"))
+    assert "; 1 diverged;" in progress.line()
+
+
+def test_many_blades_are_not_all_named(clock):
+    progress = Progress(10, io.StringIO(), clock)
+    for number in range(1, 6):
+        simulate(progress, clock, number, f"B{number}")
+    assert "(2 blades more, B3 1, B4 1, B5 1)" in progress.line()
+
+
+def test_only_the_terminal_s_handler_is_quietened():
+    terminal, file = logging.StreamHandler(), logging.StreamHandler()
+    terminal.name, file.name = "DefaultStreamHandler", "DefaultLogFileHandler"
+    assert quieten([terminal, file], progress := Progress(1))
+    assert (terminal.filters, file.filters) == ([progress], [])
+    assert not quieten([file], progress)
+
+
+@pytest.mark.slow
+def test_a_run_prints_little_and_its_log_has_everything(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    printed = snakemake(tmp_path, "all_blades", "--cores", "2", full_log="")
+    assert len(printed.splitlines()) < 64
+    # of two jobs at a time either may end first
+    assert re.search(r"simulations 12 of at most 12 \((Ref 6, CS100 6|CS100 6, Ref 6)\); 0 diverged", printed)
+    assert "rule simulate:" not in printed
+    logs = list(tmp_path.glob(".snakemake/log/*.log"))
+    assert sum(log.read_text().count("rule simulate:") for log in logs) == 12

@@ -19,16 +19,13 @@ BAR = Lining(5e-3, 20e9, 5e9, 1e6, bar_width=1e-3)
 
 
 def test_casing_of_the_benchmark():
+    """Its lobes grow in a fifth of 200 revolutions, 40, which a run of 1,000 needs to be told."""
     casing = Casing(0.356e-3)
     assert casing.shape(np.array([np.pi / 2, 3 * np.pi / 2])) == pytest.approx([1.0, 1.0])
     assert casing.shape(np.array([0.0])) == pytest.approx(np.exp(-((0.5 / 0.15) ** 2)))
     assert casing.lobe(np.array([1.0]), 0.0, casing.rise_time(1.0, 200)) == 0.0
     late = casing.lobe(np.array([np.pi / 2]), 0.2, casing.rise_time(1.0, 200))
     assert late == pytest.approx(0.356e-3 * 2.0 * 0.99)
-
-
-def test_lobes_grow_in_a_share_of_the_run_or_in_revolutions():
-    """A fifth of 200 revolutions is 40, which a run of 1,000 needs to be told."""
     second_per_revolution = 4e-3
     for revolutions, casing in ((200, Casing(1e-3)), (1000, Casing(1e-3, rise_revolutions=40.0))):
         assert casing.rise_time(revolutions * second_per_revolution, revolutions) == pytest.approx(40 * second_per_revolution)
@@ -81,10 +78,7 @@ def test_bar_pushed_released_and_pushed_again():
 
 
 @given(
-    st.lists(st.floats(-1e-3, 8e-3), min_size=1, max_size=30),
-    st.floats(1e6, 1e12),
-    st.floats(0.0, 1e12),
-    st.floats(0.0, 1e9),
+    st.lists(st.floats(-1e-3, 8e-3), min_size=1, max_size=30), st.floats(1e6, 1e12), st.floats(0.0, 1e12), st.floats(0.0, 1e9)
 )
 def test_wear_never_shrinks_and_a_bar_never_pulls(pushes, elastic, plastic, yield_stress):
     wear, bar = 0.0, Lining(5e-3, elastic, plastic, yield_stress, bar_width=1e-3)

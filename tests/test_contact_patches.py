@@ -113,15 +113,12 @@ def test_rigid_motion_and_moments(mesh, contact):
     assert np.abs(moments).max() < 1e-14 * np.linalg.norm(force)
 
 
-def test_places_lie_on_the_cone_of_the_tip(patched):
+def test_places_lie_on_the_cone_of_the_tip_and_coordinates_are_the_means(patched):
+    """The reduced model is as small as with nodes, and its first coordinates are the patches' displacements."""
     line = patched.tip_lines["pressure_edge"].points
     radius, axial = (np.hypot(*patched.contact_nodes.points[:, :2].T), patched.contact_nodes.points[:, 2])
     on_line = np.interp(axial, line[:, 2], np.hypot(*line[:, :2].T))
     np.testing.assert_allclose(radius, on_line, atol=1e-8)
-
-
-def test_coordinates_are_the_means(patched):
-    """The reduced model is as small as with nodes, and its first coordinates are the patches' displacements."""
     assert patched.contact == "patches"
     assert len(patched.singular_values) == 3 * (5 * 3 + 10)
     expected = np.eye(15, patched.size).reshape(5, 3, -1)
@@ -240,18 +237,14 @@ def test_patches_of_reduced_matrices_keep_every_motion(every, choice, tmp_path):
     np.testing.assert_allclose(la.inv(again.stiffness)[:12, :12], flexibility, atol=2e-3 * np.abs(flexibility).max())
 
 
-def test_patches_are_shorter_towards_the_edges():
-    """Unless chosen otherwise; points stay evenly spaced."""
+def test_patches_are_shorter_towards_the_edges_and_as_many_as_the_tip_has_room_for():
+    """Unless chosen otherwise: twelve, or fewer on a coarse tip; points stay evenly spaced, eight anywhere."""
     patches, points = BoundaryChoice(contact="patches"), BoundaryChoice(contact="points")
     np.testing.assert_allclose(patches.chord_positions(5), [0.0, 0.5 - np.sqrt(0.125), 0.5, 0.5 + np.sqrt(0.125), 1.0])
     np.testing.assert_allclose(replace(patches, corners=False).chord_positions(2), 0.5 - np.sqrt(0.125) * np.array([1, -1]))
     for even in (points, replace(patches, spacing="even")):
         np.testing.assert_array_equal(even.chord_positions(5), np.linspace(0.0, 1.0, 5))
     np.testing.assert_array_equal(replace(points, spacing="cosine").chord_positions(7), patches.chord_positions(7))
-
-
-def test_the_usual_number_of_patches_is_what_the_tip_has_room_for():
-    """Twelve, or fewer on a coarse tip; eight points anywhere; what is chosen counts."""
     patches = BoundaryChoice(contact="patches")
     counts = [patches.on(np.linspace(0.0, 1.0, 2 * elements + 1)).nodes for elements in (56, 42, 21, 14, 4, 1)]
     assert counts == [12, 12, 11, 9, 5, 2]

@@ -155,11 +155,7 @@ def test_energy_balance_closes(name, size, ratio):
 
 
 PRESSED = Scene(
-    Casing(-1e-4, lobes=2, amplitude=0.2, rise_fraction=0.0),
-    ELASTIC,
-    Friction(0.4),
-    damping_ratio=0.0,
-    divergence_limit=1.0,
+    Casing(-1e-4, lobes=2, amplitude=0.2, rise_fraction=0.0), ELASTIC, Friction(0.4), damping_ratio=0.0, divergence_limit=1.0
 )
 """Lobes and a bar that the node never leaves: what happens is smooth."""
 

@@ -5,7 +5,7 @@ import shlex
 
 import pytest
 from conftest import CHECKOUT
-from overlays import overlay
+from workflow_runs import overlay
 from yaml import safe_dump, safe_load
 
 from r37core.base.yaml_file import load_yaml

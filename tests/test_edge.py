@@ -40,6 +40,17 @@ def with_edge(model, nodes):
     )
 
 
+def with_moving_edge(model, factors):
+    """The model of one node with an edge that moves by these factors as far as the node."""
+    return replace(
+        model,
+        edge_displacement_operator=model.displacement_operator * factors[:, None],
+        edge_radius=np.full(len(factors), 0.25),
+        edge_theta=np.linspace(0.0, 1.0, len(factors)),
+        edge_rotation_shapes=np.zeros((3, len(factors), 1)),
+    )
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("integrator", [CENTRAL_DIFFERENCE, EXACT_MODAL])
 @pytest.mark.parametrize(("engine", "nodes"), [("compiled", 2), ("compiled", 50), ("reference", 50)])
@@ -51,14 +62,7 @@ def test_an_edge_that_moves_further_than_its_contact_node(engine, integrator, no
     stop, model = 0.5e-3, oscillator(5000.0)
     if integrator == EXACT_MODAL:
         model = with_static_modes(model, 1e-9)
-    factors = np.linspace(1.5, -1.0, nodes)
-    model = replace(
-        model,
-        edge_displacement_operator=model.displacement_operator * factors[:, None],
-        edge_radius=np.full(nodes, 0.25),
-        edge_theta=np.linspace(0.0, 1.0, nodes),
-        edge_rotation_shapes=np.zeros((3, nodes, 1)),
-    )
+    model = with_moving_edge(model, np.linspace(1.5, -1.0, nodes))
     scene = Scene(Casing(stop, lobes=0), damping_ratio=0.0)
     choice = IntegrationChoice(1e-7, 1, 100, integrator=integrator, engine=engine)
     _, state, _ = whole_run(model, 10000.0, scene, choice, InitialMotion(np.array([-1e-3]), None))
@@ -71,15 +75,7 @@ def test_an_edge_that_moves_further_than_its_contact_node(engine, integrator, no
 def test_an_edge_that_passes_a_thin_lining_before_its_contact_node(integrator):
     """The node stays in the first half of a stiff lining, and an edge that moves five times as far passes the casing."""
     model = oscillator(5000.0) if integrator == CENTRAL_DIFFERENCE else with_static_modes(oscillator(5000.0), 1e-9)
-    factors = np.linspace(5.0, 1.0, 50)
-    model = replace(
-        model,
-        tip_lengths=np.array([0.03]),
-        edge_displacement_operator=model.displacement_operator * factors[:, None],
-        edge_radius=np.full(50, 0.25),
-        edge_theta=np.linspace(0.0, 1.0, 50),
-        edge_rotation_shapes=np.zeros((3, 50, 1)),
-    )
+    model = with_moving_edge(model, np.linspace(5.0, 1.0, 50))
     lining = replace(LINING, thickness=1e-3, elastic_modulus=20e9, contact_length=1e-4, bar_width=None)
     scene, start = Scene(Casing(1e-4, lobes=0), lining, damping_ratio=0.0), InitialMotion(np.array([-5e-4]), None)
     choice = IntegrationChoice(1e-7, 1, 100, integrator=integrator)

@@ -26,7 +26,6 @@ from r37core.contact.elastic_casing import (
 from r37core.contact.ring import RingMode, RingMotion, critical_speed
 from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_casing_map
-from r37core.figures.style import plt
 from r37core.product.reading import read_settings
 from r37core.results.casing_coincidence import coincidence_table, coincidences, seen_from_rotor, waves_of
 from r37core.results.datasets import write_sweep_dataset
@@ -275,12 +274,9 @@ def test_a_ring_far_from_the_tip_is_refused(radius):
         Problem(random_blade(), 3000.0, far, CHOICE)
 
 
-def test_exact_gap_is_refused():
+def test_exact_gap_and_for_central_differences_a_fast_casing_are_refused():
     with pytest.raises(ValueError, match="an elastic casing needs the linear gap"):
         Problem(random_model(8), 3000.0, replace(ELASTIC_SCENES["direct"], exact_gap=True), CHOICE)
-
-
-def test_a_fast_casing_counts_for_central_differences():
     scene = with_ring(ABRADABLE, [RingMode(2, 2.5e7, 1.0, 0.0)])
     message = r"stability limit of this casing, .*highest mode 3978.*leave its highest modes out"
     with pytest.raises(UnstableStepError, match=message):
@@ -344,7 +340,6 @@ def test_waves_are_drawn(waves):
     assert list(np.flatnonzero(np.ma.getmaskarray(rows).ravel())) == [2]
     still = waves.sel(blade="Ref", scene="elastic").isel(speed=[1])
     assert "every run diverged" in [text.get_text() for text in draw_casing_map(still, "Ref").axes[0].texts]
-    plt.close("all")
 
 
 @pytest.mark.parametrize(
@@ -412,7 +407,6 @@ def test_campbell_diagram_shows_each_casing_once():
     pale = draw_campbell(campbell, "Ref", {"a": to_plain(casing_of(FLANGED, 20))})
     assert {"casing, forward", "casing, not simulated"} <= set(pale.axes[0].get_legend_handles_labels()[1])
     assert {line.get_alpha() for line in pale.axes[0].lines if line.get_marker() == "D"} == {0.4, 1.0}
-    plt.close("all")
 
 
 RING = {"radius_m": 0.255, "thickness_m": 0.002, "width_m": 0.05, "elastic_modulus_pa": 2.1e11, "density_kg_m3": 7850}

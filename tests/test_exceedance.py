@@ -270,15 +270,13 @@ def of(certain, possible=0.0, stress=1e9):
 
 
 def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
+    """Its lengths have the digits that their scatter bears."""
     lined = {("A", "x"): of(5.0), ("B", "x"): of(1.0, 9.0), ("C", "x"): of(1.0, 2.0)}
     table = ranking_table(lined | {("A", "y"): of(0.0), ("B", "y"): of(np.nan)})
     assert list(table.columns[:4]) == ["blade", "scene", "rank", ROBUSTNESS[0].name]
     assert list(zip(table["scene"], table["blade"], table["rank"], strict=True)) == [
         ("x", "C", 1), ("x", "B", 2), ("x", "A", 3), ("y", "A", 1), ("y", "B", pd.NA),
     ]  # fmt: skip
-
-
-def test_lengths_have_the_digits_that_their_scatter_bears():
     table = ranking_table({("A", "x"): of(854.189) | {"length_certain_scatter_rad_s": 21.1}, ("A", "y"): of(13.1602)})
     assert as_scatter_bears(table)["length_certain_rad_s"].tolist() == [850.0, 13.2]
     repeated = ranking_table({("A", "x"): of(854.189) | {"length_certain_scatter_rad_s": 0.0}})

@@ -385,14 +385,11 @@ def test_a_blade_larger_than_any_is_told():
         assert [f"tip radius of {radius:.3g} m" in str(warning.message) for warning in caught] == [True] * told
 
 
-def test_units_are_those_of_si():
+def test_units_are_those_of_si_and_every_suffix_has_a_reader():
     metric = {"m": 1.0, "cm": constants.centi, "mm": constants.milli, "um": constants.micro}
     assert pytest.approx(LENGTH_UNITS, rel=1e-15) == metric | {"in": constants.inch, "ft": constants.foot}
     assert pytest.approx(MASS_UNITS, rel=1e-15) == {"kg": 1.0, "g": constants.gram, "t": constants.metric_ton}
     assert pytest.approx(STIFFNESS_UNITS, rel=1e-15) == {"N/m": 1.0, "N/mm": 1.0 / constants.milli}
-
-
-def test_every_suffix_has_a_reader():
     assert tuple(_READERS) == SUFFIXES
 
 

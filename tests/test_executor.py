@@ -129,13 +129,11 @@ def test_what_jobs_have_in_common_is_loaded_before_them(start):
         assert Path("out").read_text() == found
 
 
-def test_jobs_side_by_side(start, server):
+def test_jobs_side_by_side_and_one_that_is_killed(start, server):
+    """Which has the signal as its status."""
     jobs = [start("4", out=f"out_{number}") for number in range(30)]
     assert {status_of(job) for job in jobs} == {4}
     assert {Path(f"out_{number}").read_text().split()[0] for number in range(30)} == {str(server._process.pid)}
-
-
-def test_a_job_that_is_killed_has_the_signal_as_its_status(start, server):
     job = start("sleep")
     os.kill(process_of(), signal.SIGKILL)
     assert status_of(job) == -signal.SIGKILL

@@ -9,9 +9,7 @@ import pytest
 import xarray as xr
 from browser import opened
 from explorer_cases import BLADES, SCENES, SPEEDS, beside, interaction_rows, sweep
-from overlays import overlay
-from plans_of_snakemake import planned
-from workflow_runs import copy_project
+from workflow_runs import copy_project, overlay, planned
 
 from r37core.explorer import FOLDER, page_parts, write_page
 from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
@@ -211,7 +209,6 @@ def hover(page, plot, curve, point):
     return page.text_content(f"#{plot} .hovertext")
 
 
-@pytest.mark.slow
 def test_the_page_loads_without_an_error(page):
     """And without members nothing speaks of them."""
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
@@ -230,7 +227,6 @@ def test_the_page_loads_without_an_error(page):
     assert [link.get_attribute("href") for link in links.all()] == ["shapes/Ref.html#scene=abradable&speed=1200"]
 
 
-@pytest.mark.slow
 def test_hover_says_what_the_dataset_has(page, datasets):
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
     place = {"blade": "Ref", "scene": "abradable", "speed": 1000.25, "tip_point": "leading_edge"}
@@ -245,7 +241,6 @@ def test_hover_says_what_the_dataset_has(page, datasets):
     assert "regions of each blade" in page.text_content("#response .infolayer")
 
 
-@pytest.mark.slow
 def test_choices_change_what_is_drawn(page, datasets):
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
     ref = traces(page, "response")
@@ -271,7 +266,6 @@ def test_choices_change_what_is_drawn(page, datasets):
     assert "1200 rad/s" in page.text_content("#now")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("place", "speed"), [("", "1100 rad/s"), ("#speed=1200", "1200 rad/s")])
 @pytest.mark.parametrize("scene", SCENES)
 def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp_path, scene, place, speed):
@@ -287,7 +281,6 @@ def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp
         assert other.text_content("#now").startswith(f"L<50>, {scene}, {speed}")
 
 
-@pytest.mark.slow
 def test_it_opens_at_a_run_that_diverged_or_without_stress_at_the_largest_motion(page, datasets, interactions, tmp_path):
     """To have diverged is worse than any number."""
     with beside(page, explorer_contents(datasets, interactions), tmp_path / "explorer.html") as other:
@@ -301,7 +294,6 @@ def test_it_opens_at_a_run_that_diverged_or_without_stress_at_the_largest_motion
         assert other.text_content("#now").startswith("L<50>, direct, 900 rad/s")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("width", [390, 1400])
 def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width):
     """Without scrolling sideways, and with plotly's buttons clear of what is drawn."""
@@ -322,7 +314,6 @@ def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width)
         other.wait_for_function("document.querySelector('#spectrum .main-svg').clientWidth > 0.9 * innerWidth")
 
 
-@pytest.mark.slow
 def test_a_finger_that_moves_over_a_plot_scrolls_the_page(page, datasets, interactions, tmp_path):
     phone = {"is_mobile": True, "has_touch": True}
     with beside(page, explorer_contents(datasets, interactions), tmp_path / "explorer.html", (390, 844), **phone) as other:
@@ -341,7 +332,6 @@ def test_a_finger_that_moves_over_a_plot_scrolls_the_page(page, datasets, intera
         other.wait_for_function("scrollY > 100")
 
 
-@pytest.mark.slow
 def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(page, datasets, interactions, tmp_path):
     campbell = datasets["campbell"].isel(mode=[0] * 9).assign_coords(mode=["1B", "1T", "2B", *map(str, range(4, 10))])
     rising = xr.DataArray(500.0 * np.arange(1, 10), dims="mode") + 0.1 * campbell["speed"]
@@ -358,7 +348,6 @@ def test_modes_have_one_colour_each_and_those_beyond_the_axis_are_hidden(page, d
         assert len({colour for _, colour in drawn}) == 6
 
 
-@pytest.mark.slow
 def test_engine_orders_end_at_the_border_with_their_numbers(page, datasets, interactions, tmp_path):
     """Also where the diagram is zoomed: each line from border to border, its number where it leaves."""
     campbell = datasets["campbell"].copy(deep=True)
@@ -388,7 +377,6 @@ def test_engine_orders_end_at_the_border_with_their_numbers(page, datasets, inte
         assert other.evaluate(drawn)[1][2] == other.evaluate(numbers) == ["1", "2"]
 
 
-@pytest.mark.slow
 def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets, interactions, tmp_path):
     limits = datasets["stress"]["yield_stress"].copy()
     limits[0, 0] = 1e6
@@ -412,7 +400,6 @@ def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets
         assert other.text_content("#note") == ""
 
 
-@pytest.mark.slow
 def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
     shown = np.array(page.evaluate("document.getElementById('spectrum').data[0].z"), dtype=float)
@@ -424,7 +411,6 @@ def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
     assert "mm" in page.evaluate("document.getElementById('spectrum').data[0].text[3][1]")
 
 
-@pytest.mark.slow
 def test_rotors_have_panels_in_their_scenes(page, datasets, interactions, rotors, tmp_path):
     assert page.locator("#rotor_map").count() == 0
     contents = explorer_contents(datasets, interactions) | {"panels": {"rotors": rotor_contents(rotors)}}
@@ -444,7 +430,6 @@ def test_rotors_have_panels_in_their_scenes(page, datasets, interactions, rotors
         assert not any(map(other.is_visible, panels)) and "Rotor" not in other.text_content("#missing")
 
 
-@pytest.mark.slow
 def test_a_diverged_run_is_marked(page, datasets, interactions, tmp_path):
     """Above all that has a number, by its scene's or its blade's name; in a map, and where every run of a scene is one."""
     for every, name in (("false", "direct diverged"), ("true", "Ref diverged")):
@@ -469,7 +454,6 @@ def test_a_diverged_run_is_marked(page, datasets, interactions, tmp_path):
         assert drawn["direct diverged"]["x"] == SPEEDS.tolist()
 
 
-@pytest.mark.slow
 def test_a_lining_that_is_worn_through_is_marked(page, datasets, interactions, tmp_path):
     """In the map, in the table, and as a quantity of its own."""
     depths = {"max_wear_m": [4e-3, np.nan], "sufficient_thickness_m": [5e-3, np.nan]}
@@ -488,7 +472,6 @@ def test_a_lining_that_is_worn_through_is_marked(page, datasets, interactions, t
         assert other.text_content("#note") == ""
 
 
-@pytest.mark.slow
 def test_table_keys_and_clicks_move_the_speed(page):
     choose(page, blade="L%3C50%3E", scene="direct", speed="900", unit="rad/s", all="false", every="true")
     page.click("#interactions tbody tr:nth-child(1)")
@@ -509,7 +492,6 @@ def test_table_keys_and_clicks_move_the_speed(page):
     assert "1000.3 rad/s" in page.text_content("#now")
 
 
-@pytest.mark.slow
 @with_members
 def test_band_and_members_are_switched(page):
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
@@ -539,7 +521,6 @@ def test_band_and_members_are_switched(page):
     assert page.is_disabled("#members")
 
 
-@pytest.mark.slow
 @with_members
 def test_a_band_has_the_ends_that_the_dataset_has(page, tolerances):
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false", members="true")
@@ -555,7 +536,6 @@ def test_a_band_has_the_ends_that_the_dataset_has(page, tolerances):
     assert text.startswith("Ref, abradable1100 rad/s, 10504 rpm0.507 mmmember 7")
 
 
-@pytest.mark.slow
 @with_members
 def test_a_band_of_members_that_diverged(page):
     """Its upper end is above all that has a number; where all diverged it has a gap."""
@@ -573,7 +553,6 @@ def test_a_band_of_members_that_diverged(page):
     assert "median: 1.432 mm" in page.text_content("#response .hovertext")
 
 
-@pytest.mark.slow
 @with_members
 def test_the_legend_hides_a_curve_with_its_band(page):
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="true", members="false")
@@ -589,7 +568,6 @@ def test_the_legend_hides_a_curve_with_its_band(page):
     page.check("#band")
 
 
-@pytest.mark.slow
 @with_members
 def test_table_has_the_range_of_the_peak(page):
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false", every="true")

@@ -77,7 +77,6 @@ def test_contents_have_the_ranking(rows):
     assert explorer_contents(sweep(), rows)["ranking"] is None
 
 
-@pytest.mark.slow
 def test_the_table_has_the_rows_of_what_is_chosen(at_ref):
     assert column(at_ref, "interaction") == ["1B/4", "1T/12", "1T/9"]
     assert at_ref.text_content("#shown") == "3 of Ref in abradable"
@@ -94,7 +93,6 @@ def test_the_table_has_the_rows_of_what_is_chosen(at_ref):
     assert at_ref.is_hidden("#interactions table")
 
 
-@pytest.mark.slow
 def test_a_click_on_a_head_sorts_and_says_what_it_is(at_ref):
     """And Enter does; what has no number stays last."""
     head = at_ref.locator("#interactions th.drop")
@@ -115,7 +113,6 @@ def test_a_click_on_a_head_sorts_and_says_what_it_is(at_ref):
     assert column(at_ref, "interaction") == ["1B/4", "1T/9", "1T/12"]
 
 
-@pytest.mark.slow
 def test_quantities_and_the_two_stresses_have_long_names_and_speeds_the_chosen_unit(at_ref):
     at_ref.click("#interactions tbody tr:has-text('1T/12')")
     now = at_ref.text_content("#now")
@@ -133,7 +130,6 @@ def test_quantities_and_the_two_stresses_have_long_names_and_speeds_the_chosen_u
     assert "above yield in most revolutions (rpm)" in at_ref.text_content("#keys")
 
 
-@pytest.mark.slow
 def test_a_step_in_speed_moves_the_cursors(at_ref):
     """Without drawing the plots anew."""
     places = (
@@ -146,7 +142,6 @@ def test_a_step_in_speed_moves_the_cursors(at_ref):
     at_ref.wait_for_function(f"before => {places}.every((of, at) => `${{of}}` !== `${{before[at]}}`)", arg=before)
 
 
-@pytest.mark.slow
 def test_which_blade(at_ref):
     """By rank in the first scene; the lengths of the bars are those of the table, and a click goes to a blade and scene."""
     assert at_ref.locator("#bars tbody th").all_text_contents() == ["L<50>", "Ref"]
@@ -173,7 +168,6 @@ def test_which_blade(at_ref):
     assert at_ref.locator("#bars tr.chosen td.here").count() == 1
 
 
-@pytest.mark.slow
 def test_a_ranking_without_some_columns(page, rows, tmp_path):
     short = RANKING[["blade", "scene", "length_possible_rad_s"]]
     with beside(page, explorer_contents(sweep(), rows, ranking=short), tmp_path / "explorer.html") as other:
@@ -182,7 +176,6 @@ def test_a_ranking_without_some_columns(page, rows, tmp_path):
         assert other.locator("#keys button").all_text_contents() == ["above yield in some revolutions (rad/s)"]
 
 
-@pytest.mark.slow
 def test_a_finger_finds_all(page, rows, tmp_path):
     """On a phone: nothing runs over the side, controls have room, a tap says what a column is, tables scroll in their box."""
     contents = explorer_contents(sweep(), rows, ranking=RANKING)
@@ -213,7 +206,6 @@ def brightness(colour):
     return float(np.dot([0.2126, 0.7152, 0.0722], linear))
 
 
-@pytest.mark.slow
 def test_it_is_dark_where_that_is_preferred(page, rows, tmp_path):
     """Page and plots, with contrast; and changes with the preference."""
     contents = explorer_contents(sweep(), rows, ranking=RANKING)

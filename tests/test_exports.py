@@ -119,7 +119,7 @@ def test_full_matrices_come_back(directory, model, choice):
     np.testing.assert_allclose(compliance, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
 
 
-def test_reduced_matrices_come_back(model, choice, tmp_path):
+def test_reduced_matrices_come_back_in_any_unit(model, choice, tmp_path):
     write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
     assert {file.name for file in tmp_path.iterdir()} == NAMES
     again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
@@ -127,6 +127,11 @@ def test_reduced_matrices_come_back(model, choice, tmp_path):
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
     # patches lie within the tip, so their places do not say it
     np.testing.assert_allclose(again.contact_tip_lengths, model.contact_tip_lengths, rtol=1e-12)
+    # tonnes and N/mm, as programs in millimetres have them
+    again = import_matrices(MatricesSource(str(tmp_path), OURS, "t", "N/mm"), choice)
+    np.testing.assert_allclose(again.mass, 1e3 * model.mass, atol=1e-9 * np.abs(model.mass).max())
+    expected = 1e3 * model.stiffness_at(900.0)
+    np.testing.assert_allclose(again.stiffness_at(900.0), expected, atol=1e-6 * np.abs(model.stiffness).max())
 
 
 def gyroscopic(mass, stiffness, coriolis, count):
@@ -211,15 +216,6 @@ def test_reduced_matrices_in_other_axes(model, choice, tmp_path):
     np.testing.assert_allclose(again.tip_lines["pressure_edge"].points, points, atol=1e-12)
     rows_again, rows_ours = (contact_model(m, "pressure_edge").displacement_operator for m in (again, model))
     np.testing.assert_allclose(np.abs(rows_again[:, :, :6]), np.abs(rows_ours[:, :, :6]), rtol=1e-5, atol=1e-6)
-
-
-def test_units_of_matrices(model, choice, tmp_path):
-    """Tonnes and N/mm, as programs in millimetres have them."""
-    write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
-    again = import_matrices(MatricesSource(str(tmp_path), OURS, "t", "N/mm"), choice)
-    np.testing.assert_allclose(again.mass, 1e3 * model.mass, atol=1e-9 * np.abs(model.mass).max())
-    expected = 1e3 * model.stiffness_at(900.0)
-    np.testing.assert_allclose(again.stiffness_at(900.0), expected, atol=1e-6 * np.abs(model.stiffness).max())
 
 
 @pytest.mark.parametrize(("factor", "outcome"), [(1.0, "said"), (1e3, "warned"), (1e-3, "warned"), (1e-20, "refused")])
@@ -332,14 +328,11 @@ def test_headers_that_promise_too_much(tmp_path, head, message):
         read_matrix(tmp_path / "M.mtx")
 
 
-def test_a_small_matrix_of_matrix_market_fits_its_header(tmp_path):
-    """The shortest entries that there can be."""
+def test_a_small_matrix_fits_its_header_and_an_archive_has_one_matrix(tmp_path):
+    """The shortest entries of Matrix Market that there can be."""
     for text in ("array integer symmetric\n2 2\n2\n1\n2\n", "coordinate integer symmetric\n2 2 2\n1 1 3\n2 2 3\n"):
         (tmp_path / "M.mtx").write_text(f"%%MatrixMarket matrix {text}")
         assert read_matrix(tmp_path / "M.mtx").shape == (2, 2)
-
-
-def test_an_archive_has_one_matrix(tmp_path):
     np.savez(tmp_path / "M.npz", SMALL, 2.0 * SMALL)
     with pytest.raises(ImportRefused, match=r"^M\.npz: found 2 arrays \(arr_0, arr_1\); allowed: one, or a sparse matrix"):
         read_matrix(tmp_path / "M.npz")

@@ -4,9 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from overlays import overlay
-from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
+from workflow_runs import overlay, planned_outputs
 
 from r37core.base.plain import to_plain
 from r37core.blade import section_changes
@@ -35,6 +34,7 @@ def test_a_range_becomes_blades_with_readable_names(with_blades):
     np.testing.assert_allclose(tips, [(1.0, -0.003, 0.0), (1.0, 0.003, 0.0), (1.0, 0.009, 0.0)])
     # half the sweep of S100 is the benchmark's S50
     np.testing.assert_allclose(settings.blades["Sweep_50"].definition.stacking, settings.blades["S50"].definition.stacking)
+    assert design_name("F", (-0.5, 1e-7, 2.0)) == "F_-0p5_1e-07_2"
 
 
 def test_a_family_is_refused_once(with_blades):
@@ -64,16 +64,12 @@ def test_profiles_of_a_design_are_changed_once(with_blades, config_copy, monkeyp
     assert read_settings(config_copy, command_line_document({"blades": ["Turned"]})).blades == first
 
 
-def test_run_ups_of_a_family_are_those_of_its_designs(with_blades):
-    run_ups = {"up": {"from_rad_s": 900, "to_rad_s": 1000, "revolutions": 50, "blades": ["Sweep"]}}
-    settings = with_blades(SWEEP, blades=["Ref", "Sweep"], run_ups=run_ups)
-    choices = RunUps(Sweep(settings)).choices
-    assert [name for name in settings.blades if choices[name, "direct"]] == ["Sweep_-50", "Sweep_50", "Sweep_150"]
-
-
-def test_some_of_many_blades_have_figures(with_blades):
+def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades):
     """Of no family, and six designs from the first to the last."""
-    settings = with_blades(SWEEP.replace("step: 100", "step: 2"), blades=["Ref", "Sweep"])
+    run_ups = {"up": {"from_rad_s": 900, "to_rad_s": 1000, "revolutions": 50, "blades": ["Sweep"]}}
+    settings = with_blades(SWEEP.replace("step: 100", "step: 2"), blades=["Ref", "Sweep"], run_ups=run_ups)
+    choices, designs = RunUps(Sweep(settings)).choices, [f"Sweep_{percent}" for percent in range(-50, 151, 2)]
+    assert [name for name in settings.blades if choices[name, "direct"]] == designs
     drawn = Sweep(settings).drawn["blade"]
     assert drawn == ["Ref", "Sweep_-50", "Sweep_-10", "Sweep_30", "Sweep_70", "Sweep_110", "Sweep_150"]
     assert [names["blade"] for names in targets(Sweep(settings))["<results>/figures/response_{blade}.png"]] == drawn
@@ -168,10 +164,6 @@ def test_family_refusals(with_blades, text, message):
 def test_table_refusals(with_blades, table, message):
     with pytest.raises(ConfigError, match=message):
         with_blades("Mine: { base: Ref, designs: config/designs.csv }\n", table)
-
-
-def test_names_tell_numbers_apart():
-    assert design_name("F", (-0.5, 1e-7, 2.0)) == "F_-0p5_1e-07_2"
 
 
 @pytest.fixture

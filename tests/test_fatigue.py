@@ -2,12 +2,11 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from box_mesh import inner_places
 from defaults import IntegrationChoice
 from integration_cases import DIRECT, NARROW
-from stress_cases import inner_places
 
 from r37core.base.dataset_file import read_dataset
 from r37core.config import ConfigError
@@ -48,18 +47,19 @@ def cycles_of(components, states):
 
 
 def test_a_uniaxial_cycle_is_the_textbook_s():
-    """Amplitude over fatigue strength and mean over ultimate strength, of a sine about a mean."""
+    """Amplitude over fatigue strength and mean over ultimate strength, of a sine about a mean; compression does not help."""
     alternating, mean = cycles_of({XX: [1.0]}, (120.0 + 300.0 * np.sin(PHASE))[:, None])
     np.testing.assert_allclose(alternating, 300.0, rtol=1e-6)
     np.testing.assert_allclose(mean, 120.0, rtol=1e-6)
     share = Strengths(500.0, 1000.0).share(alternating[0], mean)
     np.testing.assert_allclose(share, 300.0 / 500.0 + 120.0 / 1000.0, rtol=1e-6)
-
-
-def test_a_stress_that_stays_is_a_mean_alone():
+    # what stays is a mean alone
     alternating, mean = cycles_of({XX: [1.0], YY: [0.5], XY: [2.0]}, np.full((len(PHASE), 1), 80.0))
     np.testing.assert_allclose(alternating, 0.0, atol=1e-4)
     np.testing.assert_allclose(mean, 120.0, rtol=1e-6)
+    strengths = Strengths(500.0, 1000.0)
+    assert strengths.share(np.array(100.0), np.array(-400.0)) == pytest.approx(0.2)
+    assert np.isnan(Strengths().share(np.array([100.0]), np.array([0.0]))).all()
 
 
 @pytest.mark.parametrize(("yy", "alternating"), [(-1.0, np.sqrt(3.0)), (1.0, 1.0), (0.0, 1.0)])
@@ -69,22 +69,12 @@ def test_components_keep_their_signs(yy, alternating):
     np.testing.assert_allclose(stress, alternating, rtol=1e-6)
 
 
-def test_components_out_of_phase_have_the_largest_of_their_path():
-    """Bending and twice its shear a quarter of a cycle later: |s|^2 = sin^2 + 3 (2 cos)^2."""
+def test_a_path_counts_by_its_farthest_point_from_the_mean():
+    """Out of phase, |s|^2 = sin^2 + 3 (2 cos)^2; a wave at 1 for an eighth of the time has the mean 1/8, farthest 7/8."""
     alternating, _ = cycles_of({XX: [1.0, 0.0], XY: [0.0, 2.0]}, np.stack([np.sin(PHASE), np.cos(PHASE)], axis=1))
     np.testing.assert_allclose(alternating, np.sqrt(12.0), rtol=1e-6)
-
-
-def test_an_asymmetric_wave_counts_more_than_half_of_its_range():
-    """Of a wave that is at 1 for an eighth of the time and at 0 else: the mean is 1/8, the farthest from it 7/8."""
     wave = (np.arange(len(PHASE)) % 8 == 0).astype(float)
     np.testing.assert_allclose(cycles_of({XX: [1.0]}, wave[:, None])[0], 7.0 / 8.0, rtol=1e-6)
-
-
-def test_compression_does_not_help():
-    strengths = Strengths(500.0, 1000.0)
-    assert strengths.share(np.array(100.0), np.array(-400.0)) == pytest.approx(0.2)
-    assert np.isnan(Strengths().share(np.array([100.0]), np.array([0.0]))).all()
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -258,8 +248,6 @@ def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):
     # the colours of the map, and the red dot of the worst node on one of both sides
     assert np.any(np.ptp(pixels.astype(int), axis=2) > 60)
     assert figures[1].axes[0].texts[0].get_text() == "Unknown: no strengths in blades.yaml"
-    for figure in figures:
-        plt.close(figure)
 
 
 @pytest.mark.parametrize(
@@ -267,10 +255,7 @@ def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):
     [
         ("fatigue_strength_pa: 4e+8", "fatigue_strength_pa alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both"),
         ("ultimate_strength_pa: 9e+8", "ultimate_strength_pa alone"),
-        (
-            "fatigue_strength_pa: 3e+8, ultimate_strength_pa: 9e+8",
-            r"yield_stress_pa: found 1\.38e\+09; allowed: 3e\+08 to 9",
-        ),
+        ("fatigue_strength_pa: 3e+8, ultimate_strength_pa: 9e+8", r"yield_stress_pa: found 1\.38e\+09; allowed: 3e\+08 to 9"),
         ("fatigue_strength_pa: 9e+8, ultimate_strength_pa: 9e+8", r"fatigue_strength_pa: found 9e\+08; allowed: less than ult"),
     ],
 )
@@ -297,7 +282,7 @@ def test_strengths_vary_and_change_no_model(with_blades):
 
 
 def test_fatigue_needs_stress(config_copy):
-    from overlays import overlay
+    from workflow_runs import overlay
 
     from r37core.product.reading import read_settings
 

@@ -1,5 +1,6 @@
-"""Figures: sizes that print as they are, one colour per blade everywhere, and what the new ones show."""
+"""Figures: captions, sizes that print as they are, one colour per blade everywhere, and what the new ones show."""
 
+import re
 from functools import partial
 
 import matplotlib.pyplot as plt
@@ -8,8 +9,11 @@ import pytest
 import xarray as xr
 from matplotlib.colors import to_hex
 from matplotlib.text import Text
+from PIL import Image
 
 from r37core.figures import campbell_diagram, comparison, maps, response_curves, style, waterfall
+from r37core.figures.style import save
+from r37core.product.reporting import FIGURES
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -18,12 +22,6 @@ SPEEDS = np.arange(750.0, 2000.1, 25.0)
 
 
 draw_comparison = partial(comparison.draw_comparison, below=0.02, above=0.06)
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 @pytest.fixture(scope="module")
@@ -182,10 +180,7 @@ def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
 def test_blades_of_several_materials_have_a_yield_line_each(datasets):
     """Dashed lines of the last panel at their stress (GPa), and the texts beside them."""
     lined = {kind: datasets[kind].sel(scene="abradable") for kind in ("rms", "stress")}
-    for limits, heights, texts in (
-        ([1.38e9] * 3, [1.38], []),
-        ([1.38e9, 0.9e9, 1.38e9], [0.9, 1.38], ["L50", "Ref, S100"]),
-    ):
+    for limits, heights, texts in (([1.38e9] * 3, [1.38], []), ([1.38e9, 0.9e9, 1.38e9], [0.9, 1.38], ["L50", "Ref, S100"])):
         stress = lined["stress"].assign(yield_stress=("blade", limits))
         axes = draw_comparison(datasets["campbell"], lined["rms"], stress, "abradable").axes[-1]
         dashed = [line for line in axes.lines if line.get_linestyle() == "--" and line.get_color() == "0.3"]
@@ -279,3 +274,32 @@ def test_comparison_marks_runs_that_diverged(datasets):
         assert len(x) == 5 and x.min() >= -2.0 and x.max() <= 6.0
         assert crosses.get_color() == style.blade_styles(BLADES)[BLADES[1]]["color"]
     assert {BLADES[1], "diverged"} <= {text.get_text() for text in figure.legends[0].get_texts()}
+
+
+NAMES = {"blade": "Ref", "scene": "direct", "family": "Sweep"}
+
+
+def test_captions_are_filled_in_short_whole_sentences():
+    for figure in FIGURES:
+        text = figure.caption.format(**NAMES)
+        assert "{" not in text and text.endswith("."), figure.rule
+        assert max(len(sentence.split()) for sentence in text.split(". ")) <= 30, figure.rule
+
+
+def test_every_figure_of_the_rules_has_a_caption_and_is_in_the_report(root):
+    assert len({figure.rule for figure in FIGURES}) == len({figure.name for figure in FIGURES}) == len(FIGURES)
+    for file in (root / "workflow/rules").glob("*.smk"):
+        rules = re.split(r"^ *(?:use )?rule\b", file.read_text(), flags=re.MULTILINE)
+        for rule in (block for block in rules[1:] if "/figures/" in block):
+            # `pictures` puts them into the report
+            assert re.search(r"output:\s+\*\*pictures\(", rule), rule
+            assert "caption=" in rule or "drawing(figure, sweep)" in rule, rule
+    functions = (root / "workflow/rules/common.smk").read_text()
+    assert "report(" in functions.split("def shown(")[1].split("\n\n\n")[0]
+    assert "shown(" in functions.split("def pictures(")[1].split("\n\n\n")[0]
+
+
+def test_a_file_carries_its_caption(tmp_path):
+    figure, _ = plt.subplots()
+    save(figure, tmp_path / "a.png", "Wear of the lining.")
+    assert Image.open(tmp_path / "a.png").text["Description"] == "Wear of the lining."

@@ -184,14 +184,11 @@ def test_nodes_that_move_are_not_clamped(deck, row):
         read(deck(change), root="boundary")
 
 
-def test_a_set_that_is_called_boundary_is_the_files_own(deck):
+def test_any_nodes_may_be_the_root(deck):
+    """Of a set BOUNDARY of the file; without a whole face, and inside, as of a dovetail's flanks."""
     members = ", ".join(map(str, plate().node_set("root")[:10] + 1))
     folder = deck(lambda text: text.replace("*MATERIAL", f"*NSET, NSET=Boundary\n{members}\n*MATERIAL"))
     assert len(read(folder, root="BOUNDARY").node_set("root")) == 10
-
-
-def test_any_nodes_may_be_the_root(deck):
-    """Nodes without a whole face among them, and nodes inside, as of a dovetail's flanks."""
     members = ", ".join(map(str, np.flatnonzero(plate().points[:, 0] < 0.212)[::2] + 1))
     folder = deck(lambda text: text.replace("*MATERIAL", f"*NSET, NSET=SOME\n{members}\n*MATERIAL"))
     assert len(read(folder, root="some").node_set("root")) == len(members.split(","))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 from defaults import Where
-from overlays import overlay
+from workflow_runs import overlay
 
 from r37core.base.plain import to_plain
 from r37core.blade.definition import BladeDefinition

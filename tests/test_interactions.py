@@ -224,7 +224,7 @@ def test_the_table_of_all():
         assert float(data["rms_tangential"].sel(speed=row.peak_speed_rad_s, tip_point="leading_edge")) > 7e-4
 
 
-def test_no_response_no_interaction():
+def test_no_response_no_interaction_and_the_reach_of_a_peak_may_begin_and_end_with_the_speeds():
     data = response()
     assert found(data) == []
     data["rms_normal"][:] = data["rms_tangential"][:] = np.nan
@@ -232,9 +232,6 @@ def test_no_response_no_interaction():
     assert summarise(joined(data), CHOICE).empty
     data["status"][:] = RunStatus.NOT_RUN
     assert found(data) == []
-
-
-def test_the_reach_of_a_peak_may_begin_and_end_with_the_speeds():
     level = np.array([1.0, 0.9, 0.01, 0.01, 0.01])
     assert interactions._loud(1000.0 * np.arange(5), level, 0) == (0, 1)
     assert interactions._loud(np.arange(5.0), level, 0) == (0, 2)

@@ -1,4 +1,4 @@
-"""Formulas on lanes, compiled: what is rounded once, and that no processor may round otherwise."""
+"""Formulas on lanes, compiled: what is rounded once, and what the constants of a program rule out."""
 
 from fractions import Fraction
 
@@ -10,7 +10,8 @@ from numba import types
 
 from r37core.machine_code.alignment import LANES, aligned_record, aligned_zeros
 from r37core.machine_code.lanes import OPTIONS, inlined, load, store
-from r37core.time_integration.compiled import program
+from r37core.machine_code.program_constants import specialised
+from r37core.time_integration.compiled import program, steps
 from r37core.time_integration.compiled.layout import Kind, capacity_of
 
 FORMULAS = {
@@ -60,3 +61,66 @@ def test_a_program_leaves_no_rounding_to_the_compiler(monkeypatch):
     words = program.compile_integration(capacity_of(1, 1), direct).split()
     assert words.count("fadd") > 10 and any(word.startswith("@llvm.fmuladd.v8f64") for word in words)
     assert not {"fast", "reassoc", "contract", "arcp", "afn", "nnan", "ninf", "nsz"}.intersection(words)
+
+
+WIDE = DEEP = False
+
+
+@inlined
+def width(number):
+    """Whoever compiles the first branch finds out that a number has no such name."""
+    if WIDE and number > 0.0:
+        number = number.of_no_such_name
+    return number
+
+
+@inlined
+def doubled(number):
+    return 2.0 * number
+
+
+@inlined
+def measured(number):
+    if DEEP:
+        number += 100.0
+    return width(number) + doubled(number)
+
+
+def compiled_for(wide, deep):
+    inner = specialised(measured, {"WIDE": wide, "DEEP": deep})
+
+    @numba.njit(**OPTIONS)
+    def of(number):
+        return inner(number)
+
+    return of
+
+
+def test_what_is_ruled_out_is_not_compiled_and_the_module_keeps_its_own_values():
+    assert compiled_for(False, False)(1.0) == 3.0
+    assert compiled_for(False, True)(1.0) == 303.0
+    # the error names file and line of the source
+    with pytest.raises(numba.TypingError, match="of_no_such_name") as refused:
+        compiled_for(True, False)(1.0)
+    assert "test_lanes.py" in str(refused.value)
+    assert "number = number.of_no_such_name" in str(refused.value)
+    specialised(measured, {"WIDE": False, "DEEP": True})
+    assert DEEP is False
+    assert measured.py_func.__globals__["DEEP"] is False
+
+
+def test_choices_share_what_does_not_tell_them_apart():
+    """`width` does not use DEEP, `measured` does, `doubled` none of them."""
+    shallow, deep = ({"WIDE": False, "DEEP": value} for value in (False, True))
+    assert specialised(width, shallow) is specialised(width, deep)
+    assert specialised(measured, shallow) is not specialised(measured, deep)
+    assert specialised(measured, shallow) is specialised(measured, dict(shallow))
+    assert specialised(doubled, deep) is doubled
+
+
+def test_the_steps_know_every_constant_of_a_kind_by_its_name():
+    """A constant that no function names would tell programs apart that are the same."""
+    constants = Kind(True, True, True, False).constants
+    for name in constants:
+        other = constants | {name: not constants[name]}
+        assert specialised(steps.meet, constants) is not specialised(steps.meet, other), name

@@ -1,10 +1,21 @@
-"""Each number that is read off a response, against a closed form."""
+"""Numbers read off a response, inside the operating range, too, and printed with the digits that their scatter bears."""
 
+import math
+
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
+from pydantic import ValidationError
 
+from r37core.base.rounding import rounded_to, rounded_up
+from r37core.base.units import RPM
+from r37core.config.config_file import OperatingSection
+from r37core.figures import style
 from r37core.results import measures
+from r37core.results.columns import OPERATING, ROBUSTNESS, names
+from r37core.results.operating_range import OperatingDwell, OperatingRange
+from r37core.results.ranking import operating_measures, ranking_table
 from r37core.time_integration.status import RunStatus
 
 SPEEDS = 1000.0 + 2.0 * np.arange(8)
@@ -22,20 +33,15 @@ def response(normal, tangential=None, stress=None, speeds=SPEEDS, **more):
     return xr.Dataset(data | {"status": ("speed", status)} | more, coords)
 
 
-def test_motion_is_that_of_the_leading_edge_in_both_directions():
+def test_motion_of_the_leading_edge_its_peak_and_its_drop():
+    """Of both directions; a peak answers and is not where the speeds begin; a drop is to the lowest motion within reach."""
     data = response([3.0, np.nan, 0.0], [4.0, np.nan, 2.0])
     np.testing.assert_array_equal(measures.motion(data), [5.0, 0.0, 2.0])
     np.testing.assert_array_equal(measures.motion(data.sel(tip_point="leading_edge")), [5.0, 0.0, 2.0])
     assert float(measures.peak_of(data)["speed"]) == 1000.0
-
-
-def test_a_peak_answers_and_is_not_where_the_speeds_begin():
     assert measures.peak_speed(response([1e-5, 9e-3, 1e-5])) == 1002.0
     assert np.isnan(measures.peak_speed(response([1e-5, 1e-3, 1e-5])))
     assert np.isnan(measures.peak_speed(response([9e-3, 1e-3, 1e-5])))
-
-
-def test_a_drop_is_to_the_lowest_motion_within_reach():
     speeds = 1000.0 + 12.0 * np.arange(5)
     assert measures.drop_after(response([1.0, 4.0, 1.0, 3.0, 0.1], speeds=speeds)) == pytest.approx(0.75)
     assert np.isnan(measures.drop_after(response([1.0, 4.0])))
@@ -87,14 +93,156 @@ def test_a_response_is_above_yield_where_it_diverged_and_nowhere_unrun():
     assert measures.width_above_yield(data.isel(speed=slice(5, None))) == 0.0
 
 
-def test_the_largest_stress_is_of_all_speeds():
+def test_the_largest_stress_and_the_first_yield_of_a_run():
+    """Of all speeds; the first revolution has the largest, and the end of the run is missing."""
     assert measures.largest_stress(response(np.zeros(3), stress=[1.0, np.nan, 3.0])) == (3.0, 1004.0)
     assert np.isnan(measures.largest_stress(response(np.zeros(2), stress=[np.nan, np.nan]))).all()
-
-
-def test_stress_of_a_run():
-    """The first revolution has the largest, and the end of the run is missing."""
     history = np.array([9.0, 3.0, np.nan, np.nan])
     assert measures.first_yield(history, 8.9) == 1.0
     assert measures.first_yield(history[1:], 2.0) == 1.0
     assert np.isnan(measures.first_yield(history, 9.0))
+
+
+def exceeding(speeds, shares, lined=1.0):
+    content = {"share_of_revolutions_above_yield": ("speed", shares), "status": ("speed", np.zeros(len(speeds), int))}
+    return xr.Dataset(content | {"lined": lined}, {"speed": speeds})
+
+
+def test_the_integral_inside_is_that_of_straight_lines():
+    """A triangle from 1000 over 1100 to 1200 rad/s, of which the range has 1050 to 1150: 75 of 100 rad/s."""
+    speeds, shares = np.array([900.0, 1000.0, 1100.0, 1200.0, 1300.0]), np.array([0.0, 0.0, 1.0, 0.0, 0.0])
+    assert OperatingRange(1050.0, 1150.0).integral(speeds, shares) == pytest.approx(75.0)
+    # a margin is judged, but no time is spent there
+    assert OperatingRange(1050.0, 1150.0, 0.05).integral(speeds, shares) == pytest.approx(75.0)
+    assert OperatingRange(1000.0, 1500.0, 0.1).time_share(1500.0, 1650.0) == 0.0
+    # a margin that is rounded is covered
+    for redline in np.arange(500.0, 2001.0, 10.0):
+        for percent in (1, 2, 3, 5, 10):
+            whole = OperatingRange(400.0, redline, percent / 100.0)
+            assert whole.is_covered(np.array([1.0, round(redline * (100 + percent)) / 100.0]))
+    assert not OperatingRange(400.0, 500.0).is_covered(np.array([1.0, 499.9]))
+
+
+def test_dwells_weigh_and_the_rest_is_even():
+    """Above yield at 1100 to 1120 alone: 60% of the time are spent there, and a fifth of the rest, of 100 rad/s."""
+    speeds = np.array([1000.0, 1100.0 - 1e-9, 1100.0, 1120.0, 1120.0 + 1e-9, 1300.0])
+    shares = np.array([0.0, 0.0, 1.0, 1.0, 0.0, 0.0])
+    dwell = OperatingRange(1050.0, 1150.0, dwell=(OperatingDwell(1100.0, 1120.0, 0.6),))
+    assert dwell.integral(speeds, shares) == pytest.approx(100.0 * (0.6 + 0.4 * 0.2), rel=1e-6)
+    assert dwell.time_share(1100.0, 1120.0) == pytest.approx(0.68)
+    assert dwell.time_share(1050.0, 1150.0) == pytest.approx(1.0)
+    assert OperatingRange(1050.0, 1150.0).time_share(1050.0, 1060.0) == pytest.approx(0.1)
+
+
+def test_measures_inside():
+    speeds = np.arange(1000.0, 1301.0, 10.0)
+    shares = ((speeds >= 1100.0) & (speeds <= 1200.0)).astype(float)
+    inside = operating_measures(exceeding(speeds, shares), OperatingRange(1000.0, 1150.0))
+    # from 1095, half of the way between two speeds
+    assert inside["length_certain_operating_rad_s"] == pytest.approx(55.0)
+    assert inside["exceedance_integral_operating_rad_s"] == pytest.approx(55.0)
+    assert np.isnan(inside["exceedance_integral_operating_scatter_rad_s"])
+    bare = operating_measures(exceeding(speeds, 0.5 * shares + 0.1, 0.0), OperatingRange(1000.0, 1150.0))
+    assert bare["exceedance_integral_operating_scatter_rad_s"] > 0.0
+
+
+def test_what_is_not_run_over_the_whole_range_is_not_known():
+    speeds = np.arange(1000.0, 1301.0, 10.0)
+    measures = operating_measures(exceeding(speeds, np.ones(len(speeds))), OperatingRange(990.0, 1150.0))
+    assert set(measures) == set(names(OPERATING))
+    assert np.isnan(list(measures.values())).all()
+
+
+def test_the_ranking_inside_stands_next_to_that_over_all_speeds():
+    def of(length, inside):
+        own = dict.fromkeys(names(ROBUSTNESS), 0.0) | {"length_certain_rad_s": length, "diverged_runs": 0.0}
+        return own | {"length_certain_operating_rad_s": inside, "exceedance_integral_operating_rad_s": inside}
+
+    table = ranking_table({("A", "x"): of(1.0, 9.0), ("B", "x"): of(5.0, 2.0), ("C", "x"): of(3.0, np.nan)})
+    assert table["blade"].tolist() == ["A", "C", "B"]
+    ranks = table.set_index("blade")["rank_operating"]
+    assert ranks[["A", "B"]].tolist() == [2, 1]
+    assert ranks.isna()["C"]
+
+
+def test_both_units_give_the_same_range():
+    rad = OperatingSection.model_validate({"idle_rad_s": 1000.0, "redline_rad_s": 1500.0, "margin_percent": 2.0}).operating()
+    rpm = OperatingSection.model_validate({"idle_rpm": 1000.0 * RPM, "redline_rpm": 1500.0 * RPM, "margin_percent": 2.0})
+    assert (rad.first, rad.last) == (980.0, 1530.0)
+    assert rpm.operating().idle == pytest.approx(1000.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"idle_rpm": 9000.0}, "idle_rad_s and idle_rpm"),
+        ({"redline_rad_s": 900.0}, "a speed above idle"),
+        ({"dwell": [{"from_rad_s": 900.0, "to_rad_s": 1100.0, "share_percent": 5.0}]}, "idle and redline, 1000 and 1500 rad/s"),
+        ({"dwell": [{"from_rad_s": 1200.0, "to_rad_s": 1100.0, "share_percent": 5.0}]}, "above the lowest one"),
+        ({"dwell": [{"from_rad_s": 1100.0, "to_rad_s": 1200.0, "share_percent": 60.0}] * 2}, "at most 100 percent"),
+        ({"dwell": [{"to_rad_s": 1200.0, "share_percent": 60.0}]}, "from_rad_s or from_rpm"),
+    ],
+)
+def test_operating_refusals(changes, message):
+    with pytest.raises(ValidationError, match=message):
+        OperatingSection.model_validate({"idle_rad_s": 1000.0, "redline_rad_s": 1500.0} | changes)
+
+
+def test_axes_of_speed_alone_are_shaded_and_keep_their_limits():
+    figure, (above, below, other) = plt.subplots(3, 1)
+    above.sharex(below)
+    below.plot([1100.0, 1200.0], [0.0, 1.0])
+    below.set_xlabel(style.SPEED_LABEL)
+    before = {axes: (axes.get_xlim(), len(axes.patches)) for axes in (above, below, other)}
+    style.mark_operating(figure, OperatingRange(1000.0, 1150.0))
+    assert [axes.get_xlim() for axes in before] == [limits for limits, _ in before.values()]
+    assert [len(axes.patches) for axes in before] == [1, 1, 0]
+
+
+@pytest.mark.parametrize(
+    ("value", "spread", "text"),
+    [
+        (1727.0, 44.0, "1730"),
+        (1727.0, 30.0, "1730"),
+        (1727.0, 29.0, "1727"),
+        (1727.4, 4.0, "1727"),
+        (1727.44, 0.3, "1727.4"),
+        (8.6412, 12.1, "9"),
+        (8.6412, 0.8, "8.6"),
+        (8.6412, 0.2, "8.64"),
+        (0.00123, 0.0004, "0.0012"),
+        (8.6412e9, 1.2e9, "8600000000"),
+        (3.0, 100.0, "0"),
+        (-0.04, 1.0, "0.0"),
+        (-1727.0, -44.0, "-1730"),
+        (1715.0, 44.0, "1720"),
+        (1725.0, 44.0, "1730"),
+        (-1725.0, 44.0, "-1730"),
+        (8.25, 0.4, "8.3"),
+        (2e-12, 1e-12, "0.0000000000020"),
+        (1640.0, 1e-300, "1640"),
+        (1640.0, 1e-7, "1640"),
+        (0.0, 1e-7, "0.00000000"),
+        (np.float64(1640.0), 0.0, "1640"),
+        (1640.123456, math.nan, "1640.12"),
+        (math.inf, 3.0, "inf"),
+        (math.nan, 3.0, ""),
+    ],
+)
+def test_digits_that_the_spread_bears(value, spread, text):
+    assert rounded_to(value, spread) == text
+
+
+def test_rounding_moves_a_number_by_at_most_a_sixth_of_its_spread_and_keeps_no_digit_more():
+    random = np.random.default_rng(0)
+    for value, spread in zip(random.uniform(-1e4, 1e4, 500), 10.0 ** random.uniform(-3.0, 3.5, 500), strict=True):
+        text = rounded_to(value, spread)
+        assert abs(float(text) - value) <= spread / 6.0 * (1.0 + 1e-9)
+        # a multiple of the longest digit that is allowed
+        in_digits = float(text) / 10.0 ** math.floor(math.log10(spread / 3.0))
+        assert math.isclose(in_digits, round(in_digits), abs_tol=1e-6)
+
+
+@pytest.mark.parametrize(("value", "text"), [(0.23401, "0.235"), (0.234, "0.234"), (1234.0, "1240"), (5.0, "5"), (9.991, "10")])
+def test_a_lower_bound_is_never_rounded_below_itself(value, text):
+    assert rounded_up(value) == text and float(text) >= value

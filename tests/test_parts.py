@@ -5,9 +5,8 @@ import subprocess
 
 import pytest
 import yaml
-from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
-from workflow_runs import SNAKEMAKE, snakemake
+from workflow_runs import SNAKEMAKE, copy_odd_project, planned_outputs, run_in_odd_project, snakemake
 
 from r37core.config import ConfigError
 from r37core.config.document import command_line_document
@@ -32,21 +31,16 @@ def test_what_is_no_part_is_refused(root, part):
         settings_of(root, part)
 
 
-def test_more_parts_than_blades_are_refused(root):
+def test_a_part_makes_nothing_of_all_blades(root):
+    """Nor are there more parts than blades; the profile of a node has all that the usual one has."""
     with pytest.raises(ConfigError, match=r"run\.part: found 1/3 of 2 blades; allowed: at most 2 parts"):
         settings_of(root, "1/3", blades=["Ref", "S50"])
-
-
-def test_a_part_makes_nothing_of_all_blades(root):
     part = settings_of(root, "1/3")
     check_part(part, {"responses"})
     check_part(read_settings(root), set())
     for targets in (set(), {"all_blades"}, {"responses", "results/rms.nc"}):
         with pytest.raises(ConfigError, match=r"run\.part: found 1/3 with the target .*; allowed: the target responses, as in"):
             check_part(part, targets)
-
-
-def test_the_profile_of_a_node_has_all_that_the_usual_one_has(root):
     usual, node = (yaml.safe_load((root / f"profiles/{name}/config.yaml").read_text()) for name in ("default", "node"))
     assert node == usual | {"cores": "all"}
 
@@ -71,3 +65,12 @@ def test_batches_of_the_named_rule(root, tmp_path):
     copy_stubbed(root, tmp_path)
     first, second = (planned_outputs(tmp_path, "responses", "--batch", f"responses={number}/3") for number in (1, 2))
     assert first["simulate"] and not first["simulate"] & second.get("simulate", set())
+
+
+@pytest.mark.slow
+def test_a_part_of_a_sweep_on_slurm(root, tmp_path):
+    """What Slurm would run, without Slurm."""
+    folder = copy_odd_project(root, tmp_path)
+    slurm = {f"SLURM_{name}": "1" for name in ("CPUS_PER_TASK", "ARRAY_TASK_ID", "ARRAY_TASK_COUNT")}
+    slurm["SLURM_SUBMIT_DIR"] = str(folder)
+    assert "simulate" in run_in_odd_project(folder, "bash", "cluster/sweep.sbatch", "--dry-run", "--forceall", **slurm)

@@ -148,12 +148,9 @@ def test_public_names_are_those_of_the_page(root):
     assert [name for name in calls if f"`r37.{name}(" not in text or not getattr(r37, name).__doc__] == []
 
 
-def test_scripts_are_thin(root):
+def test_scripts_are_thin_and_no_file_has_machine_paths(root):
     for script in (root / "workflow/scripts").glob("*.py"):
         assert len(script.read_text().splitlines()) <= 40, script
-
-
-def test_no_machine_paths(root):
     for pattern in ("Snakefile", "Makefile", "*.md", "config/**/*.yaml", "workflow/**/*", "src/**/*.py", "docs/*"):
         for file in root.glob(pattern):
             if file.is_file() and file.suffix in {"", ".md", ".yaml", ".smk", ".py"}:

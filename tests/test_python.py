@@ -184,98 +184,93 @@ def test_free_flight_from_outside(config):
     assert "initial_state" not in r37.simulate("Ref", far, speed, config=config, results=[]).attrs
 
 
+def call(function, /, *arguments, **named):
+    """A call of r37 that is to be refused."""
+    return lambda: getattr(r37, function)(*arguments, **named)
+
+
+def scene(**changes):
+    return call("scene", "direct", **changes)
+
+
+def simulate(*speed, **named):
+    return call("simulate", "Ref", "direct", *speed, **named)
+
+
 REFUSED = {
-    r"blade: found 'cs10'; allowed: Ref, L50, L100, .* \(did you mean CS100\?\)": lambda: r37.campbell("cs10"),
-    r"blade: found \['Ref'\]; allowed: the name": lambda: r37.campbell(["Ref"]),
-    r"r37.campbell: fidelity: found 'drft'; allowed: .* \(did you mean draft\?\)": lambda: r37.campbell("Ref", fidelity="drft"),
-    "config: found missing.yaml": lambda: r37.campbell("Ref", config="missing.yaml"),
-    "file: found missing.yaml": lambda: r37.blade("Ref", file="missing.yaml"),
-    "name: found 3; allowed: a name": lambda: r37.blade("Ref", name=3),
-    "name: found 'CS50', which .* has; allowed: another name": lambda: r37.blade("Ref", name="CS50"),
-    "changed blade: found 'X'; allowed: Ref": lambda: r37.blade("X", sweep_percent=5),
-    r"name_of_entry: found \['direct'\]; allowed: a name": lambda: r37.scene(["direct"]),
-    r'r37.scene\("direct"\): .*unknown key lining_m': lambda: r37.scene("direct", lining_m=1),
-    r'r37\.scene\("direct"\): direct: found unknown key linning; .* \(did you mean lining\?\)': lambda: r37.scene(
-        "direct", linning=None
+    r"blade: found 'cs10'; allowed: Ref, L50, L100, .* \(did you mean CS100\?\)": call("campbell", "cs10"),
+    r"blade: found \['Ref'\]; allowed: the name": call("campbell", ["Ref"]),
+    r"r37.campbell: fidelity: found 'drft'; allowed: .* \(did you mean draft\?\)": call("campbell", "Ref", fidelity="drft"),
+    "config: found missing.yaml": call("campbell", "Ref", config="missing.yaml"),
+    "file: found missing.yaml": call("blade", "Ref", file="missing.yaml"),
+    "name: found 3; allowed: a name": call("blade", "Ref", name=3),
+    "name: found 'CS50', which .* has; allowed: another name": call("blade", "Ref", name="CS50"),
+    "changed blade: found 'X'; allowed: Ref": call("blade", "X", sweep_percent=5),
+    r"name_of_entry: found \['direct'\]; allowed: a name": call("scene", ["direct"]),
+    r'r37.scene\("direct"\): .*unknown key lining_m': scene(lining_m=1),
+    r'r37\.scene\("direct"\): direct: found unknown key linning; .* \(did you mean lining\?\)': scene(linning=None),
+    r'r37.scene\("direct"\): direct.friction.coefficient: found -1': scene(**{"friction.coefficient": -1}),
+    r'direct.friction: found 0.2; allowed: mapping .* of one of them: \*\*\{"friction.coefficient": 0.2\}': scene(friction=0.2),
+    "abradable.results: found wear; allowed: only in a scene with a lining": call("scene", "abradable", lining=None),
+    r"direct\.rotor: missing key blades": scene(**{"rotor.blades": None}),
+    "found the key 1 twice, as a number and a text": scene(rotor={"blades": 3, "longer_m": {1: 1e-5, "1": 2e-5}}),
+    r"found the key \(1, 2\); allowed: a name or a whole number": scene(rotor={"blades": 3, "longer_m": {(1, 2): 1e-5}}),
+    r"scene: found 'dirct'; allowed: abradable, .* \(did you mean direct\?\)": call("simulate", "Ref", "dirct", 1000),
+    "scene: found None; allowed: the name of a scene": call("simulate", "Ref", None, 1200),
+    "r37.simulate: speed: found -5; allowed: number, at least 0.001": simulate(-5),
+    "speed: found 'fast'; allowed: num": simulate("fast"),
+    r"speed: found \[1, 2\]; allowed: one number, in rad/s; several are for r37.sweep": simulate([1, 2]),
+    "speed: found <xarray.Dataset>.*; allowed: one number, in rad/s": simulate(xr.Dataset()),
+    "r37.simulate: speed_rpm: found 0; allowed: number, at least 0.01": simulate(speed_rpm=0),
+    "speed: found both; allowed: speed, in rad/s, or speed_rpm": simulate(1, speed_rpm=10),
+    "results: found 3; allowed: a list of names": simulate(1200, results=3),
+    r'results: found "stress"; allowed: a list, as in results=\["stress"\]': simulate(9, results="stress"),
+    "results: found wear": simulate(9, results=["wear"]),
+    "initial_velocity: found nan at place 1, counted from 0; allowed: finite numbers": simulate(
+        9, initial_velocity=[0.0, np.nan]
     ),
-    r'r37.scene\("direct"\): direct.friction.coefficient: found -1': lambda: r37.scene(
-        "direct", **{"friction.coefficient": -1}
+    "r37.sweep: speeds: found 5 rad/s twice": call("sweep", "Ref", "direct", [5, {"start": 4, "stop": 5, "step": 1}]),
+    "speeds: found .*; allowed: .* at least 1": call("sweep", "Ref", "direct", []),
+    "speeds: found neither; allowed: speeds, in rad/s, or speeds_rpm": call("sweep", "Ref", "direct"),
+    "speeds: found more than 100000 values; allowed: at most as many": call("sweep", "Ref", "direct", itertools.count(1)),
+    r"r37.sweep: speeds.0: found unknown key stpo; .* \(did you mean stop\?\)": call(
+        "sweep", "Ref", "direct", {"start": 1, "stpo": 9}
     ),
-    r'direct.friction: found 0.2; allowed: mapping .* of one of them: \*\*\{"friction.coefficient": 0.2\}': lambda: r37.scene(
-        "direct", friction=0.2
-    ),
-    "abradable.results: found wear; allowed: only in a scene with a lining": lambda: r37.scene("abradable", lining=None),
-    r"direct\.rotor: missing key blades": lambda: r37.scene("direct", **{"rotor.blades": None}),
-    "found the key 1 twice, as a number and a text": lambda: r37.scene(
-        "direct", rotor={"blades": 3, "longer_m": {1: 1e-5, "1": 2e-5}}
-    ),
-    r"found the key \(1, 2\); allowed: a name or a whole number": lambda: r37.scene(
-        "direct", rotor={"blades": 3, "longer_m": {(1, 2): 1e-5}}
-    ),
-    r"scene: found 'dirct'; allowed: abradable, .* \(did you mean direct\?\)": lambda: r37.simulate("Ref", "dirct", 1000),
-    "scene: found None; allowed: the name of a scene": lambda: r37.simulate("Ref", None, 1200),
-    "r37.simulate: speed: found -5; allowed: number, at least 0.001": lambda: r37.simulate("Ref", "direct", -5),
-    "speed: found 'fast'; allowed: num": lambda: r37.simulate("Ref", "direct", "fast"),
-    r"speed: found \[1, 2\]; allowed: one number, in rad/s; several are for r37.sweep": lambda: r37.simulate(
-        "Ref", "direct", [1, 2]
-    ),
-    "speed: found <xarray.Dataset>.*; allowed: one number, in rad/s": lambda: r37.simulate("Ref", "direct", xr.Dataset()),
-    "r37.simulate: speed_rpm: found 0; allowed: number, at least 0.01": lambda: r37.simulate("Ref", "direct", speed_rpm=0),
-    "speed: found both; allowed: speed, in rad/s, or speed_rpm": lambda: r37.simulate("Ref", "direct", 1, speed_rpm=10),
-    "results: found 3; allowed: a list of names": lambda: r37.simulate("Ref", "direct", 1200, results=3),
-    r'results: found "stress"; allowed: a list, as in results=\["stress"\]': lambda: r37.simulate(
-        "Ref", "direct", 9, results="stress"
-    ),
-    "results: found wear": lambda: r37.simulate("Ref", "direct", 9, results=["wear"]),
-    "initial_velocity: found nan at place 1, counted from 0; allowed: finite numbers": lambda: r37.simulate(
-        "Ref", "direct", 9, initial_velocity=[0.0, np.nan]
-    ),
-    "r37.sweep: speeds: found 5 rad/s twice": lambda: r37.sweep("Ref", "direct", [5, {"start": 4, "stop": 5, "step": 1}]),
-    "speeds: found .*; allowed: .* at least 1": lambda: r37.sweep("Ref", "direct", []),
-    "speeds: found neither; allowed: speeds, in rad/s, or speeds_rpm": lambda: r37.sweep("Ref", "direct"),
-    "speeds: found more than 100000 values; allowed: at most as many": lambda: r37.sweep("Ref", "direct", itertools.count(1)),
-    r"r37.sweep: speeds.0: found unknown key stpo; .* \(did you mean stop\?\)": lambda: r37.sweep(
-        "Ref", "direct", {"start": 1, "stpo": 9}
-    ),
-    "speeds: found b'Ref'; allowed: a list": lambda: r37.sweep("Ref", "direct", b"Ref"),
-    "cores: found 0; allowed: a whole": lambda: r37.sweep("Ref", "direct", [9], cores=0),
-    "blades?: found more than 100000 values; allowed: at most as many": lambda: r37.compare(
-        itertools.cycle(["Ref"]), "direct", [900]
+    "speeds: found b'Ref'; allowed: a list": call("sweep", "Ref", "direct", b"Ref"),
+    "cores: found 0; allowed: a whole": call("sweep", "Ref", "direct", [9], cores=0),
+    "blades?: found more than 100000 values; allowed: at most as many": call(
+        "compare", itertools.cycle(["Ref"]), "direct", [900]
     ),
     r'blades: found Ref, chordwise_sweep_deg=5; allowed: names that differ, as of r37.blade\("Ref", ..., name="Mine"\)': (
         lambda: r37.compare(["Ref", r37.blade("Ref", chordwise_sweep_deg=5)], "direct", [9])
     ),
-    "blades: found 3; allowed: the name of a blade, or what r37.blade gives, or a list of them": lambda: r37.compare(
-        3, "direct", [9]
+    "blades: found 3; allowed: the name of a blade, or what r37.blade gives, or a list of them": call(
+        "compare", 3, "direct", [9]
     ),
-    "blades: found none": lambda: r37.compare([], "direct", [9]),
-    "scenes: found None; allowed: the name": lambda: r37.compare("Ref", None, [9]),
-    "scenes: found none": lambda: r37.compare("Ref", [], [9]),
-    r'scene: found abradable, without a rotor; allowed: one with it, or rotor=\{"bl': lambda: r37.rotor(
-        "Ref", "abradable", [9]
+    "blades: found none": call("compare", [], "direct", [9]),
+    "scenes: found None; allowed: the name": call("compare", "Ref", None, [9]),
+    "scenes: found none": call("compare", "Ref", [], [9]),
+    r'scene: found abradable, without a rotor; allowed: one with it, or rotor=\{"bl': call("rotor", "Ref", "abradable", [9]),
+    r'found 36; .*rotor.blades": 36': call("rotor", "Ref", "abradable", [9], rotor=36),
+    "results: found signal with a rotor": call("rotor", "Ref", "abradable", [9], rotor={"blades": 2}, results=["signal"]),
+    r"vary: found \[50\]; allowed: keys of blades.yaml and their values": call("designs", "Ref", "direct", [9], vary=[50]),
+    "of_scenes: found 'friction'; allowed: dotted keys and how each spreads": call(
+        "tolerances", "Ref", "direct", [9], of_scenes="friction"
     ),
-    r'found 36; .*rotor.blades": 36': lambda: r37.rotor("Ref", "abradable", [9], rotor=36),
-    "results: found signal with a rotor": lambda: r37.rotor("Ref", "abradable", [9], rotor={"blades": 2}, results=["signal"]),
-    r"vary: found \[50\]; allowed: keys of blades.yaml and their values": lambda: r37.designs("Ref", "direct", [9], vary=[50]),
-    "of_scenes: found 'friction'; allowed: dotted keys and how each spreads": lambda: r37.tolerances(
-        "Ref", "direct", [9], of_scenes="friction"
+    "r37.tolerances: tolerances.of_scenes.friction: found friction; allowed: a number of the scenes": call(
+        "tolerances", "Ref", "direct", [9], of_scenes={"friction": {"uniform_percent": 5}}
     ),
-    "r37.tolerances: tolerances.of_scenes.friction: found friction; allowed: a number of the scenes": lambda: r37.tolerances(
-        "Ref", "direct", [9], of_scenes={"friction": {"uniform_percent": 5}}
+    r"run_ups: found \{\}; allowed: names and": call("run_ups", "Ref", "direct", {}),
+    "run_ups.slow: found 3; allowed: the keys of a run-up": call("run_ups", "Ref", "direct", {"slow": 3}),
+    "r37.run_up: run_ups.run_up.to_rad_s: found nothing; allowed: one of to_rad_s, to_rpm, crossing": call(
+        "run_up", "Ref", "direct", from_rad_s=100
     ),
-    r"run_ups: found \{\}; allowed: names and": lambda: r37.run_ups("Ref", "direct", {}),
-    "run_ups.slow: found 3; allowed: the keys of a run-up": lambda: r37.run_ups("Ref", "direct", {"slow": 3}),
-    "r37.run_up: run_ups.run_up.to_rad_s: found nothing; allowed: one of to_rad_s, to_rpm, crossing": lambda: r37.run_up(
-        "Ref", "direct", from_rad_s=100
-    ),
-    "init: found None; allowed: a folder": lambda: r37.init(None),
-    "campbell: found a dataset without frequency; allowed: what r37.campbell gives": lambda: r37.plot_campbell(xr.Dataset()),
-    "response: found a NoneType; allowed: what r37.sweep gives": lambda: r37.plot_response(None),
-    "rotor: found several runs; allowed: one, as results.rotor": lambda: r37.plot_rotor(
-        xr.Dataset({"blade_rms": ("run", [1.0])})
-    ),
-    "results: found none of tolerances; allowed: what r37.tolerances gives": lambda: r37.plot_tolerances(None, "Ref", "direct"),
-    "results: found none of designs; allowed: what r37.designs gives": lambda: r37.plot_designs(3),
+    "init: found None; allowed: a folder": call("init", None),
+    "campbell: found a dataset without frequency; allowed: what r37.campbell gives": call("plot_campbell", xr.Dataset()),
+    "response: found a NoneType; allowed: what r37.sweep gives": call("plot_response", None),
+    "rotor: found several runs; allowed: one, as results.rotor": call("plot_rotor", xr.Dataset({"blade_rms": ("run", [1.0])})),
+    "results: found none of tolerances; allowed: what r37.tolerances gives": call("plot_tolerances", None, "Ref", "direct"),
+    "results: found none of designs; allowed: what r37.designs gives": call("plot_designs", 3),
 }
 """Message -> a call of the shipped configuration that ends in it."""
 
@@ -394,7 +389,6 @@ def test_plots_are_those_of_the_workflow_and_leave_matplotlib_alone(finished, co
     assert len(r37.plot_response(part).axes) == 2 and "dotted" not in r37.plot_response(part).axes[0].get_title()
     assert len(r37.plot_response(response.sel(speed=1150.0)).axes) == 3
     assert dict(plt.rcParams) == before
-    plt.close("all")
 
 
 @pytest.mark.slow
@@ -413,7 +407,6 @@ def test_python_of_the_pages_runs(root, finished, monkeypatch):
     names = {"r37": r37}
     for block in blocks:
         exec(block.replace('"draft"', '"tiny"').replace('"blades": 36', '"blades": 4'), names)
-    plt.close("all")
 
 
 @pytest.mark.slow

@@ -6,7 +6,6 @@ import json
 import re
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
@@ -79,7 +78,6 @@ def test_the_example_of_a_docstring_runs(finished, examples, name, tmp_path, mon
         example.source = example.source.replace('fidelity="draft"', 'fidelity="tiny"')
     told = []
     assert doctest.DocTestRunner(optionflags=doctest.ELLIPSIS).run(test, out=told.append).failed == 0, "".join(told)
-    plt.close("all")
 
 
 @pytest.mark.parametrize("name", CALLS)
@@ -126,7 +124,6 @@ def test_what_was_changed_is_told(finished):
     assert both["rms"]["blade"].values.tolist() == ["Ref", "Swept"] and both["rms"]["scene"].values.tolist() == ["bare"]
     plain = r37.campbell("Ref").attrs
     assert plain["blade"] == "Ref" and "blade_changes" not in plain
-    plt.close("all")
 
 
 def test_a_named_copy_is_the_blade(finished):
@@ -237,7 +234,6 @@ def test_a_rotor_is_that_of_the_workflow(finished):
     stress = of_scene["blade_max_von_mises"].max("blade_number")
     np.testing.assert_allclose(stress, response["max_von_mises"], rtol=1e-6)
     assert "mine: a rotor of 3 blades" in r37.plot_rotor(of_scene.isel(speed=0)).get_suptitle()
-    plt.close("all")
 
 
 @pytest.mark.slow

@@ -10,11 +10,9 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from overlays import overlay
-from plans_of_snakemake import planned_outputs
 from shared_sweep import copy_structure
 from stubbed_runs import BLADES, REFINED, SCENES, copy_stubbed, refine, runs, simulated
-from workflow_runs import copy_finished, digests, kill_snakemake, lose_speed, snakemake
+from workflow_runs import copy_finished, digests, kill_snakemake, lose_speed, overlay, planned_outputs, snakemake
 
 import r37
 from r37core.product.leftovers import leftovers

@@ -178,13 +178,6 @@ CONFIG_REFUSALS = [
 ]
 
 
-@pytest.mark.parametrize(("old", "new", "message"), CONFIG_REFUSALS)
-def test_what_is_refused_in_config_yaml(config_copy, old, new, message):
-    edit(config_copy / "config/config.yaml", old, new)
-    with pytest.raises(ConfigError, match=rf"^config/config\.yaml:\d+: .*{message}"):
-        read_settings(config_copy)
-
-
 def with_rows(first_span, first_sweep, last_span, last_sweep, message):
     """A blade with two rows of sweep (cm) at some spans (%)."""
     spans = ((first_span, first_sweep), (last_span, last_sweep))
@@ -237,19 +230,21 @@ def test_what_is_refused_in_blades_yaml(with_blades, text, message):
         with_blades(text)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("[spectrum, signal, stress, wear, energy]", "[stress, stress]", r"abradable\.results\.1: found stress twice"),
-        ("[spectrum, signal, stress, wear, energy]", "[shapes]", r"\.results: found shapes; allowed: only with stress among"),
-        ("abradable:", "abradable__x:", r"abradable__x: found 'abradable__x'"),
-        ("abradable:", '"abradable\\n":', r"abradable\\n: found 'abradable\\n'; allowed: a name of letters"),
-        ("    bars: 10000", "    bars: 10_000", r"lining\.bars: found '10_000'; allowed: integer"),
-    ],
-)
-def test_what_is_refused_in_scenes_yaml(config_copy, old, new, message):
-    edit(config_copy / "config/scenes.yaml", old, new)
-    with pytest.raises(ConfigError, match=rf"^config/scenes\.yaml:\d+: .*{message}"):
+SCENE_REFUSALS = [
+    ("[spectrum, signal, stress, wear, energy]", "[stress, stress]", r"abradable\.results\.1: found stress twice"),
+    ("[spectrum, signal, stress, wear, energy]", "[shapes]", r"\.results: found shapes; allowed: only with stress among"),
+    ("abradable:", "abradable__x:", r"abradable__x: found 'abradable__x'"),
+    ("abradable:", '"abradable\\n":', r"abradable\\n: found 'abradable\\n'; allowed: a name of letters"),
+    ("    bars: 10000", "    bars: 10_000", r"lining\.bars: found '10_000'; allowed: integer"),
+    ("\ndirect:", "\ndirect:\n  stress_history_speeds_rad_s: [1717.5]", "stress_history.*: found 1717.5; allowed: speeds"),
+]
+REFUSALS = {"config": CONFIG_REFUSALS, "scenes": SCENE_REFUSALS}
+
+
+@pytest.mark.parametrize(("name", "old", "new", "message"), [(name, *row) for name, rows in REFUSALS.items() for row in rows])
+def test_what_is_refused_in_config_and_scenes_yaml(config_copy, name, old, new, message):
+    edit(config_copy / f"config/{name}.yaml", old, new)
+    with pytest.raises(ConfigError, match=rf"^config/{name}\.yaml:\d+: .*{message}"):
         read_settings(config_copy)
 
 
@@ -357,13 +352,10 @@ def test_tables_that_cannot_be_read(config_copy, name, change, message):
         read_settings(config_copy)
 
 
-def test_numbers_are_read_alike_everywhere(tmp_path):
+def test_numbers_are_read_alike_everywhere_and_as_a_key_a_whole_one_is_its_text(tmp_path):
     file = tmp_path / "a.yaml"
     file.write_text("[1e-1, 2.5E-3, 1e9, 010, .5, -3., 1E+3, 12:30, 1_000, 0x10, 2020-01-01, +7]")
     assert load_yaml(file) == [0.1, 0.0025, 1e9, 10, 0.5, -3.0, 1000.0, "12:30", "1_000", "0x10", "2020-01-01", 7]
-
-
-def test_a_whole_number_as_a_key_is_its_text(tmp_path):
     file = tmp_path / "a.yaml"
     file.write_text("{ 1: 0.4, 010: 2, '3': 1, -4: x }")
     assert load_yaml(file) == {"1": 0.4, "010": 2, "3": 1, "-4": "x"}
@@ -392,7 +384,7 @@ def test_lists_of_numbers_on_the_command_line(config_copy):
     given = {"speeds": ["900", "1e3", {"start": "1100", "stop": "1200", "step": "50"}], "blades": ["Ref"], "tolerance": 0.1}
     settings = read_settings(config_copy, command_line_document(given))
     assert settings.speed_plans["Ref", "direct"].certain == (900.0, 1000.0, 1100.0, 1150.0, 1200.0)
-    for value, found in (("nan", "nan"), ("inf", "inf"), ("abc", "abc")):
+    for value, found in (("nan", "nan"), ("inf", "inf"), ("abc", "abc"), ("-900", "-900")):
         with pytest.raises(ConfigError, match=rf"^--config: speeds\.0: found '?{found}'?; allowed: number"):
             read_settings(config_copy, command_line_document({"speeds": [value]}))
     with pytest.raises(ConfigError, match=r"^--config: speeds: found nothing"):

@@ -18,10 +18,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Scene
-from plans_of_snakemake import planned_outputs
 from snakemake.exceptions import InputFunctionException, WorkflowError, format_exception_to_string
 from stubbed_runs import copy_stubbed
-from workflow_runs import copy_project, kill_snakemake, snakemake
+from workflow_runs import copy_project, kill_snakemake, planned_outputs, snakemake
 
 from r37 import structure_files
 from r37core.base.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
@@ -90,16 +89,13 @@ def test_an_error_is_said_as_what_it_is(folder, capsys, monkeypatch, error, free
     assert capsys.readouterr().err.startswith(f"rule mesh: {said}")
 
 
-def test_runs_side_by_side_keep_their_failures_apart(folder):
+def test_runs_side_by_side_keep_their_failures_apart_and_many_are_not_all_repeated(folder):
     failures.note("rule mesh: of this run")
     failures.begin("another")
     failures.note("rule mesh: of another run")
     assert failures.taken() == ["rule mesh: of another run"]
     os.environ["R37_FAILURES"] = ".snakemake/r37_failures_test.txt"
     assert failures.taken() == ["rule mesh: of this run"]
-
-
-def test_many_failures_are_not_all_repeated(folder):
     for number in range(9):
         failures.note(f"rule {number % 7}")
     assert failures.taken(3) == ["rule 0", "rule 1", "rule 2", "... and 4 more, see the logs"]
@@ -153,14 +149,11 @@ def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, o
         assert type(raised.value) is outcome and re.search(told, str(raised.value))
 
 
-def test_what_cannot_be_kept_is_there_nevertheless(tmp_path, monkeypatch):
+def test_without_room_what_cannot_be_kept_is_there_and_no_temporary_folder_is_one_line(tmp_path, monkeypatch):
     """Compiled code, which a full disk has no room for."""
     monkeypatch.setattr(kept, "_folder", lambda: tmp_path)
     monkeypatch.setattr(kept, "keep", lambda *_: (tmp_path / "none/a").write_text(""))
     assert kept.kept_bytes("a.o", "", lambda: b"code", lambda: True) == b"code"
-
-
-def test_no_temporary_folder_is_one_line(tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
     with pytest.raises(OutputFileError, match=r"no temporary folder can be made: .*set TMPDIR"), scratch_folder():
         pass

@@ -58,14 +58,11 @@ def test_speeds_above_yield_inside_the_range_alone():
     assert (across["from_rad_s"], across["to_rad_s"]) == (1050.0, 1085.0)
 
 
-def test_a_run_that_diverged_is_above_yield():
+def test_a_run_that_diverged_is_above_yield_and_what_is_not_run_or_computed_is_not_known():
     runs = response(above(2000.0, 2000.0))
     runs["status"][10] = RunStatus.DIVERGED
     runs["share_of_revolutions_above_yield"][10] = np.nan
     assert one(Requirements(above_yield=0.0), response=runs)["verdict"] == FAILS
-
-
-def test_what_is_not_run_or_computed_is_not_known():
     narrow = response(above(2000.0, 2000.0)).isel(speed=slice(8, None))
     judgement = one(Requirements(above_yield=0.0), response=narrow)
     assert (judgement["verdict"], judgement["note"]) == (UNKNOWN, "speeds are not run from 1050 to 1250 rad/s")
@@ -119,6 +116,7 @@ def test_the_goodman_share():
 
 
 def test_clearance_and_mass():
+    """A scene next to one that grows has its own clearance."""
     judgement = one(Requirements(clearance=3e-4), clearance=2e-4)
     assert (judgement["margin"], judgement["verdict"]) == (pytest.approx(-0.1), FAILS)
     room = np.tile(5e-4 - 1e-6 * (SPEEDS - 1000.0), (2, 1)).T
@@ -126,9 +124,6 @@ def test_clearance_and_mass():
     judgement = one(Requirements(clearance=2.4e-4), response=growing)
     assert (judgement["value"], judgement["from_rad_s"], judgement["verdict"]) == (pytest.approx(0.25), 1250.0, MEETS)
     assert one(Requirements(mass=0.1), mass=0.101)["verdict"] == FAILS
-
-
-def test_a_scene_next_to_one_that_grows_has_its_own_clearance():
     runs = response(above(2000.0, 2000.0), clearance=(("speed", "contact_node"), np.full((len(SPEEDS), 2), np.nan)))
     assert one(Requirements(clearance=3e-4), response=runs, clearance=4e-4)["verdict"] == MEETS
 
@@ -214,53 +209,25 @@ def with_requirements(config_copy):
     return read
 
 
-def margin(orders):
-    return {"mode": "1B", "engine_orders": orders, "at_least_percent": 5}
-
-
 RANGE = {"idle_rad_s": 1100.0, "redline_rad_s": 1300.0}
+
+
+def margin(mode, orders, percent=5, operating=RANGE):
+    """Sections with a margin of a mode's crossings with these engine orders."""
+    of_mode = {"mode": mode, "engine_orders": orders, "at_least_percent": percent}
+    return {"operating": operating, "requirements": {"campbell_margins": [of_mode]}}
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         ({"requirements": {"mass_at_most_kg": 1.0}}, "requirements without operating"),
-        (
-            {
-                "operating": RANGE,
-                "requirements": {"campbell_margins": [{"mode": "3B", "engine_orders": [4], "at_least_percent": 5}]},
-            },
-            "'3B'; allowed: 1B, 1T, 2B, 4",
-        ),
-        (
-            {
-                "operating": RANGE,
-                "requirements": {"campbell_margins": [{"mode": "1B", "engine_orders": [99], "at_least_percent": 5}]},
-            },
-            "99; allowed: at most campbell.highest_engine_order",
-        ),
+        (margin("3B", [4]), "'3B'; allowed: 1B, 1T, 2B, 4"),
+        (margin("1B", [99]), "99; allowed: at most campbell.highest_engine_order"),
         ({"operating": RANGE, "requirements": {"mass_at_most_kg": -1.0}}, "-1"),
-        (
-            {
-                "operating": RANGE,
-                "requirements": {"campbell_margins": [{"mode": "1B", "engine_orders": [], "at_least_percent": 5}]},
-            },
-            "found none",
-        ),
-        (
-            {
-                "operating": RANGE,
-                "requirements": {"campbell_margins": [{"mode": "1B", "engine_orders": [4, 4], "at_least_percent": 5}]},
-            },
-            "4 of 1B twice",
-        ),
-        (
-            {
-                "operating": RANGE | {"redline_rad_s": 1990.0},
-                "requirements": {"campbell_margins": [{"mode": "1T", "engine_orders": [8], "at_least_percent": 3}]},
-            },
-            "crossings up to 2051.55 rad/s count",
-        ),
+        (margin("1B", []), "found none"),
+        (margin("1B", [4, 4]), "4 of 1B twice"),
+        (margin("1T", [8], 3, RANGE | {"redline_rad_s": 1990.0}), "crossings up to 2051.55 rad/s count"),
     ],
 )
 def test_requirement_refusals(with_requirements, changes, message):

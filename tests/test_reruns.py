@@ -4,10 +4,8 @@ import os
 
 import pytest
 import yaml
-from overlays import overlay
-from plans_of_snakemake import planned_outputs
 from stubbed_runs import BLADES, SCENES, copy_stubbed, edit, refine, runs, simulated
-from workflow_runs import copy_finished, own_package, snakemake
+from workflow_runs import copy_finished, overlay, own_package, planned_outputs, snakemake
 
 from r37core.base.yaml_file import load_yaml
 

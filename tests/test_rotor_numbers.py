@@ -12,7 +12,6 @@ from test_rotor import CHOICE, KEPT, LINED_RING, RING, SPEED, STEEP, a_blade, ro
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import Named
 from r37core.config import command_line_document
-from r37core.figures.style import plt
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import load_settings
@@ -173,7 +172,6 @@ def test_dataset_table_and_figure(tmp_path):
     assert 0.0 < many["blades_above_yield"].mean() < many["blades_ever_above_yield"].mean() < 1.0
     figure = draw_rotor(many, "Ref, many")
     assert "6 blades" in figure.get_suptitle()
-    plt.close(figure)
 
 
 def test_stress_of_mistuned_blades_is_that_of_single_ones():
@@ -303,7 +301,6 @@ def test_the_figure_shows_all_blades_and_names_those_that_move_most():
     assert [bar.get_height() for bar in waves.patches] == pytest.approx([10.0, 20.0, 70.0])
     assert [bar.get_x() + 0.5 * bar.get_width() for bar in waves.patches] == pytest.approx([-1.0, 0.0, 1.0])
     assert all(0.5 < bar.get_width() < 1.0 for bar in waves.patches)
-    plt.close(figure)
 
 
 def test_the_figure_of_one_speed_or_without_stress_has_lines():
@@ -311,17 +308,14 @@ def test_the_figure_of_one_speed_or_without_stress_has_lines():
     figure = draw_rotor(a_rotor(rms), "Ref")
     np.testing.assert_allclose(figure.axes[1].lines[0].get_ydata(), [3.0, 4.0])
     assert len(figure.axes[0].images) == 1 and "at 910 rad/s" in figure.axes[2].get_xlabel()
-    plt.close(figure)
     for rotor in (a_rotor(rms[:1]), a_rotor(rms[:, :1])):
         figure = draw_rotor(rotor, "Ref")
         lines = figure.axes[0].lines
         np.testing.assert_allclose([line.get_ydata() for line in lines], 1e3 * rotor["blade_rms"].values.T)
         assert not figure.axes[0].images and figure.axes[0].get_ylabel() == "rms of the motion (mm)"
-        plt.close(figure)
     lost = a_rotor([[np.nan, np.nan]], None, [1], [3])
     figure = draw_rotor(lost, "Ref")
     assert figure.axes[0].lines[-1].get_ydata().tolist() == [0.0]
-    plt.close(figure)
 
 
 def joined(files, file):
@@ -368,7 +362,6 @@ def test_speeds_that_diverged_are_crosses_in_the_figure(diverged, stressed):
     told = f"\n{sum(diverged)} of 3 speeds diverged"
     most = 1 - min(diverged)
     assert figure.axes[1].get_title() == (f"at most {most} of 2 blades above yield at one speed{told}" if stressed else "")
-    plt.close(figure)
 
 
 def test_a_rotor_has_a_dataset_a_table_and_figures_where_there_is_one(root):

@@ -1,4 +1,4 @@
-"""What a run's file keeps, against closed forms and counts by hand."""
+"""What a run's file keeps, against closed forms and counts by hand; runs that end as they have settled, and what moves then."""
 
 from contextlib import nullcontext
 from dataclasses import replace
@@ -10,12 +10,21 @@ import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import DIRECT, LINING, oscillator, random_model
 
-from r37core.contact.laws import wear_at_the_casing
+import r37
+from r37core.base.dataset_file import read_dataset
+from r37core.contact.laws import used_thickness, wear_at_the_casing, worn
+from r37core.contact.scene import Friction, Rotor
+from r37core.results.datasets import write_sweep_dataset
+from r37core.results.response import write_response
+from r37core.stress.operator import StressOperator
 from r37core.time_integration.casing_of_run import CasingOfRun
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.kept_numbers import wear_numbers
 from r37core.time_integration.problem import Problem, UnstableStepError
+from r37core.time_integration.rotor_simulation import RotorSimulation
+from r37core.time_integration.settling import NO_WEAR, MotionAtEnd, has_settled, motion_at_end, parts_of_run, revolution_rms
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.state import SimulationState
 from r37core.time_integration.status import RunStatus
@@ -165,3 +174,220 @@ def test_snapshots_are_the_last_samples_of_equal_parts(snapshots, kept):
 def test_rotation_slides_the_tip_with_its_own_speed():
     run = SimpleNamespace(tip=SimpleNamespace(radius=np.array([0.25])), grid=SimpleNamespace(speed=1000.0))
     np.testing.assert_array_equal(CasingOfRun.rotation_velocity.fget(run), [-250.0])
+
+
+CLEARANCE = 1e-4
+REVOLUTION = np.arange(200.0)
+NOISE = np.random.default_rng(0).standard_normal(200)
+
+RISING = Casing(CLEARANCE, rise_revolutions=10.0)
+LINED = Scene(RISING, LINING, Friction(0.15), damping_ratio=0.01)
+CHOICE = IntegrationChoice(4e-5, 400, 62, until_settled=True)
+run = partial(run_speed, oscillator(6400.0), SPEED, spectrum_highest_order=10, wear_angles=60)
+
+
+@pytest.mark.parametrize(
+    ("rms", "about", "state"),
+    [
+        (1e-3 * np.exp(0.01 * REVOLUTION), {}, MotionAtEnd.GROWING),
+        (1e-3 * (1.0 + 1e-3 * REVOLUTION), {}, MotionAtEnd.GROWING),
+        (1e-3 * (1.0 + 3e-3 * REVOLUTION + 0.2 * NOISE), {}, MotionAtEnd.LASTING),
+        (1e-3 * (1.0 + 0.1 * NOISE), {}, MotionAtEnd.LASTING),
+        (np.full(200, 1e-3), {"contact_steps": 10.0}, MotionAtEnd.LASTING),
+        (1e-3 * np.exp(-0.005 * REVOLUTION), {}, MotionAtEnd.LASTING),
+        (1e-3 * np.exp(-0.015 * REVOLUTION), {}, MotionAtEnd.CUT_FREE),
+        (1e-3 * np.exp(-0.005 * REVOLUTION), {"contact_steps": 0.0}, MotionAtEnd.CUT_FREE),
+        (np.full(200, 0.99 * CLEARANCE), {}, MotionAtEnd.QUIET),
+        (0.5 * CLEARANCE * np.exp(-0.1 * REVOLUTION), {"contact_steps": 0.0}, MotionAtEnd.QUIET),
+        (np.full(200, 1e-3), {"max_wear": 1e-3, "wear_growth": 1.1e-5}, MotionAtEnd.GROWING),
+        (np.full(200, 1e-3), {"max_wear": 1e-3, "wear_growth": 0.9e-5}, MotionAtEnd.LASTING),
+        (np.full(200, 0.5 * CLEARANCE), {"max_wear": 1e-7, "wear_growth": 1e-7}, MotionAtEnd.GROWING),
+        (np.where(REVOLUTION < 150, 1e-3, np.nan), {}, MotionAtEnd.UNKNOWN),
+        (np.array([1e-3, 1e-3]), {}, MotionAtEnd.LASTING),
+    ],
+)
+def test_motion_at_the_end(rms, about, state):
+    assert motion_at_end(rms, CLEARANCE, **about) == state
+
+
+def test_a_run_settles_when_two_windows_are_alike_and_nothing_wears():
+    """Windows of ten revolutions: 1% of the level, or 0.1% of the largest, and 10 nm of wear are no change."""
+
+    def of(*windows):
+        return np.repeat(windows, 10)
+
+    settled = partial(has_settled, window=10, wear_growth=0.0, risen=0.0)
+    assert settled(of(1.0, 1.0)) and settled(of(5.0, 1.0, 1.009)) and not settled(of(1.0, 1.011))
+    # a slow decay of what is over anyway
+    assert settled(of(5.0, 0.004, 0.0)) and not settled(of(5.0, 0.02, 0.01))
+    assert not settled(of(1.0)) and not settled(of(1.0, 1.0), risen=1.0) and settled(of(1.0, 1.0, 1.0), risen=10.0)
+    assert settled(of(1.0, 1.0), wear_growth=NO_WEAR) and not settled(of(1.0, 1.0), wear_growth=1.1 * NO_WEAR)
+    # the windows are the last ones
+    assert settled(np.concatenate([[9.0] * 3, of(1.0, 1.0)]))
+
+
+def test_parts_are_windows_and_each_revolution_has_its_rms():
+    fixed = replace(CHOICE, until_settled=False)
+    assert [parts_of_run(replace(fixed, revolutions=n)) for n in (2, 7, 200, 1000)] == [[1, 1], [6, 1], [150, 50], [950, 50]]
+    assert [parts_of_run(replace(CHOICE, revolutions=n)) for n in (3, 30, 220)] == [[1] * 3, [9, 7, 7, 7], [70, 50, 50, 50]]
+    motion = np.array([[3.0, 4.0], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    np.testing.assert_allclose(revolution_rms(motion, 2), [np.sqrt(12.5), 1.0])
+
+
+@pytest.fixture(scope="module")
+def settled():
+    return run(LINED, CHOICE, ("spectrum", "wear", "energy"))
+
+
+def test_a_settled_run_is_the_begin_of_a_longer_one(settled):
+    """Bit for bit, and it has settled: the fixed run moves alike from then on, and its lining wears no more."""
+    end = int(settled["statistic_end"])
+    assert settled["settled_revolution"] == end < CHOICE.revolutions
+    assert settled["motion_at_end"] in (MotionAtEnd.LASTING, MotionAtEnd.QUIET)
+    fixed = run(LINED, replace(CHOICE, until_settled=False), ("spectrum", "wear", "energy"))
+    assert np.isnan(fixed["settled_revolution"]) and fixed["statistic_end"] == 400
+    maxima = settled["revolution_maxima"]
+    assert maxima.shape == fixed["revolution_maxima"].shape and np.isnan(maxima[end:]).all()
+    np.testing.assert_array_equal(maxima[:end], fixed["revolution_maxima"][:end])
+    np.testing.assert_allclose(settled["rms"], fixed["rms"], rtol=0.02)
+    np.testing.assert_allclose(settled["max_wear"], fixed["max_wear"], rtol=0.0, atol=1e-7)
+    assert settled["max_wear"] > 0.0 and settled["wear_growth"] <= NO_WEAR
+
+
+def test_numbers_do_not_depend_on_the_longest_run(settled):
+    """Neither the lobes' rise, nor the statistic, which is that of the last hundred revolutions."""
+    longer = run(LINED, replace(CHOICE, revolutions=650), ("spectrum", "wear", "energy"))
+    for name, values in settled.items():
+        if name != "revolution_maxima":
+            np.testing.assert_array_equal(longer[name], values, err_msg=name)
+    assert len(longer["revolution_maxima"]) == 650
+    assert settled["engine_order"][1] == pytest.approx(0.01)
+
+
+def test_a_share_of_the_rise_is_one_of_the_published_length(settled):
+    scenes = [replace(LINED, casing=replace(RISING, rise_revolutions=None, rise_fraction=0.05)), LINED]
+    share, revolutions = (run(scene, replace(CHOICE, revolutions=500), ())["rms"] for scene in scenes)
+    np.testing.assert_array_equal(share, revolutions)
+    np.testing.assert_array_equal(share, settled["rms"])
+    # of a fixed length it is a share of that
+    fixed = replace(CHOICE, until_settled=False)
+    fifth = replace(scenes[0], casing=replace(RISING, rise_revolutions=None, rise_fraction=0.025))
+    np.testing.assert_array_equal(run(fifth, fixed, ())["revolution_maxima"], run(LINED, fixed, ())["revolution_maxima"])
+
+
+@pytest.mark.slow
+def test_engines_end_in_the_same_revolution():
+    soon = replace(LINED, casing=replace(RISING, rise_revolutions=1.0), damping_ratio=0.1)
+    few = replace(CHOICE, revolutions=60)
+    ours, theirs = (run(soon, replace(few, engine=engine), ("wear",)) for engine in ("compiled", "reference"))
+    assert ours["settled_revolution"] < few.revolutions
+    for name in ("settled_revolution", "motion_at_end", "statistic_end"):
+        assert theirs[name] == ours[name]
+    np.testing.assert_allclose(theirs["rms"], ours["rms"], rtol=1e-6)
+
+
+def test_what_does_not_settle_goes_on_to_the_last_revolution():
+    """Free and undamped, but slowly pumped: a mode whose amplitude beats changes from window to window."""
+    free = Scene(Casing(1.0, lobes=0), damping_ratio=2e-5)
+    model = oscillator(10.0 * SPEED)
+    motion = InitialMotion.from_arrays([1e-4], None)
+    choice = replace(CHOICE, revolutions=230)
+    kept = run_speed(model, SPEED, free, choice, (), spectrum_highest_order=10, wear_angles=60, motion=motion)
+    assert np.isnan(kept["settled_revolution"]) and kept["statistic_end"] == 230
+    assert np.isfinite(kept["revolution_maxima"]).all()
+
+
+def test_one_run_in_a_thick_lining_has_the_thickness_that_suffices():
+    """Bars alike per metre of depth: until one is worn through the thickness changes nothing, a hundredth less is too thin."""
+
+    def of(thickness):
+        share = thickness / LINING.thickness
+        moduli = {name: share * getattr(LINING, name) for name in ("elastic_modulus", "plastic_modulus")}
+        lining = replace(LINING, thickness=thickness, **moduli)
+        return run(replace(LINED, lining=lining), CHOICE, ("wear",))
+
+    thick = of(0.05)
+    used = float(thick["used_thickness"])
+    assert used == pytest.approx(1.25 * float(thick["max_wear"]), rel=1e-3)
+    suffices, too_thin = of(1.01 * used), of(0.99 * used)
+    assert suffices["worn_through_share"] == 0.0 < too_thin["worn_through_share"]
+    for name in ("max_wear", "used_thickness", "rms"):
+        np.testing.assert_allclose(suffices[name], thick[name], rtol=1e-9)
+    assert too_thin["used_thickness"] == pytest.approx(0.99 * used)
+
+
+@pytest.mark.parametrize("wear", [0.0, 1e-6, 2e-3])
+def test_used_thickness_is_the_depth_that_wears_so_much(wear):
+    lining = replace(LINING, yield_stress=1e5)
+    depth = used_thickness(wear, lining)
+    assert (depth == 0.0) if wear == 0.0 else worn(depth, 0.0, lining) == pytest.approx(wear, rel=1e-12)
+    assert used_thickness(wear_at_the_casing(lining), lining) == pytest.approx(lining.thickness)
+
+
+def test_a_run_that_diverges_has_not_settled_and_a_rotor_does_not():
+    kept = run(replace(LINED, divergence_limit=1e-6), CHOICE, ("wear",))
+    assert (kept["status"], kept["motion_at_end"]) == (1, MotionAtEnd.UNKNOWN)
+    assert np.isnan(kept["settled_revolution"]) and np.isnan(kept["rms"]).any()
+    rotor = Rotor((1, 2), (0.0, 3.0), (1.0, 1.0), (0.0, 0.0))
+    with pytest.raises(ValueError, match="until: settled in a scene with a rotor; allowed: until: revolutions"):
+        RotorSimulation(oscillator(6400.0), SPEED, replace(LINED, rotor=rotor), CHOICE)
+
+
+def test_stress_of_a_settled_run_is_that_of_its_last_revolutions(tmp_path):
+    """With and without a history of all revolutions; and a speed that was not run has no state of its motion."""
+    components = np.zeros((6, 1, 1))
+    components[0] = 1e12
+    stress, responses = StressOperator(components, 1, "node"), {}
+    for snapshots, history in ((100, []), (400, [SPEED])):
+        choice = replace(CHOICE, snapshots_per_revolution=31, snapshot_revolutions=snapshots)
+        kept = run(LINED, choice, ("stress", "wear"), stress=stress)
+        write_speed(kept, tmp_path / "run.npz", {})
+        file = responses["blade", f"{snapshots}"] = tmp_path / f"{snapshots}.nc"
+        speeds = {"stress_history_speeds": history, "yield_stress": 1e6, "provenance": {}}
+        write_response([tmp_path / "run.npz"], [SPEED], file, **speeds)
+    short, long = (read_dataset(file).isel(speed=0) for file in responses.values())
+    for name in ("max_von_mises", "max_von_mises_ever", "max_von_mises_median", "share_of_revolutions_above_yield"):
+        assert short[name] == long[name] > 0.0
+    end = int(kept["statistic_end"])
+    history = long["max_von_mises_history"].values[0]
+    assert np.isnan(history[end:]).all() and history[end - 100 : end].max() == pytest.approx(long["max_von_mises_ever"].item())
+    assert long["settled_revolution"] == end and long["used_thickness"] == pytest.approx(
+        1.25 * long["max_wear"].item(), rel=1e-3
+    )
+    assert long["motion_at_end"].attrs["flag_meanings"] == "quiet cut_free lasting growing unknown"
+    write_speed(run(LINED, replace(CHOICE, revolutions=2), ()), tmp_path / "run.npz", {})
+    responses["second", "other"] = tmp_path / "other.nc"
+    write_response([tmp_path / "run.npz"], [2.0 * SPEED], tmp_path / "other.nc", **speeds | {"stress_history_speeds": []})
+    write_sweep_dataset("rms", responses, tmp_path / "rms.nc", {})
+    joined = read_dataset(tmp_path / "rms.nc")["motion_at_end"]
+    assert joined.sel(blade="blade", scene="100").values.tolist() == [kept["motion_at_end"], MotionAtEnd.UNKNOWN]
+    assert joined.sel(blade="second", scene="100").values.tolist() == [MotionAtEnd.UNKNOWN] * 2
+    assert joined.dtype == "i1" and joined.attrs["flag_values"].tolist() == list(MotionAtEnd)
+
+
+@pytest.mark.slow
+def test_the_reference_blade_cuts_itself_free():
+    """Interaction 1B/4 on points: at 200 revolutions 1726 and 1729 rad/s move more than 1700, at 1,000 that alone is left."""
+    blade = r37.blade("Ref", name="Points", contact="points")
+    speeds, rise = [1700.0, 1726.0, 1729.0], {"casing.rise_revolutions": 40}
+    scenes = [r37.scene("abradable", name="long", revolutions=revolutions, **rise) for revolutions in (200, 1000)]
+    early, late = (r37.sweep(blade, scene, speeds, fidelity="draft", results=["wear"]) for scene in scenes)
+    tip = {"tip_point": "leading_edge"}
+    np.testing.assert_allclose(1e3 * early["rms_normal"].sel(tip), [0.551, 3.277, 2.604], atol=0.01)
+    assert early["motion_at_end"].values.tolist() == [MotionAtEnd.LASTING, MotionAtEnd.GROWING, MotionAtEnd.GROWING]
+    assert late["motion_at_end"].values.tolist() == [MotionAtEnd.LASTING, MotionAtEnd.CUT_FREE, MotionAtEnd.CUT_FREE]
+    np.testing.assert_allclose(late["rms_normal"].sel(tip)[0], early["rms_normal"].sel(tip)[0], rtol=1e-3)
+    assert (late["revolution_maximum"].sel(tip)[1:, -1] < 1e-6).all()
+    # the lobes have grown alike, and the lining is used up where the blade has cut itself free
+    np.testing.assert_allclose(late["revolution_maximum"][:, :200], early["revolution_maximum"], rtol=1e-3)
+    np.testing.assert_allclose(late["used_thickness"], [0.690e-3, 5e-3, 5e-3], rtol=1e-2)
+
+
+@pytest.mark.slow
+def test_a_tip_that_has_cut_its_way_in_and_rests_is_quiet():
+    """Rotation brings it 32 um into the lining: so much is used, nothing is worn through, and nothing moves."""
+    changes = {"casing.lobes": 0, "casing.clearance.cold_m": 3e-5, "lining.thickness_m": 1e-4}
+    scene = r37.scene("growing_abradable", name="cut", **changes)
+    run = r37.simulate("Ref", scene, 1700, fidelity="draft", results=["wear"])
+    assert run.motion_at_end == MotionAtEnd.QUIET and run.worn_through_share == 0.0
+    assert run.used_thickness == run.max_wear and 2e-5 < run.max_wear < 5e-5

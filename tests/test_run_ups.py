@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
@@ -415,7 +414,6 @@ def test_files_that_are_no_run_ups_are_named(contact, tmp_path):
         dataset["worn"][:] = worn
         figure = draw_run_ups(dataset, "", blade="Ref", scene="abradable")
         assert [text.get_text() for text in figure.legends[0].texts] == legend
-    plt.close("all")
 
 
 def test_figures_of_runs_that_diverged_at_once(contact, tmp_path):
@@ -427,7 +425,6 @@ def test_figures_of_runs_that_diverged_at_once(contact, tmp_path):
     assert np.isnan(rate_table(table)["lowest_safe_rate_rad_s2"].item())
     draw_run_ups(dataset, "", blade="Ref", scene="abradable")
     draw_rates(table, "", scene="abradable")
-    plt.close("all")
 
 
 def runs_at(rates, shares, **others):
@@ -494,14 +491,12 @@ def run_of(stress, *, start=900.0, stop=1000.0, before=2, **more):
     )
 
 
-def test_a_run_has_its_labels_and_its_revolutions_after_those_before():
+def test_a_run_has_its_labels_its_revolutions_after_those_before_and_its_last_stress():
+    """One speed is no run-down."""
     dataset = run_of([0.1, 0.2, 0.3, 0.4])
     (run,) = runs_of(dataset, blade="Ref", scene="direct")
     np.testing.assert_array_equal(run["revolution"], [3, 4])
     assert runs_of(dataset, blade="L50") == [] and runs_of(dataset, blade="Ref", scene="abradable") == []
-
-
-def test_the_last_stress_is_that_of_the_last_revolution_and_one_speed_is_no_run_down():
     (row,) = run_up_table(run_of([9.0, 9.0, 0.5, 1.5, 0.25])).to_dict("records")
     assert (row["last_von_mises_pa"], row["max_von_mises_pa"], row["direction"]) == (0.25e9, 1.5e9, "up")
     assert run_up_table(run_of([0.1, 0.2, 0.3], stop=900.0))["direction"].item() == "up"

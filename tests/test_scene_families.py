@@ -1,17 +1,20 @@
-"""Families of scenes: many scenes of one entry, their names, refusals, and how designs of both kinds are compared."""
+"""Scenes that start from others of their file, and families of scenes: names, refusals, and how designs are compared."""
 
+import json
+import re
+
+import jsonschema
 import numpy as np
 import pandas as pd
 import pytest
-from overlays import overlay
-from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed
-from workflow_runs import snakemake
+from workflow_runs import overlay, planned_outputs, snakemake
 
 import r37
 from r37 import studies
 from r37core.base.plain import to_plain
-from r37core.config import ConfigError, command_line_document
+from r37core.base.yaml_file import load_yaml
+from r37core.config import ConfigError, command_line_document, plain
 from r37core.designs.compared import Compared
 from r37core.designs.maps import draw_design_map
 from r37core.designs.panel import contents
@@ -21,6 +24,114 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets as all_targets
 
+SHIPPED = "abradable, direct, material_abradable"
+
+
+@pytest.fixture
+def with_scenes(config_copy):
+    """Settings of a copy, with some text added to scenes.yaml and, if given, a table of designs and other changes."""
+
+    def read(text, table="", scenes="all", **changes):
+        with open(config_copy / "config/scenes.yaml", "a") as stream:
+            stream.write(f"{text}\n")
+        (config_copy / "config/rooms.csv").write_text(table)
+        return read_settings(config_copy, command_line_document({"scenes": scenes, **changes}))
+
+    return read
+
+
+def test_a_scene_has_what_it_leaves_out_from_its_base(with_scenes):
+    """Key by key inside sections, through several bases, in any order; lists are replaced, and null takes away."""
+    entries = with_scenes(
+        "Thinner: { base: Thin, casing: { lobes: 3, ring: null }, results: [stress] }\n"
+        "Thin: { base: elastic_abradable, lining: { thickness_m: 0.003 }, until: null }\n"
+        "Bare: { base: Thinner, lining: null, friction: null }"
+    ).scene_designs.entries
+    shipped, thin, thinner, bare = (plain(entries[name]) for name in ("elastic_abradable", "Thin", "Thinner", "Bare"))
+    assert thin == shipped | {"lining": shipped["lining"] | {"thickness_m": 0.003}}
+    casing = {key: value for key, value in shipped["casing"].items() if key != "ring"} | {"lobes": 3}
+    assert thinner == thin | {"casing": casing, "results": ["stress"]}
+    assert bare == {key: value for key, value in thinner.items() if key not in ("lining", "friction")}
+
+
+def test_the_page_has_scenes_of_one_s_own(with_scenes, root):
+    page = (root / "docs/blades.md").read_text()
+    text = next(text for text in re.findall(r"```yaml\n(.*?)```", page, re.DOTALL) if text.startswith("Thin:"))
+    entries = with_scenes(text).scene_designs.entries
+    assert entries["Thin"].lining.thickness_m == 0.003 and entries["Thin"].lining.contact_length_m == 1.585e-4
+    assert entries["Round"].lining is None and entries["Round"].casing.lobes == 0
+
+
+def test_a_family_may_have_a_base(with_scenes):
+    entries = with_scenes("Rooms: { base: direct, vary: { casing.clearance_m: [3.0e-4, 5.0e-4] } }").scene_designs.entries
+    for name, clearance in (("Rooms_0p0003", 3e-4), ("Rooms_0p0005", 5e-4)):
+        assert entries[name].casing.clearance_m == clearance
+        assert entries[name].friction == entries["direct"].friction
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("X: { base: abradible }\nY: { base: X }",
+         rf"80: X\.base: found 'abradible'; allowed: another scene of .* \({SHIPPED}.*, Y\) \(did you mean abradable\?\)$"),
+        ("X: { base: X }", rf"80: X\.base: found 'X'; allowed: another scene .* \({SHIPPED}.*\), in no circle of bases$"),
+        ("X: { base: Y }\nY: { base: X }", r"81: Y\.base: found 'X'; .*\n.*80: X\.base: found 'Y'; .* in no circle of bases$"),
+        ("F: { base: direct, vary: { gap: [2, 3] } }\nX: { base: F }", r"81: X\.base: found 'F'; allowed: another scene"),
+        ("X: { base: 5 }", r"80: X\.base: found 5; allowed: string"),
+        ("X: { base: null }", r"80: X\.base: found nothing; allowed: a value, or the key left out"),
+        ("X: { base: nope }\nY: { base: direct, gap: odd }", r"81: Y\.gap: found 'odd'; .*\n.*80: X\.base: found 'nope'"),
+        ("X: { base: abradable, lining: { barz: 1 } }", r"80: X\.lining: found unknown key barz; .*mean bars"),
+        ("X: { base: direct, linning: null }", r"80: X: found unknown key linning; allowed keys: base, .*mean lining"),
+        ("X: { base: direct, lining: { thickness_m: 0.001 } }", r"80: X\.lining: missing key elastic_modulus_pa"),
+        ("X: { base: abradable, casing: null }", r"80: X: missing key casing; allowed keys: base, tip_line"),
+        ("X: { base: abradable, lining: null }", r"19: X\.results: found wear; .* a lining \(given by 'abradable'\)$"),
+        ("X: { casing: { clearance_m: 0.001 }, lining: null }", r"80: X\.lining: found nothing; allowed: a value"),
+        ("X: { base: rotor_abradable, rotor: { longer_m: { 1: null } } }", r"80: X\.rotor\.longer_m\.1: found nothing"),
+    ],
+)  # fmt: skip
+def test_refusals_name_the_line_of_the_value(with_scenes, text, message):
+    with pytest.raises(ConfigError, match=rf"^config/scenes\.yaml:{message}"):
+        with_scenes(text)
+
+
+def test_a_wrong_value_of_a_base_is_told_once_and_of_the_base(with_scenes, config_copy):
+    file = config_copy / "config/scenes.yaml"
+    file.write_text(file.read_text().replace("thickness_m: 0.005", "thickness_m: -1"))
+    with pytest.raises(ConfigError) as refusal:
+        with_scenes("X: { base: material_abradable }")
+    assert str(refusal.value).startswith("config/scenes.yaml:10: abradable.lining.thickness_m: found -1; allowed: number")
+    assert "\n" not in str(refusal.value)
+
+
+def test_the_schema_for_editors_knows_bases(config_copy):
+    schema = json.loads((config_copy / "config/schemas/scenes.schema.json").read_text())
+    entries = load_yaml(config_copy / "config/scenes.yaml")
+    jsonschema.validate(entries, schema)
+    for wrong, message in (({"lining": {"thicknes_m": 1}}, "thicknes_m"), ({"lining": {"thickness_m": -1}}, "-1 is less")):
+        with pytest.raises(jsonschema.ValidationError, match=message):
+            jsonschema.validate(entries | {"X": {"base": "abradable", **wrong}}, schema)
+        with pytest.raises(jsonschema.ValidationError, match="required"):
+            jsonschema.validate(entries | {"X": {"casing": {"clearance_m": 1e-3}, "lining": {"thickness_m": 1}}}, schema)
+
+
+def test_a_changed_scene_in_python_is_alone(config_copy):
+    """What starts from it stays as it is; None takes away what the base has, too, and the base may be another one."""
+    file = config_copy / "config/scenes.yaml"
+    shipped = {name: r37.scene(name, file=file).entry for name in r37.scenes(file=file)}
+    assert shipped["material_abradable"].lining.bar_width_m is None and shipped["direct"].lining is None
+    bare = r37.scene("abradable", file=file, lining=None, results=["stress"])
+    assert bare.entry == shipped["direct"].model_copy(update={"results": ["stress"]})
+    for options in ({}, {"name": "Mine"}):
+        bare = r37.scene("material_abradable", file=file, lining=None, results=["stress"], **options)
+        assert bare.entry == shipped["direct"].model_copy(update={"results": ["stress"]})
+        flexible = r37.scene("direct", file=file, base="elastic_abradable", **options)
+        assert flexible.entry == shipped["elastic_direct"].model_copy(update={"results": shipped["direct"].results})
+    with pytest.raises(ConfigError, match=r'^r37\.scene\("direct"\): direct\.base: found \'none\'; allowed: another scene of'):
+        r37.scene("direct", file=file, base="none")
+    with pytest.raises(ConfigError, match=r"material_abradable\.lining\.thickness_m: found -1"):
+        r37.scene("material_abradable", file=file, **{"lining.thickness_m": -1})
+
+
 CASING = "casing: { clearance_m: 4.0e-4, lobes: 2, width: 0.15, amplitude_m: 7.0e-4 }"
 LINING = "lining: { thickness_m: 0.005, elastic_modulus_pa: 2.0e+10, plastic_modulus_pa: 5.0e+9, yield_stress_pa: 1.5 }"
 ROOM = (
@@ -29,17 +140,6 @@ ROOM = (
 )
 LOBES = f"Lobes:\n  {CASING}\n  vary: {{ casing.lobes: [2, 3] }}\n"
 SWEEP = "Sweep: { base: S100, vary: { sweep_percent: [50, 100] } }"
-
-
-@pytest.fixture
-def with_scenes(config_copy):
-    def read(text, table="", **changes):
-        with open(config_copy / "config/scenes.yaml", "a") as stream:
-            stream.write(f"\n{text}\n")
-        (config_copy / "config/rooms.csv").write_text(table)
-        return read_settings(config_copy, command_line_document(changes))
-
-    return read
 
 
 def test_a_grid_of_scenes(with_scenes):
@@ -52,14 +152,12 @@ def test_a_grid_of_scenes(with_scenes):
     assert scene.lining.plastic_modulus == 5e9
 
 
-def test_a_whole_number_stays_one(with_scenes):
-    settings = with_scenes(LOBES, scenes=["Lobes"], blades=["Ref"])
-    assert [chosen.scene.casing.lobes for chosen in settings.scenes.values()] == [2, 3]
-
-
-def test_a_whole_number_that_the_scene_does_not_write(with_scenes):
-    settings = with_scenes(f"Long: {{ {CASING}, vary: {{ revolutions: [20, 40] }} }}", scenes=["Long"], blades=["Ref"])
-    assert [chosen.revolutions for chosen in settings.scenes.values()] == [20, 40]
+@pytest.mark.parametrize(("key", "values"), [("casing.lobes", [2, 3]), ("revolutions", [20, 40])])
+def test_a_whole_number_stays_one(with_scenes, key, values):
+    """Also one that the scene does not write."""
+    settings = with_scenes(f"Mine: {{ {CASING}, vary: {{ {key}: {values} }} }}", scenes=["Mine"], blades=["Ref"])
+    found = [chosen.scene.casing.lobes if key == "casing.lobes" else chosen.revolutions for chosen in settings.scenes.values()]
+    assert found == values
 
 
 def test_ranges_of_small_numbers_keep_their_values(with_scenes):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 import yaml
-from overlays import overlay
+from workflow_runs import overlay
 
 from r37core.base.io import Named
 from r37core.base.plain import to_plain

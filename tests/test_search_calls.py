@@ -8,8 +8,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from overlays import overlay
-from workflow_runs import copy_finished, snakemake
+from workflow_runs import copy_finished, overlay, snakemake
 
 import r37
 from r37core.results.ranking import robustness

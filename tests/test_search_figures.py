@@ -1,6 +1,5 @@
 """The figures of a search: what is drawn of its designs, whatever is missing of them."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
@@ -60,12 +59,6 @@ def without_feasible(search):
 
 def lines(axes, label):
     return [line.get_xydata() for line in axes.get_lines() if line.get_label() == label]
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def test_the_best_counts_feasible_designs_alone():

@@ -106,14 +106,12 @@ def test_a_minimum_beyond_the_constraint_is_approached_from_the_side_that_is_all
 
 
 def test_the_same_seed_proposes_the_same_designs_and_another_one_others(searches):
+    """Also from recorded designs."""
     evaluated = searches[0]
     proposed = propose(SQUARE, evaluated, 3, 0)
     assert propose(SQUARE, evaluated[::-1], 3, 0) == proposed
     assert propose(SQUARE, evaluated, 3, 1) != proposed
     assert first_designs(SQUARE, 8, 0) == first_designs(SQUARE, 13, 0)[:8] != first_designs(SQUARE, 8, 1)
-
-
-def test_a_search_goes_on_from_its_recorded_designs(searches):
     recorded = [from_plain(Evaluated, to_plain(design)) for design in searches[1][:16]]
     assert propose(SQUARE, recorded, 4, 1) == [design.values for design in searches[1][16:20]]
 
@@ -162,12 +160,9 @@ def test_there_is_a_proposal_whatever_is_known(known):
     assert all(each.lowest <= value <= each.highest for v in proposed for value, each in zip(v, SQUARE, strict=True))
 
 
-def test_what_two_designs_gave_decides_nothing():
+def test_two_designs_decide_nothing_and_without_a_feasible_one_the_next_come_nearer():
     kept, broken = (with_objectives(DESIGNS[:2], lambda values: (1.0,), lambda values, of=of: of) for of in (1.0, -1.0))
     assert propose(SQUARE, kept, 4, 0) == propose(SQUARE, broken, 4, 0)
-
-
-def test_without_a_feasible_design_the_next_ones_come_nearer():
     known = with_objectives(DESIGNS, lambda values: (bowl(values),), lambda values: values[1] - 7.9)
     assert max(values[1] for values in propose(SQUARE, known, 2, 0)) > 7.9 > max(values[1] for values in DESIGNS)
 

@@ -3,10 +3,8 @@
 import json
 
 import pytest
-from overlays import overlay
-from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed, simulated
-from workflow_runs import copy_finished, kill_snakemake, snakemake
+from workflow_runs import copy_finished, kill_snakemake, overlay, planned_outputs, snakemake
 
 from r37core.product.leftovers import leftovers
 from r37core.product.reading import read_settings

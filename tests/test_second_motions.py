@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
@@ -147,21 +146,16 @@ def levels(mean, scatter=0.0, clearance=0.0):
 
 
 def test_motions_differ_by_more_than_they_scatter():
+    """One that diverges differs and is the largest; a worn lining is not compared with a new one."""
     mean = [[1.0, 1.005, 1.5, 1.5, 0.2, np.inf], [1.0, 1.0, 1.0, 1.0, 0.1, np.inf], [1.0, 1.0, 1.0, 1.0, 0.1, np.inf]]
     scatter = 3 * [[0.0, 0.0, 0.2, 0.3, 0.0, 0.0]]
     several = levels(mean, scatter, clearance=0.5)
     # the same; within 1%; more than twice the scatter; less; quiet; all diverged
     assert several.differ.tolist() == [False, False, True, False, False, False]
     assert [(part.start, part.stop) for part in several.ranges()] == [(2, 3)]
-
-
-def test_a_motion_that_diverges_differs_and_is_the_largest():
     several = levels([[np.inf, 1.0], [0.1, 1.0], [0.1, 1.0]], clearance=0.5)
     assert several.differ.tolist() == [True, False]
     assert (several.high[0], several.low[0], several.worst(slice(0, 1))) == (0, 1, 0)
-
-
-def test_a_worn_lining_is_not_compared_with_a_new_one():
     rms = {UP: [[1.0, 1.0]], DOWN: [[1.0, 1.0]], REST: [[9.0, 9.0]]}
     new, worn = (MotionLevels.averaged([100.0], rms, 0.0, worn=worn) for worn in (False, True))
     assert (new.differ.tolist(), worn.differ.tolist()) == ([True], [False])
@@ -215,27 +209,20 @@ def test_motions_last_switch_or_are_transients():
     assert verdict["high_revolutions"] == 0.0
 
 
-def test_random_starts_count_from_their_first_change():
+def test_random_starts_dwells_that_diverge_and_linings_are_judged_apart():
+    """Random starts count from their first change; on a lining a motion lasts that is held at the end."""
     high, low, falls = switching((500, 4.0)), switching((500, 1.0)), switching((200, 4.0), (300, 1.0))
     verdict = verdict_of([high], [low], falls, switching((200, 1.0), (300, 4.0)))
     assert (verdict["high"], verdict["low"], verdict["random_starts_high"]) == (Lasting.LASTING, Lasting.LASTING, 0.5)
     # a second change is the blade's own
     verdict = verdict_of([high], [low], switching((150, 1.0), (150, 4.0), (200, 1.0)))
     assert (verdict["high"], verdict["low"]) == (Lasting.TRANSIENT, Lasting.LASTING)
-
-
-def test_a_dwell_that_diverges_does_not_last():
-    high, low = switching((500, 4.0)), switching((500, 1.0))
     diverged = np.where(np.arange(500) < 200, 4.0, np.nan)
     assert verdict_of([diverged], [low])["high"] is Lasting.DIVERGED
     assert verdict_of([np.full(500, np.nan)], [low])["high"] is Lasting.DIVERGED
     verdict = verdict_of([], [low])
     assert (verdict["high"], verdict["low"]) == (Lasting.DIVERGED, Lasting.LASTING)
     assert np.isnan(verdict_of([high], [diverged])["share_of_time_high"])
-
-
-def test_on_a_lining_a_motion_lasts_that_is_held_at_the_end():
-    high, low = switching((500, 4.0)), switching((500, 1.0))
     falls, rises = switching((300, 4.0), (200, 1.0)), switching((300, 1.0), (200, 4.0))
     verdict = verdict_of([falls], [rises], high, lined=True)
     assert (verdict["high"], verdict["low"]) == (Lasting.TRANSIENT, Lasting.TRANSIENT)
@@ -385,7 +372,6 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
     shaded = draw_response("Ref", None, rms, None, motions.sel(blade="Ref"))
     plain = draw_response("S100", None, rms, None, motions.sel(blade="S100"))
     assert (len(shaded.axes[0].patches), len(plain.axes[0].patches)) == (3, 0)
-    plt.close("all")
 
 
 def test_a_motion_that_diverges_is_the_second_motion(motions):

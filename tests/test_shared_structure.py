@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from overlays import overlay
-from workflow_runs import snakemake
+from workflow_runs import overlay, snakemake
 
 from r37core.base.dataset_file import read_dataset
 from r37core.machine_code import kept

@@ -145,14 +145,12 @@ def test_docstrings_have_purpose_results_and_errors(name):
         assert all(f"\n\n{section}:\n" in text for section in ("Args", "Returns", "Raises", "Examples"))
 
 
-def test_pages_are_named_by_words_and_other_files_are_no_links(root):
+def test_pages_are_named_by_words_and_the_graph_of_rules_becomes_a_table(root):
+    """Other files are no links."""
     adapt = runpy.run_path(str(root / "docs/site/repository_links.py"))["adapt"]
     text = ["See [your_blade.md](your_blade.md#a). [speed.md](speed.md) and [`config.yaml`](../config/config.yaml)."]
     adapt(None, "page", text)
     assert text == ["See [your blade](your_blade.md#a). [Speed](speed.md) and `config.yaml`."]
-
-
-def test_the_graph_of_rules_becomes_a_table(root):
     adapt = runpy.run_path(str(root / "docs/site/repository_links.py"))["adapt"]
     text = ["```mermaid\nflowchart LR\n    mesh --> model\n    mesh --> deck\n```"]
     adapt(None, "page", text)

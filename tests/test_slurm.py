@@ -13,8 +13,7 @@ import time
 import netCDF4
 import numpy as np
 import pytest
-from overlays import overlay
-from workflow_runs import copy_project, snakemake, wait_until
+from workflow_runs import copy_project, overlay, snakemake, wait_until
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue")
 MISSING = [program for program in PROGRAMS if not shutil.which(program, path=f"{os.environ['PATH']}:/usr/sbin")]

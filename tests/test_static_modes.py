@@ -183,15 +183,12 @@ def close_patches(smallest, slow=16):
     return np.concatenate([np.linspace(1e4, 1e5, slow), np.full(nodes, 1e8)]), rows
 
 
-def test_nodes_that_static_modes_move_together_need_less_definiteness():
-    """Patches close to each other: forces are unique, though sweeps take longer; below a twentieth modes are too few."""
+def test_close_patches_need_less_definiteness_and_fewer_stepped_modes_where_pressed_nodes_would_be_unstable():
+    """Forces are unique, though sweeps take longer; below a twentieth modes are too few."""
     for smallest in (0.5, 0.1):
         assert stepped_modes(*close_patches(smallest), 0.0, 1e-5, 1.0, 20) == 16
     with pytest.raises(TooFewStaticModesError):
         stepped_modes(*close_patches(0.04), 0.0, 1e-5, 1.0, 20)
-
-
-def test_fewer_modes_are_stepped_where_pressed_nodes_would_be_unstable():
     frequencies, rows = close_patches(0.5)
     assert stepped_modes(frequencies, rows, 0.0, 1e-5, 1.0, 20, lambda stepped: stepped <= 8) == 8
     # where none is stable it is for the step to be shorter

@@ -1,8 +1,7 @@
 """A folder of one's own: `r37 init` writes it, and its Snakefile has the workflow as a module."""
 
 import pytest
-from plans_of_snakemake import planned
-from workflow_runs import copy_project, snakemake
+from workflow_runs import copy_project, planned, snakemake
 
 from r37 import ConfigError
 from r37.command import main

@@ -9,14 +9,21 @@ import numpy as np
 import pytest
 from defaults import Casing, Friction, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, AT_ONCE, DIRECT, LINING, NARROW, SCENES, oscillator, random_model, with_static_modes
-from integration_runs import assert_close, assert_same_record, assert_same_state, both_engines, times, whole_run
+from integration_runs import assert_close, assert_same_record, assert_same_state, both_engines, free_motion, times, whole_run
 
 from r37core.contact.casing import casing_axes
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration import integration_choice
 from r37core.time_integration.initial_motion import InitialMotion
-from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
+from r37core.time_integration.integrators import (
+    CENTRAL_DIFFERENCE,
+    EXACT_MODAL,
+    INTEGRATORS,
+    central_difference,
+    exact_modal,
+    recursion,
+)
 from r37core.time_integration.problem import Problem, UnstableStepError
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed, write_speed
@@ -148,15 +155,12 @@ def test_energy_balance_closes(contact, scene, integrator, step):
     assert abs(simulation.energy(state) - work + loss) < 1e-9 * (abs(work) + loss)
 
 
-def test_unstable_step_is_refused_with_the_limit(contact):
+def test_a_step_that_is_unstable_or_too_long_for_the_lining_is_refused_with_the_limit(contact):
     highest = np.sqrt(contact.modes_at(1000.0)[0][-1] ** 2)
     limit = 2.0 / highest
     with pytest.raises(UnstableStepError, match=rf"time_step_s: .* stability limit .* {limit:.6g} s"):
         Problem(contact, 1000.0, DIRECT, IntegrationChoice(1.02 * limit, 1, 62))
     Problem(contact, 1000.0, DIRECT, IntegrationChoice(0.98 * limit, 1, 62))
-
-
-def test_step_too_long_for_the_lining_is_refused(contact):
     stiff = replace(ABRADABLE, lining=replace(LINING, elastic_modulus=20e12))
     with pytest.raises(UnstableStepError, match=r"limit for this lining, about .* N/m"):
         Problem(contact, 1000.0, stiff, IntegrationChoice(2e-7, 1, 62))
@@ -282,3 +286,36 @@ def test_discrete_energy_tends_to_the_exact_one_with_the_step():
         assert simulation.energy(state) + state.totals["loss"] == pytest.approx(exact, rel=1e-10)
     assert errors[0] < 0.01
     assert errors[2] < errors[1] < errors[0]
+
+
+@pytest.mark.parametrize("ratio", [0.0, 5e-4, 0.3, 0.99])
+@pytest.mark.parametrize("frequency", [6e3, 1e5, 3e6, 3e7])
+def test_exact_modal_is_the_free_motion_at_any_step(frequency, ratio):
+    """Also at steps of many periods, where central differences would have left for infinity."""
+    step = 1e-6
+    stepping = exact_modal(np.array([frequency]), ratio, step)
+    time = step * np.arange(200)
+    exact = free_motion(frequency, ratio, time, 1.0, 0.2 * frequency)
+    u, d = exact[1], exact[1] - exact[0]
+    for n in range(2, len(time)):
+        d = stepping.keep[0] * d - stepping.pull[0] * u
+        u += d
+        assert u == pytest.approx(exact[n], abs=1e-9)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_a_constant_force_holds_the_static_deflection(integrator):
+    """The fixed point of the recursion is F/omega^2, whatever the step."""
+    frequencies = np.array([4e3, 7e4, 1.2e6])
+    stepping = recursion(integrator, frequencies, 0.05, 1e-6)
+    np.testing.assert_allclose(stepping.inverse / stepping.pull, 1.0 / frequencies**2, rtol=1e-12)
+
+
+def test_both_tend_to_each_other_with_the_step():
+    frequencies, ratio = np.array([5e3, 5e4]), 1e-3
+    differences = []
+    for step in (1e-6, 1e-7):
+        central, exact = central_difference(frequencies, ratio, step), exact_modal(frequencies, ratio, step)
+        differences.append(np.abs(central.pull / exact.pull - 1.0))
+        np.testing.assert_allclose(central.lost, exact.lost, rtol=5.0 * frequencies.max() * step)
+    np.testing.assert_allclose(differences[0] / differences[1], 100.0, rtol=0.05)

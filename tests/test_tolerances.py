@@ -4,7 +4,6 @@ import re
 from dataclasses import replace
 from types import SimpleNamespace
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
@@ -89,7 +88,8 @@ def test_indices_of_the_ishigami_function():
     assert found.members == 2048
 
 
-def test_indices_are_the_same_every_time_and_leave_out_what_is_no_number():
+def test_indices_are_the_same_every_time_and_leave_out_what_is_no_number_or_does_not_spread():
+    """Nor is there one of a number that a scene does not have, of a measure that is the same for all, and of no members."""
     values = measured(lambda x, y: x + 0.5 * y, 2, 64)
     values["3f2"] = values["40"] = np.nan
     one, other = (sobol_indices(values, [0, 1], 2) for _ in range(2))
@@ -97,10 +97,6 @@ def test_indices_are_the_same_every_time_and_leave_out_what_is_no_number():
     for name in ("index", "low", "high"):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
     np.testing.assert_allclose(one.index[1], [0.8, 0.2], atol=0.1)
-
-
-def test_there_is_no_index_of_what_does_not_spread():
-    """Of a number that a scene does not have, of a measure that is the same for all members, and of no members."""
     values = {name: value for name, value in measured(lambda x, y, z: x + z, 3, 64).items() if number_of(name) != 1}
     found = sobol_indices(values, [0, 2], 3)
     assert np.isnan(found.index[:, 1]).all() and np.isfinite(found.index[:, [0, 2]]).all()
@@ -133,6 +129,8 @@ def test_the_ranking_is_of_ranks_and_has_signs():
 
 
 def test_what_few_members_do_not_tell_apart_shares_its_places():
+    """Whatever the direction of a number."""
+
     def alike(x, y, z):
         return x + 0.95 * y + 1e-3 * z
 
@@ -140,9 +138,6 @@ def test_what_few_members_do_not_tell_apart_shares_its_places():
     np.testing.assert_array_equal(np.array(few.places)[:, :2], [[1.0, 1.0], [2.0, 2.0]])
     assert not few.known[2]
     np.testing.assert_array_equal(np.array(many.places)[:, :2], [[1.0, 2.0], [1.0, 2.0]])
-
-
-def test_what_is_told_apart_does_not_depend_on_the_direction_of_a_number():
     random = np.random.default_rng(0)
     for _ in range(50):
         values = random.random((24, 3)) @ [[1.0, 0.8, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 1.0]]
@@ -432,7 +427,7 @@ def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
     assert at["status"].values.tolist() == [0, 0, 0, RunStatus.DIVERGED]
     assert at["probability_above_yield"] == 0.25
     assert np.isinf(at["rms_normal_quantile"].sel(quantile=0.95)) and np.isfinite(at["rms_normal_quantile"].sel(quantile=0.5))
-    plt.close(draw_tolerances(found, branch(1700.0), "Ref, abradable"))
+    draw_tolerances(found, branch(1700.0), "Ref, abradable")
 
 
 def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
@@ -453,7 +448,6 @@ def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
     assert len(figure.subfigs) == 3
     named = [[handle.get_facecolor()[:3] for handle in part.axes[0].get_legend().legend_handles] for part in figure.subfigs[1:]]
     assert named == 2 * [[to_rgb(colour) for colour in style.COLOURS[:3]]]
-    plt.close(figure)
 
 
 def test_two_scenes_with_other_speeds_and_numbers_stand_in_one_dataset(tmp_path):
@@ -468,7 +462,7 @@ def test_two_scenes_with_other_speeds_and_numbers_stand_in_one_dataset(tmp_path)
     assert (found["status"].sel(blade="S100", scene="abradable") == RunStatus.NOT_RUN).all()
     assert found["status"].dtype == np.int8
     assert found["largest_stress"].sel(blade="S100").isnull().all()
-    plt.close(draw_tolerances(found.sel(blade="S100", scene="direct"), bare, "S100"))
+    draw_tolerances(found.sel(blade="S100", scene="direct"), bare, "S100")
 
 
 def interactions_of(*branches):

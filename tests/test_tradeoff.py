@@ -9,10 +9,9 @@ import pytest
 import xarray as xr
 from defaults import IntegrationChoice
 from integration_cases import ABRADABLE
-from overlays import overlay
 from test_cases import case_of
 from test_your_blade import drawn, with_example  # noqa: F401
-from workflow_runs import copy_project, snakemake
+from workflow_runs import copy_project, overlay, snakemake
 
 import r37
 from r37core.cases.plan import Cases

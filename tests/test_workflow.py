@@ -16,14 +16,10 @@ import pandas as pd
 import pytest
 import yaml
 from browser import opened
-from overlays import overlay
-from plans_of_snakemake import plan, planned
-from workflow_runs import LONGEST, copy_odd_project, digests, lose_speed, run_in_odd_project, snakemake
+from workflow_runs import LONGEST, copy_odd_project, digests, lose_speed, overlay, plan, planned, run_in_odd_project, snakemake
 
 from r37core.base.dataset_file import read_dataset
 from r37core.base.yaml_file import load_yaml
-from r37core.config import ConfigError
-from r37core.product.reading import read_settings
 from r37core.time_integration.speed_file import read_speed
 
 pytestmark = pytest.mark.slow
@@ -261,22 +257,6 @@ def test_step_beyond_the_limit_stops_with_the_limit(sweep_copy):
     assert re.search(r"rule prepare_time_integration: time_step_s: 9e-07 s .* limit of this reduced model, [\d.e-]+ s", text)
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "message"),
-    [
-        ("config", "speeds: [900, 900]", r"speeds: found 900 rad/s twice"),
-        ("config", "speeds: [-900]", r"speeds\.0: found -900; allowed:"),
-        ("config", "scenes: [oval]", r"scenes: found 'oval'; allowed: abradable, direct"),
-        ("scenes", "direct: { stress_history_speeds_rad_s: [1717] }", r"direct\.stress_history.*: found 1717; allowed: speeds"),
-        ("scenes", "direct: { results: [wear] }", r"direct\.results: found wear; allowed: only in a scene with a lining"),
-    ],
-)
-def test_bad_speeds_and_scenes_are_refused(project, name, text, message):
-    overlay(project, f"{name}.yaml", text)
-    with pytest.raises(ConfigError, match=rf"config/{name}\.yaml:\d+: .*{message}"):
-        read_settings(project)
-
-
 def test_bad_configuration_stops_before_the_dag(project):
     text = snakemake(project, "campbell", "--cores", "2", "--config", "fidelity=finest", check=False)
     assert "--config: fidelity: found 'finest'; allowed: draft, standard, paper, fine, reference, tiny" in text
@@ -369,7 +349,6 @@ def run_python(block, folder):
     """In this process, which has imported what takes longer than the block, as a program of its own."""
     with contextlib.chdir(folder), plt.rc_context():
         exec(block, {"__name__": "__main__"})
-    plt.close("all")
 
 
 def test_blades_of_the_pages_are_accepted(root, project):

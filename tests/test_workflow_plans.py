@@ -70,15 +70,13 @@ def refining(root, tmp_path):
     return Sweep(read_settings(root, command_line_document(REFINED)), file_of_round)
 
 
-def test_speeds_of_all_rounds_are_reduced_and_their_estimate_is_their_share(refining):
+def test_speeds_of_all_rounds_are_reduced_and_a_round_reads_what_the_one_before_asked_for(refining):
+    """The estimate of their number is their share."""
     assert estimate.values(refining.settings, {})["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
     names = [file.rsplit("_", 1)[1] for file in refining.speed_files(REF)]
     assert names == ["900.npz", "925.npz", "950.npz", "1000.npz"]
     with pytest.raises(KeyError):
         refining.speed_files(L50)
-
-
-def test_a_round_reads_what_the_one_before_asked_for(refining):
     rounds = Rounds(refining)
     assert rounds.round_inputs(of(blade="Ref", scene="abradable", round="0")) == {"campbell": "<results>/Ref/campbell.nc"}
     assert rounds.round_inputs(of(blade="Ref", scene="abradable", round="2")) == {

@@ -10,10 +10,8 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from overlays import overlay
-from plans_of_snakemake import planned_outputs
 from stubbed_runs import copy_stubbed, edit
-from workflow_runs import copy_finished, copy_project, snakemake
+from workflow_runs import copy_finished, copy_project, overlay, planned_outputs, snakemake
 
 from r37core.config.imported_entry import MeshEntry
 from r37core.exchange.importing.import_mesh import import_mesh

@@ -37,7 +37,7 @@ COMMON += ("snakemake.cli", "snakemake.dag", "snakemake.profiles", "snakemake.st
 def run(folder, arguments, environment, seconds, jobs=None):
     """Exit status and what is printed, output before errors; killed after `seconds`.
 
-    `jobs`: file for the jobs of the graph, see tests/plans_of_snakemake.py.
+    `jobs`: file for the jobs of the graph, see `plan` of tests/workflow_runs.py.
     """
     with started(folder, arguments, environment, seconds, jobs) as (process, printed):
         return process.wait(), printed()

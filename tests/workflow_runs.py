@@ -1,19 +1,21 @@
-"""Copies of the project with a small sweep, and Snakemake run on them."""
+"""Copies of the project with a small sweep, changes of their configuration, Snakemake run on them, and what it would run."""
 
 import hashlib
+import json
 import os
 import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import venv
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 import warm_snakemake
 import yaml
-from overlays import overlay
 
 from r37core.base.yaml_file import load_yaml
 
@@ -39,6 +41,18 @@ def copy_project(root, to):
         "  time_integration: { integrator: exact_modal, largest_time_step_s: { lined: 6.4e-6, direct: 6.4e-6 },\n"
         "    revolutions: 8, speed_step_rad_s: 400 }\n",
     )
+
+
+def overlay(project, name, text):
+    """Lay the YAML `text` on config/`name`: mappings are joined, what else it names is replaced; comments are gone then."""
+    file = project / "config" / name
+    file.write_text(yaml.safe_dump(_joined(load_yaml(file), yaml.safe_load(text)), sort_keys=False, allow_unicode=True))
+
+
+def _joined(below, above):
+    if not (isinstance(below, dict) and isinstance(above, dict)):
+        return above
+    return below | {key: _joined(below.get(key), value) for key, value in above.items()}
 
 
 def copy_finished(finished, to):
@@ -107,7 +121,7 @@ def source(folder):
 
 
 def snakemake(folder, *arguments, check=True, jobs=None, full_log="1"):
-    """What the command prints. `jobs`: a file for the jobs that it plans (tests/plans_of_snakemake.py)."""
+    """What the command prints. `jobs`: a file for the jobs that it plans: see `plan`."""
     environment = _environment(folder) | {"R37_FULL_LOG": full_log}
     status, text = warm_snakemake.run(folder, arguments, environment, LONGEST, jobs)
     assert not check or status == 0, text
@@ -135,3 +149,42 @@ def wait_until(happened, seconds, what):
 def _environment(folder):
     kept = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
     return kept | {"PYTHONPATH": str(source(folder)), "R37_FULL_LOG": "1"}
+
+
+@dataclass(frozen=True)
+class Job:
+    """One job that would run; its files are relative to the folder of the run."""
+
+    rule: str
+    wildcards: dict[str, str]
+    inputs: list[str]
+    outputs: list[str]
+    priority: float
+    because_of_params: bool
+    """Whether one of its parameters differs from those that its files were made with."""
+
+
+def plan(folder, *arguments):
+    """Jobs of a dry run, `all_blades` unless arguments of Snakemake say something else."""
+    with tempfile.TemporaryDirectory() as place:
+        file = Path(place) / "jobs.json"
+        snakemake(folder, *(arguments or ("all_blades",)), "--cores", "1", "--dry-run", jobs=file)
+        return [Job(**values) for values in json.loads(file.read_text())]
+
+
+def planned(folder, *arguments):
+    """Rule -> blades of its jobs, with None for a job of no blade."""
+    return _by_rule((job.rule, job.wildcards.get("blade")) for job in plan(folder, *arguments))
+
+
+def planned_outputs(folder, *arguments):
+    """Rule -> first output of each of its jobs, in `results`."""
+    jobs = plan(folder, *arguments)
+    return _by_rule((job.rule, job.outputs[0].removeprefix("results/")) for job in jobs if job.outputs)
+
+
+def _by_rule(pairs):
+    found = {}
+    for rule, value in pairs:
+        found.setdefault(rule, set()).add(value)
+    return found

@@ -45,8 +45,7 @@ TESTS = {
     "config/rotor_section.py": "test_rotor_section.py",
     "base/speeds.py": "test_results.py test_config.py",
     "cases/runner.py": "test_cases.py",
-    "time_integration/integrators.py": "test_integrators.py test_time_integration.py "
-    "test_contact_steps.py test_initial_motion.py",
+    "time_integration/integrators.py": "test_time_integration.py test_contact_steps.py test_initial_motion.py",
     "time_integration/gyroscopic.py": "test_coriolis.py",
     "time_integration/jump_plan.py": "test_jumps.py",
     "time_integration/rotor_numbers.py": "test_rotor_numbers.py test_rotor.py",
@@ -62,7 +61,7 @@ TESTS = {
     "search/problem.py": "test_search_proposals.py",
     "search/proposal.py": "test_search_proposals.py",
     "search/surrogate.py": "test_search_proposals.py",
-    "stress/": "test_stress.py test_results.py",
+    "stress/": "test_results.py",
 }
 """Module, or folder with the rest of its modules, -> the test files that are to notice."""
 
