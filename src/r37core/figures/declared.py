@@ -1,5 +1,6 @@
 """The pipeline's figures, each declared once; a caption stands in the file itself, in the report and in the gallery."""
 
+from collections.abc import Callable
 from typing import Any
 
 from r37core.plans.extension import Figure
@@ -16,13 +17,14 @@ def _stress(sweep: Sweep, wildcards: Any) -> str | list[str]:
     return STRESS if any(shown <= run.items() for run in runs) else []
 
 
-def _drawn(sweep: Sweep) -> dict[str, Any]:
-    return {"drawn": sweep.drawn}
+def _drawn(*names: str) -> Callable[[Sweep], dict[str, Any]]:
+    """Argument of a figure that shows the drawn blades, scenes or both alone; another scene draws no figure of blades anew."""
+    return lambda sweep: {"drawn": {name: sweep.drawn[name] for name in names}}
 
 
 def _about_crossings(sweep: Sweep) -> dict[str, Any]:
     interactions = sweep.settings.config.interactions
-    return {"below": interactions.below, "above": interactions.above, **_drawn(sweep)}
+    return {"below": interactions.below, "above": interactions.above, **_drawn("blade")(sweep)}
 
 
 def _growing(sweep: Sweep) -> Wildcards:
@@ -57,7 +59,7 @@ FIGURES = (
         label="Campbell diagrams",
         caption="Frequencies of the first bending (1B), first torsion (1T) and second bending mode (2B) of all blades over "
         "speed, with engine orders as grey lines.",
-        arguments=_drawn,
+        arguments=_drawn("blade"),
     ),
     Figure(
         rule="response_figure",
@@ -71,7 +73,7 @@ FIGURES = (
         "the last revolution; where it is above yield (tinted) it is outside the linear model. Dotted: crossings of 1B with "
         "engine orders; red crosses: runs that diverged. Open circles: the blade has cut itself free by the end of the run; "
         "open triangles: its motion or the wear still grows there.",
-        arguments=_drawn,
+        arguments=_drawn("scene"),
         offered="motions",
     ),
     Figure(
@@ -83,7 +85,7 @@ FIGURES = (
         caption="Response of all blades over speed in every scene: root mean square of the leading edge's displacement over "
         "the last half of the run. Left: normal to the casing; right: tangential, each column on one scale. Red crosses: runs "
         "that diverged; open circles: cut free, and open triangles: growing at the end of the run.",
-        arguments=_drawn,
+        arguments=_drawn("blade", "scene"),
     ),
     Figure(
         rule="spectrum_figure",
@@ -178,6 +180,6 @@ FIGURES = (
         caption="Clearance of the round casing over speed, of all blades in scene {scene}, at the first contact node (leading "
         "edge) and the last one (trailing edge). It is what the casing leaves less what rotation brings the blade nearer to "
         "it, before anything vibrates.",
-        arguments=_drawn,
+        arguments=_drawn("blade"),
     ),
 )
