@@ -41,7 +41,10 @@ def complete_docstring(call: Callable[..., object], arguments: Iterable[str]) ->
 
     Where its own docstring leaves one out, these are the descriptions above, a figure, and the usual errors.
     """
-    purpose, *sections = _SECTION.split(inspect.cleandoc(call.__doc__ or ""))
+    if call.__doc__ is None:
+        # python -OO
+        return ""
+    purpose, *sections = _SECTION.split(inspect.cleandoc(call.__doc__))
     own = {section.partition(":")[0]: section for section in sections}
     entries = re.split(r"\n(?=    \S)", own.get("Args", ""))[1:]
     described = {name: entry for entry in entries for name in re.findall(r"\w+", entry.partition(":")[0])}

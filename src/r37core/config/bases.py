@@ -26,7 +26,9 @@ def chain_of_bases(
             circle = chain if base in chain else []
             others = [single_line(entry) for entry in known if entry not in (chain[0], *circle)]
             hint = ", in no circle of bases" if circle else did_you_mean(base, others)
-            raise document.refusal((chain[0], "base"), f"'{base}'", f"another {kind} of this file ({', '.join(others)}){hint}")
+            raise document.refusal(
+                (chain[0], "base"), f"'{base}'", f"another {kind} of this file, no family ({', '.join(others)}){hint}"
+            )
         chain.insert(0, base)
     return chain
 

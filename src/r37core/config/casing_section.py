@@ -120,7 +120,7 @@ class CasingSection(Section):
             value = "neither of clearance_m and clearance" if self.clearance is None else "clearance_m and clearance"
             raise refused((), value, "one of clearance_m and clearance")
         if self.amplitude_clearances is not None and self.amplitude_m is not None:
-            raise refused((), " and ".join(_HEIGHTS), "one of them; in Python, a key that is None is left out")
+            raise refused((), " and ".join(_HEIGHTS), "one of them; null (None in Python) leaves out that of the base")
         if self.ring is not None and self.ring_modes is not None:
             raise refused((), "ring and ring_modes", "one of them")
         return self

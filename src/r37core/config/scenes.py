@@ -38,7 +38,8 @@ class LiningSection(Section):
         asked = self.contact_length_m != type(self).model_fields["contact_length_m"].default
         given = [*(["contact_length_m"] if asked else []), *published]
         if published and len(given) > 1:
-            raise refused((given[0],), " and ".join(given), f"one of them; {' and '.join(published)} of the published model")
+            allowed = f"one of them; {' and '.join(published)} of the published model; null leaves out that of the base"
+            raise refused((given[0],), " and ".join(given), allowed)
         return self
 
 
