@@ -307,6 +307,9 @@ def test_datasets_are_joined_by_run(dataset, tmp_path):
     assert np.isfinite(short["normal"].sel(turn=slice(7.01, 12))).all()
     assert np.isnan(short["strain"]).all()
     np.testing.assert_array_equal(joined["status"], [0, 0, 0])
+    write_dataset(other.isel(speed=[]), tmp_path / "empty.nc", {})
+    join_runs([tmp_path / "empty.nc"], [("L50", "direct")], RUNS, tmp_path / "none.nc", "draft")
+    assert read_dataset(tmp_path / "none.nc").sizes["run"] == 0
     files["Ref", "direct"].write_bytes(b"damaged")
     with pytest.raises(InputFileError, match=r"Ref_direct\.nc: cannot be read"):
         join_runs(list(files.values()), files, RUNS, tmp_path / "signals.nc", "draft")

@@ -70,7 +70,8 @@ def join(
             own = [str(dim) for dim in variable.dims if dim != along.dim]
             more = {"coordinates": " ".join(along.coordinates)} if along.coordinates and name not in along.coordinates else {}
             created = add_variable(target, name, (*dims, *own), variable.dtype, variable.attrs | more)
-            if name in states:
+            # a dimension without rows would get one
+            if name in states and created.size:
                 created[:] = states[name]
         for place, count, source in zip(places, rows, sources.values(), strict=True):
             if not count:
