@@ -156,7 +156,7 @@ class Sweep:
 
 
 def _evenly(names: list[str], most: int) -> list[str]:
-    """At most so many of the names, evenly spread from the first to the last."""
+    """Names evenly spread from the first to the last, at most so many."""
     count = min(most, len(names))
     return [names[round(place * (len(names) - 1) / max(count - 1, 1))] for place in range(count)]
 
@@ -218,7 +218,7 @@ class Simulations:
 
 @cache
 def _task(scene: Scene, choice: IntegrationChoice, results: tuple[str, ...], kept: tuple[tuple[str, int], ...]) -> str:
-    """Of the many speeds of a scene most have the same text, which is made and kept once."""
+    """Text of a task, made and kept once for the speeds that have the same."""
     return json.dumps({"scene": to_plain(scene), "choice": to_plain(choice), "results": results, "kept": dict(kept)})
 
 
