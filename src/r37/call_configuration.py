@@ -48,7 +48,7 @@ class Configuration:
         """The content as a model. Raises ConfigError."""
         return self.document.check(CONFIG)
 
-    def with_file(self, key: str, file: Path | str | None) -> Configuration:
+    def changed_file(self, key: str, file: Path | str | None) -> Configuration:
         """Configuration with another file, if any, under `blades_file` or `scenes_file`; tables of blades lie next to it.
 
         Raises ConfigError.

@@ -204,7 +204,7 @@ def blades(*, file: Path | str | None = None, config: Path | str | None = None) 
         >>> r37.blades()
         ['Ref', 'L50', 'L100', 'S50', 'S100', 'CS50', 'CS100']
     """
-    chosen = read_configuration(config).with_file("blades_file", file)
+    chosen = read_configuration(config).changed_file("blades_file", file)
     return list(blades_of_file(chosen.root, chosen.checked.blades_file).entries)
 
 
@@ -222,7 +222,7 @@ def scenes(*, file: Path | str | None = None, config: Path | str | None = None) 
         >>> r37.scenes()[:2]
         ['abradable', 'direct']
     """
-    return list(_scenes_in(read_configuration(config).with_file("scenes_file", file).checked.scenes_file))
+    return list(_scenes_in(read_configuration(config).changed_file("scenes_file", file).checked.scenes_file))
 
 
 @checked_call
@@ -259,7 +259,7 @@ def blade(
         >>> r37.blade("Ref", stagger_deg={"hub": 0, "tip": 2}, thickness_percent=105, name="Turned").label
         'Turned'
     """
-    return _chosen(BladeChoice, name_of_entry, name, changes, read_configuration(config).with_file("blades_file", file))
+    return _chosen(BladeChoice, name_of_entry, name, changes, read_configuration(config).changed_file("blades_file", file))
 
 
 @checked_call
@@ -289,7 +289,7 @@ def scene(
         >>> r37.scene("abradable", **{"friction.coefficient": 0.1}).entry.friction.coefficient
         0.1
     """
-    return _chosen(SceneChoice, name_of_entry, name, changes, read_configuration(config).with_file("scenes_file", file))
+    return _chosen(SceneChoice, name_of_entry, name, changes, read_configuration(config).changed_file("scenes_file", file))
 
 
 def scenes_named(configuration: Configuration) -> list[str]:

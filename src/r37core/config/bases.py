@@ -33,7 +33,7 @@ def chain_of_bases(
     return chain
 
 
-def with_bases(scenes: Document, above: Document | None = None) -> tuple[Document, ConfigRefusals]:
+def complete_scenes(scenes: Document, above: Document | None = None) -> tuple[Document, ConfigRefusals]:
     """Scenes that are complete: what an entry leaves out is that of its base, key by key also inside sections.
 
     A key that is null is left out although the base has it. `above`: changes of some entries, which others that start from them

@@ -131,10 +131,10 @@ def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSe
 
 def changed_pair(blade: BladeSettings, scene: SceneEntry, values: Mapping[VariedNumber, float]) -> tuple[BladeSettings, Scene]:
     """A blade and a scene with values of some of their numbers. Raises ImpossibleValueError."""
-    of_blade, of_scene = (
+    blade_values, scene_values = (
         {number.key: value for number, value in values.items() if number.kind == kind} for kind in (BLADE, SCENE)
     )
-    return changed_blade(blade, of_blade), entry_with(scene, of_scene).scene()
+    return changed_blade(blade, blade_values), entry_with(scene, scene_values).scene()
 
 
 def _changed_profiles(profiles: Profiles, entries: Iterable[BladeEntry], keys: Iterable[str]) -> Profiles:

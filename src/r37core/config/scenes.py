@@ -9,7 +9,7 @@ from pydantic import Field, RootModel, model_validator
 from r37core.contact.scene import Friction, Lining, Scene
 from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
-from .bases import with_bases
+from .bases import complete_scenes
 from .casing_section import CasingSection
 from .declaring import DECLARED, declared_by, si_fields, si_form
 from .document import ConfigRefusals, Document
@@ -149,7 +149,7 @@ def checked_scenes(file: Document, above: Document | None = None) -> tuple[Docum
 
     Raises ConfigError for all that is wrong.
     """
-    document, refused_bases = with_bases(file, above)
+    document, refused_bases = complete_scenes(file, above)
     refusals = ConfigRefusals()
     # of a file in which all have such bases nothing is left
     checked = refusals.of(document.check, Scenes) if document.content or not file.content else None

@@ -36,10 +36,10 @@ def _form(law: Any) -> str:
 
 def _law(name: str, purpose: str, value: Any, neutral: float) -> Any:
     """Type of a key: a number of the kind `value`, its values at hub and tip, where `neutral` changes nothing, or a table."""
-    at_ends: dict[str, Any] = {
+    end_fields: dict[str, Any] = {
         end: (value, Field(default=neutral, description=f"Value at the {end}")) for end in ("hub", "tip")
     }
-    ends = create_model(f"{name}Ends", __base__=Ends, __doc__=f"{purpose}, linear from hub to tip.", **at_ends)
+    ends = create_model(f"{name}Ends", __base__=Ends, __doc__=f"{purpose}, linear from hub to tip.", **end_fields)
     row = create_model(
         f"{name}Row",
         __base__=Section,

@@ -135,9 +135,9 @@ class Sweep:
         Blades: all of them; of many those of no family and some designs. Scenes: those of no family, or some designs.
         """
         blades, scenes = list(self.settings.blades), list(self.settings.scenes)
-        of_no_family = [name for name in blades if name not in self.settings.designs.family_of]
-        designs = [name for name in blades if name not in of_no_family]
-        few = [*_evenly(of_no_family, MOST_BLADES_DRAWN), *_evenly(designs, MOST_DRAWN)]
+        plain_blades = [name for name in blades if name not in self.settings.designs.family_of]
+        designs = [name for name in blades if name not in plain_blades]
+        few = [*_evenly(plain_blades, MOST_BLADES_DRAWN), *_evenly(designs, MOST_DRAWN)]
         plain = [name for name in scenes if name not in self.settings.scene_designs.family_of]
         return {
             "blade": blades if len(blades) <= MOST_BLADES_DRAWN else few,

@@ -26,30 +26,30 @@ _ON_BASE = "OnBase"
 def schemas() -> dict[str, str]:
     """File name -> content. `changes` is for files that lie on top of config.yaml, where nothing is required."""
     made = {name: model.model_json_schema() for name, model in MODELS.items()}
-    made["scenes"] = _with_bases(made["scenes"])
+    made["scenes"] = _scenes_schema(made["scenes"])
     made["changes"] = {key: value for key, value in made["config"].items() if key != "required"}
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     return {f"{name}.schema.json": json.dumps(dialect | made[name], indent=1, ensure_ascii=False) + "\n" for name in made}
 
 
-def _with_bases(schema: dict[str, Any]) -> dict[str, Any]:
+def _scenes_schema(schema: dict[str, Any]) -> dict[str, Any]:
     """The schema of scenes, where an entry with a `base` needs no key, and null leaves out what the base has."""
     ((name, entry),) = schema["patternProperties"].items()
-    on_base = {"if": {"required": ["base"]}, "then": _on_base(entry), "else": entry}
-    parts = {f"{part}{_ON_BASE}": _on_base(content) for part, content in schema["$defs"].items()}
-    return {**schema, "$defs": schema["$defs"] | parts, "patternProperties": {name: on_base}}
+    scene = {"if": {"required": ["base"]}, "then": _based(entry), "else": entry}
+    parts = {f"{part}{_ON_BASE}": _based(content) for part, content in schema["$defs"].items()}
+    return {**schema, "$defs": schema["$defs"] | parts, "patternProperties": {name: scene}}
 
 
-def _on_base(part: Mapping[str, Any]) -> dict[str, Any]:
+def _based(part: Mapping[str, Any]) -> dict[str, Any]:
     """The part of a schema for what lies on top of a base; entries of lists are not joined with those of the base."""
     changed = {key: content for key, content in part.items() if key != "required"}
     if "$ref" in part:
         changed["$ref"] = part["$ref"] + _ON_BASE
     for key in {"anyOf", "oneOf"} & part.keys():
-        changed[key] = [_on_base(choice) for choice in part[key]]
+        changed[key] = [_based(choice) for choice in part[key]]
     if "properties" in part:
         changed["properties"] = {
-            key: {"if": {"type": "null"}, "else": _on_base(content)} for key, content in part["properties"].items()
+            key: {"if": {"type": "null"}, "else": _based(content)} for key, content in part["properties"].items()
         }
     return changed
 
