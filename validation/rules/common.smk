@@ -2,7 +2,7 @@
 from evidence.configuration import overlay, settings_of
 from evidence.pages import Pages
 
-from r37core.console.snakemake_run import PYTHON
+from r37core.console.executor import PYTHON
 from r37core.plans.code import CodeHashes
 
 ROOT = VALIDATION.parent
