@@ -309,7 +309,7 @@ def test_the_ranking_is_drawn_in_the_order_of_the_first_scene():
     assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == ["B", "A"]
     assert sorted(bar.get_width() for bar in figure.axes[0].patches) == [1.0, 5.0, 7.0, 9.0]
     many = draw_ranking(ranking_table({(f"blade_{number}", "x"): of(float(number), 100.0) for number in range(90)}))
-    expected = [f"blade_{number}" for number in (*range(30), *range(60, 90))]
+    expected = [*(f"blade_{number}" for number in range(30)), "(30 more)", *(f"blade_{number}" for number in range(60, 90))]
     assert [label.get_text() for label in many.axes[0].get_yticklabels()] == expected
 
 

@@ -1,5 +1,7 @@
 """Families of designs: many blades of one entry, their names, refusals, and how they are compared."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -18,6 +20,7 @@ from r37core.designs.plan import Families
 from r37core.designs.table import MEASURES, design_table
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
+from r37core.product.reporting import FIGURES, drawing
 from r37core.product.targets import targets
 from r37core.results.columns import names
 from r37core.run_ups.plan import RunUps
@@ -65,7 +68,7 @@ def test_profiles_of_a_design_are_changed_once(with_blades, config_copy, monkeyp
 
 
 def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades):
-    """Of no family, and six designs from the first to the last."""
+    """Blades with figures, of many: those of no family, and six designs from the first to the last."""
     run_ups = {"up": {"from_rad_s": 900, "to_rad_s": 1000, "revolutions": 50, "blades": ["Sweep"]}}
     settings = with_blades(SWEEP.replace("step: 100", "step: 2"), blades=["Ref", "Sweep"], run_ups=run_ups)
     choices, designs = RunUps(Sweep(settings)).choices, [f"Sweep_{percent}" for percent in range(-50, 151, 2)]
@@ -73,6 +76,9 @@ def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades
     drawn = Sweep(settings).drawn["blade"]
     assert drawn == ["Ref", "Sweep_-50", "Sweep_-10", "Sweep_30", "Sweep_70", "Sweep_110", "Sweep_150"]
     assert [names["blade"] for names in targets(Sweep(settings))["<results>/figures/response_{blade}.png"]] == drawn
+    (overview,) = (figure for figure in FIGURES if figure.rule == "campbell_overview")
+    parameters = drawing(SimpleNamespace(step=lambda *_: {}), None, overview, Sweep(settings))
+    assert parameters["caption"]({}).endswith("as grey lines. 7 of 102 blades are drawn.")
 
 
 def test_lean_is_scaled_apart_from_sweep(with_blades):

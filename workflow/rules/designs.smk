@@ -1,7 +1,7 @@
 # Families of designs, of blades and of scenes: how robust each is, next to what it is.
-from r37core.designs.plan import TABLE, Families
+from r37core.designs import plan as designs_plan
 
-families = settings.made(Families)
+families = settings.made(designs_plan.Families)
 
 
 use rule step as design_table with:
@@ -11,7 +11,7 @@ use rule step as design_table with:
         summary=rules.summary.output[0],
         geometry=expand(paths.nominal(paths.GEOMETRY), blade=families.densities),
     output:
-        table=shown(TABLE, PACKAGE / "designs/report.rst", "Families", "table of designs"),
+        table=shown(designs_plan.TABLE, PACKAGE / "designs/report.rst", "Families", "table of designs"),
     log:
         "<logs>/designs.log",
     params:

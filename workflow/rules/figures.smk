@@ -50,6 +50,6 @@ rule campbell:
     input:
         rules.campbell_of_all.output,
         expand([paths.nominal(rules.mesh.output.msh), *rules.abaqus_deck.output], blade=imported.meshed_blades),
-        paths.filled(paths.pictures("campbell_{blade}", paths.of("blade", sweep.drawn["blade"]))),
-        paths.filled(paths.pictures("campbell", [{}])),
+        expand(rules.campbell_figure.output, blade=sweep.drawn["blade"]),
+        rules.campbell_overview.output,
         rules.blade_shapes_figure.output if shaped else [],

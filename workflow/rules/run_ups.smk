@@ -1,27 +1,27 @@
 # Run-ups and run-downs: the speed changes while the blade rubs; each is a run of its own.
-from r37core.run_ups.plan import DATASET, RATES, RUN_UP, SECTION, TABLE, RunUps
+from r37core.run_ups import plan as run_ups_plan
 
-run_ups = RunUps(sweep)
+run_ups = run_ups_plan.RunUps(sweep)
 
 
 use rule step as run_up with:
     input:
         unpack(run_ups.inputs),
     output:
-        run_up=RUN_UP,
+        run_up=run_ups_plan.RUN_UP,
     log:
         "<logs>/{blade}/{scene}/run_up_{run_up}.log",
     wildcard_constraints:
-        run_up="|".join(settings.section(SECTION)) or "none",
+        run_up="|".join(settings.section(run_ups_plan.SECTION)) or "none",
     params:
         **stage(run_ups.stage(made)),
 
 
 use rule step as run_ups_dataset with:
     input:
-        run_ups=paths.filled({RUN_UP: run_ups.files}),
+        run_ups=paths.filled({run_ups_plan.RUN_UP: run_ups.files}),
     output:
-        dataset=DATASET,
+        dataset=run_ups_plan.DATASET,
     log:
         "<logs>/run_ups_dataset.log",
     params:
@@ -32,10 +32,10 @@ use rule step as run_ups_dataset with:
 
 use rule step as run_up_tables with:
     input:
-        dataset=DATASET,
+        dataset=run_ups_plan.DATASET,
     output:
-        runs=shown(TABLE, PACKAGE / "run_ups/report.rst", TOGETHER, "run-ups"),
-        rates=RATES,
+        runs=shown(run_ups_plan.TABLE, PACKAGE / "run_ups/report.rst", TOGETHER, "run-ups"),
+        rates=run_ups_plan.RATES,
     log:
         "<logs>/run_up_tables.log",
     params:

@@ -1,14 +1,14 @@
 # Time signals of chosen speeds, each a run of its own: edges of the tip, strain gauges, tip timing.
-from r37core.signals.plan import DATASET, SIGNALS_OF_RUN, Signals
+from r37core.signals import plan as signals_plan
 
-recorded = Signals(sweep)
+recorded = signals_plan.Signals(sweep)
 
 
 use rule step as signals_of_run with:
     input:
         unpack(recorded.inputs),
     output:
-        signals=SIGNALS_OF_RUN,
+        signals=signals_plan.SIGNALS_OF_RUN,
     log:
         "<logs>/{blade}/{scene}/signals.log",
     params:
@@ -28,7 +28,7 @@ use rule step as signals_dataset with:
     input:
         signals=paths.filled({rules.signals_of_run.output[0]: paths.run_keys(recorded.runs)}),
     output:
-        dataset=DATASET,
+        dataset=signals_plan.DATASET,
     log:
         "<logs>/signals.log",
     params:

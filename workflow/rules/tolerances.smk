@@ -1,6 +1,7 @@
 # Tolerances: what is made of the members of samples, each with other values of what is never known exactly. Their models and runs
 # are made by the rules of the sweep.
-from r37core.tolerances.plan import DATASET, RESPONSE_OF_MEMBER, TABLE, Tolerances
+from r37core.tolerances import plan as tolerances_plan
+from r37core.tolerances.plan import RESPONSE_OF_MEMBER, Tolerances
 
 tolerances = settings.made(Tolerances)
 
@@ -10,7 +11,7 @@ use rule step as tolerances_dataset with:
         responses=paths.filled({RESPONSE_OF_MEMBER: tolerances.runs}),
         rounds=tolerances.first_rounds,
     output:
-        dataset=DATASET,
+        dataset=tolerances_plan.DATASET,
     log:
         "<logs>/tolerances_dataset.log",
     params:
@@ -28,7 +29,7 @@ use rule step as tolerance_table with:
         campbells=tolerances.campbells_of_sample,
         rounds=tolerances.first_rounds,
     output:
-        table=shown(TABLE, PACKAGE / "tolerances/report.rst", TOGETHER, "tolerances"),
+        table=shown(tolerances_plan.TABLE, PACKAGE / "tolerances/report.rst", TOGETHER, "tolerances"),
     log:
         "<logs>/tolerance_table.log",
     params:

@@ -71,13 +71,15 @@ def draw_comparison(
 def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> Figure:
     """Bars of the speeds above yield in most and in some revolutions, a panel per scene, blades in the order of the first.
 
-    `scenes`: those that are drawn, or all. Of many blades the first and the last in that order are drawn.
+    `scenes`: those that are drawn, or all. Of many blades the first and the last in that order are drawn; a row between them
+    says how many are left out.
     """
     scenes = [name for name in dict.fromkeys(ranking["scene"]) if scenes is None or name in scenes]
     first = ranking[ranking["scene"] == scenes[0]].sort_values("rank", kind="stable")["blade"]
     blades = list(dict.fromkeys([*first, *ranking["blade"]]))
     if len(blades) > _MOST_RANKED:
-        blades = [*blades[: _MOST_RANKED // 2], *blades[-_MOST_RANKED // 2 :]]
+        half = _MOST_RANKED // 2
+        blades = [*blades[:half], f"({len(blades) - _MOST_RANKED} more)", *blades[-half:]]
     columns = min(len(scenes), 2)
     rows = -(-len(scenes) // columns)
     size = (style.PAGE, 0.5 + rows * (0.4 + 0.34 * max(len(blades), 3)))

@@ -27,7 +27,8 @@ def draw(input: Any, output: Any, params: Any) -> None:
     drawing = resolve_name(function)
     parameters = signature(drawing).parameters
     for name, file in input.items():
-        if parameters[name].annotation is Path:
+        # a name where the module postpones its annotations
+        if parameters[name].annotation in (Path, "Path"):
             arguments[name] = Path(file)
         elif file:
             # a table, or the part of a dataset that is of the figure's blade and scene

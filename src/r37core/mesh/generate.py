@@ -55,9 +55,12 @@ def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_
 @contextmanager
 def quiet_gmsh() -> Iterator[None]:
     """A gmsh session without output, on one thread, for second-order elements without inner nodes."""
+    # gmsh.initialize lets a broken pipe end the process, where Python raises an error. `signal.signal` refuses other threads
+    handler = ctypes.CDLL(None).signal
+    handler.restype, handler.argtypes = ctypes.c_void_p, [ctypes.c_int, ctypes.c_void_p]
+    before = handler(signal.SIGPIPE, signal.SIG_IGN)
     gmsh.initialize(interruptible=False)
-    # gmsh lets a broken pipe end the process; Python raises an error then. `signal.signal` would refuse other threads
-    ctypes.CDLL(None).signal(signal.SIGPIPE, ctypes.c_void_p(signal.SIG_IGN))
+    handler(signal.SIGPIPE, before)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
         gmsh.option.setNumber("General.NumThreads", 1)

@@ -135,14 +135,11 @@ class Sweep:
         Blades: all of them; of many those of no family and some designs. Scenes: those of no family, or some designs.
         """
         blades, scenes = list(self.settings.blades), list(self.settings.scenes)
-        plain_blades = [name for name in blades if name not in self.settings.designs.family_of]
-        designs = [name for name in blades if name not in plain_blades]
-        few = [*_evenly(plain_blades, MOST_BLADES_DRAWN), *_evenly(designs, MOST_DRAWN)]
-        plain = [name for name in scenes if name not in self.settings.scene_designs.family_of]
-        return {
-            "blade": blades if len(blades) <= MOST_BLADES_DRAWN else few,
-            "scene": plain or _evenly(scenes, MOST_DRAWN),
-        }
+        plain_blades, designs = _apart(blades, self.settings.designs.family_of)
+        plain_scenes, _ = _apart(scenes, self.settings.scene_designs.family_of)
+        if len(blades) > MOST_BLADES_DRAWN:
+            blades = [*_evenly(plain_blades, MOST_BLADES_DRAWN), *_evenly(designs, MOST_DRAWN)]
+        return {"blade": blades, "scene": plain_scenes or _evenly(scenes, MOST_DRAWN)}
 
     def drawn_runs(self, kind: str) -> list[tuple[str, str]]:
         """Pairs of blade and scene that have this kind of result and figures of their own."""
@@ -153,6 +150,11 @@ class Sweep:
         """Pairs of blade and scene that have this kind of result."""
         pairs = [(blade, scene) for blade in self.settings.blades for scene in self.settings.scenes]
         return [pair for pair in pairs if kind == KINDS[0] or kind in self.settings.results_of(*pair)]
+
+
+def _apart(names: list[str], family_of: Mapping[str, str]) -> tuple[list[str], list[str]]:
+    """Names of no family, and those of designs."""
+    return [name for name in names if name not in family_of], [name for name in names if name in family_of]
 
 
 def _evenly(names: list[str], most: int) -> list[str]:

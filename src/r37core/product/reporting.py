@@ -20,15 +20,18 @@ FIGURES: tuple[Figure, ...] = (*PIPELINE, *(figure for extension in EXTENSIONS f
 def drawing(code: CodeHashes, operating: Mapping[str, Any] | None, figure: Figure, sweep: Sweep) -> dict[str, Any]:
     """Parameters of the rule of a figure, with the code of its drawing function alone.
 
-    `operating`: range of speeds that is marked in the figure, as plain values.
+    `operating`: range of speeds that is marked in the figure, as plain values. The caption says where not all blades are drawn.
     """
+    arguments, every = figure.arguments(sweep), sweep.settings.blades
+    shown = arguments.get("drawn", {}).get("blade", every)
+    caption = figure.caption + (f" {len(shown)} of {len(every)} blades are drawn." if len(shown) < len(every) else "")
     return {
         **code.step("figures.steps.draw", figure.draw.rpartition(".")[0]),
         "draw": f"r37core.{figure.draw}",
         "of": _title_parts,
-        "caption": lambda wildcards: figure.caption.format(**dict(wildcards.items())),
+        "caption": lambda wildcards: caption.format(**dict(wildcards.items())),
         **({"operating": operating} if operating else {}),
-        **figure.arguments(sweep),
+        **arguments,
     }
 
 
