@@ -1,7 +1,20 @@
-# Requirements in operation: what lies in the operating range, and the verdict on each blade and scene.
-from r37core.requirements.plan import VERDICT, Judged
+# Requirements in operation: what lies in the operating range, further runs, and the verdict on each blade and scene.
+from r37core.requirements.plan import LOOKS, VERDICT, Judged
 
 judged = Judged(sweep)
+stages |= {"looks": judged.looks(made)}
+
+
+use rule step as looks with:
+    input:
+        unpack(sweep.run_inputs),
+        response=paths.nominal(paths.RESPONSE),
+    output:
+        looks=LOOKS,
+    log:
+        "<logs>/{blade}/{scene}/looks.log",
+    params:
+        **stage(stages["looks"]),
 
 
 use rule step as verdict with:
@@ -11,6 +24,7 @@ use rule step as verdict with:
         **more_motions,
         campbell=rules.campbell_of_all.output[0],
         volumes=judged.volumes,
+        looks=paths.filled({LOOKS: paths.run_keys(judged.looked)}),
     output:
         verdict=shown(VERDICT, PACKAGE / "requirements/report.rst", TOGETHER, "verdict"),
     log:
@@ -18,6 +32,9 @@ use rule step as verdict with:
     params:
         **step("requirements.steps.judge"),
         pairs=sweep.runs_with("rms"),
+        looked=judged.looked,
+        not_looked=judged.not_looked,
+        errors=judged.errors,
         requirements=judged.requirements,
         operating=operating,
         densities=judged.densities,

@@ -5,6 +5,18 @@ from typing import Annotated
 
 from r37core.base.declared import Key
 
+WIDTH = 5.0
+"""Width of a narrow interaction (rad/s): between speeds that lie farther apart one may be hidden."""
+
+STEP = 0.5 * WIDTH
+"""Step (rad/s) between the further runs from rest."""
+
+LONGEST = 1000
+"""Most revolutions of a run that ends as it has settled."""
+
+RESULTS = ("stress", "static_stress", "fatigue", "wear")
+"""Results of a scene that requirements need."""
+
 
 @dataclass(frozen=True)
 class CampbellMargin:
@@ -47,6 +59,11 @@ class Requirements:
     ] = None
     mass: Annotated[float | None, Key("Largest mass of the blade", "_kg", "mass_at_most", ge=1e-9, le=1e6)] = None
     campbell_margins: tuple[CampbellMargin, ...] = field(default=())
+
+    @property
+    def of_runs(self) -> bool:
+        """True if there is one on what runs give."""
+        return any(limit is not None for limit in (self.above_yield, self.goodman_share, self.used_lining))
 
     @property
     def any(self) -> bool:

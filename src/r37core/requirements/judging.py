@@ -1,23 +1,39 @@
 """Requirements judged: the value of each, its margin, where it is worst, and how certain that is."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from r37core.results.columns import CERTAIN
-from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of
+from r37core.results.exceedance import SpeedRange, exceedance_of
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
-from r37core.results.other_motions import swept, worst_exceedance
+from r37core.results.other_motions import swept
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import Requirements
+from .evidence import Evidence, overlaid, scatter_of_length, worst_of
 
-MEETS, FAILS, UNKNOWN = VERDICTS = ("meets", "fails", "unknown")
+MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
+
+UP, DOWN, REST = "carried up", "carried down", "from rest"
+MORE_FRICTION, LESS_FRICTION, HALF_STEP = "1% more friction", "1% less friction", "half the step"
+LOOKS = (REST, UP, DOWN, MORE_FRICTION, LESS_FRICTION, HALF_STEP)
+"""Further runs of a blade in a scene; see requirements.looks."""
+
+_OTHER_MOTIONS = (UP, DOWN)
+
+NEAR = 0.7
+"""Share of a limit from which a run counts as near to it."""
+
+CLEARLY = 1.15
+"""Factor by which stress and wear may be smaller where a requirement fails clearly."""
+
+_CHANCE = 2.0
+"""Standard deviations by which chance may move a length."""
 
 Columns = dict[str, Any]
 """Columns of a requirement that are known."""
@@ -27,6 +43,8 @@ COLUMNS = (
     "requirement",
     "verdict",
     "value",
+    "value_lowest",
+    "value_highest",
     "limit",
     "margin",
     "unit",
@@ -40,72 +58,56 @@ COLUMNS = (
 )
 """Columns of verdict.csv after blade and scene.
 
-`value` and `limit` are in the `unit`; the value is NaN where it is not known, for the reason in `note`. `margin`: distance from
-the limit, above 0 where the requirement is met. `from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard
-deviation of the value by chance; `members`, `share_of_members`: number of members under tolerances, and the share of them that
-meets it; `margin_worst_motion`: margin of the worst of all motions; NaN each where not run.
+`value` and `limit` are in the `unit`; the value is NaN where it is not known, for the reason in `note`. `value_lowest`,
+`value_highest`: of everything that was tried. `margin`: distance from the limit, above 0 where the requirement is met.
+`from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard deviation of the value by chance; `members`,
+`share_of_members`: number of members under tolerances, and the share of them that meets it; `margin_worst_motion`: margin of
+the worst of all motions; NaN each where not run.
 """
 
 
-@dataclass(frozen=True)
-class Evidence:
-    """Results of one blade in one scene. `response`: rms with stress and wear, if computed; `campbell`: of the blade.
-
-    `members`, `motions`: parts of the datasets of members under tolerances and of more motions. `clearance` (m): of a casing
-    whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); NaN each where not known.
-    """
-
-    response: xr.Dataset
-    campbell: xr.Dataset
-    operating: OperatingRange
-    members: xr.Dataset | None = None
-    motions: xr.Dataset | None = None
-    clearance: float = np.nan
-    thickness: float = np.nan
-    mass: float = np.nan
-
-    @property
-    def not_covered(self) -> str:
-        """Why nothing can be said of the operating range; empty where its speeds are run."""
-        speeds = self.response["speed"].values[self.response["status"].values != RunStatus.NOT_RUN]
-        first, last = self.operating.first, self.operating.last
-        return "" if self.operating.is_covered(speeds) else f"speeds are not run from {first:.6g} to {last:.6g} rad/s"
-
-    def worst(self, values: np.ndarray) -> tuple[float, float]:
-        """Largest value in the operating range, and its speed (rad/s); between runs values are a straight line.
-
-        `values`, shape (speeds,), of all runs: where one is infinite, so is everything up to the next runs.
-        """
-        speeds, infinite = self.response["speed"].values, np.isinf(values)
-        ends = (self.operating.first, self.operating.last)
-        places = np.unique([*ends, *speeds[(speeds > ends[0]) & (speeds < ends[1])]])
-        inside = np.interp(places, speeds, np.where(infinite, 0.0, values))
-        inside = np.where(np.interp(places, speeds, infinite.astype(float)) > 0.0, np.inf, inside)
-        place = int(inside.argmax())
-        return float(inside[place]), float(places[place])
-
-    @property
-    def diverged(self) -> np.ndarray:
-        """Runs that diverged: true or false, shape (speeds,)."""
-        return self.response["status"].values == RunStatus.DIVERGED
-
-
-def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, object]]:
+def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, Any]]:
     """Each requirement in turn: COLUMNS."""
-    for name, (unit, factor, columns_of) in _NUMBERS.items():
+    for name in _OF_RUNS:
+        if getattr(requirements, name) is not None:
+            yield _judged_by_runs(name, requirements, evidence)
+    for name, (unit, factor, columns_of) in _OF_BLADE.items():
         limit = getattr(requirements, name)
         if limit is not None:
-            yield _judged(name, unit, factor * limit, columns_of(evidence, limit), is_lower_limit=name == "clearance")
+            yield _row(name, unit, factor * limit, columns_of(evidence), is_lower_limit=name == "clearance")
     for margin in requirements.campbell_margins:
         crossings = evidence.campbell["crossing_speed"].sel(mode=margin.mode)
         for order in margin.engine_orders:
             crossing = float(crossings.sel(engine_order=order))
             value = 100.0 * distance_from_operation(crossing, evidence.operating)
             name = f"campbell_margin {margin.mode}/{order}"
-            yield _judged(name, "%", 100.0 * margin.least, _worst_at(value, crossing), is_lower_limit=True)
+            yield _row(name, "%", 100.0 * margin.least, _worst_at(value, crossing), is_lower_limit=True)
 
 
-def _judged(requirement: str, unit: str, limit: float, columns: Columns, *, is_lower_limit: bool) -> dict[str, object]:
+def fails_clearly(requirements: Requirements, evidence: Evidence) -> list[str]:
+    """Requirements that runs fail, with stress and wear smaller by CLEARLY, too."""
+    smaller = evidence.scaled(1.0 / CLEARLY)
+    names = []
+    for name, (_, factor, columns_of) in _OF_RUNS.items():
+        limit = getattr(requirements, name)
+        if limit is not None and _margin(columns_of(smaller), factor * limit) < 0.0:
+            names.append(name)
+    return names
+
+
+def nearness(requirements: Requirements, evidence: Evidence) -> np.ndarray:
+    """How near each run comes to a limit, shape (speeds,): 1 at the nearest limit, infinite where it diverged."""
+    runs, shares = evidence.response, [np.zeros(evidence.response.sizes["speed"])]
+    if requirements.above_yield is not None and "max_von_mises_median" in runs:
+        shares.append((runs["max_von_mises_median"] / runs["yield_stress"]).values)
+    if requirements.goodman_share is not None and "goodman_share" in runs:
+        shares.append(runs["goodman_share"].values / requirements.goodman_share)
+    if requirements.used_lining is not None and "used_thickness" in runs:
+        shares.append(runs["used_thickness"].values / evidence.thickness / requirements.used_lining)
+    return np.where(evidence.diverged, np.inf, np.nan_to_num(np.max(shares, axis=0)))
+
+
+def _row(requirement: str, unit: str, limit: float, columns: Columns, *, is_lower_limit: bool = False) -> dict[str, Any]:
     """The row of a requirement, by the columns that are known."""
     value = columns.get("value", np.nan)
     margin = value - limit if is_lower_limit else limit - value
@@ -114,28 +116,111 @@ def _judged(requirement: str, unit: str, limit: float, columns: Columns, *, is_l
     return dict.fromkeys(COLUMNS, np.nan) | row | columns
 
 
+def _margin(columns: Columns, limit: float) -> float:
+    """Distance of a value below its upper limit; minus infinity where the columns say that it fails, NaN if not known."""
+    if columns.get("verdict") == FAILS:
+        return -np.inf
+    return limit - float(columns.get("value", np.nan))
+
+
+def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evidence) -> dict[str, Any]:
+    """The row of a requirement on runs: it meets where all that was tried does, and fails where none of it meets."""
+    unit, factor, columns_of = _OF_RUNS[requirement]
+    limit, only = factor * getattr(requirements, requirement), Requirements(**{requirement: getattr(requirements, requirement)})
+    motions = _motions(evidence)
+    if REST in evidence.looks:
+        evidence = evidence.of(evidence.looks[REST])
+    columns = columns_of(evidence)
+    row = _row(requirement, unit, limit, columns) | _members(columns_of, limit, evidence)
+    if "verdict" in columns or np.isnan(row["value"]):
+        return row
+    tried = {name: columns_of(other) for name, other in _tried(evidence).items()} | {
+        name: columns_of(evidence.of(runs)) for name, runs in motions.items()
+    }
+    margins = {name: margin for name, each in tried.items() if not np.isnan(margin := _margin(each, limit))}
+    values = [value for each in (columns, *tried.values()) if np.isfinite(value := each.get("value", np.nan))]
+    scatter = columns.get("scatter", np.nan)
+    if scatter > 0.0:
+        margins |= {"by chance": limit - row["value"] - np.copysign(_CHANCE * scatter, limit - row["value"])}
+    row |= {"value_lowest": min(values), "value_highest": max(values)}
+    row["margin_worst_motion"] = min((margins[name] for name in motions if name in margins), default=np.nan)
+    growing = evidence.growing(nearness(only, evidence) >= NEAR)
+    doubts = _doubts(row, margins, evidence, growing)
+    if doubts:
+        notes = [*doubts, *filter(None, [row["note"]])]
+        row |= {"verdict": UNKNOWN, "note": "; ".join(notes)}
+    return row
+
+
+def _doubts(row: dict[str, Any], margins: dict[str, float], evidence: Evidence, growing: str) -> list[str]:
+    """Reasons why a verdict by the main runs alone is not sure; of a failed one, only what meets the limit."""
+    unit = "" if row["unit"] == "1" else f" {row['unit']}"
+    if row["verdict"] == FAILS:
+        kept = [name for name, margin in margins.items() if margin >= 0.0]
+        return [f"meets {' and '.join(kept)}"] if kept else []
+    failed = [(name, margin) for name, margin in margins.items() if margin < 0.0]
+    how = [f"fails {name}" + (f" by {-margin:.3g}{unit}" if np.isfinite(margin) else "") for name, margin in failed]
+    return [*how, *filter(None, [evidence.not_looked, evidence.too_coarse, growing])]
+
+
+def _tried(evidence: Evidence) -> dict[str, Evidence]:
+    """Runs with another friction or step, and stress and wear larger and smaller by the error of mesh and step."""
+    chance = (MORE_FRICTION, LESS_FRICTION, HALF_STEP)
+    tried = {
+        f"with {name}": evidence.of(overlaid(evidence.response, evidence.looks[name]))
+        for name in chance
+        if name in evidence.looks
+    }
+    if evidence.error:
+        percent = f"{100.0 * evidence.error:.2g}%"
+        tried[f"with {percent} more"] = evidence.scaled(1.0 + evidence.error)
+        tried[f"with {percent} less"] = evidence.scaled(1.0 / (1.0 + evidence.error))
+    return tried
+
+
+def _motions(evidence: Evidence) -> dict[str, xr.Dataset]:
+    """Motions other than that from rest."""
+    motions = {name: evidence.looks[name] for name in _OTHER_MOTIONS if name in evidence.looks}
+    if evidence.motions is not None:
+        motions["in the worst motion"] = worst_of(swept(evidence.motions))
+    return motions
+
+
+def _members(columns_of: Callable[[Evidence], Columns], limit: float, evidence: Evidence) -> Columns:
+    """Members under tolerances, and the share of them that keeps the limit."""
+    if evidence.members is None:
+        return {}
+    margins = []
+    for name in evidence.members["member"].values:
+        member = evidence.members.sel(member=name)
+        member = member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN))
+        if member.sizes["speed"]:
+            margins.append(_margin(columns_of(evidence.of(member)), limit))
+    known = np.array([margin for margin in margins if not np.isnan(margin)])
+    return {"members": float(known.size), "share_of_members": float(np.mean(known >= 0.0))} if known.size else {}
+
+
 def _worst_at(value: float, speed: float, note: str = "") -> Columns:
     """A value that is worst at one speed (rad/s)."""
     return {"value": value, "from_rad_s": speed, "to_rad_s": speed, "note": note}
 
 
-def _above_yield(evidence: Evidence, limit: float) -> Columns:
-    operating = evidence.operating
-    if "share_of_revolutions_above_yield" not in evidence.response:
+def _above_yield(evidence: Evidence) -> Columns:
+    operating, response = evidence.operating, evidence.response
+    if "share_of_revolutions_above_yield" not in response:
         return {"note": "stress is not computed"}
     if evidence.not_covered:
         return {"note": evidence.not_covered}
-    exceedance = exceedance_of(evidence.response)
+    exceedance = exceedance_of(response)
     inside = [part for part in exceedance.ranges(CERTAIN) if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
+    notes = [evidence.divergence, "" if _has_rotation(response) else "stress of vibration alone"]
     return {
         "value": operating.length(inside),
         "from_rad_s": max(widest.begin, operating.first),
         "to_rad_s": min(widest.end, operating.last),
-        "scatter": _scatter(exceedance, operating),
-        "margin_worst_motion": _worst_motion(limit, evidence),
-        "note": "" if _has_rotation(evidence.response) else "stress of vibration alone",
-        **_members(limit, evidence),
+        "scatter": scatter_of_length(response, operating, CERTAIN),
+        "note": "; ".join(filter(None, notes)),
     }
 
 
@@ -144,7 +229,7 @@ def _has_rotation(response: xr.Dataset) -> bool:
     return "static_stress" in response and bool(response["static_stress"] > 0.0)
 
 
-def _goodman_share(evidence: Evidence, _: float) -> Columns:
+def _goodman_share(evidence: Evidence) -> Columns:
     if "goodman_share" not in evidence.response:
         return {"note": "fatigue is not computed"}
     if not has_strengths(evidence.response):
@@ -152,65 +237,40 @@ def _goodman_share(evidence: Evidence, _: float) -> Columns:
     if evidence.not_covered:
         return {"note": evidence.not_covered}
     share, speed = evidence.worst(np.where(evidence.diverged, np.inf, evidence.response["goodman_share"].values))
-    return _worst_at(share, speed, "a run diverged" if np.isinf(share) else "")
+    return _worst_at(share, speed) if np.isfinite(share) else _no_number(speed, evidence.divergence)
 
 
-def _scatter(exceedance: Exceedance, operating: OperatingRange) -> float:
-    """Standard deviation by chance of the length above yield in operation; NaN where there is none."""
-    if not exceedance.chance:
-        return np.nan
-    scatter = np.std([operating.length(ranges) for ranges in exceedance.ranges_drawn[CERTAIN]])
-    # of equal lengths what rounding leaves
-    return float(scatter.round(9))
+def _no_number(speed: float, note: str) -> Columns:
+    """A requirement that fails at a speed (rad/s) without a number to say by how much."""
+    return {"verdict": FAILS, **_worst_at(np.nan, speed, note)}
 
 
-def _members(limit: float, evidence: Evidence) -> Columns:
-    """Members under tolerances, and the share of them whose speeds above yield keep the limit."""
-    if evidence.members is None or "share_of_revolutions_above_yield" not in evidence.members:
-        return {}
-    lengths = []
-    for name in evidence.members["member"].values:
-        member = evidence.members.sel(member=name)
-        if (member["status"] != RunStatus.NOT_RUN).any():
-            member = member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN))
-            lengths.append(evidence.operating.length(exceedance_of(member).ranges(CERTAIN)))
-    kept = np.array(lengths) <= limit
-    return {"members": float(kept.size), "share_of_members": float(kept.mean())} if lengths else {}
-
-
-def _worst_motion(limit: float, evidence: Evidence) -> float:
-    """Margin of the length above yield by the worst motion at each speed; NaN where the sweeps do not cover the range."""
-    if evidence.motions is None or "share_of_revolutions_above_yield" not in evidence.motions:
-        return np.nan
-    pair = swept(evidence.motions)
-    if not evidence.operating.is_covered(pair["speed"].values):
-        return np.nan
-    return limit - evidence.operating.length(worst_exceedance(pair).ranges(CERTAIN))
-
-
-def _used_lining(evidence: Evidence, _: float) -> Columns:
+def _used_lining(evidence: Evidence) -> Columns:
     response = evidence.response
     if not np.isfinite(evidence.thickness):
-        return {"value": 0.0, "note": "no lining"}
+        return {"verdict": NOT_APPLICABLE, "note": "no lining"}
     if "used_thickness" not in response:
         return {"note": "wear is not computed"}
     if evidence.not_covered:
         return {"note": evidence.not_covered}
     # what is worn through has used all, and would use more
-    through = response["worn_through_share"].values > 0.0
+    through = (
+        response["worn_through_share"].values > 0.0 if "worn_through_share" in response else np.zeros_like(evidence.diverged)
+    )
     used = 100.0 * np.nan_to_num(response["used_thickness"].values) / evidence.thickness
     value, speed = evidence.worst(np.where(through | evidence.diverged, np.inf, used))
-    note = ""
     if np.isinf(value):
-        note = "worn through to the casing" if evidence.worst(through.astype(float))[0] > 0.0 else "a run diverged"
-    elif "motion_at_end" in response:
+        worn = evidence.worst(through.astype(float))[0] > 0.0
+        return _no_number(speed, "worn through to the casing" if worn else evidence.divergence)
+    note = ""
+    if "motion_at_end" in response:
         nearest = int(np.abs(response["speed"].values - speed).argmin())
         if response["motion_at_end"][nearest] == MotionAtEnd.GROWING:
             note = "wear still grows at the end: a lower bound"
     return _worst_at(value, np.nan if value == 0.0 else speed, note)
 
 
-def _clearance(evidence: Evidence, _: float) -> Columns:
+def _clearance(evidence: Evidence) -> Columns:
     if "clearance" not in evidence.response or evidence.response["clearance"].isnull().all():
         return {"value": 1e3 * evidence.clearance}
     if evidence.not_covered:
@@ -219,18 +279,20 @@ def _clearance(evidence: Evidence, _: float) -> Columns:
     return _worst_at(-loss, speed)
 
 
-def _mass(evidence: Evidence, _: float) -> Columns:
+def _mass(evidence: Evidence) -> Columns:
     return {"value": evidence.mass, "note": "" if np.isfinite(evidence.mass) else "matrices do not say it"}
 
 
-_NUMBERS: dict[str, tuple[str, float, Callable[[Evidence, float], Columns]]] = {
+_Numbers = dict[str, tuple[str, float, Callable[[Evidence], Columns]]]
+"""Requirement -> unit of its row, factor to it from that of the limit, and its columns."""
+
+_OF_RUNS: _Numbers = {
     "above_yield": ("rad/s", 1.0, _above_yield),
     "goodman_share": ("1", 1.0, _goodman_share),
     "used_lining": ("%", 100.0, _used_lining),
-    "clearance": ("mm", 1e3, _clearance),
-    "mass": ("kg", 1.0, _mass),
 }
-"""Requirement -> unit of its row, factor to it from that of the limit, and its columns for a limit."""
+
+_OF_BLADE: _Numbers = {"clearance": ("mm", 1e3, _clearance), "mass": ("kg", 1.0, _mass)}
 
 
 def distance_from_operation(crossing: float, operating: OperatingRange) -> float:

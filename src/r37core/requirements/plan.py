@@ -1,6 +1,8 @@
 """requirements of config.yaml, and their plan: what is judged, by what, and where it lies."""
 
 from dataclasses import dataclass
+from functools import cached_property
+from math import nan
 from typing import Any
 
 from pydantic import Field
@@ -10,12 +12,16 @@ from r37core.config import Settings, operating_range
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import ExtensionSection, Section
+from r37core.config.speed_choice import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Panel
-from r37core.plans.sweep_plan import Sweep
+from r37core.plans.provenance import Provenance
+from r37core.plans.stages import Stage
+from r37core.plans.sweep_plan import Simulations, Sweep
 from r37core.rom.naming import mode_names
+from r37core.rom.reduction_choice import POINTS
 
-from .choice import CampbellMargin, Requirements
+from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements
 
 
 @declared_by(CampbellMargin)
@@ -43,7 +49,10 @@ SECTION: ExtensionSection[RequirementsSection] = ExtensionSection(
     Field(default=RequirementsSection(), description="Requirements in operation, by which each blade and scene is judged"),
 )
 
-VERDICT = "<results>/verdict.csv"
+VERDICT, LOOKS = "<results>/verdict.csv", "<results>/{blade}/{scene}/looks.nc"
+
+MOST_SECONDS = 600.0
+"""CPU time (s) that the runs from rest of a verdict may take, where they are as long as they may be."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +65,59 @@ class Judged:
     def requirements(self) -> dict[str, Any]:
         """The requirements, as plain values."""
         return to_plain(self.sweep.settings.section(SECTION).requirements())
+
+    @cached_property
+    def not_looked(self) -> dict[str, str]:
+        """Reason why no further runs of a scene are done, where that is so."""
+        settings = self.sweep.settings
+        if settings.structure.coriolis:
+            return dict.fromkeys(settings.scenes, "no further runs with Coriolis forces")
+        reasons = {name: "no further runs of a rotor" for name, chosen in settings.scenes.items() if chosen.scene.rotor}
+        operating = operating_range(settings)
+        if operating is None:
+            return reasons
+        for name in settings.scenes.keys() - reasons.keys():
+            run = length_of_run(settings, name, operating.last, LONGEST)
+            if run.cpu_time * (operating.last - operating.first) / STEP > MOST_SECONDS:
+                reasons[name] = f"no further runs, which take too long with steps of {run.time_step:g} s"
+        return reasons
+
+    @cached_property
+    def looked(self) -> list[tuple[str, str]]:
+        """Pairs of blade and scene of which further runs may be needed: their runs are judged, and cover the range."""
+        settings = self.sweep.settings
+        operating, requirements = operating_range(settings), settings.section(SECTION).requirements()
+        if operating is None or not requirements.of_runs:
+            return []
+        short = pairs_not_covered(settings, operating)
+        pairs = self.sweep.runs_with("rms")
+        return [pair for pair in pairs if pair not in short and pair[1] not in self.not_looked]
+
+    @property
+    def errors(self) -> list[float]:
+        """Relative error of the level, by mesh and step, of each blade and scene; 0 where it was not measured."""
+        settings, measured = self.sweep.settings, self.sweep.settings.fidelity.measured
+        bare = {name for name, chosen in settings.scenes.items() if chosen.scene.lining is None}
+        of_points = [(scene in bare and settings.contact_of(blade) == POINTS) for blade, scene in self.sweep.runs_with("rms")]
+        return [(measured and measured.error_of(points)) or 0.0 for points in of_points]
+
+    def looks(self, made: Provenance) -> Stage:
+        """The stage of the further runs of a blade and scene."""
+        simulations, settings = Simulations(self.sweep), self.sweep.settings
+        params = {
+            "scene": simulations.plain_scene,
+            # of a run from rest: those of the pipeline
+            "choice": lambda of: to_plain(settings.integration_choice(of.blade, of.scene, 0.0)),
+            "results": lambda of: [each for each in self.sweep.results(of) if each in RESULTS],
+            "kept": self.sweep.kept,
+            "yield_stress": self.sweep.yield_stress,
+            "strengths": self.sweep.strengths,
+            "requirements": self.requirements,
+            "operating": to_plain(operating_range(settings)),
+            "thickness": lambda of: self.thickness.get(of.scene, nan),
+            "provenance": made.sweep,
+        }
+        return Stage("requirements.steps.look", params)
 
     @property
     def volumes(self) -> list[str]:

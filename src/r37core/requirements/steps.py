@@ -1,32 +1,68 @@
-"""The steps of requirements: what lies in the operating range, and the verdict."""
+"""The steps of requirements: further runs, what lies in the operating range, and the verdict."""
 
 from typing import Any
 
-from r37core.base.dataset_file import read_dataset
+from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
+from r37core.contact.scene import Scene
 from r37core.fem.assembly import mesh_volume
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table, write_table
+from r37core.rom.contact_model import read_contact_model
+from r37core.stress.operator import read_stress_operator
+from r37core.stress.statistic import Strengths
+from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import Requirements
-from .table import operating_table, verdict_table
+from .evidence import Evidence, judged_part
+from .looks import JudgedBlade, joined_looks, looks_in, looks_of
+from .table import Sureness, operating_table, verdict_table
+
+
+def look(input: Any, output: Any, params: Any) -> None:
+    """Run what could overturn the verdict on one blade and scene. Inputs: response, model, and stress. Output: looks (nc).
+
+    Params: scene, choice, results, kept, yield_stress, strengths, requirements, operating, thickness, provenance.
+    """
+    blade = JudgedBlade(
+        read_contact_model(input.model),
+        from_plain(Scene, params.scene),
+        from_plain(IntegrationChoice, params.choice),
+        params.results,
+        params.kept,
+        params.yield_stress,
+        from_plain(Strengths, params.strengths),
+        read_stress_operator(input.stress) if hasattr(input, "stress") else None,
+    )
+    evidence = Evidence(
+        judged_part(read_dataset(input.response)),
+        operating=from_plain(OperatingRange, params.operating),
+        thickness=params.thickness,
+    )
+    looks = looks_of(blade, from_plain(Requirements, params.requirements), evidence)
+    write_dataset(joined_looks(dict(looks)), output.looks, params.provenance)
 
 
 def judge(input: Any, output: Any, params: Any) -> None:
     """Judge each blade and scene. Output: verdict (csv).
 
-    Inputs: datasets by kind, volumes (geometry or mesh of each blade with a density); if there, members and motions. Params:
-    pairs, requirements, operating, densities, clearance and thickness by scene.
+    Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members and
+    motions. Params: pairs, looked (those of them with looks), not_looked (why others have none), requirements, operating,
+    densities, clearance and thickness by scene, errors (of each pair).
     """
     files = dict(input.items())
     shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)
     masses = {blade: density * _volume(file) for (blade, density), file in shapes}
+    looked = zip(map(tuple, params.looked), as_list(files.pop("looks", [])), strict=True)
+    looks = {pair: looks_in(read_dataset(file)) for pair, file in looked}
     numbers = {"clearance": params.clearance, "thickness": params.thickness, "mass": masses}
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
-    write_table(verdict_table(params.pairs, requirements, operating, datasets, numbers), output.verdict, digits=6)
+    pairs = [(blade, scene) for blade, scene in params.pairs]
+    sureness = Sureness(looks, params.not_looked, dict(zip(pairs, params.errors, strict=True)))
+    write_table(verdict_table(pairs, requirements, operating, datasets, numbers, sureness), output.verdict, digits=6)
 
 
 def _volume(file: str) -> float:

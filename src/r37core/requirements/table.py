@@ -1,6 +1,7 @@
 """verdict.csv and operating.csv: what each blade keeps in operation, and what lies inside the operating range."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,19 @@ from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table
 
 from .choice import Requirements
-from .judging import COLUMNS, FAILS, MEETS, UNKNOWN, VERDICTS, Evidence, distance_from_operation, judge
+from .evidence import Evidence
+from .judging import (
+    COLUMNS,
+    FAILS,
+    MEETS,
+    NOT_APPLICABLE,
+    REST,
+    UNKNOWN,
+    VERDICTS,
+    distance_from_operation,
+    fails_clearly,
+    judge,
+)
 
 CROSSING, INTERACTION, ABOVE_YIELD = "crossing", "interaction", "above_yield"
 """Kinds of what lies in the operating range."""
@@ -36,12 +49,25 @@ OPERATING_COLUMNS = (
 """Columns of operating.csv."""
 
 
+@dataclass(frozen=True)
+class Sureness:
+    """Certainty of what is judged: `looks` of each blade and scene (requirements.looks), and why scenes have none.
+
+    `errors`: relative error of stress and wear by mesh and step, of each blade and scene where it is known.
+    """
+
+    looks: Mapping[tuple[str, str], Mapping[str, xr.Dataset]] = field(default_factory=dict)
+    not_looked: Mapping[str, str] = field(default_factory=dict)
+    errors: Mapping[tuple[str, str], float] = field(default_factory=dict)
+
+
 def verdict_table(
     pairs: Sequence[tuple[str, str]],
     requirements: Requirements,
     operating: OperatingRange,
     datasets: Mapping[str, xr.Dataset],
     numbers: Mapping[str, Mapping[str, float]],
+    sureness: Sureness,
 ) -> pd.DataFrame:
     """A row for each requirement of each of the `pairs` of blade and scene: COLUMNS.
 
@@ -52,12 +78,14 @@ def verdict_table(
     for blade, scene in pairs:
         more: dict[str, Any] = {name: _part(datasets.get(name), blade, scene) for name in ("members", "motions")}
         more |= {name: known.get(blade if name == "mass" else scene, np.nan) for name, known in numbers.items()}
+        response, campbell = response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade)
         evidence = Evidence(
-            response_of(datasets, blade, scene),
-            datasets["campbell"].sel(blade=blade),
-            operating,
-            **more,
+            response, campbell=campbell, operating=operating, error=sureness.errors.get((blade, scene), 0.0), **more
         )
+        looks = sureness.looks.get((blade, scene), {})
+        failed = fails_clearly(requirements, evidence.of(looks[REST]) if REST in looks else evidence)
+        reason = f"no further runs, as {failed[0]} fails" if failed else sureness.not_looked.get(scene, "")
+        evidence = replace(evidence, looks=looks, not_looked=reason)
         rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
     return pd.DataFrame(rows, columns=["blade", "scene", *COLUMNS])
 
@@ -111,17 +139,17 @@ def _inside(begin: float, end: float, operating: OperatingRange) -> tuple[float,
 
 
 def overall(verdict: pd.DataFrame) -> pd.DataFrame:
-    """One row for each blade and scene: `verdict`, the worst of its requirements, and `reason`, what fails or is not known."""
+    """One row for each blade and scene: `verdict`, the worst of its requirements, and `reason`, what fails or is not sure."""
     rows = []
     for (blade, scene), part in verdict.groupby(["blade", "scene"], sort=False):
-        worst = next((kind for kind in (FAILS, UNKNOWN) if (part["verdict"] == kind).any()), MEETS)
-        reasons = [reason(row) for _, row in part[part["verdict"] == worst].iterrows()] if worst != MEETS else []
+        worst = next(kind for kind in (FAILS, UNKNOWN, MEETS, NOT_APPLICABLE) if (part["verdict"] == kind).any())
+        reasons = [reason(row) for _, row in part[part["verdict"] == worst].iterrows()] if worst in (FAILS, UNKNOWN) else []
         rows.append((blade, scene, worst, "; ".join(reasons)))
     return pd.DataFrame(rows, columns=["blade", "scene", "verdict", "reason"])
 
 
 def reason(row: pd.Series) -> str:
-    """Why a requirement fails or is not known: what, by how much, where, and how certain that is."""
+    """Why a requirement fails or cannot be told: what, by how much, where, and how certain that is."""
     if row["verdict"] == UNKNOWN:
         return f"{row['requirement']}: {row['note']}"
     excess = f"by {-row['margin']:.3g}{_unit(row)}" if np.isfinite(row["margin"]) else str(row["note"])
@@ -133,14 +161,14 @@ def reason(row: pd.Series) -> str:
 
 
 def certainty(row: pd.Series) -> str:
-    """Certainty of a verdict by chance, tolerances and other motions, and what its number leaves out; or an empty text."""
+    """Certainty of a verdict by all that was tried and by tolerances, and what its number leaves out; or an empty text."""
     texts = [str(row["note"])] if pd.notna(row["note"]) and row["note"] and np.isfinite(row["margin"]) else []
+    if row["value_lowest"] < row["value_highest"]:
+        texts.append(f"{row['value_lowest']:.3g} to {row['value_highest']:.3g}{_unit(row)} in all that was tried")
     if row["scatter"] > 0.0:
         texts.append(f"scatter {row['scatter']:.2g}{_unit(row)}")
     if pd.notna(row["share_of_members"]):
         texts.append(f"{100.0 * row['share_of_members']:.0f}% of {row['members']:.0f} members meet it")
-    if pd.notna(row["margin_worst_motion"]):
-        texts.append(f"the worst motion {'meets' if row['margin_worst_motion'] >= 0.0 else 'fails'}")
     return f" ({', '.join(texts)})" if texts else ""
 
 
@@ -193,7 +221,7 @@ def closing(results: Path) -> str:
     named = f": {', '.join(good[:_MOST_LINES])}{more}" if good else ""
     unknown = int((judged["verdict"] == UNKNOWN).sum())
     text = f"{len(good)} of {counted(len(judged), 'pair')} of blade and scene meet all requirements{named}"
-    return f"{text}; {unknown} are not known" if unknown else text
+    return f"{text}; of {unknown} one cannot tell" if unknown else text
 
 
 def _is_judged(results: Path) -> bool:

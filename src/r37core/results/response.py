@@ -39,7 +39,7 @@ def write_response(
         runs = list(zip(speeds, files, strict=True))
         for first in range(0, len(runs), _BLOCK):
             block = slice(first, first + _BLOCK)
-            rows = {speed: _row(read_speed(file), yield_stress, strengths) for speed, file in runs[block]}
+            rows = {speed: run_row(read_speed(file), yield_stress, strengths) for speed, file in runs[block]}
             values = next(iter(rows.values()))
             if first == 0:
                 _create(dataset, speeds, values, history_speeds)
@@ -52,7 +52,7 @@ def write_response(
                 dataset["first_yield_revolution"][number] = first_yield(history, yield_stress)
 
 
-def _row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Strengths) -> dict[str, np.ndarray]:
+def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Strengths) -> dict[str, np.ndarray]:
     """The variables of one speed, and the coordinates that they need."""
     values = {**run, "casing_cone_angle": run["cone_angle"]}
     for kind in ("rms", "peak"):

@@ -1,0 +1,168 @@
+"""Evidence that a requirement is judged by: results of one blade in one scene, and how they change with what is not sure."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Self
+
+import numpy as np
+import xarray as xr
+
+from r37core.results.exceedance import exceedance_of, is_lined
+from r37core.results.operating_range import OperatingRange
+from r37core.time_integration.settling import MotionAtEnd
+from r37core.time_integration.status import RunStatus
+
+from .choice import WIDTH
+
+JUDGED = (
+    "status",
+    "diverged_revolution",
+    "motion_at_end",
+    "share_of_revolutions_above_yield",
+    "max_von_mises_median",
+    "goodman_share",
+    "used_thickness",
+    "worn_through_share",
+)
+"""Variables over the speeds that requirements are judged by."""
+
+OF_ALL = ("lined", "yield_stress", "static_stress", "fatigue_strength")
+"""Variables that are the same at all speeds."""
+
+_ROUNDING = 1e-6
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """Results of one blade in one scene. `response`: rms with stress and wear, if computed; `campbell`: of the blade.
+
+    `members`, `motions`: parts of the datasets of members under tolerances and of more motions. `looks`: further runs, see
+    requirements.looks, each a response of JUDGED; none where none were done, for the reason in `not_looked`. `clearance` (m):
+    of a casing whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); NaN each where not
+    known. `error`: relative error of stress and wear by mesh and step.
+    """
+
+    response: xr.Dataset
+    campbell: xr.Dataset = field(default_factory=xr.Dataset, kw_only=True)
+    operating: OperatingRange = field(kw_only=True)
+    members: xr.Dataset | None = None
+    motions: xr.Dataset | None = None
+    looks: Mapping[str, xr.Dataset] = field(default_factory=dict)
+    not_looked: str = ""
+    clearance: float = np.nan
+    thickness: float = np.nan
+    mass: float = np.nan
+    error: float = 0.0
+
+    def of(self, response: xr.Dataset) -> Self:
+        """The same of other runs."""
+        return replace(self, response=response)
+
+    @property
+    def speeds(self) -> np.ndarray:
+        """Speeds (rad/s) that were run."""
+        return self.response["speed"].values[self.response["status"].values != RunStatus.NOT_RUN]
+
+    @property
+    def not_covered(self) -> str:
+        """Why nothing can be said of the operating range; empty where its speeds are run."""
+        first, last = self.operating.first, self.operating.last
+        return "" if self.operating.is_covered(self.speeds) else f"speeds are not run from {first:.6g} to {last:.6g} rad/s"
+
+    @property
+    def gap(self) -> float:
+        """Largest distance (rad/s) of neighbouring speeds in the operating range."""
+        speeds = self.speeds
+        overlap = np.minimum(speeds[1:], self.operating.last) - np.maximum(speeds[:-1], self.operating.first)
+        return float(np.max(np.diff(speeds), where=overlap > 0.0, initial=0.0))
+
+    @property
+    def too_coarse(self) -> str:
+        """Why an interaction may be hidden between speeds; empty where none can."""
+        narrow = self.gap <= WIDTH * (1.0 + _ROUNDING)
+        return "" if narrow else f"speeds lie up to {self.gap:.3g} rad/s apart, and an interaction may be {WIDTH:g} wide"
+
+    @property
+    def in_operation(self) -> xr.Dataset:
+        """The runs in the operating range."""
+        speeds = self.response["speed"]
+        return self.response.isel(speed=np.flatnonzero((speeds >= self.operating.first) & (speeds <= self.operating.last)))
+
+    def growing(self, near: np.ndarray) -> str:
+        """Where a motion still grows as its run ends, of runs `near` a limit, shape (speeds,); empty where none does."""
+        if "motion_at_end" not in self.response:
+            return ""
+        speeds = self.response["speed"].values
+        grows = near & (self.response["motion_at_end"].values == MotionAtEnd.GROWING)
+        speeds = speeds[grows & (speeds >= self.operating.first) & (speeds <= self.operating.last)]
+        return f"the motion still grows as the run ends, at {speeds[0]:.5g} rad/s" if len(speeds) else ""
+
+    @property
+    def divergence(self) -> str:
+        """How many runs in operation diverged, and when; empty where none did."""
+        runs = self.in_operation
+        ended = runs.isel(speed=np.flatnonzero(runs["status"].values == RunStatus.DIVERGED))
+        if not ended.sizes["speed"]:
+            return ""
+        count, of_all = ended.sizes["speed"], runs.sizes["speed"]
+        many = "every run" if count == of_all else f"{count} of {of_all} runs"
+        if "diverged_revolution" not in ended:
+            return f"{many} diverged"
+        return f"{many} diverged, the first at revolution {float(ended['diverged_revolution'].min()):.3g}"
+
+    @property
+    def diverged(self) -> np.ndarray:
+        """Runs that diverged: true or false, shape (speeds,)."""
+        return self.response["status"].values == RunStatus.DIVERGED
+
+    def worst(self, values: np.ndarray) -> tuple[float, float]:
+        """Largest value in the operating range, and its speed (rad/s); between runs values are a straight line.
+
+        `values`, shape (speeds,), of all runs: where one is infinite, so is everything up to the next runs.
+        """
+        speeds, infinite = self.response["speed"].values, np.isinf(values)
+        ends = (self.operating.first, self.operating.last)
+        places = np.unique([*ends, *speeds[(speeds > ends[0]) & (speeds < ends[1])]])
+        inside = np.interp(places, speeds, np.where(infinite, 0.0, values))
+        inside = np.where(np.interp(places, speeds, infinite.astype(float)) > 0.0, np.inf, inside)
+        place = int(inside.argmax())
+        return float(inside[place]), float(places[place])
+
+    def scaled(self, factor: float) -> Self:
+        """The same with stress, share of the Goodman line and used lining times a `factor`."""
+        runs = self.response
+        scale = ("max_von_mises_median", "goodman_share", "used_thickness")
+        changed = {name: factor * runs[name] for name in scale if name in runs}
+        if "max_von_mises_median" in changed:
+            share, above = runs["share_of_revolutions_above_yield"], changed["max_von_mises_median"] > runs["yield_stress"]
+            # the share itself is that of yield, so only which side of it most revolutions lie on is known
+            changed["share_of_revolutions_above_yield"] = xr.where(above, np.maximum(share, 1.0), np.minimum(share, 0.0))
+        return self.of(runs.assign(changed))
+
+
+def judged_part(response: xr.Dataset) -> xr.Dataset:
+    """The variables of a response that requirements are judged by."""
+    return response[[name for name in (*JUDGED, *OF_ALL) if name in response]].reset_coords(drop=True)
+
+
+def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
+    """Runs `below` with those of `above` in place of them where these are, over the speeds of both."""
+    kept = below.isel(speed=np.flatnonzero(~np.isin(below["speed"].values, above["speed"].values)))
+    over_speeds = [str(name) for name in above.data_vars if "speed" in above[name].dims]
+    joined = xr.concat([kept[over_speeds], above[over_speeds]], "speed").sortby("speed")
+    return joined.assign({name: above[name] for name in OF_ALL if name in above})
+
+
+def worst_of(motions: xr.Dataset) -> xr.Dataset:
+    """Response whose stress and wear are the largest of all motions, of a dataset over (motion, speed)."""
+    kept = motions[[name for name in (*JUDGED, *OF_ALL) if name in motions]].reset_coords(drop=True)
+    return kept.max("motion") if "motion" in kept.dims else kept
+
+
+def scatter_of_length(response: xr.Dataset, operating: OperatingRange, share: float) -> float:
+    """Standard deviation by chance of the length (rad/s) above yield in operation; NaN on a lining, where there is none."""
+    if is_lined(response):
+        return np.nan
+    drawn = exceedance_of(response).ranges_drawn[share]
+    # of equal lengths what rounding leaves
+    return float(np.std([operating.length(ranges) for ranges in drawn]).round(9))

@@ -1,0 +1,170 @@
+"""Further runs that a verdict waits for: those that could overturn what the sweep's own runs say.
+
+From rest until the motion has settled, also between the sweep's speeds; carried up and down; with a little more and less
+friction; with half the step. A requirement that the sweep's runs fail clearly needs none.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from r37core.base.dataset_file import dataset_of
+from r37core.contact.scene import Scene
+from r37core.results.response import run_row
+from r37core.results.variables import AXES, OF_ALL_SPEEDS, VARIABLES
+from r37core.rom.contact_model import ContactModel
+from r37core.stress.operator import StressOperator
+from r37core.stress.statistic import Strengths
+from r37core.time_integration.carrying import CarriedMotion, resolved_problem
+from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import numbers_of_run
+
+from .choice import LONGEST, STEP, WIDTH, Requirements
+from .evidence import JUDGED, OF_ALL, Evidence, overlaid
+from .judging import DOWN, HALF_STEP, LESS_FRICTION, MORE_FRICTION, NEAR, REST, UP, fails_clearly, nearness
+
+CARRIED_STEP, CARRIED_REVOLUTIONS = WIDTH, 100
+"""Step (rad/s) between the speeds that a motion is carried through, and revolutions at each."""
+
+_PEAK_STEP = 0.7
+"""Step (rad/s) between runs about a peak that comes near to the limit."""
+
+_MOST_NEAR = 24
+"""Speeds, those nearest to the limit, that are run with another friction and step."""
+
+_FRICTION = 0.01
+"""Relative change of the friction."""
+
+
+@dataclass(frozen=True, eq=False)
+class JudgedBlade:
+    """A blade's `model` in a `scene`: time integration, `results` and `kept` as run_speed takes them, and its material.
+
+    `yield_stress` (Pa); `stress`: operator, where stress is among the results.
+    """
+
+    model: ContactModel
+    scene: Scene
+    choice: IntegrationChoice
+    results: Sequence[str]
+    kept: Mapping[str, Any]
+    yield_stress: float
+    strengths: Strengths
+    stress: StressOperator | None = None
+
+    @cached_property
+    def long_choice(self) -> IntegrationChoice:
+        """Time integration of a run that ends as it has settled."""
+        choice = replace(self.choice, revolutions=max(self.choice.revolutions, LONGEST), until_settled=True)
+        return self._recorded(choice)
+
+    @cached_property
+    def rising_scene(self) -> Scene:
+        """The scene with lobes that grow as in the sweep's runs, however long a run is."""
+        casing = self.scene.casing
+        if casing.rise_revolutions is None:
+            casing = replace(casing, rise_revolutions=casing.rise_fraction * self.choice.length_of_rise_fraction)
+        return replace(self.scene, casing=casing)
+
+    def from_rest(self, speeds: Iterable[float], scene: Scene | None = None, step: float = 1.0) -> xr.Dataset:
+        """Runs from rest at speeds (rad/s), in another scene if it is given, with a share of the time `step`."""
+        choice = replace(self.long_choice, time_step=step * self.long_choice.time_step)
+        return self._dataset({speed: self._numbers(speed, scene or self.rising_scene, choice) for speed in speeds})
+
+    def carried(self, speeds: Sequence[float]) -> xr.Dataset:
+        """The motion carried on from each speed (rad/s) to the next in an unworn lining, from rest at the first one."""
+        step = resolved_problem(self.model, max(speeds), self.scene, self.choice).choice.time_step
+        choice = self._recorded(replace(self.choice, time_step=step, revolutions=CARRIED_REVOLUTIONS, until_settled=False))
+        grown = replace(self.scene, casing=replace(self.scene.casing, rise_fraction=0.0, rise_revolutions=None))
+        rows: dict[float, dict[str, Any]] = {}
+        motion: CarriedMotion | None = None
+        for speed in speeds:
+            run = Simulation(self.model, speed, grown, choice).run(motion)
+            motion = None if run.first_diverged is not None else CarriedMotion.ended(run.problem, run.states[0])
+            rows[speed] = self._row(numbers_of_run(run, self.results, stress=self.stress, **self.kept))
+        return self._dataset(rows)
+
+    def _recorded(self, choice: IntegrationChoice) -> IntegrationChoice:
+        stress = choice.snapshots_per_revolution > 0
+        return replace(choice, snapshot_revolutions=choice.revolutions_in_statistic if stress else 0)
+
+    def _numbers(self, speed: float, scene: Scene, choice: IntegrationChoice) -> dict[str, Any]:
+        run = Simulation(self.model, speed, scene, choice).run()
+        return self._row(numbers_of_run(run, self.results, stress=self.stress, **self.kept))
+
+    def _row(self, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
+        return run_row(numbers, self.yield_stress, self.strengths)
+
+    def _dataset(self, rows: Mapping[float, Mapping[str, Any]]) -> xr.Dataset:
+        """Response of JUDGED, by ascending speed."""
+        speeds = sorted(rows)
+        first = rows[speeds[0]]
+        described = {name: VARIABLES[name] for name in JUDGED if name in first}
+        values = {name: [rows[speed][name] for speed in speeds] for name in described} | {"speed": speeds}
+        response = dataset_of(described, values, {"speed": AXES["speed"]}, {}, ("speed",))
+        same = {name: ((), first[name], OF_ALL_SPEEDS[name].attributes) for name in OF_ALL if name in first}
+        return response.assign(same).drop_vars("speed_rpm")
+
+
+def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
+    """Further runs, one look (LOOKS) after another, as long as no requirement fails clearly."""
+    if fails_clearly(requirements, evidence):
+        return
+    first, last = evidence.operating.first, evidence.operating.last
+    runs = blade.from_rest(_closer(_within(evidence.speeds, first, last), STEP))
+    while len(new := _about_peaks(runs["speed"].values, nearness(requirements, evidence.of(runs)))):
+        runs = overlaid(runs, blade.from_rest(new))
+    yield REST, runs
+    rest = evidence.of(runs)
+    if fails_clearly(requirements, rest):
+        return
+    carried = _closer([first, last], CARRIED_STEP)
+    yield UP, blade.carried(carried)
+    yield DOWN, blade.carried(carried[::-1])
+    near = np.sort(runs["speed"].values[np.argsort(-nearness(requirements, rest), kind="stable")[:_MOST_NEAR]]).tolist()
+    friction = blade.scene.friction
+    if friction is not None:
+        for look, factor in ((MORE_FRICTION, 1.0 + _FRICTION), (LESS_FRICTION, 1.0 - _FRICTION)):
+            changed = replace(friction, coefficient=factor * friction.coefficient)
+            yield look, blade.from_rest(near, replace(blade.rising_scene, friction=changed))
+    yield HALF_STEP, blade.from_rest(near, step=0.5)
+
+
+def joined_looks(looks: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    """All looks in one dataset over (look, speed); what is not run is NaN."""
+    if not looks:
+        return xr.Dataset(coords={"look": np.empty(0, dtype=object)})
+    parts = [runs.drop_vars(OF_ALL, errors="ignore").expand_dims(look=[name]) for name, runs in looks.items()]
+    first = next(iter(looks.values()))
+    return xr.concat(parts, "look", join="outer").assign({name: first[name] for name in OF_ALL if name in first})
+
+
+def looks_in(joined: xr.Dataset) -> dict[str, xr.Dataset]:
+    """The looks of a joined dataset, each at the speeds that it was run at."""
+    looks = {str(name): joined.sel(look=name, drop=True) for name in joined["look"].values}
+    return {name: runs.isel(speed=np.flatnonzero(runs["status"].notnull().values)) for name, runs in looks.items()}
+
+
+def _within(speeds: np.ndarray, first: float, last: float) -> list[float]:
+    """Speeds in a range, with its ends."""
+    return [first, *(float(speed) for speed in speeds if first < speed < last), last]
+
+
+def _closer(speeds: Sequence[float], step: float) -> list[float]:
+    """The speeds, ascending, with others evenly between them, none farther than a `step` from the next."""
+    filled = [np.linspace(low, high, int(np.ceil((high - low) / step - 1e-9)) + 1)[:-1] for low, high in pairwise(speeds)]
+    return [*np.concatenate(filled).tolist(), speeds[-1]]
+
+
+def _about_peaks(speeds: np.ndarray, near: np.ndarray) -> list[float]:
+    """Middles of the intervals beside peaks that come near to the limit, where these are longer than _PEAK_STEP."""
+    higher = np.maximum(np.append(near[1:], 0.0), np.append(0.0, near[:-1]))
+    peaks = (near >= NEAR) & (near < 1.0) & (near >= higher)
+    beside = (peaks[1:] | peaks[:-1]) & (np.diff(speeds) > _PEAK_STEP)
+    return (0.5 * (speeds[1:] + speeds[:-1]))[beside].tolist()

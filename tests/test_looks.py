@@ -1,0 +1,109 @@
+"""Further runs of a verdict: which are done, where, and that each is the run it claims to be."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+from defaults import IntegrationChoice, Lining
+from integration_cases import ABRADABLE, DIRECT
+
+from r37core.requirements import looks as further_runs
+from r37core.requirements.choice import WIDTH, Requirements
+from r37core.requirements.evidence import Evidence
+from r37core.requirements.judging import DOWN, HALF_STEP, LESS_FRICTION, LOOKS, MORE_FRICTION, REST, UP
+from r37core.requirements.looks import JudgedBlade, joined_looks, looks_in, looks_of
+from r37core.results.operating_range import OperatingRange
+from r37core.results.response import run_row
+from r37core.stress.statistic import UNKNOWN
+from r37core.time_integration.integrators import EXACT_MODAL
+from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.status import RunStatus
+
+CHOICE = IntegrationChoice(6.4e-6, 12, 62, integrator=EXACT_MODAL)
+KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
+LINED = replace(ABRADABLE, lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_width=1e-3))
+FLOWN = OperatingRange(1300.0, 1310.0)
+NEEDS = Requirements(used_lining=0.5)
+
+
+@pytest.fixture
+def lined(contact, monkeypatch):
+    """A lined blade whose runs end after 20 revolutions at the latest."""
+    monkeypatch.setattr(further_runs, "LONGEST", 20)
+    monkeypatch.setattr(further_runs, "CARRIED_REVOLUTIONS", 10)
+    return JudgedBlade(contact, LINED, CHOICE, ("wear",), KEPT, 1e9, UNKNOWN)
+
+
+def evidence(used=1e-5, speeds=(1290.0, 1305.0, 1320.0)):
+    content = {"used_thickness": used, "worn_through_share": 0.0, "status": int(RunStatus.COMPLETED)}
+    runs = xr.Dataset(
+        {name: ("speed", np.full(len(speeds), value)) for name, value in content.items()}, {"speed": list(speeds)}
+    )
+    return Evidence(runs.assign(lined=1.0), operating=FLOWN, thickness=5e-3)
+
+
+def test_what_is_run_where_nothing_fails(lined):
+    found = dict(looks_of(lined, NEEDS, evidence()))
+    assert tuple(found) == LOOKS
+    assert found[REST]["speed"].values.tolist() == [1300.0, 1302.5, 1305.0, 1307.5, 1310.0]
+    for motion in (UP, DOWN):
+        assert found[motion]["speed"].values.tolist() == [1300.0, 1305.0, 1310.0]
+    assert np.diff(found[REST]["speed"]).max() <= WIDTH
+    # a file of them gives them back
+    again = looks_in(joined_looks(found))
+    for name, runs in found.items():
+        xr.testing.assert_allclose(again[name][["used_thickness", "status"]], runs[["used_thickness", "status"]])
+
+
+def test_each_is_the_run_that_it_claims_to_be(lined, contact):
+    found = dict(looks_of(lined, NEEDS, evidence()))
+    long = replace(CHOICE, revolutions=20, until_settled=True)
+    # lobes rise as in the runs of the sweep
+    rising = replace(LINED, casing=replace(LINED.casing, rise_revolutions=LINED.casing.rise_fraction * CHOICE.revolutions))
+    friction = rising.friction
+    assert friction is not None
+    expected = {
+        REST: (rising, long),
+        MORE_FRICTION: (replace(rising, friction=replace(friction, coefficient=1.01 * friction.coefficient)), long),
+        LESS_FRICTION: (replace(rising, friction=replace(friction, coefficient=0.99 * friction.coefficient)), long),
+        HALF_STEP: (rising, replace(long, time_step=0.5 * CHOICE.time_step)),
+    }
+    used = {}
+    for name, (scene, choice) in expected.items():
+        row = run_row(run_speed(contact, 1305.0, scene, choice, ("wear",), **KEPT), 1e9, UNKNOWN)
+        used[name] = float(found[name]["used_thickness"].sel(speed=1305.0))
+        assert used[name] == row["used_thickness"]
+    assert len(set(used.values())) == 4
+
+
+def test_a_motion_is_carried_on_in_a_new_lining(lined):
+    up = lined.carried([1300.0, 1305.0])
+    down = lined.carried([1305.0, 1300.0])
+    assert up["speed"].values.tolist() == down["speed"].values.tolist() == [1300.0, 1305.0]
+    # the first speed of each is from rest
+    alone = lined.carried([1305.0])
+    assert float(down["used_thickness"].sel(speed=1305.0)) == float(alone["used_thickness"][0])
+    assert float(up["used_thickness"].sel(speed=1305.0)) != float(alone["used_thickness"][0])
+
+
+def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
+    assert dict(looks_of(lined, NEEDS, evidence(used=4e-3))) == {}
+    assert joined_looks({}).sizes == {"look": 0} and looks_in(joined_looks({})) == {}
+    # also where the runs from rest show it
+    monkeypatch.setattr(further_runs, "fails_clearly", lambda _, of: len(of.speeds) == 5)
+    assert tuple(dict(looks_of(lined, NEEDS, evidence()))) == (REST,)
+
+
+def test_without_friction_only_the_step_is_changed(contact, lined):
+    bare = replace(lined, scene=replace(DIRECT, friction=None), results=())
+    few = replace(evidence(), operating=OperatingRange(1304.0, 1305.0))
+    assert tuple(dict(looks_of(bare, NEEDS, few))) == (REST, UP, DOWN, HALF_STEP)
+
+
+def test_runs_stand_closer_about_a_peak_below_the_limit():
+    speeds, near = np.array([1000.0, 1002.5, 1005.0, 1007.5]), np.array([0.1, 0.8, 0.2, 0.6])
+    assert further_runs._about_peaks(speeds, near) == [1001.25, 1003.75]
+    assert further_runs._about_peaks(speeds, np.array([0.1, 1.2, 0.2, 0.6])) == []
+    assert further_runs._about_peaks(np.array([1000.0, 1000.5]), np.array([0.9, 0.1])) == []
+    assert further_runs._closer([1000.0, 1006.0, 1007.0], 2.5) == [1000.0, 1002.0, 1004.0, 1006.0, 1007.0]
