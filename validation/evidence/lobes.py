@@ -26,6 +26,9 @@ CLEARANCES = (0.2, 0.3, 0.356, 0.4, 0.5, 0.6)
 
 HELD, SCALED = "0.712 mm", "2 clearances"
 STYLES = {(HELD, "points"): "C0.-", (HELD, "patches"): "C0.--", (SCALED, "points"): "C1.-", (SCALED, "patches"): "C1.--"}
+LOWER_BOUND = {"linestyle": "none", "markerfacecolor": "white"}
+"""Marker of a length that reaches beyond the speeds, over the filled one."""
+
 BELOW, ABOVE, STEP = 0.04, 0.15, 8.0
 """Speeds about the Campbell speed, as shares of it, and their step (rad/s)."""
 
@@ -48,7 +51,10 @@ def lengths_of_blade(input: Any, output: Any, params: Any) -> None:
 
 
 def lengths(input: Any, output: Any, params: Any) -> None:
-    """Table and picture of all blades; a length that reaches beyond the speeds has a >. Input: files of lengths_of_blade."""
+    """Table and picture of all blades. Input: files of lengths_of_blade.
+
+    A length that reaches beyond the speeds has a > in the table and an open circle in the picture.
+    """
     found = pd.concat([pd.read_csv(file) for file in input.files])
     rows = []
     for (scene, blade, contact, lobes), part in found.groupby(["scene", "blade", "contact", "lobes"], sort=False):
@@ -68,6 +74,8 @@ def _draw(found: pd.DataFrame, file: str) -> None:
             for (lobes, contact), style in STYLES.items():
                 curve = curves.loc[scene, blade, contact, lobes]
                 axes.plot(curve["clearance_mm"], curve["length_rad_s"], style, label=f"lobes of {lobes}, {contact}")
+                bounds = curve[curve["beyond"]]
+                axes.plot(bounds["clearance_mm"], bounds["length_rad_s"], style[:3], **LOWER_BOUND)
     for axes in grid[-1]:
         axes.set_xlabel("clearance (mm)")
     figure.supylabel("length of speeds above yield", fontsize=8)

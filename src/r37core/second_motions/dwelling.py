@@ -116,7 +116,7 @@ def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float, *, 
 
     `high`, `low` (m): their levels. A motion that is left and come back to is switching. One that is left and never come back
     to is a transient, one that is never left lasts. Random starts count from the first time that they go over to the other
-    motion. A `lined` blade has worn its lining when it comes back: there a motion lasts that is held at the end of its dwell.
+    motion. A lining does not grow back: a motion of a `lined` blade is lasting if it is held at the end of its dwell.
     """
     held = {start: [is_high(each, high, low) for each in several] for start, several in rms.items()}
     # a motion may be left before the first revolution that counts
