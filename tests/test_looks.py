@@ -103,7 +103,7 @@ def test_without_friction_only_the_step_is_changed(contact, lined):
 
 def test_runs_stand_closer_about_a_peak_below_the_limit():
     speeds, near = np.array([1000.0, 1002.5, 1005.0, 1007.5]), np.array([0.1, 0.8, 0.2, 0.6])
-    assert further_runs._about_peaks(speeds, near) == [1001.25, 1003.75]
-    assert further_runs._about_peaks(speeds, np.array([0.1, 1.2, 0.2, 0.6])) == []
-    assert further_runs._about_peaks(np.array([1000.0, 1000.5]), np.array([0.9, 0.1])) == []
+    assert further_runs._speeds_about_peaks(speeds, near) == [1001.25, 1003.75]
+    assert further_runs._speeds_about_peaks(speeds, np.array([0.1, 1.2, 0.2, 0.6])) == []
+    assert further_runs._speeds_about_peaks(np.array([1000.0, 1000.5]), np.array([0.9, 0.1])) == []
     assert further_runs._closer([1000.0, 1006.0, 1007.0], 2.5) == [1000.0, 1002.0, 1004.0, 1006.0, 1007.0]

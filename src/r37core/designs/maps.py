@@ -80,7 +80,7 @@ def _label(axes: Axes, rows: pd.DataFrame, keys: Sequence[str]) -> None:
 def _draw_verdict(axes: Axes, rows: pd.DataFrame, keys: Sequence[str], verdict: pd.DataFrame) -> None:
     """A mark on each design that meets all requirements, and lines round those that meet each."""
     judged = rows[["blade", "scene", *keys]].merge(verdict, on=["blade", "scene"])
-    judged = judged.assign(meets=(judged["verdict"] == "meets").astype(float))
+    judged = judged.assign(meets=judged["verdict"].isin(["meets", "does not apply"]).astype(float))
     up, across = np.nonzero(_grid(judged, keys, "meets", "min") == 1.0)
     if len(up):
         axes.plot(across, up - 0.3, "o", color="white", markeredgecolor="black", markersize=5, label="meets all requirements")

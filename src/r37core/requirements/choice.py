@@ -61,7 +61,7 @@ class Requirements:
     campbell_margins: tuple[CampbellMargin, ...] = field(default=())
 
     @property
-    def of_runs(self) -> bool:
+    def any_of_runs(self) -> bool:
         """True if there is one on what runs give."""
         return any(limit is not None for limit in (self.above_yield, self.goodman_share, self.used_lining))
 

@@ -54,7 +54,7 @@ class Evidence:
     mass: float = np.nan
     error: float = 0.0
 
-    def of(self, response: xr.Dataset) -> Self:
+    def replaced(self, response: xr.Dataset) -> Self:
         """The same of other runs."""
         return replace(self, response=response)
 
@@ -83,7 +83,7 @@ class Evidence:
         return "" if narrow else f"speeds lie up to {self.gap:.3g} rad/s apart, and an interaction may be {WIDTH:g} wide"
 
     @property
-    def in_operation(self) -> xr.Dataset:
+    def operated(self) -> xr.Dataset:
         """The runs in the operating range."""
         speeds = self.response["speed"]
         return self.response.isel(speed=np.flatnonzero((speeds >= self.operating.first) & (speeds <= self.operating.last)))
@@ -100,12 +100,12 @@ class Evidence:
     @property
     def divergence(self) -> str:
         """How many runs in operation diverged, and when; empty where none did."""
-        runs = self.in_operation
+        runs = self.operated
         ended = runs.isel(speed=np.flatnonzero(runs["status"].values == RunStatus.DIVERGED))
         if not ended.sizes["speed"]:
             return ""
-        count, of_all = ended.sizes["speed"], runs.sizes["speed"]
-        many = "every run" if count == of_all else f"{count} of {of_all} runs"
+        count, total = ended.sizes["speed"], runs.sizes["speed"]
+        many = "every run" if count == total else f"{count} of {total} runs"
         if "diverged_revolution" not in ended:
             return f"{many} diverged"
         return f"{many} diverged, the first at revolution {float(ended['diverged_revolution'].min()):.3g}"
@@ -137,7 +137,7 @@ class Evidence:
             share, above = runs["share_of_revolutions_above_yield"], changed["max_von_mises_median"] > runs["yield_stress"]
             # the share itself is that of yield, so only which side of it most revolutions lie on is known
             changed["share_of_revolutions_above_yield"] = xr.where(above, np.maximum(share, 1.0), np.minimum(share, 0.0))
-        return self.of(runs.assign(changed))
+        return self.replaced(runs.assign(changed))
 
 
 def judged_part(response: xr.Dataset) -> xr.Dataset:

@@ -129,13 +129,13 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     limit, only = factor * getattr(requirements, requirement), Requirements(**{requirement: getattr(requirements, requirement)})
     motions = _motions(evidence)
     if REST in evidence.looks:
-        evidence = evidence.of(evidence.looks[REST])
+        evidence = evidence.replaced(evidence.looks[REST])
     columns = columns_of(evidence)
     row = _row(requirement, unit, limit, columns) | _members(columns_of, limit, evidence)
     if "verdict" in columns or np.isnan(row["value"]):
         return row
     tried = {name: columns_of(other) for name, other in _tried(evidence).items()} | {
-        name: columns_of(evidence.of(runs)) for name, runs in motions.items()
+        name: columns_of(evidence.replaced(runs)) for name, runs in motions.items()
     }
     margins = {name: margin for name, each in tried.items() if not np.isnan(margin := _margin(each, limit))}
     values = [value for each in (columns, *tried.values()) if np.isfinite(value := each.get("value", np.nan))]
@@ -167,7 +167,7 @@ def _tried(evidence: Evidence) -> dict[str, Evidence]:
     """Runs with another friction or step, and stress and wear larger and smaller by the error of mesh and step."""
     chance = (MORE_FRICTION, LESS_FRICTION, HALF_STEP)
     tried = {
-        f"with {name}": evidence.of(overlaid(evidence.response, evidence.looks[name]))
+        f"with {name}": evidence.replaced(overlaid(evidence.response, evidence.looks[name]))
         for name in chance
         if name in evidence.looks
     }
@@ -195,7 +195,7 @@ def _members(columns_of: Callable[[Evidence], Columns], limit: float, evidence: 
         member = evidence.members.sel(member=name)
         member = member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN))
         if member.sizes["speed"]:
-            margins.append(_margin(columns_of(evidence.of(member)), limit))
+            margins.append(_margin(columns_of(evidence.replaced(member)), limit))
     known = np.array([margin for margin in margins if not np.isnan(margin)])
     return {"members": float(known.size), "share_of_members": float(np.mean(known >= 0.0))} if known.size else {}
 

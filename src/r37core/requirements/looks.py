@@ -72,7 +72,7 @@ class JudgedBlade:
             casing = replace(casing, rise_revolutions=casing.rise_fraction * self.choice.length_of_rise_fraction)
         return replace(self.scene, casing=casing)
 
-    def from_rest(self, speeds: Iterable[float], scene: Scene | None = None, step: float = 1.0) -> xr.Dataset:
+    def runs_from_rest(self, speeds: Iterable[float], scene: Scene | None = None, step: float = 1.0) -> xr.Dataset:
         """Runs from rest at speeds (rad/s), in another scene if it is given, with a share of the time `step`."""
         choice = replace(self.long_choice, time_step=step * self.long_choice.time_step)
         return self._dataset({speed: self._numbers(speed, scene or self.rising_scene, choice) for speed in speeds})
@@ -117,11 +117,11 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     if fails_clearly(requirements, evidence):
         return
     first, last = evidence.operating.first, evidence.operating.last
-    runs = blade.from_rest(_closer(_within(evidence.speeds, first, last), STEP))
-    while len(new := _about_peaks(runs["speed"].values, nearness(requirements, evidence.of(runs)))):
-        runs = overlaid(runs, blade.from_rest(new))
+    runs = blade.runs_from_rest(_closer(_speeds_within(evidence.speeds, first, last), STEP))
+    while len(new := _speeds_about_peaks(runs["speed"].values, nearness(requirements, evidence.replaced(runs)))):
+        runs = overlaid(runs, blade.runs_from_rest(new))
     yield REST, runs
-    rest = evidence.of(runs)
+    rest = evidence.replaced(runs)
     if fails_clearly(requirements, rest):
         return
     carried = _closer([first, last], CARRIED_STEP)
@@ -132,8 +132,8 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     if friction is not None:
         for look, factor in ((MORE_FRICTION, 1.0 + _FRICTION), (LESS_FRICTION, 1.0 - _FRICTION)):
             changed = replace(friction, coefficient=factor * friction.coefficient)
-            yield look, blade.from_rest(near, replace(blade.rising_scene, friction=changed))
-    yield HALF_STEP, blade.from_rest(near, step=0.5)
+            yield look, blade.runs_from_rest(near, replace(blade.rising_scene, friction=changed))
+    yield HALF_STEP, blade.runs_from_rest(near, step=0.5)
 
 
 def joined_looks(looks: Mapping[str, xr.Dataset]) -> xr.Dataset:
@@ -151,7 +151,7 @@ def looks_in(joined: xr.Dataset) -> dict[str, xr.Dataset]:
     return {name: runs.isel(speed=np.flatnonzero(runs["status"].notnull().values)) for name, runs in looks.items()}
 
 
-def _within(speeds: np.ndarray, first: float, last: float) -> list[float]:
+def _speeds_within(speeds: np.ndarray, first: float, last: float) -> list[float]:
     """Speeds in a range, with its ends."""
     return [first, *(float(speed) for speed in speeds if first < speed < last), last]
 
@@ -162,7 +162,7 @@ def _closer(speeds: Sequence[float], step: float) -> list[float]:
     return [*np.concatenate(filled).tolist(), speeds[-1]]
 
 
-def _about_peaks(speeds: np.ndarray, near: np.ndarray) -> list[float]:
+def _speeds_about_peaks(speeds: np.ndarray, near: np.ndarray) -> list[float]:
     """Middles of the intervals beside peaks that come near to the limit, where these are longer than _PEAK_STEP."""
     higher = np.maximum(np.append(near[1:], 0.0), np.append(0.0, near[:-1]))
     peaks = (near >= NEAR) & (near < 1.0) & (near >= higher)

@@ -87,7 +87,7 @@ class Judged:
         """Pairs of blade and scene of which further runs may be needed: their runs are judged, and cover the range."""
         settings = self.sweep.settings
         operating, requirements = operating_range(settings), settings.section(SECTION).requirements()
-        if operating is None or not requirements.of_runs:
+        if operating is None or not requirements.any_of_runs:
             return []
         short = pairs_not_covered(settings, operating)
         pairs = self.sweep.runs_with("rms")
@@ -98,8 +98,8 @@ class Judged:
         """Relative error of the level, by mesh and step, of each blade and scene; 0 where it was not measured."""
         settings, measured = self.sweep.settings, self.sweep.settings.fidelity.measured
         bare = {name for name, chosen in settings.scenes.items() if chosen.scene.lining is None}
-        of_points = [(scene in bare and settings.contact_of(blade) == POINTS) for blade, scene in self.sweep.runs_with("rms")]
-        return [(measured and measured.error_of(points)) or 0.0 for points in of_points]
+        point_contacts = [(scene in bare and settings.contact_of(blade) == POINTS) for blade, scene in self.sweep.runs_with("rms")]
+        return [(measured and measured.error_of(points)) or 0.0 for points in point_contacts]
 
     def looks(self, made: Provenance) -> Stage:
         """The stage of the further runs of a blade and scene."""
@@ -107,14 +107,14 @@ class Judged:
         params = {
             "scene": simulations.plain_scene,
             # of a run from rest: those of the pipeline
-            "choice": lambda of: to_plain(settings.integration_choice(of.blade, of.scene, 0.0)),
-            "results": lambda of: [each for each in self.sweep.results(of) if each in RESULTS],
+            "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
+            "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in RESULTS],
             "kept": self.sweep.kept,
             "yield_stress": self.sweep.yield_stress,
             "strengths": self.sweep.strengths,
             "requirements": self.requirements,
             "operating": to_plain(operating_range(settings)),
-            "thickness": lambda of: self.thickness.get(of.scene, nan),
+            "thickness": lambda wildcards: self.thickness.get(wildcards.scene, nan),
             "provenance": made.sweep,
         }
         return Stage("requirements.steps.look", params)

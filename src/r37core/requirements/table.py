@@ -83,7 +83,7 @@ def verdict_table(
             response, campbell=campbell, operating=operating, error=sureness.errors.get((blade, scene), 0.0), **more
         )
         looks = sureness.looks.get((blade, scene), {})
-        failed = fails_clearly(requirements, evidence.of(looks[REST]) if REST in looks else evidence)
+        failed = fails_clearly(requirements, evidence.replaced(looks[REST]) if REST in looks else evidence)
         reason = f"no further runs, as {failed[0]} fails" if failed else sureness.not_looked.get(scene, "")
         evidence = replace(evidence, looks=looks, not_looked=reason)
         rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
