@@ -12,7 +12,7 @@ from integration_cases import ABRADABLE, DIRECT
 
 import r37
 from r37core.config import ConfigError, command_line_document
-from r37core.config.remarks import remarks_on_points
+from r37core.config.remarks import remarks_of_pipeline, remarks_on_points, remarks_on_unlike_contact
 from r37core.config.settings import location_of_contact
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.orientation import OURS
@@ -319,6 +319,17 @@ def test_a_blade_has_the_contact_of_its_base(settings_with, config_copy):
     for base in ("Mine", "Kept", "Like", "Alone"):
         file = config_copy / "config/blades.yaml"
         assert r37.blade(base, thickness_percent=90, name="Copy", file=file).settings.contact == own[base]
+
+
+def test_unlike_contact_is_told_before_the_run(settings_with):
+    def told(*boundary, **changes):
+        return remarks_on_unlike_contact(settings_with(*boundary, **changes))
+
+    (remark,) = told()
+    assert remark.startswith("contact differs (8 points: Ref, L50, L100, ...; 12 patches: Mine, Sweep_5, Sweep_10, ...): ")
+    assert remark.endswith("; structure: { boundary: { contact: patches } } gives all blades one order")
+    assert remark in remarks_of_pipeline(settings_with())
+    assert told({"contact": "patches"}) == told(blades=["Ref", "Like"]) == []
 
 
 def test_direct_contact_on_points_is_told_at_the_end(settings_with):

@@ -273,6 +273,12 @@ def operating_range(settings: Settings) -> OperatingRange | None:
     return None if section is None else section.operating()
 
 
+def contact_of_blades(settings: Settings) -> dict[str, str]:
+    """Blade -> what its contact acts on: 8 points, 12 patches; without a number where a mesh of another program decides."""
+    numbers = {name: settings.contact_nodes(name, settings.fidelity.mesh.tip_elements) for name in settings.blades}
+    return {name: f"{number or ''} {settings.contact_of(name)}".strip() for name, number in numbers.items()}
+
+
 def location_of_contact(settings: Settings, blade: str) -> str:
     """Where stands what a blade's contact acts on, as `file:line: key`."""
     if settings.structure.boundary.contact is None:
