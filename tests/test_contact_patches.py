@@ -10,8 +10,9 @@ from box_mesh import box_mesh
 from defaults import BoundaryChoice, IntegrationChoice, MatricesSource
 from integration_cases import ABRADABLE, DIRECT
 
+import r37
 from r37core.config import ConfigError, command_line_document
-from r37core.config.remarks import remarks_on_points
+from r37core.config.remarks import remarks_of_pipeline, remarks_on_points, remarks_on_unlike_contact
 from r37core.config.settings import location_of_contact
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.orientation import OURS
@@ -284,9 +285,13 @@ def test_matrices_without_the_nodes_for_patches(mesh, matrices, model, directory
 
 
 BLADES = """
-Mine: { base: S100, chordwise_sweep_deg: 5 }
+Mine: { base: S100, contact: patches, chordwise_sweep_deg: 5 }
 Kept: { base: Ref, contact: points, chordwise_sweep_deg: 5 }
-Sweep: { base: Ref, vary: { chordwise_sweep_deg: [5, 10] } }
+Sweep: { base: Mine, vary: { chordwise_sweep_deg: [5, 10] } }
+Like: { base: S100, sweep_percent: 80 }
+Alone:
+  profiles: config/profiles/rotor37.csv
+  material: { youngs_modulus_pa: 1.8e+11, density_kg_m3: 8000, poissons_ratio: 0.3, yield_stress_pa: 1.38e+9 }
 """
 
 
@@ -302,15 +307,29 @@ def settings_with(config_copy):
     return read
 
 
-def test_the_benchmark_has_points_and_every_other_blade_patches(settings_with):
+def test_a_blade_has_the_contact_of_its_base(settings_with, config_copy):
     def chosen(settings):
         return {name: settings.reduction_choice(name).boundary.contact for name in settings.blades}
 
     settings, point_contact = settings_with(), settings_with({"contact": "points"})
-    own = {"Mine": "patches", "Kept": "points", "Sweep_5": "patches", "Sweep_10": "patches"}
+    own = dict.fromkeys(("Mine", "Sweep_5", "Sweep_10", "Alone"), "patches") | {"Kept": "points", "Like": "points"}
     assert chosen(settings) == dict.fromkeys(("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100"), "points") | own
     assert set(chosen(settings_with({"contact": "area_patches"})).values()) == {"area_patches"}
     assert structure_hash(settings, "Mine") != structure_hash(point_contact, "Mine")
+    for base in ("Mine", "Kept", "Like", "Alone"):
+        file = config_copy / "config/blades.yaml"
+        assert r37.blade(base, thickness_percent=90, name="Copy", file=file).settings.contact == own[base]
+
+
+def test_unlike_contact_is_told_before_the_run(settings_with):
+    def told(*boundary, **changes):
+        return remarks_on_unlike_contact(settings_with(*boundary, **changes))
+
+    (remark,) = told()
+    assert remark.startswith("contact differs (8 points: Ref, L50, L100, ...; 12 patches: Mine, Sweep_5, Sweep_10, ...): ")
+    assert remark.endswith("; structure: { boundary: { contact: patches } } gives all blades one order")
+    assert remark in remarks_of_pipeline(settings_with())
+    assert told({"contact": "patches"}) == told(blades=["Ref", "Like"]) == []
 
 
 def test_direct_contact_on_points_is_told_at_the_end(settings_with):
@@ -327,7 +346,8 @@ def test_direct_contact_on_points_is_told_at_the_end(settings_with):
 
 def test_the_place_that_chose_is_blamed(settings_with):
     own, given = settings_with(), settings_with({"contact": "patches"})
-    assert re.fullmatch(r"config/blades\.yaml:\d+: Kept\.contact", location_of_contact(own, "Kept"))
+    for blade, blamed in {"Kept": "Kept", "Like": "Ref", "Sweep_5": "Mine"}.items():
+        assert re.fullmatch(rf"config/blades\.yaml:\d+: {blamed}\.contact", location_of_contact(own, blade))
     assert location_of_contact(given, "Kept") == "--config: structure.boundary.contact"
     with (
         pytest.raises(BoundaryError, match=r"^--config: structure\.boundary\.contact: no room"),

@@ -7,11 +7,11 @@ import xarray as xr
 from test_interactions import CHOICE, campbell
 
 from r37core.figures.comparison import draw_ranking
-from r37core.results.columns import CERTAIN, POSSIBLE, ROBUSTNESS, names
+from r37core.results.columns import CERTAIN, OVER_SCENES, POSSIBLE, ROBUSTNESS, names
 from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from r37core.results.interactions import find_interactions
-from r37core.results.ranking import as_scatter_bears, chance_to_be_better, ranking_table, robustness
+from r37core.results.ranking import chance_to_be_better, ranking_table, robustness
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -251,7 +251,7 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     assert found["length_certain_rad_s"] == 10.0
     assert found["largest_gap_rad_s"] == 10.0
     assert set(found) == set(names(ROBUSTNESS))
-    assert found["widest_range_rad_s"] == 10.0
+    assert [found[name] for name in ("widest_range_rad_s", "widest_range_from_rad_s", "ranges_certain")] == [10.0, 945.0, 1]
     assert robustness(response(speeds, np.zeros(11), np.ones(11), lined=1))["widest_range_rad_s"] == 0.0
     nothing = np.full(len(speeds), np.nan)
     every = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
@@ -270,19 +270,47 @@ def of(certain, possible=0.0, stress=1e9):
 
 
 def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
-    """Its lengths have the digits that their scatter bears."""
     lined = {("A", "x"): of(5.0), ("B", "x"): of(1.0, 9.0), ("C", "x"): of(1.0, 2.0)}
     table = ranking_table(lined | {("A", "y"): of(0.0), ("B", "y"): of(np.nan)})
-    assert list(table.columns[:4]) == ["blade", "scene", "rank", ROBUSTNESS[0].name]
+    assert list(table.columns[:5]) == ["blade", "scene", "rank", "contact", ROBUSTNESS[0].name]
     assert list(zip(table["scene"], table["blade"], table["rank"], strict=True)) == [
         ("x", "C", 1), ("x", "B", 2), ("x", "A", 3), ("y", "A", 1), ("y", "B", pd.NA),
     ]  # fmt: skip
-    table = ranking_table({("A", "x"): of(854.189) | {"length_certain_scatter_rad_s": 21.1}, ("A", "y"): of(13.1602)})
-    assert as_scatter_bears(table)["length_certain_rad_s"].tolist() == [850.0, 13.2]
-    repeated = ranking_table({("A", "x"): of(854.189) | {"length_certain_scatter_rad_s": 0.0}})
-    assert as_scatter_bears(repeated)["length_certain_rad_s"].tolist() == [854.2]
-    ranged = table.assign(length_certain_rad_s_low=[844.0, np.nan], length_certain_rad_s_high=[856.0, np.nan])
-    assert as_scatter_bears(ranged)["length_certain_rad_s"].tolist() == [854.0, 13.2]
+
+
+def test_blades_of_unlike_contact_have_ranks_of_their_own():
+    lined = {("A", "x"): of(5.0), ("Mine", "x"): of(1.0), ("B", "x"): of(3.0)}
+    members = {pair: {"0": of(1.0)} for pair in lined}
+    table = ranking_table(lined, members, {"A": "8 points", "B": "8 points", "Mine": "12 patches"})
+    assert table[["blade", "rank", "contact"]].values.tolist() == [
+        ["B", 1, "8 points"], ["A", 2, "8 points"], ["Mine", 1, "12 patches"],
+    ]  # fmt: skip
+    assert not {"chance_better_than_Mine", "rank_over_scenes"} & set(table)
+    figure = draw_ranking(table)
+    assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == [
+        "B\n8 points",
+        "A\n8 points",
+        "Mine\n12 patches",
+    ]
+
+
+def test_one_order_over_all_scenes_is_by_the_longest_length():
+    """Lengths within their scatter share a rank; who has no length in one of the scenes has none."""
+    scattering = {"length_certain_scatter_rad_s": 8.0}
+    found = {("A", "x"): of(60.0), ("B", "x"): of(2.0), ("C", "x"): of(1.0), ("D", "x"): of(3.0)}
+    found |= {
+        ("A", "y"): of(10.0),
+        ("B", "y"): of(70.0) | scattering,
+        ("C", "y"): of(80.0) | scattering,
+        ("D", "y"): of(np.nan),
+    }
+    table = ranking_table(found).set_index(["blade", "scene"])
+    for scene in ("x", "y"):
+        rows = table.loc[[(blade, scene) for blade in "ABC"]]
+        assert rows["rank_over_scenes"].tolist() == [1, 2, 2]
+        assert rows["worst_rank"].tolist() == [4, 2, 3]
+        assert rows["length_over_scenes_rad_s"].tolist() == [70.0, 72.0, 81.0]
+    assert table.loc["D", names(OVER_SCENES)].isna().all(axis=None)
 
 
 def test_the_chance_to_be_better_is_of_common_members():

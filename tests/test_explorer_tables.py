@@ -13,8 +13,8 @@ from r37core.results.columns import SUMMARY, column_named
 
 RANKING = pd.DataFrame(
     [
-        ("Ref", "abradable", 2, 30.0, 60.0, 20.0, 45.0, 9e9, np.nan),
         ("L<50>", "abradable", 1, 10.0, 20.0, 5.0, 12.0, 4e9, 0.75),
+        ("Ref", "abradable", 2, 30.2, 60.0, 20.0, 45.0, 9e9, np.nan),
         ("Ref", "direct", 1, 0.0, 100.0, np.nan, np.nan, 2e9, np.nan),
         ("L<50>", "direct", 2, 50.0, 55.0, np.nan, np.nan, 3e9, 0.25),
     ],
@@ -71,7 +71,7 @@ def test_every_column_has_words():
 
 def test_contents_have_the_ranking(rows):
     contents = explorer_contents(sweep(), rows, ranking=RANKING.assign(unheard_of=1.0))
-    assert contents["ranking"][0]["length_certain_rad_s"] == 30.0
+    assert contents["ranking"][1]["length_certain_rad_s"] == 30.0
     assert contents["ranking"][2]["length_certain_rad_s_low"] is None
     assert "unheard_of" not in [one["name"] for one in contents["ranking_columns"]]
     assert explorer_contents(sweep(), rows)["ranking"] is None

@@ -144,7 +144,7 @@ class BladeChoice(Choice):
                 has = "whose table has a share already" if key in SHARES else "which has a value of it already"
                 shared = f"{key} of a copy of {original}, {has}"
                 raise ConfigError(f"name: found {shared}; allowed: the changed blade without a name")
-        return {"base": original, **{key: entry[key] for key in ("contact",) if key in entry}}
+        return {"base": original}
 
 
 @dataclass(frozen=True)

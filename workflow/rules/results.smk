@@ -71,6 +71,7 @@ use rule step as ranking with:
         **step("results.steps.ranking"),
         runs=sweep.runs_with("rms"),
         operating=operating,
+        contacts=contact_of_blades(settings),
 
 
 use rule step as coincidences with:

@@ -4,7 +4,7 @@ from .blades import BladeSettings
 from .declaring import si_fields, si_form
 from .document import ConfigError, Document, command_line_document, read_document
 from .section import plain
-from .settings import Settings, blades_named, checked_scene, operating_range, scenes_named
+from .settings import Settings, blades_named, checked_scene, contact_of_blades, operating_range, scenes_named
 
 __all__ = [
     "BladeSettings",
@@ -14,6 +14,7 @@ __all__ = [
     "blades_named",
     "checked_scene",
     "command_line_document",
+    "contact_of_blades",
     "operating_range",
     "plain",
     "read_document",

@@ -20,7 +20,7 @@ from r37core.blade.sense import check_profile_sense
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
-from r37core.rom.reduction_choice import StressSubmesh
+from r37core.rom.reduction_choice import PATCHES, StressSubmesh
 from r37core.stress.statistic import Strengths
 
 from .bases import chain_of_bases
@@ -56,7 +56,7 @@ class BladeEntry(Section):
     """
 
     profiles: FileName | LeftOut = left_out("Profile table (CSV)")
-    base: Name | LeftOut = left_out("Blade that gives profiles, sweep, lean and material")
+    base: Name | LeftOut = left_out("Blade that gives profiles, sweep, lean, contact and material")
     stacking_table: FileName | LeftOut = left_out("Table (CSV) of sweep and lean with a column `blade`")
     sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = left_out(
         "Sweep and lean in this file, one entry per row"
@@ -72,7 +72,7 @@ class BladeEntry(Section):
     camber_deg: Angles | LeftOut = left_out("Angle added to the camber kappa_ic - kappa_oc")
     chord_percent: Shares | LeftOut = left_out("Share of the chord that is kept, on the same cones")
     thickness_percent: Shares | LeftOut = left_out("Share of all thicknesses that is kept")
-    contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
+    contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}; by default that of the base, without one patches")
     sense_check: bool = Field(default=True, description="Whether a blade whose trailing edge leads is refused")
     material: MaterialSection = MaterialSection()
     vary: Vary = vary_field("sweep_percent or material.density_kg_m3")
@@ -180,7 +180,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         if len(chain) > 1:
             raise document.refusal((chain[1], "base"), f"'{first}', a blade of matrices", "a blade with profiles or a mesh")
         return BladeSettings(_source(entry, first, root, document), None, entry.contact)
-    material = _material(chain, entries, document)
+    material, contact = _material(chain, entries, document), entries[contact_given(chain, entries)].contact or PATCHES
     if isinstance(entry, MeshEntry):
         for link in chain[1:]:
             keys = [key for key in (*SHIFTS, *SHARES, *SECTION_KEYS) if getattr(entries[link], key) is not None]
@@ -193,7 +193,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
         return BladeSettings(
-            _source(entry, first, root, document), material, entries[name].contact, si_form(StressSubmesh, entry.stress_submesh)
+            _source(entry, first, root, document), material, contact, si_form(StressSubmesh, entry.stress_submesh)
         )
     shift: dict[str, Any] = {}
     place = name, "base"
@@ -213,7 +213,12 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         check_sweep(shift.get("stacking") or (), profiles)
     except BladeShapeError as error:
         raise document.error(place, f"blade {name}: {error}") from None
-    return BladeSettings(BladeDefinition(name, profiles, **shift), material, entries[name].contact)
+    return BladeSettings(BladeDefinition(name, profiles, **shift), material, contact)
+
+
+def contact_given(chain: Sequence[str], entries: Mapping[str, Any]) -> str:
+    """Link of a blade's chain of bases that gives its contact; the blade itself where none does."""
+    return next((link for link in reversed(chain) if entries[link].contact is not None), chain[-1])
 
 
 def _changed(

@@ -109,7 +109,7 @@ class MeshEntry(Oriented):
     drop_free_nodes: Any = DECLARED
     minimum_scaled_jacobian: Any = DECLARED
     end_check: Any = DECLARED
-    contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
+    contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
     stress_submesh: ImportedSubmesh = ImportedSubmesh()
 
     def source(self, root: Path) -> MeshSource:

@@ -6,9 +6,9 @@ from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibili
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.source import MeshSource
-from r37core.rom.reduction_choice import POINTS
+from r37core.rom.reduction_choice import MOST_USUAL_PATCHES, POINTS
 
-from .settings import Settings
+from .settings import Settings, contact_of_blades
 from .speed_choice import fastest_of, length_of_run, most_runs, slowest_speeds
 from .spread import Spreads
 
@@ -29,6 +29,7 @@ def remarks_of_pipeline(settings: Settings) -> list[str]:
             share, cost = 100 * error, measured.cpu_s_per_run
             lines.append(f"fidelity auto: level {settings.fidelity_name}, measured error {share:g}%, {cost:g} CPU s per run")
     lines += remarks_on_input(settings)
+    lines += remarks_on_unlike_contact(settings)
     lines += remarks_on_left_out_modes(elastic_casings(settings))
     refining = {pair: plan for pair, plan in settings.speed_plans.items() if plan.refined}
     if refining:
@@ -147,6 +148,23 @@ def remarks_on_points(settings: Settings) -> list[str]:
     return [
         f"{', '.join(scenes)}: contact of {of} acts on points, as published, and changes with every finer mesh; for "
         "numbers to decide from: structure.boundary.contact: patches (docs/accuracy.md#points-and-patches)"
+    ]
+
+
+def remarks_on_unlike_contact(settings: Settings) -> list[str]:
+    """Remark on blades with stress whose contact differs, so that their lengths above yield cannot be compared."""
+    kinds: dict[str, list[str]] = {}
+    for name, contact in contact_of_blades(settings).items():
+        if not settings.blades[name].is_matrices:
+            kinds.setdefault(contact, []).append(name)
+    if len(kinds) < 2:
+        return []
+    different = "; ".join(f"{contact}: {_first_few(names)}" for contact, names in kinds.items())
+    # a number that the mesh of another program decides is known where config.yaml gives it
+    nodes = "" if all(contact[0].isdigit() for contact in kinds) else f", nodes: {MOST_USUAL_PATCHES}"
+    return [
+        f"contact differs ({different}): blades are ranked among those of the same contact; "
+        f"structure: {{ boundary: {{ contact: patches{nodes} }} }} gives all blades one order"
     ]
 
 

@@ -19,7 +19,8 @@ from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice, StressSubmesh
 from r37core.time_integration.integration_choice import IntegrationChoice
 
-from .blades import BladeSettings, all_blades
+from .bases import chain_of_bases
+from .blades import BladeSettings, all_blades, contact_given
 from .config_file import Config, StructureSection
 from .declaring import si_form
 from .document import ConfigRefusals, Document, Documents
@@ -272,10 +273,19 @@ def operating_range(settings: Settings) -> OperatingRange | None:
     return None if section is None else section.operating()
 
 
+def contact_of_blades(settings: Settings) -> dict[str, str]:
+    """Blade -> what its contact acts on: 8 points, 12 patches; without a number where a mesh of another program decides."""
+    numbers = {name: settings.contact_nodes(name, settings.fidelity.mesh.tip_elements) for name in settings.blades}
+    return {name: f"{number or ''} {settings.contact_of(name)}".strip() for name, number in numbers.items()}
+
+
 def location_of_contact(settings: Settings, blade: str) -> str:
     """Where stands what a blade's contact acts on, as `file:line: key`."""
     if settings.structure.boundary.contact is None:
-        return f"{settings.documents.blades.location((blade, 'contact'))}: {blade}.contact"
+        entries, document = settings.designs.entries, settings.designs.document
+        chain = chain_of_bases(blade, lambda link: getattr(entries[link], "base", None), entries, document, "blade")
+        link = contact_given(chain, entries)
+        return f"{document.location((link, 'contact'))}: {link}.contact"
     path = ("structure", "boundary", "contact")
     return f"{settings.documents.config.location(path)}: {'.'.join(path)}"
 

@@ -14,7 +14,6 @@ from r37core.results.closing import interaction_title
 from r37core.results.columns import RANKING, SUMMARY, Column, column_named
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranges import as_ranges_bear
-from r37core.results.ranking import as_scatter_bears
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 
@@ -242,10 +241,10 @@ def interaction_table(interactions: pd.DataFrame) -> dict[str, object]:
 
 
 def ranking_rows(ranking: pd.DataFrame | None) -> dict[str, object]:
-    """`ranking`, its rows or None, and `ranking_columns`, those of them that are declared."""
+    """`ranking`, its rows or None with lengths in whole rad/s, and `ranking_columns`, those of them that are declared."""
     if ranking is None or ranking.empty:
         return {"ranking": None, "ranking_columns": []}
-    ranking = as_scatter_bears(ranking)
+    ranking = ranking.round({name: 0 for name in ranking if name.startswith(("length_", "widest_")) and "scatter" not in name})
     rows = ranking.astype(object).where(ranking.notna(), None).to_dict("records")
     return {"ranking": rows, "ranking_columns": _columns(ranking.columns, RANKING)}
 

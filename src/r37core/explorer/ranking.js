@@ -13,11 +13,8 @@ const drawRanking = (() => {
   const barsOf = (data) => data.ranking_columns.filter(({ name }) => name in KINDS);
   const scenesOf = (data) => data.scenes.filter((scene) => data.ranking.some((row) => row.scene === scene));
 
-  // by rank in the first scene; one that has none comes last
-  function bladesOf(data) {
-    const place = (blade) => rowOf(data, blade, scenesOf(data)[0])?.rank ?? Number.MAX_VALUE;
-    return data.blades.filter((blade) => data.ranking.some((row) => row.blade === blade)).sort((one, other) => place(one) - place(other));
-  }
+  // rows are by scene, contact and rank
+  const bladesOf = (data) => [...new Set(data.ranking.map(({ blade }) => blade))];
 
   // from the left end to a value, with the range of the members on it; the `longest` of the scene fills the line
   function bar(row, name, longest) {

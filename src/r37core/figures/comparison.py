@@ -75,7 +75,8 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     says how many are left out.
     """
     scenes = [name for name in dict.fromkeys(ranking["scene"]) if scenes is None or name in scenes]
-    first = ranking[ranking["scene"] == scenes[0]].sort_values("rank", kind="stable")["blade"]
+    first = ranking[ranking["scene"] == scenes[0]]["blade"]
+    contacts = dict(zip(ranking["blade"], ranking["contact"], strict=True)) if ranking["contact"].nunique() > 1 else {}
     blades = list(dict.fromkeys([*first, *ranking["blade"]]))
     if len(blades) > _MOST_RANKED:
         half = _MOST_RANKED // 2
@@ -89,7 +90,8 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     for axes, scene in zip(panels.flat, scenes, strict=False):
         _draw_bars(axes, ranking[ranking["scene"] == scene].set_index("blade").reindex(blades))
         axes.set(title=scene, xlabel="speeds above yield (rad/s)")
-    panels[0][0].set_yticks(np.arange(len(blades)), blades)
+    named = [f"{blade}\n{contacts[blade]}" if blade in contacts else blade for blade in blades]
+    panels[0][0].set_yticks(np.arange(len(blades)), named)
     panels[0][0].invert_yaxis()
     figure.legend(*style.legend_entries(list(panels.flat)), loc="outside lower center", ncols=3)
     return figure

@@ -2,7 +2,7 @@
 
 import csv
 from collections.abc import Iterable
-from itertools import product
+from itertools import groupby, product
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +12,8 @@ from r37core.results.closing import interaction_title, lining_texts, remarks_on_
 from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
 
-MOST_SCENES = 12
-"""Scenes of which each has a line of its own."""
+MOST_SCENES = MOST_BLADES = 12
+"""Scenes of which each has a line of its own, and blades that the line on all scenes names."""
 
 
 def closing_lines(
@@ -83,11 +83,27 @@ def _stress(row: dict[str, str]) -> str:
 
 
 def _ranked(file: Path) -> list[str]:
-    """Best and worst blade of each scene, and what may have been missed between speeds; nothing where stress is in none."""
+    """Lines on the ranking: each scene, all scenes, contact, missed speeds; nothing where stress is in no scene."""
     if not file.exists():
         return []
     with open(file, newline="", encoding="utf-8") as stream:
         rows = [row for row in csv.DictReader(stream) if row["length_certain_rad_s"]]
+    alike: dict[str, list[dict[str, str]]] = {}
+    for row in rows:
+        alike.setdefault(row.get("contact", ""), []).append(row)
+    lines = []
+    for contact, ranked in alike.items():
+        among = f"{contact}: " if len(alike) > 1 else ""
+        lines += [f"{among}{line}" for line in (*_extremes(ranked, file), *_overall(ranked))]
+    lines += _remarks_on_contact({contact: list(dict.fromkeys(row["blade"] for row in alike[contact])) for contact in alike})
+    gap = max((_number(row, "largest_gap_rad_s") for row in rows), default=0.0)
+    if gap > 0.0:
+        lines.append(f"speeds lie up to {gap:g} rad/s apart: a narrower interaction between them may be missed")
+    return lines
+
+
+def _extremes(rows: list[dict[str, str]], file: Path) -> list[str]:
+    """Best and worst blade of each scene, where more than scatter lies between them."""
     lines = []
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
     # of many scenes, as of a family, their tables say it
@@ -102,16 +118,45 @@ def _ranked(file: Path) -> list[str]:
                 f"{scene}: {' and '.join(names)} {verb} above yield at the fewest speeds ({_length(best)}), "
                 f"{worst['blade']} at the most ({_length(worst)}); {file}"
             )
-    gap = max((_number(row, "largest_gap_rad_s") for row in rows), default=0.0)
-    if gap > 0.0:
-        lines.append(f"speeds lie up to {gap:g} rad/s apart: a narrower interaction between them may be missed")
     return lines
 
 
 def _length(row: dict[str, str]) -> str:
-    """Length above yield, with as many digits as its scatter bears."""
-    length, scatter = _number(row, "length_certain_rad_s"), _number(row, "length_certain_scatter_rad_s")
-    return f"{rounded_to(length, scatter) if scatter > 0.0 else f'{length:.0f}'} rad/s"
+    """Length above yield, and the widest of its ranges where it has several."""
+    text, ranges = f"{_number(row, 'length_certain_rad_s'):.0f} rad/s", _number(row, "ranges_certain")
+    if ranges < 2:
+        return text
+    begin, width = _number(row, "widest_range_from_rad_s"), _number(row, "widest_range_rad_s")
+    return f"{text} in {ranges:.0f} ranges, the widest from {begin:.0f} to {begin + width:.0f}"
+
+
+def _overall(rows: list[dict[str, str]]) -> list[str]:
+    """Blades ranked over all scenes, each with its longest length; nothing for one scene, and for one blade."""
+    longest: dict[str, dict[str, str]] = {}
+    for row in sorted(rows, key=lambda row: _number(row, "length_certain_rad_s")):
+        if row.get("rank_over_scenes"):
+            longest[row["blade"]] = row
+    if len(longest) < 2:
+        return []
+    ranked = sorted(longest.values(), key=lambda row: (_number(row, "rank_over_scenes"), _number(row, "length_certain_rad_s")))
+    places = [
+        " = ".join(f"{row['blade']} {_number(row, 'length_certain_rad_s'):.0f}" for row in equal)
+        for _, equal in groupby(ranked[:MOST_BLADES], key=lambda row: row["rank_over_scenes"])
+    ]
+    more = ", ..." if len(ranked) > MOST_BLADES else ""
+    equal = " (=: within scatter)" if len(places) < len(ranked[:MOST_BLADES]) else ""
+    scenes = len({row["scene"] for row in rows})
+    over = "both" if scenes == 2 else f"all {scenes}"
+    return [f"over {over} scenes, by the longest length in any (rad/s): {', '.join(places)}{more}{equal}"]
+
+
+def _remarks_on_contact(blades: dict[str, list[str]]) -> list[str]:
+    """Line on a ranking of unlike contact, or on points. `blades`: contact -> the blades that have it."""
+    key = "structure: { boundary: { contact: patches } }"
+    if len(blades) > 1:
+        kinds = "; ".join(f"{contact}: {', '.join(names[:3])}{', ...' * (len(names) > 3)}" for contact, names in blades.items())
+        return [f"ranks are among blades of the same contact ({kinds}); {key} gives one order"]
+    return [f"the ranking is of contact on points; a decision needs {key}" for contact in blades if "points" in contact]
 
 
 def _run_counts(file: Path) -> tuple[str, list[str]]:

@@ -205,9 +205,11 @@ ROBUSTNESS = (
         minimised=True,
     ),
     Column("largest_median_stress_pa", _MEDIAN, minimised=True),
-    Column("first_certain_rad_s", f"lowest speed at which {_CERTAIN}", f"first speed {_MOST}"),
-    Column("first_possible_rad_s", f"lowest speed at which {_POSSIBLE}", f"first speed {_SOME}"),
+    Column("first_certain_rad_s", f"lowest speed {_MOST}", f"first speed {_MOST}"),
+    Column("first_possible_rad_s", f"lowest speed {_SOME}", f"first speed {_SOME}"),
     Column("widest_range_rad_s", "width of the widest of these ranges", f"widest range {_MOST}", minimised=True),
+    Column("widest_range_from_rad_s", "its lowest speed", "widest range from"),
+    Column("ranges_certain", "number of these ranges", f"ranges {_MOST}"),
     Column(
         "largest_rms_m",
         "largest normal and tangential rms of the leading edge together",
@@ -249,8 +251,17 @@ WORST_MOTION = (
 )
 """Columns that second motions add to ranking.csv."""
 
+OVER_SCENES = (
+    Column("rank_over_scenes", "rank by the longest length in any scene; shared within scatter"),
+    Column("worst_rank", "worst of its ranks"),
+    Column("length_over_scenes_rad_s", "sum of its lengths", f"{_MOST}, all scenes"),
+)
+"""Columns of ranking.csv that are the same in all scenes, where there are several."""
+
 RANKING = (
     Column("rank", "place in the scene: by length above yield in most, then in some revolutions, diverged runs, stress"),
+    Column("contact", "contact nodes; ranks and chances are among the same"),
+    *OVER_SCENES,
     *ROBUSTNESS,
     *WORST_MOTION,
     Column("members", "members of the sample"),

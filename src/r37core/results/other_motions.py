@@ -35,7 +35,8 @@ def ranking_with_motions(ranking: pd.DataFrame, motions: xr.Dataset) -> pd.DataF
     rows = [_worst(swept(motions.sel(blade=row.blade, scene=row.scene))) for row in ranking.itertuples()]
     *lengths, rank = names(WORST_MOTION)
     table = pd.concat([ranking, pd.DataFrame(rows, index=ranking.index, columns=lengths)], axis=1)
-    table[rank] = table.groupby("scene")["length_certain_worst_rad_s"].rank(method="min").astype("Int64")
+    alike = [name for name in ("scene", "contact") if name in table]
+    table[rank] = table.groupby(alike)["length_certain_worst_rad_s"].rank(method="min").astype("Int64")
     return table
 
 

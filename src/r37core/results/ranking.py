@@ -8,12 +8,11 @@ import pandas as pd
 import xarray as xr
 
 from r37core.base.io import readable
-from r37core.base.rounding import rounded_to
 from r37core.base.units import si_name
 from r37core.time_integration.status import RunStatus
 
-from .columns import CERTAIN, CHANCE, ENDS, OPERATING, POSSIBLE, ROBUSTNESS, names
-from .exceedance import exceedance_of
+from .columns import CERTAIN, CHANCE, ENDS, OPERATING, OVER_SCENES, POSSIBLE, ROBUSTNESS, names
+from .exceedance import SpeedRange, exceedance_of
 from .measures import drop_after, has_strengths, lasts, motion, peak_of, speeds_above_yield
 from .operating_range import OperatingRange
 from .table_file import read_table
@@ -23,9 +22,6 @@ MeasuresOfMembers = dict[tuple[str, str], dict[str, dict[str, float]]]
 
 RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "diverged_runs", "largest_median_stress_pa")
 """Columns that blades are ranked by: less of the first is better, of the next where that is the same."""
-
-_STEP = 1.0
-"""Smallest distinguishable length (rad/s) without scatter: the distance of the closest speeds."""
 
 
 def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chance_scatter: bool = True) -> dict[str, float]:
@@ -84,7 +80,10 @@ def robustness(
         measures["length_ever_rad_s"] = speeds_above_yield(response, "max_von_mises_ever").length
         if "motion_at_end" in response:
             measures["length_lasting_rad_s"] = _length_lasting(response)
-        measures["widest_range_rad_s"] = max((above.length for above in exceedance.ranges(CERTAIN)), default=0.0)
+        certain = exceedance.ranges(CERTAIN)
+        widest = max(certain, key=lambda above: above.length, default=SpeedRange(np.nan, np.nan, False))
+        measures["widest_range_rad_s"], measures["widest_range_from_rad_s"] = np.nan_to_num(widest.length), widest.begin
+        measures["ranges_certain"] = len(certain)
         measures["largest_median_stress_pa"] = float(response["max_von_mises_median"].max())
     if has_strengths(response):
         exceedance = exceedance_of(response, "share_of_revolutions_above_goodman")
@@ -114,27 +113,49 @@ def measures_of_members(members: xr.Dataset) -> MeasuresOfMembers:
 
 
 def ranking_table(
-    measures: Mapping[tuple[str, str], Mapping[str, float]], members: MeasuresOfMembers | None = None
+    measures: Mapping[tuple[str, str], Mapping[str, float]],
+    members: MeasuresOfMembers | None = None,
+    contacts: Mapping[str, str] | None = None,
 ) -> pd.DataFrame:
     """One row for each blade and scene, scene by scene with the best blade first; equal ones have the same rank.
 
+    Ranks and chances are among blades of the same contact. `contacts`: what that of each blade acts on; None: all on the same.
     `measures`: blade and scene -> its `robustness`, whose measures in operation have a rank of their own; `members`: the same
     of each member of a sample, by name, for their ranges (`_low`, `_high`: ranges.ENDS) and the chance to be better than each
     other blade: the share of the members that both blades have, which have the same values of the scene's numbers, in which it
     is; equal ones count half.
     """
+    contacts = contacts or {}
     table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in measures.items()])
+    table.insert(2, "contact", [contacts.get(blade, "") for blade in table["blade"]])
+    alike = table.groupby(["scene", "contact"])
     keys = table[list(RANKED_BY)].fillna(np.inf).apply(tuple, axis=1)
-    ranks = [1 + sum(other < key for other in keys[table["scene"] == of]) for key, of in zip(keys, table["scene"], strict=True)]
+    groups = alike.ngroup()
+    ranks = [1 + sum(other < key for other in keys[groups == group]) for key, group in zip(keys, groups, strict=True)]
     # blades without stress have nothing to be ranked by
     table.insert(2, "rank", pd.Series(ranks, dtype="Int64").where(table[RANKED_BY[0]].notna()))
     if "exceedance_integral_operating_rad_s" in table:
-        inside = table.groupby("scene")["exceedance_integral_operating_rad_s"].rank(method="min")
+        inside = alike["exceedance_integral_operating_rad_s"].rank(method="min")
         table["rank_operating"] = inside.astype("Int64")
     if members:
-        table = pd.concat([table, pd.DataFrame([_member_columns(pair, members) for pair in measures])], axis=1)
-    scenes = list(dict.fromkeys(table["scene"]))
-    return table.sort_values(["scene", "rank"], key=lambda keys: keys.map(scenes.index) if keys.name == "scene" else keys)
+        table = pd.concat([table, pd.DataFrame([_member_columns(pair, members, contacts) for pair in measures])], axis=1)
+    if table.loc[table["rank"].notna(), "scene"].nunique() > 1:
+        table = pd.concat([table, _overall(table)], axis=1)
+    order = ["scene", "contact", "rank"]
+    return table.sort_values(order, key=lambda keys: keys if keys.name == "rank" else pd.Series(pd.factorize(keys)[0]))
+
+
+def _overall(table: pd.DataFrame) -> pd.DataFrame:
+    """OVER_SCENES of the rows of a ranking; NaN for a blade without a rank in some of the scenes."""
+    ranked = table[table["rank"].notna()]
+    blades, by = ranked.groupby("blade"), RANKED_BY[0]
+    worst = ranked.loc[blades[by].idxmax()].set_index("blade")[blades.size() == ranked["scene"].nunique()]
+    scatter = worst["length_certain_scatter_rad_s"].fillna(0.0)
+    high, low = worst[by] + scatter, worst[by] - scatter
+    ranks = [1 + (high[worst["contact"] == worst["contact"][blade]] < low[blade]).sum() for blade in worst.index]
+    columns = [pd.Series(ranks, worst.index, dtype="Int64"), blades["rank"].max(), blades[by].sum()]
+    overall = pd.concat(dict(zip(names(OVER_SCENES), columns, strict=True)), axis=1).reindex(worst.index)
+    return overall.reindex(table["blade"]).set_axis(table.index)
 
 
 def read_ranking(file: Path | str) -> pd.DataFrame:
@@ -144,24 +165,11 @@ def read_ranking(file: Path | str) -> pd.DataFrame:
         missing = [name for name in ("blade", "scene", "rank", *names(ROBUSTNESS)) if name not in table]
         if missing:
             raise ValueError(f"without the columns {', '.join(missing)}")
-        numbers = dict.fromkeys(table.columns.drop(["blade", "scene"]), float)
+        numbers = dict.fromkeys(table.columns.drop(["blade", "scene", "contact"], errors="ignore"), float)
         return table.astype(numbers).astype({"rank": "Int64"})
 
 
-def as_scatter_bears(table: pd.DataFrame) -> pd.DataFrame:
-    """The table with lengths of as many digits as the range of the members bears, or the scatter, or a step of 1 rad/s."""
-    rounded = table.copy()
-    for name in (f"length_{kind}_rad_s" for kind in ("certain", "possible") if f"length_{kind}_rad_s" in table):
-        scatter = pd.Series(table.get(name.replace("_rad_s", "_scatter_rad_s"), np.nan), table.index)
-        spread = (2.0 * scatter).fillna(_STEP)
-        if f"{name}_low" in table:
-            spread = (table[f"{name}_high"] - table[f"{name}_low"]).fillna(spread)
-        values = zip(table[name], spread.clip(lower=_STEP), strict=True)
-        rounded[name] = [float(rounded_to(*value) or np.nan) for value in values]
-    return rounded
-
-
-def _member_columns(pair: tuple[str, str], members: MeasuresOfMembers) -> dict[str, float]:
+def _member_columns(pair: tuple[str, str], members: MeasuresOfMembers, contacts: Mapping[str, str]) -> dict[str, float]:
     blade, scene = pair
     own = members.get(pair, {})
     row: dict[str, float] = {"members": len(own)}
@@ -170,7 +178,7 @@ def _member_columns(pair: tuple[str, str], members: MeasuresOfMembers) -> dict[s
         for end in ("low", "high"):
             row[f"{name}_{end}"] = float(np.quantile(values, ENDS[end], method="inverted_cdf")) if values else np.nan
     for other in dict.fromkeys(name for name, of in members if of == scene):
-        if other != blade:
+        if other != blade and contacts.get(other) == contacts.get(blade):
             row[f"{CHANCE}{other}"] = chance_to_be_better(own, members[other, scene])
     return row
 

@@ -90,7 +90,7 @@ def summary(input: Any, output: Any, params: Any) -> None:
 def ranking(input: Any, output: Any, params: Any) -> None:
     """Rank the blades. Inputs: datasets by kind and, if there, members and more motions. Output: table (csv).
 
-    Params: runs, operating (the range, or None).
+    Params: runs, operating (the range, or None), contacts (blade -> what its contact acts on).
     """
     datasets = {kind: read_dataset(file) for kind, file in input.items()}
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
@@ -99,5 +99,5 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     measures = {
         (blade, scene): robustness(response_of(datasets, blade, scene), operating=operating) for blade, scene in params.runs
     }
-    table = ranking_table(measures, members)
+    table = ranking_table(measures, members, params.contacts)
     write_table(table if motions is None else ranking_with_motions(table, motions), output.table, digits=6)
