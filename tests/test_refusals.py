@@ -105,6 +105,11 @@ CONFIG_REFUSALS = [
     signals("speeds_rad_s: peaks", r"speeds_rad_s: found 'peaks'; allowed: .*interactions"),
     signals("speeds_rad_s: [900], revolutions: 500", "revolutions: found 500; allowed: at most those of a run, 200 in 'abrad"),
     signals("speeds_rad_s: [900], blades: [Reff]", "blades: found 'Reff'; allowed: Ref, L50"),
+    section(
+        "operating: { idle_rad_s: 900, redline_rad_s: 1300 }\n"
+        "requirements: { campbell_margins: [{ mode: '', engine_orders: [4], at_least_percent: 5 }] }",
+        r"requirements\.campbell_margins\.0\.mode: found ''; allowed: 1B, 1T, 2B",
+    ),
     signals("speeds_rad_s: [0.02]", r"speeds_rad_s: found 0\.02 rad/s, a revolution of"),
     run_up("from_rad_s: 9, to_rad_s: 10", r"\.rate_rad_s2: found nothing; allowed: one of rate_rad_s2, rate_rpm_s, rev"),
     run_up("from_rad_s: 9, from_rpm: 9, to_rad_s: 10", r"\.from_rpm: found from_rad_s and from_rpm; allowed: one of"),

@@ -54,7 +54,7 @@ def si_form(kind: type[T], section: Section, **parts: Any) -> T:
             values[field.name] = None
         for name, key in [(declared.name, declared.key) for declared in keys] or [(field.name, Key(""))]:
             value = getattr(section, name, None)
-            if value is not None and value != key.none:
+            if value is not None and value != (key.none or None):
                 values[field.name] = key.words[value] if key.words else si_value(value, key.factor)
     return kind(**values | parts)
 
