@@ -1,6 +1,7 @@
 """Configurations that cannot be meant: each ends in one message with file, line and key."""
 
 import re
+import time
 
 import numpy as np
 import pytest
@@ -326,6 +327,19 @@ def test_texts_that_are_not_utf8(config_copy, name):
         file.write_bytes(content)
         with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:{message}"):
             read_settings(config_copy)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [(" " * 10**7, r"1: found 10000000 bytes; allowed: at most 2097152"), ("a: " + "[" * 20_000, "1: .*nested too deeply")],
+)
+def test_what_takes_long_to_read_is_refused_at_once(config_copy, content, message):
+    """Blanks took 0.1 s a MB, and brackets the square of their number."""
+    (config_copy / "config/scenes.yaml").write_text(content)
+    begun = time.process_time()
+    with pytest.raises(ConfigError, match=rf"^config/scenes\.yaml:{message}$"):
+        read_settings(config_copy)
+    assert time.process_time() - begun < 0.8
 
 
 TABLES = ["config/profiles/rotor37.csv", "config/stacking/rotor37.csv"]
