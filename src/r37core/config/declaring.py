@@ -49,7 +49,7 @@ def si_form(kind: type[T], section: Section, **parts: Any) -> T:
     has the dataclass's default, or is None.
     """
     values: dict[str, Any] = {}
-    for field, (left_out, keys) in _keys_by_field(kind).items():
+    for field, (left_out, keys) in _keys_by_field(kind).items():  # type: ignore[arg-type]
         values |= left_out
         for name, key in keys.items():
             value = getattr(section, name, None)
