@@ -1,6 +1,7 @@
 """Configurations that cannot be meant: each ends in one message with file, line and key."""
 
 import re
+import time
 
 import numpy as np
 import pytest
@@ -105,6 +106,11 @@ CONFIG_REFUSALS = [
     signals("speeds_rad_s: peaks", r"speeds_rad_s: found 'peaks'; allowed: .*interactions"),
     signals("speeds_rad_s: [900], revolutions: 500", "revolutions: found 500; allowed: at most those of a run, 200 in 'abrad"),
     signals("speeds_rad_s: [900], blades: [Reff]", "blades: found 'Reff'; allowed: Ref, L50"),
+    section(
+        "operating: { idle_rad_s: 900, redline_rad_s: 1300 }\n"
+        "requirements: { campbell_margins: [{ mode: '', engine_orders: [4], at_least_percent: 5 }] }",
+        r"requirements\.campbell_margins\.0\.mode: found ''; allowed: 1B, 1T, 2B",
+    ),
     signals("speeds_rad_s: [0.02]", r"speeds_rad_s: found 0\.02 rad/s, a revolution of"),
     run_up("from_rad_s: 9, to_rad_s: 10", r"\.rate_rad_s2: found nothing; allowed: one of rate_rad_s2, rate_rpm_s, rev"),
     run_up("from_rad_s: 9, from_rpm: 9, to_rad_s: 10", r"\.from_rpm: found from_rad_s and from_rpm; allowed: one of"),
@@ -321,6 +327,19 @@ def test_texts_that_are_not_utf8(config_copy, name):
         file.write_bytes(content)
         with pytest.raises(ConfigError, match=rf"^{re.escape(name)}:{message}"):
             read_settings(config_copy)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [(" " * 10**7, r"1: found 10000000 bytes; allowed: at most 2097152"), ("a: " + "[" * 20_000, "1: .*nested too deeply")],
+)
+def test_what_takes_long_to_read_is_refused_at_once(config_copy, content, message):
+    """Blanks took 0.1 s a MB, and brackets the square of their number."""
+    (config_copy / "config/scenes.yaml").write_text(content)
+    begun = time.process_time()
+    with pytest.raises(ConfigError, match=rf"^config/scenes\.yaml:{message}$"):
+        read_settings(config_copy)
+    assert time.process_time() - begun < 0.8
 
 
 TABLES = ["config/profiles/rotor37.csv", "config/stacking/rotor37.csv"]

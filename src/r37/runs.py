@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from r37core.base.io import temporary_folder
+from r37core.config import ConfigError
+from r37core.config.messages import single_line
 from r37core.product.extensions import EXTENSIONS
 
 from .arguments import Speeds, plain_value, speed_keys
@@ -71,6 +73,10 @@ def run(
         >>> results["rms"].speed.values
         array([1150., 1550.])
     """
+    for kind in ("blade", "scene"):
+        if (key := f"{kind}s_file") in sections:
+            allowed = f"config=, a config.yaml that names it, or {kind}s from r37.{kind}(name, file=...)"
+            raise ConfigError(f"{key}: found {single_line(repr(sections[key]))}; allowed: {allowed}")
     keys = {name: plain_value(section) for name, section in sections.items()}
     if speeds is not None or speeds_rpm is not None:
         keys |= speed_keys(speeds, speeds_rpm)

@@ -1,6 +1,7 @@
 """Units that people read and write beside those of the SI."""
 
 import math
+from functools import cache
 
 RPM = 30.0 / math.pi
 """Revolutions per minute of one rad/s."""
@@ -33,6 +34,7 @@ def shown_unit(unit: str) -> tuple[str, float]:
     return _SHOWN.get(unit, (unit, 1.0))
 
 
+@cache
 def si_name(key: str) -> tuple[str, float | None]:
     """The key without its unit, and what one of that is in the SI; None for a key without a unit."""
     ends = [end for end in SUFFIXES if key.endswith(end)]

@@ -3,7 +3,6 @@
 Families of designs, tolerances and searches vary the same numbers. An entry is a mapping of plain values, as in the files.
 """
 
-import copy
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Self, TypeVar
@@ -69,11 +68,14 @@ def with_value(content: Mapping[str, Any], key: str, value: Any) -> dict[str, An
 
     Raises AttributeError, KeyError, IndexError, TypeError or ValueError for a key that leads nowhere.
     """
-    changed = dict(copy.deepcopy(content))
+    changed = dict(content)
     *path, last = key.split(".")
     inner: Any = changed
     for step in path:
-        inner = inner[int(step)] if isinstance(inner, list) else inner.setdefault(step, {})
+        # only what leads to the number is copied
+        place: Any = int(step) if isinstance(inner, list) else step
+        inner[place] = (inner[place] if isinstance(inner, list) else inner.get(place, {})).copy()
+        inner = inner[place]
     if isinstance(inner, list):
         raise TypeError
     # for keys that count; others take one, too

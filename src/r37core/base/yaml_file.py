@@ -18,6 +18,9 @@ KeyPath = tuple[str | int, ...]
 _LARGEST = 100_000
 """Values in one file; more than that is an alias that multiplies itself."""
 
+_LARGEST_FILE, _DEEPEST = 2 * 2**20, 200
+"""Bytes of a file, and sections and lists inside each other, above which it takes long to be told what is wrong."""
+
 _DIGITS = list("-+0123456789.")
 _INTEGER = re.compile(r"[-+]?[0-9]{1,400}\Z")
 _FLOAT = re.compile(r"([-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN))\Z")
@@ -25,6 +28,11 @@ _FLOAT = re.compile(r"([-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?|[-+]?
 
 class _Loader(yaml.SafeLoader):
     """Numbers as in YAML 1.2 and JSON (none octal, sexagesimal or with underscores), no dates, no merged mappings."""
+
+    def fetch_flow_collection_start(self, TokenClass: Any) -> None:
+        if self.flow_level > _DEEPEST:
+            raise yaml.MarkedYAMLError(problem="nested too deeply", problem_mark=self.get_mark())
+        super().fetch_flow_collection_start(TokenClass)
 
 
 _Loader.yaml_implicit_resolvers = {
@@ -72,6 +80,8 @@ def load_yaml(file: Path) -> Any:
 def load_yaml_with_lines(file: Path) -> tuple[Any, dict[KeyPath, int]]:
     """Content of a YAML file as `load_yaml` gives it, and the number of the line each value stands on."""
     lines: dict[KeyPath, int] = {}
+    if (size := file.stat().st_size) > _LARGEST_FILE:
+        raise TextFileError(1, f"found {size} bytes; allowed: at most {_LARGEST_FILE}")
     text = read_text(file)
     try:
         loader = _Loader(text)

@@ -84,11 +84,10 @@ def pairs_not_covered(settings: Settings, operating: OperatingRange) -> list[tup
 def history_speeds_are_run(settings: Settings) -> None:
     """Stress histories are wanted at speeds that are simulated in their scene."""
     for name, chosen in settings.scenes.items():
-        run = {speed for (_, scene), plan in settings.speed_plans.items() if scene == name for speed in plan.certain}
         entry = settings.scene_designs.entries[name]
         key = "stress_history_speeds_rpm" if entry.stress_history_speeds_rpm else "stress_history_speeds_rad_s"
         for value, speed in zip(getattr(entry, key), chosen.stress_history_speeds, strict=True):
-            if speed not in run:
+            if not any(speed in settings.speed_plans[blade, name].certain for blade in settings.blade_names):
                 allowed = "speeds that are simulated (add it to speeds or speeds_for in config.yaml)"
                 raise settings.documents.scenes.refusal((name, key), f"{value:g}", allowed)
 
@@ -101,8 +100,7 @@ def slowest_speeds_can_be_run(settings: Settings) -> None:
 
 def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> None:
     """ConfigError for a run, whose speed stands at `path` of config.yaml, that has too many steps, or its revolution."""
-    nodes = max(settings.reduction_choice(name).boundary.most_nodes for name in settings.blades)
-    size = 8 * padded(nodes) * run.steps_per_revolution
+    size = 8 * padded(settings.made(_most_nodes)) * run.steps_per_revolution
     excess = max(size / LARGEST_TABLE, run.steps / MOST_STEPS)
     if excess > 1.0:
         lowest = run.speed * excess
@@ -114,6 +112,10 @@ def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> N
             f"{MOST_STEPS:.0e} steps, and the casing's shape at every step of a revolution takes at most "
             f"{LARGEST_TABLE / 2**20:.0f} MiB",
         )
+
+
+def _most_nodes(settings: Settings) -> int:
+    return max(settings.reduction_choice(name).boundary.most_nodes for name in settings.blades)
 
 
 def matrices_hold_their_terms(settings: Settings) -> None:

@@ -7,6 +7,7 @@ dataclass of a section.
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import MISSING, fields
+from functools import cache
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
@@ -48,15 +49,25 @@ def si_form(kind: type[T], section: Section, **parts: Any) -> T:
     has the dataclass's default, or is None.
     """
     values: dict[str, Any] = {}
-    for field in fields(kind):  # type: ignore[arg-type]
-        keys = [declared for declared in declared_keys(kind) if declared.field == field.name]  # type: ignore[arg-type]
-        if keys and keys[0].default is MISSING and NoneType in get_args(keys[0].kind):
-            values[field.name] = None
-        for name, key in [(declared.name, declared.key) for declared in keys] or [(field.name, Key(""))]:
+    for field, (left_out, keys) in _keys_by_field(kind).items():  # type: ignore[arg-type]
+        values |= left_out
+        for name, key in keys.items():
             value = getattr(section, name, None)
-            if value is not None and value != key.none:
-                values[field.name] = key.words[value] if key.words else si_value(value, key.factor)
+            if value is not None and value != (key.none or None):
+                values[field] = key.words[value] if key.words else si_value(value, key.factor)
     return kind(**values | parts)
+
+
+@cache
+def _keys_by_field(kind: Any) -> dict[str, tuple[dict[str, None], dict[str, Key]]]:
+    """Field of a dataclass -> it as None, if it is that without a key, and its keys by name."""
+    by_field = {}
+    for field in fields(kind):
+        keys = [declared for declared in declared_keys(kind) if declared.field == field.name]
+        is_none = bool(keys) and keys[0].default is MISSING and NoneType in get_args(keys[0].kind)
+        named = {declared.name: declared.key for declared in keys} or {field.name: Key("")}
+        by_field[field.name] = ({field.name: None} if is_none else {}, named)
+    return by_field
 
 
 def _field(declared: DeclaredKey, optional: bool, default: Any) -> tuple[Any, Any]:

@@ -130,7 +130,8 @@ class SceneEntry(Section):
 
     def stress_history_speeds(self) -> tuple[float, ...]:
         """Speeds (rad/s) at which the largest stress of every revolution is kept."""
-        return si_fields(self)["stress_history_speeds"]
+        keys = ("stress_history_speeds_rad_s", "stress_history_speeds_rpm")
+        return si_fields((key, getattr(self, key)) for key in keys)["stress_history_speeds"]
 
     def scene(self) -> Scene:
         """The scene as the simulations take it."""

@@ -64,4 +64,4 @@ def most_runs(settings: Settings, blade: str, scene: str) -> int:
 
 def fastest_of(settings: Settings, scene: str) -> float:
     """The highest speed (rad/s) of a scene's simulations in the sweep."""
-    return max(plan.every_speed()[-1] for (_, name), plan in settings.speed_plans.items() if name == scene)
+    return max(settings.speed_plans[blade, scene].certain[-1] for blade in settings.blade_names)

@@ -8,7 +8,6 @@ from r37core.base.plain import to_plain
 from r37core.base.yaml_file import KeyPath
 from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
-from r37core.config.document import ConfigRefusals
 from r37core.config.speed_choice import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure, Panel
@@ -114,7 +113,7 @@ def can_be_swept(settings: Settings) -> None:
     if not section.asked:
         return
     names_are_there(settings, ("second_motions",), section)
-    sweep, path, refusals = section.sweep(), ("second_motions",), ConfigRefusals()
+    sweep, path = section.sweep(), ("second_motions",)
     if settings.structure.coriolis:
         raise document.refusal(path, "sweeps with structure.coriolis: true", "none; they do not carry the Coriolis force yet")
     for scene in [] if section.scenes == "all" else scenes_named(settings, section.scenes):
@@ -125,18 +124,25 @@ def can_be_swept(settings: Settings) -> None:
     if count > MOST_SPEEDS:
         raise document.refusal(path, f"{count:.8g} speeds", f"at most {MOST_SPEEDS}; a larger step has fewer")
     highest = settings.structure.maximum_speed_rad_s
-    last_key: KeyPath = ("to_rad_s" if section.to_rpm is None else "to_rpm",)
-    dwelt = [(("dwell", "speeds_rad_s", number), speed) for number, speed in enumerate(section.dwell.speeds_rad_s)]
-    for key, speed in [(last_key, sweep.speeds[-1]), *dwelt]:
-        if speed > highest:
-            raise document.refusal((*path, *key), f"{speed:g} rad/s", f"up to structure.maximum_speed_rad_s, {highest:g}")
+    first_key: KeyPath = (*path, "from_rad_s" if section.from_rpm is None else "from_rpm")
+    last_key: KeyPath = (*path, "to_rad_s" if section.to_rpm is None else "to_rpm")
+    if sweep.first < sweep.step:
+        allowed = f"from the step on, {sweep.step:g}: the motion is carried on to the next speed"
+        raise document.refusal(first_key, f"{sweep.first:g} rad/s", allowed)
+    if sweep.speeds[-1] > highest:
+        raise document.refusal(last_key, f"{sweep.speeds[-1]:g} rad/s", f"up to structure.maximum_speed_rad_s, {highest:g}")
+    for number, speed in enumerate(section.dwell.speeds_rad_s):
+        if not sweep.first <= speed <= sweep.last:
+            between = f"speeds of the sweeps, {sweep.first:g} to {sweep.last:g}"
+            raise document.refusal((*path, "dwell", "speeds_rad_s", number), f"{speed:g} rad/s", between)
+    runs = []
     for _, scene in pairs_of(settings):
         if sweep.worn and section.scenes != "all" and settings.scenes[scene].scene.lining is None:
             raise document.refusal((*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new")
         longest = max(sweep.revolutions, section.dwell.revolutions, settings.scenes[scene].revolutions)
-        slowest = min([sweep.first, *section.dwell.speeds_rad_s])
-        refusals.of(slow_run_can_be_done, length_of_run(settings, scene, slowest, longest), settings, path)
-    refusals.tell()
+        runs.append(length_of_run(settings, scene, sweep.first, longest))
+    if runs:
+        slow_run_can_be_done(max(runs, key=lambda run: run.steps), settings, first_key)
 
 
 EXTENSION = Extension(
