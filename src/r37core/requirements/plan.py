@@ -98,8 +98,9 @@ class Judged:
         """Relative error of the level, by mesh and step, of each blade and scene; 0 where it was not measured."""
         settings, measured = self.sweep.settings, self.sweep.settings.fidelity.measured
         bare = {name for name, chosen in settings.scenes.items() if chosen.scene.lining is None}
-        point_contacts = [(scene in bare and settings.contact_of(blade) == POINTS) for blade, scene in self.sweep.runs_with("rms")]
-        return [(measured and measured.error_of(points)) or 0.0 for points in point_contacts]
+        points = {name for name in settings.blades if settings.contact_of(name) == POINTS}
+        pairs = self.sweep.runs_with("rms")
+        return [(measured and measured.error_of(blade in points and scene in bare)) or 0.0 for blade, scene in pairs]
 
     def looks(self, made: Provenance) -> Stage:
         """The stage of the further runs of a blade and scene."""
