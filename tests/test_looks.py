@@ -89,6 +89,8 @@ def test_a_motion_is_carried_on_in_a_new_lining(lined):
 
 def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
     assert dict(looks_of(lined, NEEDS, evidence(used=4e-3))) == {}
+    quiet = evidence().response.assign(share_of_time_in_contact=("speed", np.zeros(3)))
+    assert dict(looks_of(lined, NEEDS, evidence().replaced(quiet))) == {}
     assert joined_looks({}).sizes == {"look": 0} and looks_in(joined_looks({})) == {}
     # also where the runs from rest show it
     monkeypatch.setattr(further_runs, "fails_clearly", lambda _, of: len(of.speeds) == 5)

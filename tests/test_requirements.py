@@ -142,6 +142,8 @@ def test_speeds_too_far_apart_for_an_interaction_cannot_tell_that_a_limit_is_kep
     coarse = response(above(2000.0, 2000.0)).isel(speed=slice(None, None, 2))
     judgement = one(NEEDS, response=coarse)
     assert judgement["verdict"] == UNKNOWN and judgement["note"].startswith("speeds lie up to 10 rad/s apart")
+    # where nothing touches at any speed, nothing is hidden
+    assert one(NEEDS, response=coarse.assign(share_of_time_in_contact=0.0 * coarse["status"]))["verdict"] == MEETS
     # where it is not kept they tell
     assert one(NEEDS, response=response(above(1100.0, 1120.0)).isel(speed=slice(None, None, 2)))["verdict"] == FAILS
 

@@ -23,6 +23,7 @@ JUDGED = (
     "goodman_share",
     "used_thickness",
     "worn_through_share",
+    "share_of_time_in_contact",
 )
 """Variables over the speeds that requirements are judged by."""
 
@@ -77,9 +78,14 @@ class Evidence:
         return float(np.max(np.diff(speeds), where=overlap > 0.0, initial=0.0))
 
     @property
+    def touches(self) -> bool:
+        """True unless the runs over the operating range say that the tip never touches casing or lining."""
+        return "share_of_time_in_contact" not in self.response or bool((self.operated["share_of_time_in_contact"] > 0.0).any())
+
+    @property
     def too_coarse(self) -> str:
         """Why an interaction may be hidden between speeds; empty where none can."""
-        narrow = self.gap <= WIDTH * (1.0 + _ROUNDING)
+        narrow = self.gap <= WIDTH * (1.0 + _ROUNDING) or not self.touches
         return "" if narrow else f"speeds lie up to {self.gap:.3g} rad/s apart, and an interaction may be {WIDTH:g} wide"
 
     @property

@@ -113,8 +113,8 @@ class JudgedBlade:
 
 
 def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
-    """Further runs, one look (LOOKS) after another, as long as no requirement fails clearly."""
-    if fails_clearly(requirements, evidence):
+    """Further runs, one look (LOOKS) after another, as long as no requirement fails clearly; none where nothing touches."""
+    if fails_clearly(requirements, evidence) or not evidence.touches:
         return
     first, last = evidence.operating.first, evidence.operating.last
     runs = blade.runs_from_rest(_closer(_speeds_within(evidence.speeds, first, last), STEP))
