@@ -34,11 +34,8 @@ def limits(input: Any, output: Any, params: Any) -> None:
 
 def _judged(designs: pd.DataFrame, verdict: pd.DataFrame) -> pd.DataFrame:
     """Designs by ascending clearance, and whether they meet all requirements."""
-    meets = (
-        verdict.assign(meets=verdict["verdict"].isin(["meets", "does not apply"]))
-        .groupby(["blade", "scene"], sort=False)["meets"]
-        .all()
-    )
+    kept = verdict.assign(meets=verdict["verdict"].isin(["meets", "does not apply"]))
+    meets = kept.groupby(["blade", "scene"], sort=False)["meets"].all()
     return designs.merge(meets.reset_index(), on=["blade", "scene"]).sort_values(CLEARANCE, kind="stable")
 
 

@@ -17,7 +17,7 @@ module decide_fine:
     snakefile:
         "../../Snakefile"
     config:
-        run("decide_fine", "decide", blades=DECIDED[1:], scenes=["Fine"], scenes_file="validation/decisions.yaml")
+        run("decide_fine", "decide", blades=DECIDED, scenes=["Fine"], scenes_file="validation/decisions.yaml")
 
 
 use rule * from decide_fine as decide_fine_*
