@@ -22,6 +22,8 @@ def behind_engine(*files, **named):
     """Inputs that are asked for only when the numbers of the engine are known to be the same, or were made again."""
 
     def inputs(wildcards):
+        # of the jobs that are asked for alone
+        workflow.dag.forcefiles.update(OUT_OF_DATE)
         checkpoints.engine_numbers.get()
         return {**named, **({"files": list(files)} if files else {})}
 

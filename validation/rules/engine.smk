@@ -2,21 +2,18 @@
 # rearranged: Snakemake compares the content of the file.
 
 
+ENGINE = "validation/engine_numbers.json"
+
+
 checkpoint engine_numbers:
-    input:
-        # of files, not a hash: a fresh clone has no record of parameters
-        code=[
-            str(file.relative_to(ROOT))
-            for file in CodeHashes(ROOT / "src", VALIDATION).closure("evidence.engine_numbers")
-        ],
-        configuration=["config/config.yaml", "config/blades.yaml", "config/scenes.yaml", "config/fidelity.yaml"],
     output:
-        update("validation/engine_numbers.json"),
+        update(ENGINE),
     log:
         "logs/validation/engine_numbers.log",
     conda:
         ROOT / "envs/r37.yaml"
     params:
         step="evidence.engine_numbers.renew",
+        code=CodeHashes(ROOT / "src", VALIDATION)("evidence.engine_numbers"),
     script:
         "../step.py"

@@ -1,7 +1,7 @@
 # Pictures of programs and of the explorer.
 use rule evidence as user_code_picture with:
     input:
-        unpack(lambda wildcards: behind_engine(f"examples/figures/{wildcards.program}.py")(wildcards)),
+        unpack(lambda wildcards: behind_engine(ancient(f"examples/figures/{wildcards.program}.py"))(wildcards)),
     output:
         "docs/user_code/{program}.png",
     log:

@@ -41,11 +41,3 @@ use rule * from patches as patches_*
 
 onstart:
     campaign.onstart()
-
-
-onsuccess:
-    campaign.onsuccess()
-
-
-onerror:
-    campaign.onerror()
