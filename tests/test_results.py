@@ -17,7 +17,8 @@ from r37core.fem.material import Material
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.results.response import write_response
-from r37core.rom.reduced_model import RecoveryNodes, contact_model
+from r37core.rom.recovery_nodes import RecoveryNodes
+from r37core.rom.reduced_model import contact_model
 from r37core.stress.operator import StressOperator, read_stress_operator, write_stress_operator
 from r37core.stress.recovery import stress_operator
 from r37core.stress.revolutions import largest_of_revolutions
