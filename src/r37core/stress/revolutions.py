@@ -13,8 +13,8 @@ from .operator import StressOperator
 
 def largest_of_revolutions(
     stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray, per_revolution: int
-) -> np.ndarray:
-    """Largest von Mises stress (Pa) of each revolution, shape (revolutions,).
+) -> tuple[np.ndarray, np.ndarray]:
+    """Largest von Mises stress (Pa) of each revolution, and its node by its place in the operator, shape (revolutions,).
 
     `states`, shape (instants, numbers), of whole revolutions of `per_revolution` instants each; `shapes`, shape (coordinates,
     numbers): reduced coordinates per number; `rotation`, shape (shapes,): amplitudes of rotation's shapes, or none.
@@ -28,24 +28,17 @@ def largest_of_revolutions(
     everything, revolutions = slice(None), np.arange(len(states) // per_revolution)
     nodes = np.unique(squares(states[-per_revolution:], everything).argmax(axis=1))
     new, largest = nodes, np.zeros(len(states), dtype=np.float32)
-    seen = np.zeros(len(states), dtype=bool)
+    node_of = np.full(len(states), -1)
     while len(new):
         np.maximum(largest, squares(states, new).max(axis=1), out=largest)
         worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions * per_revolution
-        worst = worst[~seen[worst]]
-        seen[worst] = True
+        worst = worst[node_of[worst] < 0]
         worst_squares = squares(states[worst], everything)
-        largest[worst] = worst_squares.max(axis=1)
-        new = np.setdiff1d(worst_squares.argmax(axis=1), nodes)
+        largest[worst], node_of[worst] = worst_squares.max(axis=1), worst_squares.argmax(axis=1)
+        new = np.setdiff1d(node_of[worst], nodes)
         nodes = np.union1d(nodes, new)
-    return np.sqrt(largest.reshape(-1, per_revolution).max(axis=1).astype(float))
-
-
-def worst_node(stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray) -> int:
-    """Place, among the operator's nodes, of the largest stress at any of the instants; arguments as above."""
-    states, shapes = stress.in_band(states, shapes)
-    squares = _squares(stress, shapes, rotation)(states.astype(np.float32), slice(None))
-    return int(squares.max(axis=0).argmax())
+    worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions * per_revolution
+    return np.sqrt(largest[worst].astype(float)), node_of[worst]
 
 
 def _squares(

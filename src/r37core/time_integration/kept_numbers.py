@@ -9,7 +9,7 @@ from r37core.contact.scene import Lining
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperators, judged_operator
-from r37core.stress.revolutions import largest_of_revolutions, worst_node
+from r37core.stress.revolutions import largest_of_revolutions
 
 from .finished_run import FinishedRun
 from .problem import Problem
@@ -83,69 +83,52 @@ def snapshot_numbers(
     }
 
 
-def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: bool) -> np.ndarray:
-    """Largest stress (Pa) in each region of each blade in each revolution that has snapshots; NaN where it ended.
+def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Largest stress (Pa) of each blade in each revolution with snapshots, NaN where it ended, and its node in the operator.
 
-    Shape (regions, blades, revolutions). Blades with as many stepped modes are looked at together: their modes have the same
-    shapes, and what follows a force at once is in proportion to the flexibility, 1/factor^2 for a factor of the frequencies.
+    Both by region, shape (regions, blades, revolutions). Blades with as many stepped modes are looked at together: their modes
+    have the same shapes, and what follows a force at once is in proportion to the flexibility, 1/factor^2 for a factor of the
+    frequencies.
     """
-    problems, records = run.problems, run.records
+    problems, records, factors = run.problems, run.records, run.frequency_factors
     choice, per_revolution = problems[0].choice, problems[0].choice.snapshots_per_revolution
-    rotation = _rotation(run, static_stress)
+    model, speed = problems[0].model, problems[0].speed
+    rotation = rotation_amplitudes(model.rotation_stiffening, speed) if static_stress else np.empty(0)
     history = np.full((len(stress), len(records), choice.snapshot_revolutions), np.nan, dtype=np.float32)
+    nodes = np.zeros(history.shape, dtype=int)
     groups: dict[tuple[int, int], list[int]] = {}
     for place, record in enumerate(records):
         revolutions = len(record.snapshots) // per_revolution
         if revolutions:
             groups.setdefault((record.snapshots.shape[1], revolutions), []).append(place)
     for (_, revolutions), places in groups.items():
-        instants = revolutions * per_revolution
-        states = [_states(run, place, places[0])[:instants] for place in places]
-        shapes = problems[0].model.to_reduced @ problems[places[0]].contact.state_shapes
+        instants, contact = revolutions * per_revolution, problems[places[0]].contact
+        states = [records[place].snapshots[:instants] for place in places]
+        stepped = contact.state_shapes.shape[1] - contact.static_shapes.shape[1]
+        for row, place in enumerate(places[1:], 1):
+            states[row] = states[row].copy()
+            states[row][:, stepped:] *= (factors[places[0]] / factors[place]) ** 2
+        shapes = model.to_reduced @ contact.state_shapes
         joined = states[0] if len(states) == 1 else np.concatenate(states)
-        for row, operator in zip(history, stress.values(), strict=True):
-            largest = largest_of_revolutions(operator, joined, shapes, rotation, per_revolution)
-            row[places, :revolutions] = largest.reshape(len(places), revolutions)
-    return history
+        for region, operator in enumerate(stress.values()):
+            found = largest_of_revolutions(operator, joined, shapes, rotation, per_revolution)
+            for kept, values in zip((history, nodes), found, strict=True):
+                kept[region, places, :revolutions] = values.reshape(len(places), revolutions)
+    return history, nodes
 
 
-def worst_places(run: FinishedRun, stress: StressOperators, history: np.ndarray, static_stress: bool) -> np.ndarray:
+def worst_places(run: FinishedRun, stress: StressOperators, history: np.ndarray, nodes: np.ndarray) -> np.ndarray:
     """Chord, span and thickness, shape (regions, 3), of the largest stress in the statistic, of all blades; NaN if diverged.
 
-    `history`: see stress_histories.
+    `history` and `nodes`: see stress_histories.
     """
     if run.first_diverged is not None:
         return np.full((len(stress), 3), np.nan)
-    rotation, places = _rotation(run, static_stress), []
-    for row, operator in zip(history, stress.values(), strict=True):
-        problem = run.problems[0]
-        each = problem.choice.snapshots_per_revolution
-        reached = [len(record.snapshots) // each for record in run.records]
-        first = min(reached) - problem.choice.revolutions_in_statistic
-        late = row[:, max(first, 0) : min(reached)]
-        blade, revolution = np.unravel_index(late.argmax(), late.shape)
-        start = (max(first, 0) + revolution) * each
-        states = _states(run, int(blade), int(blade))[start : start + each]
-        shapes = problem.model.to_reduced @ run.problems[blade].contact.state_shapes
-        places.append(operator.place(worst_node(operator, states, shapes, rotation)))
-    return np.array(places)
-
-
-def _rotation(run: FinishedRun, static_stress: bool) -> np.ndarray:
-    """Amplitudes of rotation's shapes, or none."""
-    return rotation_amplitudes(run.problem.model.rotation_stiffening, run.problem.speed) if static_stress else np.empty(0)
-
-
-def _states(run: FinishedRun, place: int, first: int) -> np.ndarray:
-    """Snapshots of the blade at a `place`, per unit of what the shapes of that at `first` are, shape (instants, numbers)."""
-    states = run.records[place].snapshots
-    if place == first:
-        return states
-    contact = run.problems[first].contact
-    states = states.copy()
-    stepped = contact.state_shapes.shape[1] - contact.static_shapes.shape[1]
-    states[:, stepped:] *= (run.frequency_factors[first] / run.frequency_factors[place]) ** 2
-    return states
+    choice = run.problem.choice
+    reached = len(run.records[0].snapshots) // choice.snapshots_per_revolution
+    late = slice(max(reached - choice.revolutions_in_statistic, 0), reached)
+    regions = zip(stress.values(), history[:, :, late], nodes[:, :, late], strict=True)
+    return np.array([operator.place(at.flat[largest.argmax()]) for operator, largest, at in regions])
 
 
 def casing_numbers(problem: Problem, record: SimulationRecord, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:

@@ -116,7 +116,8 @@ def numbers_of_run(
     history = None
     if "stress" in results:
         if stress is not None:
-            history = kept_numbers.stress_histories(run, stress, "static_stress" in results)
+            history, nodes = kept_numbers.stress_histories(run, stress, "static_stress" in results)
+            numbers["max_von_mises_place"] = kept_numbers.worst_places(run, stress, history, nodes)
         numbers |= _stress(run, stress, history, results)
     if "wear" in results:
         assert scene.lining is not None
@@ -159,15 +160,13 @@ def _stress(
     run: FinishedRun, stress: StressOperators | None, history: np.ndarray | None, results: Sequence[str]
 ) -> dict[str, np.ndarray]:
     """Numbers of the blade with the largest stress (snapshot_numbers), the largest of the `history`, and fatigue."""
-    static_stress = "static_stress" in results
     shown = run.first_diverged or 0
     if history is not None and run.first_diverged is None:
         shown = int(np.nan_to_num(history[0, :, -1]).argmax())
     # a blade that another one ends may have no snapshots: of a diverged run they are of the one that diverged
-    numbers = kept_numbers.snapshot_numbers(run.problems[shown], run.records[shown], stress, static_stress)
+    numbers = kept_numbers.snapshot_numbers(run.problems[shown], run.records[shown], stress, "static_stress" in results)
     if stress is None or history is None:
         return numbers
     if "fatigue" in results:
         numbers |= fatigue_numbers(run, stress, shown)
-    numbers["max_von_mises_place"] = kept_numbers.worst_places(run, stress, history, static_stress)
     return numbers | {"revolution_von_mises": history.max(axis=1)}
