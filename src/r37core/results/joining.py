@@ -52,14 +52,14 @@ def join(
             rows.append(dataset.sizes[along.dim] if along.dim else 1)
             indexes = {str(name): index for name, index in dataset.indexes.items() if name != along.dim}
             # texts, such as the regions of the stress, keep their order
-            orders = {name: False if index.dtype == object else None for name, index in indexes.items()}
+            orders = {name: False if index.dtype.kind in "OU" else None for name, index in indexes.items()}
             axes |= {name: axes.get(name, index).union(index, sort=orders[name]) for name, index in indexes.items()}
             described = {str(name): variable for name, variable in dataset.variables.items()}
             # texts without any rows are read as numbers
             variables = variables | described if rows[-1] else described | variables
     wanted = [name for name in along.names or variables if name in variables]
     names = [name for name in wanted if name not in axes]
-    texts = [name for name in names if variables[name].dtype == object]
+    texts = [name for name in names if variables[name].dtype.kind in "OU"]
     states = {name: max(variables[name].attrs["flag_values"]) for name in names if "flag_values" in variables[name].attrs}
     columns = {label: [key[number] for key in sources] for number, label in enumerate(along.labels)}
     with new_netcdf(file, {}) as target:

@@ -18,7 +18,7 @@ from .region_choice import RegionChoice
 _MOST_NODES = 500
 """Nodes of a region above which stress is recovered at the candidates alone."""
 
-_MOST_MODES, _DRAWS, _AT_ONCE, _SEED = 32, 1000, 50, 0
+_MOST_MODES, _DRAWS, _AT_ONCE, _SEED = 32, 2000, 50, 0
 
 
 @dataclass(frozen=True)

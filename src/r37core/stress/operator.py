@@ -26,7 +26,8 @@ class StressOperator:
     `operator`, shape (6, nodes, numbers + shapes): components xx yy zz xy yz zx (Pa) per unit of each number of the vibration,
     then of each amplitude of rotation's shapes. `coordinates`: how many reduced coordinates there are. `band`, shape (numbers,
     coordinates): amplitudes of the modes that count, per coordinate; None where the numbers are the coordinates. `region`: in
-    words; `is_complete`: whether its nodes are all of the region's; `places`, shape (nodes, 3): their chord, span, thickness, where known.
+    words; `is_complete`: whether its nodes are all of the region's; `places`, shape (nodes, 3): their chord, span, thickness,
+    where known.
     """
 
     operator: np.ndarray
