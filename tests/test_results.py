@@ -212,7 +212,7 @@ def test_response_holds_every_speed(sweep):
         assert "wear" not in response
         np.testing.assert_array_equal(response["status"], [0, 1])
         assert np.isnan(response["rms_radial"].isel(speed=1)).all()
-        assert np.isnan(response["max_von_mises"].isel(speed=1))
+        assert np.isnan(response["max_von_mises"].isel(speed=1)).all()
         assert response["diverged_revolution"].isel(speed=1) > 0.0
 
 
