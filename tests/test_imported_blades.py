@@ -163,7 +163,10 @@ def test_a_mesh_with_another_material(settings_with):
         ({"profiles": "a.csv"}, r"Fan: found unknown key profiles; allowed keys: length_unit, "),
         ({"material": {"density_kg_m3": 4430.0}}, r"Fan\.material: missing key youngs_modulus_pa, poissons_ratio, yield_"),
         ({"material": MATERIAL | {"youngs_modulus_pa": 1.15e6}}, r"Fan\.material: .* Units seem to be mixed: give Pa and"),
-        ({"stress_regions": {"tip": {"minimum_z_m": 1, "maximum_z_m": 0}}}, r"Fan\.stress_regions\.tip\.minimum_z_m: found 1; allowed: less"),
+        (
+            {"stress_regions": {"tip": {"minimum_z_m": 1, "maximum_z_m": 0}}},
+            r"Fan\.stress_regions\.tip\.minimum_z_m: found 1; allowed: less",
+        ),
     ],
 )
 def test_meshes_that_cannot_be_meant(settings_with, changes, message):

@@ -202,7 +202,7 @@ def test_response_holds_every_speed(sweep):
         history = response["max_von_mises_history"].sel(history_speed=1200.0)
         assert history.dims == ("region", "revolution") and history.shape == (1, 4)
         history = history[0]
-        assert history[-1] == pytest.approx(float(response["max_von_mises"].sel(speed=1200.0)), rel=1e-6)
+        assert history[-1] == pytest.approx(float(response["max_von_mises"].sel(speed=1200.0).squeeze()), rel=1e-6)
         first = int(np.flatnonzero(history.values > 1.0)[0]) + 1
         assert response["first_yield_revolution"].sel(history_speed=1200.0) == first
         for name, variable in response.variables.items():

@@ -1,4 +1,4 @@
-"""Rendered figures of the gallery: mode shapes, the submesh of stress, the variants' shapes."""
+"""Rendered figures of the gallery: mode shapes, the region of stress, the variants' shapes."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ class StructureSection(Section):
     spin_softening: Any = DECLARED
     coriolis: Any = DECLARED
     stress_regions: ByName[RegionSection | None] = Field(
-        default=_SHIPPED_REGIONS, description="Regions of the stress by name, the first of which decides; null leaves one out"
+        default=_SHIPPED_REGIONS, description="Regions of the stress; the first decides, null leaves one out"
     )
     recover_whole_blade: Any = DECLARED
 

@@ -110,9 +110,7 @@ class MeshEntry(Oriented):
     minimum_scaled_jacobian: Any = DECLARED
     end_check: Any = DECLARED
     contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
-    stress_regions: ByName[RegionSection] | LeftOut = left_out(
-        "Regions of the stress in place of those of these names in config.yaml, and others beside them"
-    )
+    stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
 
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""

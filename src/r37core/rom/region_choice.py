@@ -18,17 +18,13 @@ class RegionChoice:
     `highest_frequency` (Hz): modes at rest above it do not count; infinite: all do.
     """
 
-    minimum_span: Annotated[float, Key("Lower bound of the span, 0 at the root", ge=0, le=1)] = 0.0
-    maximum_span: Annotated[float, Key("Upper bound of the span, 1 at the tip", ge=0, le=1)] = 1.0
+    minimum_span: Annotated[float, Key("Lowest share of the span", ge=0, le=1)] = 0.0
+    maximum_span: Annotated[float, Key("Highest share", ge=0, le=1)] = 1.0
     maximum_x: Annotated[float, Key("Upper bound of x (radial)", "_m", ge=1e-6, le=100)] = np.inf
     minimum_z: Annotated[float, Key("Lower bound of z (downstream)", "_m", ge=-100, le=100)] = -np.inf
     maximum_z: Annotated[float, Key("Upper bound of z", "_m", ge=-100, le=100)] = np.inf
-    excluded_layers: Annotated[
-        int, Key("Element layers left out round contact nodes and root, where stress grows with every finer mesh", ge=0, le=20)
-    ] = 0
-    highest_frequency: Annotated[
-        float, Key("Highest natural frequency at rest of the modes whose stress counts; left out: all", "_hz", ge=1, le=1e6)
-    ] = np.inf
+    excluded_layers: Annotated[int, Key("Element layers left out round contact nodes and root", ge=0, le=20)] = 0
+    highest_frequency: Annotated[float, Key("Highest frequency at rest of modes that count", "_hz", ge=1, le=1e6)] = np.inf
 
     def description(self) -> str:
         """The region as results name it."""

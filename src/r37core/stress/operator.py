@@ -109,10 +109,10 @@ def write_stress_operators(operators: StressOperators, file: Path | str) -> None
 
 def read_stress_operators(file: Path | str) -> dict[str, StressOperator]:
     """Read what `write_stress_operators` wrote. InputFileError when it cannot be read."""
-    given: dict[str, dict[str, Any]] = {}
+    members: dict[str, dict[str, Any]] = {}
     with readable(file), np.load(file) as stored:
         for member in stored:
             name, field = member.split(".")
             value = stored[member]
-            given.setdefault(name, {})[field] = value if value.ndim else value.item()
-        return {name: StressOperator(**values) for name, values in given.items()}
+            members.setdefault(name, {})[field] = value if value.ndim else value.item()
+        return {name: StressOperator(**values) for name, values in members.items()}

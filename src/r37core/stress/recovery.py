@@ -27,7 +27,7 @@ def stress_operators(model: ReducedModel, material: Material) -> dict[str, Stres
 
 
 def stress_operator(model: ReducedModel, material: Material) -> StressOperator:
-    """That of the region that decides. Raises what stress_operators raises."""
+    """Stress in the region that decides. Raises what stress_operators raises."""
     return judged_operator(stress_operators(model, material))
 
 

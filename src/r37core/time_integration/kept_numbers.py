@@ -111,8 +111,8 @@ def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: b
         shapes = model.to_reduced @ contact.state_shapes
         joined = states[0] if len(states) == 1 else np.concatenate(states)
         for region, operator in enumerate(stress.values()):
-            found = largest_of_revolutions(operator, joined, shapes, rotation, per_revolution)
-            for kept, values in zip((history, nodes), found, strict=True):
+            worst = largest_of_revolutions(operator, joined, shapes, rotation, per_revolution)
+            for kept, values in zip((history, nodes), worst, strict=True):
                 kept[region, places, :revolutions] = values.reshape(len(places), revolutions)
     return history, nodes
 
@@ -128,7 +128,7 @@ def worst_places(run: FinishedRun, stress: StressOperators, history: np.ndarray,
     reached = len(run.records[0].snapshots) // choice.snapshots_per_revolution
     late = slice(max(reached - choice.revolutions_in_statistic, 0), reached)
     regions = zip(stress.values(), history[:, :, late], nodes[:, :, late], strict=True)
-    return np.array([operator.place(at.flat[largest.argmax()]) for operator, largest, at in regions])
+    return np.array([operator.place(worst.flat[largest.argmax()]) for operator, largest, worst in regions])
 
 
 def casing_numbers(problem: Problem, record: SimulationRecord, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:
