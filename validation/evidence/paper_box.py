@@ -3,7 +3,7 @@
 import xarray as xr
 
 from r37core.fem.material import Material
-from r37core.results.regions import in_region
+from r37core.results.regions import named_region
 from r37core.rom.reduced_model import ReducedModel
 from r37core.stress.operator import StressOperator
 from r37core.stress.recovery import stress_operators
@@ -12,9 +12,9 @@ BOX = "box"
 """Its name in config.yaml."""
 
 
-def in_box(response: xr.Dataset) -> xr.Dataset:
+def box_part(response: xr.Dataset) -> xr.Dataset:
     """A response with the stress of the box alone."""
-    return in_region(response, BOX) if "region" in response.dims else response
+    return named_region(response, BOX) if "region" in response.dims else response
 
 
 def box_operator(model: ReducedModel, material: Material) -> StressOperator:

@@ -22,7 +22,7 @@ from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.speed_run import run_speed
 
 from .configuration import settings_of
-from .paper_box import BOX, box_operator, in_box
+from .paper_box import BOX, box_operator, box_part
 from .published_windows import BARE, DIRECT, LINED, Source, direct_speeds, histories_of, source
 
 Runs = Mapping[str, xr.Dataset]
@@ -33,7 +33,7 @@ SPEEDS = (DIRECT_PEAK, INTERACTIONS[0].peak, QUIET)
 
 def swept(files: Iterable[str]) -> dict[tuple[str, bool], xr.Dataset]:
     """Responses by blade and whether there is a lining, with all their speeds."""
-    responses = (in_box(read_dataset(file)) for file in files)
+    responses = (box_part(read_dataset(file)) for file in files)
     return {(response.attrs["blade"], bool(response["lined"])): response for response in responses}
 
 

@@ -119,7 +119,7 @@ class BladeSettings:
     definition: BladeDefinition | MeshSource | MatricesSource
     material: fem_material.Material | None
     contact: str
-    stress_regions: Mapping[str, RegionChoice] = field(default_factory=dict)
+    stress_regions: Mapping[str, RegionChoice] = field(default_factory=dict, hash=False)
 
     @property
     def has_profiles(self) -> bool:

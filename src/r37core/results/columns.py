@@ -114,9 +114,9 @@ INTERACTIONS = (
     ),
     Column("max_von_mises_pa", "largest von Mises stress of the last revolution", "largest stress, last revolution", place=150),
     Column("max_von_mises_speed_rad_s", "speed of the largest stress", "at speed", place=160),
-    Column("max_von_mises_span", "span of the largest stress, 0 at the root", "span", place=162),
+    Column("max_von_mises_span", "its span", "span", place=162),
     Column("max_von_mises_chord", "its chord", "chord", place=164),
-    Column("max_von_mises_side", "its side: -1 pressure, 1 suction", "side", place=166),
+    Column("max_von_mises_side", "its side", "side", place=166),
     Column("stress_region", "part of the blade where stress is evaluated"),
     Column("max_wear_m", "largest wear of the lining", "largest wear", place=180),
     Column(

@@ -11,7 +11,7 @@ from r37core.base.io import InputFileError
 from r37core.time_integration.status import RunStatus
 
 from .joining import Along, join
-from .regions import in_region, judged
+from .regions import judged, named_region
 from .variables import DATASETS, FLAGS
 
 
@@ -52,6 +52,6 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str, regi
     for kind in DATASETS:
         if kind in datasets and blade in datasets[kind]["blade"].values and scene in datasets[kind]["scene"].values:
             part = datasets[kind].sel(blade=blade, scene=scene, drop=True)
-            part = in_region(part, region) if region and "region" in part.dims else judged(part)
+            part = named_region(part, region) if region and "region" in part.dims else judged(part)
             parts.append(part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN)))
     return xr.merge([part for part in parts if part.sizes["speed"]] or parts[:1], compat="override", join="exact")

@@ -18,7 +18,7 @@ def read_judged(file: Path | str) -> xr.Dataset:
     return judged(read_dataset(file))
 
 
-def in_region(dataset: xr.Dataset, name: str) -> xr.Dataset:
+def named_region(dataset: xr.Dataset, name: str) -> xr.Dataset:
     """The dataset with the stress of the region of this `name` alone."""
     return dataset.sel(region=name, drop=True)
 

@@ -142,7 +142,7 @@ class ReductionChoice:
 
     boundary: BoundaryChoice
     speeds: tuple[float, ...]
-    stress_regions: Mapping[str, RegionChoice]
+    stress_regions: Mapping[str, RegionChoice] = field(hash=False)
     fixed_interface_modes: Annotated[
         int, Key("Number of modes at each of three speeds: rest, half the maximum and the maximum", ge=0, le=500)
     ]

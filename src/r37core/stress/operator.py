@@ -55,7 +55,7 @@ class StressOperator:
         """True where the coordinates, shape (instants, coordinates), have the amplitudes of rotation's shapes."""
         return coordinates.shape[1] > self.coordinates
 
-    def in_band(self, states: np.ndarray, shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def band_part(self, states: np.ndarray, shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The part of `states`, shape (instants, numbers), in the modes that count, and their `shapes`.
 
         `shapes`, shape (coordinates, numbers): reduced coordinates per number; those given back are of the operator's numbers.

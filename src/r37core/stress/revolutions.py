@@ -23,7 +23,7 @@ def largest_of_revolutions(
     each revolution that is the worst so far, until neither gives another one. A node that is the worst at another instant
     alone is missed. In single precision.
     """
-    states, shapes = stress.in_band(states, shapes)
+    states, shapes = stress.band_part(states, shapes)
     squares, states = _squares(stress, shapes, rotation), states.astype(np.float32)
     everything, revolutions = slice(None), np.arange(len(states) // per_revolution)
     nodes = np.unique(squares(states[-per_revolution:], everything).argmax(axis=1))
@@ -66,7 +66,7 @@ def stress_cycles(
     differ it is more than half of the range. Mean: sum of the mean normal stresses, negative in compression. All nodes at all
     instants, in single precision: stress is linear, so the mean is that of the states, and rotation changes it alone.
     """
-    states, shapes = stress.in_band(states, shapes)
+    states, shapes = stress.band_part(states, shapes)
     mean_state = states.mean(axis=0)
     parts = stress.deviatoric[:, :, : len(shapes)] @ shapes.astype(np.float32)
     vibration = (states - mean_state).astype(np.float32)
