@@ -73,6 +73,7 @@ def test_defaults_are_filled_in(config_copy):
             {"structure": {"stress_regions": dict.fromkeys(("airfoil", "airfoil_unfiltered", "box"))}},
             r"structure\.stress_regions: found no region; allowed: one or more",
         ),
+        ({"structure": {"stress_regions": {"worst": {}}}}, r"stress_regions\.worst: found 'worst'; allowed: another name"),
         ({"campbell": {"modes": 2}}, r"campbell\.modes: found 2; allowed: .*at least 3"),
         ({"blades_file": "config/none.yaml"}, r"config/none\.yaml: there is no such file"),
     ],

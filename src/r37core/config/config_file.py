@@ -55,6 +55,8 @@ class StructureSection(Section):
     def _has_a_region(self) -> StructureSection:
         if not any(self.stress_regions.values()):
             raise refused(("stress_regions",), "no region", "one or more")
+        for name in {"operating", "rest", "worst"} & self.stress_regions.keys():
+            raise refused(("stress_regions", name), f"'{name}'", "another name: columns of ranking.csv end like this")
         return self
 
 

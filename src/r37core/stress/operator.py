@@ -112,7 +112,7 @@ def read_stress_operators(file: Path | str) -> dict[str, StressOperator]:
     members: dict[str, dict[str, Any]] = {}
     with readable(file), np.load(file) as stored:
         for member in stored:
-            name, field = member.split(".")
+            name, field = member.rsplit(".", 1)
             value = stored[member]
             members.setdefault(name, {})[field] = value if value.ndim else value.item()
         return {name: StressOperator(**values) for name, values in members.items()}
