@@ -18,7 +18,7 @@ from r37core.contact.scene import Scene
 from r37core.results.response import run_row
 from r37core.results.variables import AXES, OF_ALL_SPEEDS, VARIABLES
 from r37core.rom.contact_model import ContactModel
-from r37core.stress.operator import StressOperator
+from r37core.stress.operator import StressOperators
 from r37core.stress.statistic import Strengths
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -46,7 +46,7 @@ _FRICTION = 0.01
 class JudgedBlade:
     """A blade's `model` in a `scene`: time integration, `results` and `kept` as run_speed takes them, and its material.
 
-    `yield_stress` (Pa); `stress`: operator, where stress is among the results.
+    `yield_stress` (Pa); `stress`: operator of the region that decides, by its name, where stress is among the results.
     """
 
     model: ContactModel
@@ -56,7 +56,7 @@ class JudgedBlade:
     kept: Mapping[str, Any]
     yield_stress: float
     strengths: Strengths
-    stress: StressOperator | None = None
+    stress: StressOperators | None = None
 
     @cached_property
     def long_choice(self) -> IntegrationChoice:
@@ -105,8 +105,9 @@ class JudgedBlade:
         """Response of JUDGED, by ascending speed."""
         speeds = sorted(rows)
         first = rows[speeds[0]]
-        described = {name: VARIABLES[name] for name in JUDGED if name in first}
-        values = {name: [rows[speed][name] for speed in speeds] for name in described} | {"speed": speeds}
+        # the stress is that of one region
+        described = {name: replace(VARIABLES[name], dims=()) for name in JUDGED if name in first}
+        values = {name: [np.ravel(rows[speed][name])[0] for speed in speeds] for name in described} | {"speed": speeds}
         response = dataset_of(described, values, {"speed": AXES["speed"]}, {}, ("speed",))
         same = {name: ((), first[name], OF_ALL_SPEEDS[name].attributes) for name in OF_ALL if name in first}
         return response.assign(same).drop_vars("speed_rpm")

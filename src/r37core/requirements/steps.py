@@ -9,9 +9,10 @@ from r37core.contact.scene import Scene
 from r37core.fem.assembly import mesh_volume
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.operating_range import OperatingRange
+from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table, write_table
 from r37core.rom.contact_model import read_contact_model
-from r37core.stress.operator import read_stress_operator
+from r37core.stress.operator import read_stress_operators
 from r37core.stress.statistic import Strengths
 from r37core.time_integration.integration_choice import IntegrationChoice
 
@@ -34,10 +35,10 @@ def look(input: Any, output: Any, params: Any) -> None:
         params.kept,
         params.yield_stress,
         from_plain(Strengths, params.strengths),
-        read_stress_operator(input.stress) if hasattr(input, "stress") else None,
+        dict([next(iter(read_stress_operators(input.stress).items()))]) if hasattr(input, "stress") else None,
     )
     evidence = Evidence(
-        judged_part(read_dataset(input.response)),
+        judged_part(read_judged(input.response)),
         operating=from_plain(OperatingRange, params.operating),
         thickness=params.thickness,
     )
