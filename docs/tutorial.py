@@ -135,7 +135,7 @@ figure = r37.plot_run_ups(run_ups)
 
 # %%
 results = r37.compare(["Ref", mine], "abradable", speeds, cores=2, **draft)
-print(results.ranking[["blade", "rank", "length_certain_rad_s", "largest_median_stress_pa"]].to_string(index=False))
+print(results.ranking[["blade", "rank", "length_most_revolutions_rad_s", "largest_median_stress_pa"]].to_string(index=False))
 
 # %% [markdown]
 # ## And on

@@ -50,7 +50,7 @@ def test_more_columns_say_more(tmp_path):
     """Of all scenes the largest stress, the linings that are worn through, and the digits that a range bears."""
     # rows of direct contact have no stress of a single revolution
     rows = ("Ref,abradable,1B,4,1725,30,7.26e8,1725,1700,7.1e8", "S100,direct,,2,,,,1344,900,4.12e10")
-    folder = written(tmp_path, *rows, columns=",peak_speed_rad_s,certain_from_rad_s,high_von_mises_pa")
+    folder = written(tmp_path, *rows, columns=",peak_speed_rad_s,most_revolutions_from_rad_s,high_von_mises_pa")
     said = closing_lines(folder, 0.0, 1.0)[0]
     assert said.endswith("; the largest stress 41.20 GPa, S100 in direct about 1344 rad/s (engine order 2)")
     rows = [f"{row},{share}" for row, share in zip(ROWS, ("0.2", "0", "", ""), strict=True)]
@@ -63,7 +63,7 @@ def test_more_columns_say_more(tmp_path):
 
 
 def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
-    head = "blade,scene,rank,length_certain_rad_s,length_certain_scatter_rad_s,largest_gap_rad_s\n"
+    head = "blade,scene,rank,length_most_revolutions_rad_s,length_most_revolutions_scatter_rad_s,largest_gap_rad_s\n"
     rows = ("S100,lined,1,13.2,,20\n", "Ref,lined,2,70.6,,20\n", "Ref,direct,1,47.1,7.6,10\n", "S100,direct,2,854.2,21.1,10\n")
     (tmp_path / "ranking.csv").write_text(head + "".join(rows))
     lined, direct, missed = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:4]
@@ -80,8 +80,8 @@ def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
 
 def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     """A sum of several ranges is told apart from the widest of them."""
-    head = "blade,scene,rank,contact,rank_over_scenes,length_certain_rad_s,"
-    head += "ranges_certain,widest_range_from_rad_s,widest_range_rad_s\n"
+    head = "blade,scene,rank,contact,rank_over_scenes,length_most_revolutions_rad_s,"
+    head += "ranges_most_revolutions,widest_range_from_rad_s,widest_range_rad_s\n"
     points = "S100,x,1,8 points,3,13.2,1,1200,13.2\nA,x,2,8 points,1,40,1,1200,40\nRef,x,3,8 points,1,128.9,3,1635.2,119.9\n"
     points += "Ref,y,1,8 points,1,47,1,1300,47\nA,y,2,8 points,1,130,2,900,100\nS100,y,3,8 points,3,854.2,4,900,800\n"
     (tmp_path / "ranking.csv").write_text(head + points)
@@ -218,7 +218,7 @@ def test_rotors(tmp_path):
 
 
 def test_designs(tmp_path):
-    lengths = {"length_certain_rad_s": [40.0, 13.2, np.nan], "length_possible_rad_s": [50.0, 20.0, np.nan]}
+    lengths = {"length_most_revolutions_rad_s": [40.0, 13.2, np.nan], "length_some_revolutions_rad_s": [50.0, 20.0, np.nan]}
     more = {"diverged_runs": [0, 1, 0], "largest_median_stress_pa": [1e9] * 3}
     table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
     assert designs.closing(tmp_path) == "2 designs; lined: B is above yield at the fewest speeds (13 rad/s)"

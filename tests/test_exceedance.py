@@ -7,7 +7,7 @@ import xarray as xr
 from test_interactions import CHOICE, campbell
 
 from r37core.figures.comparison import draw_ranking
-from r37core.results.columns import CERTAIN, OVER_SCENES, POSSIBLE, ROBUSTNESS, names
+from r37core.results.columns import MOST_REVOLUTIONS, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from r37core.results.interactions import find_interactions
@@ -48,14 +48,14 @@ def test_borders_are_found_again_within_their_scatter(step):
     speeds = np.arange(900.0, 1400.1, step)
     for seed in range(4):
         found = Exceedance(speeds, drawn(rising(speeds), speeds, seed=seed), chance=True)
-        (certain,), (possible,) = found.ranges(CERTAIN), found.ranges(POSSIBLE)
-        scatter = found.scatter_of_border(CERTAIN, certain, begins=True)
+        (certain,), (possible,) = found.ranges(MOST_REVOLUTIONS), found.ranges(SOME_REVOLUTIONS)
+        scatter = found.scatter_of_border(MOST_REVOLUTIONS, certain, begins=True)
         assert abs(certain.begin - 1050.0) < max(4.0 * scatter, 2.0)
         assert 0.0 < scatter < 3.0 + 1.5 * step
         assert certain.end == pytest.approx(1300.0, abs=2.0 + 0.75 * step)
         assert 990.0 < possible.begin < 1005.0 + 4.0
-        assert found.length(CERTAIN) == pytest.approx(certain.length)
-        assert 0.0 < found.scatter_of_length(CERTAIN) < 3.0 + 2.0 * step
+        assert found.length(MOST_REVOLUTIONS) == pytest.approx(certain.length)
+        assert 0.0 < found.scatter_of_length(MOST_REVOLUTIONS) < 3.0 + 2.0 * step
 
 
 def test_weights_of_neighbours():
@@ -84,18 +84,18 @@ def test_a_share_of_none_or_all_revolutions_is_smoothed_with_what_chance_may_giv
     speeds = np.arange(900.0, 1301.0, 5.0)
     above = ((speeds > 1002.5) & (speeds < 1057.5)) | ((speeds > 1072.5) & (speeds < 1102.5))
     found = Exceedance(speeds, above.astype(float), chance=True)
-    assert found.length(CERTAIN) == pytest.approx(85.0)
+    assert found.length(MOST_REVOLUTIONS) == pytest.approx(85.0)
     # a line between the speeds of a border is above a twentieth for 0.45 of 5 rad/s more
-    assert found.length(POSSIBLE) == pytest.approx(85.0 + 4.0 * 0.45 * 5.0)
-    assert found.scatter_of_length(CERTAIN) == found.scatter_of_length(POSSIBLE) == 0.0
+    assert found.length(SOME_REVOLUTIONS) == pytest.approx(85.0 + 4.0 * 0.45 * 5.0)
+    assert found.scatter_of_length(MOST_REVOLUTIONS) == found.scatter_of_length(SOME_REVOLUTIONS) == 0.0
 
 
 def test_a_lined_blade_s_shares_are_taken_as_they_are():
     speeds = np.array([900.0, 901.0, 902.0, 903.0])
     found = Exceedance(speeds, np.array([0.0, 1.0, 1.0, 0.0]), chance=False)
-    assert found.ranges(CERTAIN) == [SpeedRange(900.5, 902.5, truncated=False)]
-    assert np.isnan(found.scatter_of_length(CERTAIN))
-    assert np.isnan(found.scatter_of_border(CERTAIN, found.ranges(CERTAIN)[0], begins=True))
+    assert found.ranges(MOST_REVOLUTIONS) == [SpeedRange(900.5, 902.5, truncated=False)]
+    assert np.isnan(found.scatter_of_length(MOST_REVOLUTIONS))
+    assert np.isnan(found.scatter_of_border(MOST_REVOLUTIONS, found.ranges(MOST_REVOLUTIONS)[0], begins=True))
 
 
 def test_a_border_that_chance_makes_or_the_speeds_cut_has_no_scatter():
@@ -104,16 +104,16 @@ def test_a_border_that_chance_makes_or_the_speeds_cut_has_no_scatter():
     shares = np.where(speeds > 1200.0, 0.9, 0.01)
     shares[5] = 0.3
     found = Exceedance(speeds, shares, chance=True)
-    small, large = found.ranges(POSSIBLE)
-    assert not found.scatter_of_border(POSSIBLE, small, begins=True) > 60.0
-    assert 0.0 < found.scatter_of_border(POSSIBLE, large, begins=True) < 30.0
-    assert np.isnan(found.scatter_of_border(POSSIBLE, large, begins=False))
+    small, large = found.ranges(SOME_REVOLUTIONS)
+    assert not found.scatter_of_border(SOME_REVOLUTIONS, small, begins=True) > 60.0
+    assert 0.0 < found.scatter_of_border(SOME_REVOLUTIONS, large, begins=True) < 30.0
+    assert np.isnan(found.scatter_of_border(SOME_REVOLUTIONS, large, begins=False))
     two = Exceedance(speeds, np.where(np.abs(np.abs(speeds - 1150.0) - 150.0) < 70.0, 0.9, 0.1), chance=True)
-    before, after = two.ranges(CERTAIN)
-    assert 0.0 < two.scatter_of_border(CERTAIN, before, begins=False) < 30.0
-    assert 0.0 < two.scatter_of_border(CERTAIN, after, begins=True) < 30.0
+    before, after = two.ranges(MOST_REVOLUTIONS)
+    assert 0.0 < two.scatter_of_border(MOST_REVOLUTIONS, before, begins=False) < 30.0
+    assert 0.0 < two.scatter_of_border(MOST_REVOLUTIONS, after, begins=True) < 30.0
     from_the_first = Exceedance(speeds, shares[::-1], chance=True)
-    assert np.isnan(from_the_first.scatter_of_border(POSSIBLE, from_the_first.ranges(POSSIBLE)[0], begins=True))
+    assert np.isnan(from_the_first.scatter_of_border(SOME_REVOLUTIONS, from_the_first.ranges(SOME_REVOLUTIONS)[0], begins=True))
 
 
 def response(speeds, shares, motion, *, lined=0, last=None, status=None, tangential=None):
@@ -136,15 +136,20 @@ def test_a_row_of_direct_contact_is_a_range_and_has_no_mode():
     speeds = np.arange(900.0, 1401.0, 5.0)
     motion = 1e-3 * (1.0 + rising(speeds))
     found = find_interactions(response(speeds, drawn(rising(speeds), speeds), motion), None, CHOICE)
-    (row,) = [one for one in found if one["certain_length_rad_s"] > 0.0]
+    (row,) = [one for one in found if one["length_most_revolutions_rad_s"] > 0.0]
     assert row["mode"] == ""
     assert np.isnan(row["campbell_speed_rad_s"])
     assert np.isnan(row["width_above_yield_rad_s"])
     assert np.isnan(row["max_von_mises_pa"])
     assert "direct contact" in row["note"]
-    assert row["certain_from_rad_s"] == pytest.approx(1050.0, abs=8.0)
-    assert row["certain_to_rad_s"] == pytest.approx(1300.0, abs=5.0)
-    assert row["possible_from_rad_s"] < row["certain_from_rad_s"] < row["certain_to_rad_s"] < row["possible_to_rad_s"]
+    assert row["most_revolutions_from_rad_s"] == pytest.approx(1050.0, abs=8.0)
+    assert row["most_revolutions_to_rad_s"] == pytest.approx(1300.0, abs=5.0)
+    assert (
+        row["some_revolutions_from_rad_s"]
+        < row["most_revolutions_from_rad_s"]
+        < row["most_revolutions_to_rad_s"]
+        < row["some_revolutions_to_rad_s"]
+    )
     assert row["median_von_mises_pa"] == pytest.approx(1.5e9)
     assert row["peak_motion_m"] == pytest.approx(np.sqrt(2.0) * 2e-3)
     # the motion is halved, and no less, where the range ends
@@ -158,10 +163,10 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     shares[20], last = 0.09, 1e9 * (0.5 + shares)
     last[40] = 1.1e9
     rows = rows_above_yield(response(speeds, shares, np.ones(len(speeds)), last=last), [])
-    for speed in speeds[(shares > POSSIBLE) | (last > 1e9)]:
-        assert any(every["possible_from_rad_s"] <= speed <= every["possible_to_rad_s"] for every in rows), speed
-    assert [every["certain_length_rad_s"] > 0.0 for every in rows] == [False, False, True]
-    assert np.isnan(rows[0]["possible_from_scatter_rad_s"])
+    for speed in speeds[(shares > SOME_REVOLUTIONS) | (last > 1e9)]:
+        assert any(every["some_revolutions_from_rad_s"] <= speed <= every["some_revolutions_to_rad_s"] for every in rows), speed
+    assert [every["length_most_revolutions_rad_s"] > 0.0 for every in rows] == [False, False, True]
+    assert np.isnan(rows[0]["some_revolutions_from_scatter_rad_s"])
 
 
 def test_the_motion_falls_where_it_stays_down():
@@ -214,7 +219,7 @@ def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_pe
     below = find_interactions(response(speeds, np.zeros(len(speeds)), normal), None, CHOICE)
     assert [row["peak_speed_rad_s"] for row in below] == [1020.0, 1080.0]
     assert below[1]["fall_speed_rad_s"] == 1085.0
-    assert all(np.isnan(row["possible_from_rad_s"]) for row in below)
+    assert all(np.isnan(row["some_revolutions_from_rad_s"]) for row in below)
 
 
 def test_a_lined_row_has_both_widths():
@@ -228,7 +233,7 @@ def test_a_lined_row_has_both_widths():
     (row,) = find_interactions(lined, campbell(), CHOICE)
     assert (row["mode"], row["engine_order"], row["note"]) == ("1B", 6, "")
     assert (row["width_above_yield_rad_s"], row["width_ever_above_yield_rad_s"]) == (3.0, 5.0)
-    assert row["certain_length_rad_s"] == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
+    assert row["length_most_revolutions_rad_s"] == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
 
 
 def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
@@ -236,7 +241,11 @@ def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
     speeds = np.arange(1000.0, 1011.0)
     rising_motion = response(speeds, np.ones(11), 1e-3 * speeds, lined=1)
     (row,) = find_interactions(rising_motion, campbell(), CHOICE)
-    assert (row["possible_from_rad_s"], row["possible_to_rad_s"], row["certain_length_rad_s"]) == (1000.0, 1010.0, 10.0)
+    assert (row["some_revolutions_from_rad_s"], row["some_revolutions_to_rad_s"], row["length_most_revolutions_rad_s"]) == (
+        1000.0,
+        1010.0,
+        10.0,
+    )
     assert "without a peak" in row["note"]
 
 
@@ -248,10 +257,14 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     one = response(speeds, shares, np.ones(len(speeds)), lined=1, status=status)
     assert exceedance_of(one).shares.max() == 1.0
     found = robustness(one)
-    assert found["length_certain_rad_s"] == 10.0
+    assert found["length_most_revolutions_rad_s"] == 10.0
     assert found["largest_gap_rad_s"] == 10.0
     assert set(found) == set(names(ROBUSTNESS))
-    assert [found[name] for name in ("widest_range_rad_s", "widest_range_from_rad_s", "ranges_certain")] == [10.0, 945.0, 1]
+    assert [found[name] for name in ("widest_range_rad_s", "widest_range_from_rad_s", "ranges_most_revolutions")] == [
+        10.0,
+        945.0,
+        1,
+    ]
     assert robustness(response(speeds, np.zeros(11), np.ones(11), lined=1))["widest_range_rad_s"] == 0.0
     nothing = np.full(len(speeds), np.nan)
     every = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
@@ -259,12 +272,16 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     assert row["status"] == "diverged" and row["engine_order"] is None
     assert np.isnan([row["peak_motion_m"], row["peak_motion_scatter_m"]]).all()
     found = robustness(every)
-    assert (found["length_certain_rad_s"], found["diverged_runs"]) == (100.0, 11)
+    assert (found["length_most_revolutions_rad_s"], found["diverged_runs"]) == (100.0, 11)
     assert np.isnan(found["largest_rms_m"])
 
 
 def of(certain, possible=0.0, stress=1e9):
-    values = {"length_certain_rad_s": certain, "length_possible_rad_s": possible, "largest_median_stress_pa": stress}
+    values = {
+        "length_most_revolutions_rad_s": certain,
+        "length_some_revolutions_rad_s": possible,
+        "largest_median_stress_pa": stress,
+    }
     values["diverged_runs"] = 0.0
     return dict.fromkeys(names(ROBUSTNESS), np.nan) | values
 
@@ -296,7 +313,7 @@ def test_blades_of_unlike_contact_have_ranks_of_their_own():
 
 def test_one_order_over_all_scenes_is_by_the_longest_length():
     """Lengths within their scatter share a rank; who has no length in one of the scenes has none."""
-    scattering = {"length_certain_scatter_rad_s": 8.0}
+    scattering = {"length_most_revolutions_scatter_rad_s": 8.0}
     found = {("A", "x"): of(60.0), ("B", "x"): of(2.0), ("C", "x"): of(1.0), ("D", "x"): of(3.0)}
     found |= {
         ("A", "y"): of(10.0),
@@ -324,7 +341,10 @@ def test_the_chance_to_be_better_is_of_common_members():
     table = ranking_table({pair: of(2.0) for pair in members}, members).set_index("blade")
     assert table.loc["A", "chance_better_than_B"] == 0.5
     assert np.isnan(table.loc["A", "chance_better_than_A"])
-    assert (table.loc["A", "length_certain_rad_s_low"], table.loc["A", "length_certain_rad_s_high"]) == (1.0, 9.0)
+    assert (table.loc["A", "length_most_revolutions_rad_s_low"], table.loc["A", "length_most_revolutions_rad_s_high"]) == (
+        1.0,
+        9.0,
+    )
     assert table.loc["A", "members"] == 4
 
 
@@ -348,7 +368,7 @@ def test_lengths_ever_and_lasting():
     lined = response(speeds, above.astype(float), np.ones(len(speeds)), lined=1)
     lined["max_von_mises_ever"][:] = np.where((speeds >= 930.0) & (speeds <= 990.0), 2.0, 0.0) * float(lined["yield_stress"])
     lengths = robustness(lined)
-    assert (lengths["length_certain_rad_s"], lengths["length_ever_rad_s"]) == (50.0, 70.0)
+    assert (lengths["length_most_revolutions_rad_s"], lengths["length_ever_rad_s"]) == (50.0, 70.0)
     assert np.isnan(lengths["length_lasting_rad_s"])
     states = np.where(above, MotionAtEnd.LASTING, MotionAtEnd.QUIET)
     assert robustness(lined.assign(motion_at_end=("speed", states)))["length_lasting_rad_s"] == 50.0

@@ -19,8 +19,9 @@ RANKING = pd.DataFrame(
         ("L<50>", "direct", 2, 50.0, 55.0, np.nan, np.nan, 3e9, 0.25),
     ],
     columns=[
-        "blade", "scene", "rank", "length_certain_rad_s", "length_possible_rad_s", "length_certain_rad_s_low",
-        "length_certain_rad_s_high", "largest_median_stress_pa", "chance_better_than_Ref",
+        "blade", "scene", "rank", "length_most_revolutions_rad_s", "length_some_revolutions_rad_s",
+        "length_most_revolutions_rad_s_low", "length_most_revolutions_rad_s_high",
+        "largest_median_stress_pa", "chance_better_than_Ref",
     ],
 )  # fmt: skip
 
@@ -59,10 +60,15 @@ def column(page, name):
 
 def test_every_column_has_words():
     """And the unit of what it shows: one declaration for the page and its tooltips."""
-    assert column_named("length_certain_rad_s_low", RANKING_COLUMNS).title == "above yield in most revolutions, 5%"
+    assert column_named("length_most_revolutions_rad_s_low", RANKING_COLUMNS).title == "above yield in most revolutions, 5%"
     assert column_named("chance_better_than_L50", RANKING_COLUMNS).title == "chance to be better than L50"
-    assert column_named("length_certain_rad_s_median", RANKING_COLUMNS).title == "above yield in most revolutions, median"
-    assert column_named("length_certain_scatter_rad_s", RANKING_COLUMNS).title == "above yield in most revolutions, scatter"
+    assert (
+        column_named("length_most_revolutions_rad_s_median", RANKING_COLUMNS).title == "above yield in most revolutions, median"
+    )
+    assert (
+        column_named("length_most_revolutions_scatter_rad_s", RANKING_COLUMNS).title
+        == "above yield in most revolutions, scatter"
+    )
     assert column_named("never_heard_of", RANKING_COLUMNS) is None
     columns = [column_named(name, SUMMARY) for name in ("blade", "peak_rms_normal_m", "max_von_mises_pa", "drop")]
     assert [(column.unit, column.factor) for column in columns] == [("", 1.0), ("mm", 1e3), ("MPa", 1e-6), ("%", 100.0)]
@@ -71,8 +77,8 @@ def test_every_column_has_words():
 
 def test_contents_have_the_ranking(rows):
     contents = explorer_contents(sweep(), rows, ranking=RANKING.assign(unheard_of=1.0))
-    assert contents["ranking"][1]["length_certain_rad_s"] == 30.0
-    assert contents["ranking"][2]["length_certain_rad_s_low"] is None
+    assert contents["ranking"][1]["length_most_revolutions_rad_s"] == 30.0
+    assert contents["ranking"][2]["length_most_revolutions_rad_s_low"] is None
     assert "unheard_of" not in [one["name"] for one in contents["ranking_columns"]]
     assert explorer_contents(sweep(), rows)["ranking"] is None
 
@@ -169,7 +175,7 @@ def test_which_blade(at_ref):
 
 
 def test_a_ranking_without_some_columns(page, rows, tmp_path):
-    short = RANKING[["blade", "scene", "length_possible_rad_s"]]
+    short = RANKING[["blade", "scene", "length_some_revolutions_rad_s"]]
     with beside(page, explorer_contents(sweep(), rows, ranking=short), tmp_path / "explorer.html") as other:
         assert other.locator("#bars .certain, #bars .rank").count() == 0
         assert other.locator("#bars .possible").count() == 4

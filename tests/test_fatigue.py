@@ -240,7 +240,10 @@ def test_lengths_above_the_line(responses):
     assert measures["goodman_integral_rad_s"] == pytest.approx(170.0 + 360.0)
     assert measures["largest_goodman_share"] == response["goodman_share"].max()
     unknown = robustness(read_judged(responses["Unknown", "direct"]))
-    assert all(np.isnan(unknown[name]) for name in unknown if "goodman" in name) and unknown["length_certain_rad_s"] >= 0.0
+    assert (
+        all(np.isnan(unknown[name]) for name in unknown if "goodman" in name)
+        and unknown["length_most_revolutions_rad_s"] >= 0.0
+    )
 
 
 def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):

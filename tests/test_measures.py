@@ -139,7 +139,7 @@ def test_measures_inside():
     shares = ((speeds >= 1100.0) & (speeds <= 1200.0)).astype(float)
     inside = operating_measures(exceeding(speeds, shares), OperatingRange(1000.0, 1150.0))
     # from 1095, half of the way between two speeds
-    assert inside["length_certain_operating_rad_s"] == pytest.approx(55.0)
+    assert inside["length_most_revolutions_operating_rad_s"] == pytest.approx(55.0)
     assert inside["exceedance_integral_operating_rad_s"] == pytest.approx(55.0)
     assert np.isnan(inside["exceedance_integral_operating_scatter_rad_s"])
     bare = operating_measures(exceeding(speeds, 0.5 * shares + 0.1, 0.0), OperatingRange(1000.0, 1150.0))
@@ -155,8 +155,8 @@ def test_what_is_not_run_over_the_whole_range_is_not_known():
 
 def test_the_ranking_inside_stands_next_to_that_over_all_speeds():
     def of(length, inside):
-        own = dict.fromkeys(names(ROBUSTNESS), 0.0) | {"length_certain_rad_s": length, "diverged_runs": 0.0}
-        return own | {"length_certain_operating_rad_s": inside, "exceedance_integral_operating_rad_s": inside}
+        own = dict.fromkeys(names(ROBUSTNESS), 0.0) | {"length_most_revolutions_rad_s": length, "diverged_runs": 0.0}
+        return own | {"length_most_revolutions_operating_rad_s": inside, "exceedance_integral_operating_rad_s": inside}
 
     table = ranking_table({("A", "x"): of(1.0, 9.0), ("B", "x"): of(5.0, 2.0), ("C", "x"): of(3.0, np.nan)})
     assert table["blade"].tolist() == ["A", "C", "B"]

@@ -255,7 +255,7 @@ def table_of(lengths):
     """Lengths above yield over two clearances and two thicknesses, of one blade."""
     places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
     rows = [("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)]
-    return pd.DataFrame(rows, columns=["blade", "scene", "family", *KEYS]).assign(length_certain_rad_s=lengths)
+    return pd.DataFrame(rows, columns=["blade", "scene", "family", *KEYS]).assign(length_most_revolutions_rad_s=lengths)
 
 
 def test_a_map_has_values_in_place_and_the_line_of_a_requirement():
@@ -303,7 +303,7 @@ def test_a_limit_goes_round_designs_and_not_round_holes():
 def test_each_family_has_a_map_in_the_explorer():
     """Two families of the same keys, and one of a single key."""
     one = table_of([40.0, 30.0, 20.0, 0.0])
-    other = one.assign(family="Other", scene=[f"Other_{number}" for number in range(4)], length_certain_rad_s=7.0)
+    other = one.assign(family="Other", scene=[f"Other_{number}" for number in range(4)], length_most_revolutions_rad_s=7.0)
     single = one.drop(columns=KEYS[1]).assign(family="Single")
     shown = contents(pd.concat([one, other, single]))
     assert [(family["family"], family["keys"], family["other"]) for family in shown] == [

@@ -74,7 +74,7 @@ def folder(config_copy):
         ("{ variables: { chordwise_sweep_deg: [-1, 1] } }", "chordwise_sweep_deg: .*at most one of"),
         (
             "{ objectives: { other: { measure: speed } } }",
-            "objectives.other.measure: found 'speed'; allowed: one of length_certain_rad_s, ",
+            "objectives.other.measure: found 'speed'; allowed: one of length_most_revolutions_rad_s, ",
         ),
         ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
         ("{ objectives: { other: { measure: frequency_hz, mode: 1b } } }", "other.mode: found 1b; allowed: .*, 1B, 1T, 2B, 4"),
@@ -153,7 +153,9 @@ START = {"lined": (40.0, 1.0), "mass": (2.0, 0.0)}
 
 def choice(method="quasi_random", seed=0, start=(0.0, None)):
     constraints = {"mass": Constraint(Quantity("mass_kg"), None, None, 95.0, 110.0)}
-    return SearchChoice(VARIABLES, {"lined": Quantity("length_certain_rad_s", ("s",))}, constraints, method, seed, start)
+    return SearchChoice(
+        VARIABLES, {"lined": Quantity("length_most_revolutions_rad_s", ("s",))}, constraints, method, seed, start
+    )
 
 
 def gave(values):
@@ -258,14 +260,17 @@ def test_quantities_of_a_structure(quantity, expected):
 
 def test_the_worst_of_several_scenes_counts_and_a_quantile_is_of_the_members():
     nominal = {
-        "a": {"length_certain_rad_s": 3.0, "length_certain_scatter_rad_s": 0.1},
-        "b": {"length_certain_rad_s": 5.0, "length_certain_scatter_rad_s": 0.05},
+        "a": {"length_most_revolutions_rad_s": 3.0, "length_most_revolutions_scatter_rad_s": 0.1},
+        "b": {"length_most_revolutions_rad_s": 5.0, "length_most_revolutions_scatter_rad_s": 0.05},
     }
-    members = {"a": [{"length_certain_rad_s": float(value)} for value in range(11)], "b": [{"length_certain_rad_s": 7.0}] * 4}
-    assert contact_value(Quantity("length_certain_rad_s", ("a", "b")), nominal, {}) == (5.0, 0.05)
-    value, scatter = contact_value(Quantity("length_certain_rad_s", ("a", "b"), quantile=0.9), nominal, members)
+    members = {
+        "a": [{"length_most_revolutions_rad_s": float(value)} for value in range(11)],
+        "b": [{"length_most_revolutions_rad_s": 7.0}] * 4,
+    }
+    assert contact_value(Quantity("length_most_revolutions_rad_s", ("a", "b")), nominal, {}) == (5.0, 0.05)
+    value, scatter = contact_value(Quantity("length_most_revolutions_rad_s", ("a", "b"), quantile=0.9), nominal, members)
     assert value == pytest.approx(9.0) and 0.2 < scatter < 3.0
-    assert contact_value(Quantity("length_certain_rad_s", ("b",), quantile=0.5), nominal, members) == (7.0, 0.0)
+    assert contact_value(Quantity("length_most_revolutions_rad_s", ("b",), quantile=0.5), nominal, members) == (7.0, 0.0)
     value, scatter = contact_value(Quantity("largest_rms_m", ("a",)), {"a": {"largest_rms_m": 2.0, "diverged_runs": 0.0}}, {})
     assert value == 2.0 and np.isnan(scatter)
 

@@ -90,8 +90,8 @@ def test_a_design_is_measured_by_its_structure_and_by_all_its_runs(tmp_path, mon
         write_dataset(xr.Dataset({"length": length}), files[name])
 
     def robustness(response, chance_scatter=True, operating=None):
-        scatter = {"length_certain_scatter_rad_s": 0.5} if chance_scatter else {}
-        return {"length_certain_rad_s": float(response["length"]), **scatter}
+        scatter = {"length_most_revolutions_scatter_rad_s": 0.5} if chance_scatter else {}
+        return {"length_most_revolutions_rad_s": float(response["length"]), **scatter}
 
     operator = np.zeros((6, 1, 2))
     operator[0, 0] = 7.0, 1.0
@@ -99,9 +99,9 @@ def test_a_design_is_measured_by_its_structure_and_by_all_its_runs(tmp_path, mon
     monkeypatch.setattr(steps, "read_contact_model", lambda file: Named(rotation_stiffening=np.zeros(1)))
     monkeypatch.setattr(steps, "read_stress_operators", lambda file: {"one": StressOperator(operator, 1, "")})
     quantities = {
-        "nominal": Quantity("length_certain_rad_s", ("a",)),
-        "high": Quantity("length_certain_rad_s", ("a",), quantile=1.0),
-        "lost": Quantity("length_certain_rad_s", ("b",)),
+        "nominal": Quantity("length_most_revolutions_rad_s", ("a",)),
+        "high": Quantity("length_most_revolutions_rad_s", ("a",), quantile=1.0),
+        "lost": Quantity("length_most_revolutions_rad_s", ("b",)),
         "mass": Quantity("mass_kg"),
         "still": Quantity("static_stress_pa"),
         "slow": Quantity("static_stress_pa", speed=500.0),

@@ -294,11 +294,11 @@ def motions(tmp_path):
 def test_the_worst_motion_stands_in_the_ranking(motions):
     ranking = pd.DataFrame({"blade": ["Ref", "S100"], "scene": "direct", "rank": [1, 2]})
     table = ranking_with_motions(ranking, motions)
-    assert table.loc[0, "length_certain_rest_rad_s"] == 0.0
+    assert table.loc[0, "length_most_revolutions_rest_rad_s"] == 0.0
     # half of the way from one speed to the next on both sides
-    assert table.loc[0, "length_certain_worst_rad_s"] == pytest.approx(15.0)
+    assert table.loc[0, "length_most_revolutions_worst_rad_s"] == pytest.approx(15.0)
     assert table.loc[0, "largest_rms_worst_m"] == pytest.approx(4e-3)
-    assert table.loc[1, ["length_certain_worst_rad_s", "rank_worst"]].isna().all()
+    assert table.loc[1, ["length_most_revolutions_worst_rad_s", "rank_worst"]].isna().all()
     assert table.loc[0, "rank_worst"] == 1
 
 

@@ -14,7 +14,7 @@ from r37core.results.columns import RANKING, column_named
 from r37core.results.datasets import response_of, write_sweep_dataset
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.results.interactions import find_interactions
-from r37core.results.ranking import length_certain, robustness
+from r37core.results.ranking import length_most_revolutions, robustness
 from r37core.results.regions import judged, other_regions, read_judged
 from r37core.results.response import write_response
 from r37core.results.steps import ranking
@@ -166,7 +166,7 @@ def test_a_blade_without_a_region_has_nothing_there(datasets):
     odd = stress.sel(blade="Odd", scene="direct", region="box")
     assert odd["max_von_mises_median"].isnull().all() and odd["stress_region"].item() == ""
     assert other_regions(stress) == ["airfoil_unfiltered", "box"] and other_regions(judged(stress)) == []
-    assert np.isnan(length_certain(response_of(datasets, "Odd", "direct", "box")))
+    assert np.isnan(length_most_revolutions(response_of(datasets, "Odd", "direct", "box")))
 
 
 def test_the_ranking_has_a_length_in_each_other_region(datasets, tmp_path):
@@ -177,13 +177,13 @@ def test_the_ranking_has_a_length_in_each_other_region(datasets, tmp_path):
     ranking(given, Named(table=table), Named(runs=pairs, operating=None))
     table = pd.read_csv(table).set_index("blade")
     for region in ("airfoil_unfiltered", "box"):
-        name = f"length_certain_{region}_rad_s"
-        wanted = robustness(response_of(datasets, "Ref", "direct", region))["length_certain_rad_s"]
+        name = f"length_most_revolutions_{region}_rad_s"
+        wanted = robustness(response_of(datasets, "Ref", "direct", region))["length_most_revolutions_rad_s"]
         assert table.loc["Ref", name] == pytest.approx(wanted, rel=1e-5)
         column = column_named(name, RANKING)
         assert column and region in column.title
-    assert np.isnan(table.loc["Odd", "length_certain_box_rad_s"])
-    assert column_named("length_certain_worst_rad_s", RANKING).title.endswith("worst motion")
+    assert np.isnan(table.loc["Odd", "length_most_revolutions_box_rad_s"])
+    assert column_named("length_most_revolutions_worst_rad_s", RANKING).title.endswith("worst motion")
 
 
 def test_the_summary_has_the_place(responses):

@@ -146,7 +146,9 @@ def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: Intera
 
 def _peak_and_width(row: Interaction) -> tuple[float, float]:
     """Speed of the peak and width above yield (rad/s): of the last revolution, on a bare casing in most revolutions."""
-    width = row["certain_to_rad_s"] - row["certain_from_rad_s"] if row["note"] else row["width_above_yield_rad_s"]
+    width = (
+        row["most_revolutions_to_rad_s"] - row["most_revolutions_from_rad_s"] if row["note"] else row["width_above_yield_rad_s"]
+    )
     return row["peak_speed_rad_s"], 0.0 if math.isnan(width) else width
 
 

@@ -29,7 +29,7 @@ def families(input: Any, output: Any, params: Any) -> None:
 
 
 def _lengths(design: pd.Series) -> str:
-    return f"{design['length_certain_rad_s']:.0f} ({design['length_possible_rad_s']:.0f})"
+    return f"{design['length_most_revolutions_rad_s']:.0f} ({design['length_some_revolutions_rad_s']:.0f})"
 
 
 def correlations(input: Any, output: Any, params: Any) -> None:
@@ -37,5 +37,7 @@ def correlations(input: Any, output: Any, params: Any) -> None:
     designs, rows = read_table(input.designs), []
     for name, words in LEFT.items():
         scene_refinement = (designs[designs["scene"] == scene] for scene in ON_PATCHES.values())
-        rows.append([words, *(f"{spearmanr(of[name], of['length_certain_rad_s']).statistic:.2f}" for of in scene_refinement)])
+        rows.append(
+            [words, *(f"{spearmanr(of[name], of['length_most_revolutions_rad_s']).statistic:.2f}" for of in scene_refinement)]
+        )
     write_table(["rank correlation with the length", *SCENES.values()], rows, output.table)

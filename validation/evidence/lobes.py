@@ -11,7 +11,7 @@ import pandas as pd
 
 from r37core.base.dataset_file import read_dataset
 from r37core.figures.style import PAGE, plt, save
-from r37core.results.columns import CERTAIN
+from r37core.results.columns import MOST_REVOLUTIONS
 
 from .configuration import settings_of
 from .pages import write_table
@@ -44,8 +44,8 @@ def lengths_of_blade(input: Any, output: Any, params: Any) -> None:
             for lobes, height in {HELD: 0.712, SCALED: 2.0 * clearance}.items():
                 casing = replace(scene.casing, clearance=1e-3 * clearance, height=1e-3 * height)
                 exceedance = exceedance_of_runs(settings, models, params.blade, replace(scene, casing=casing), speeds)
-                beyond = any(part.truncated for part in exceedance.ranges(CERTAIN))
-                rows.append([params.contact, name, params.blade, lobes, clearance, exceedance.length(CERTAIN), beyond])
+                beyond = any(part.truncated for part in exceedance.ranges(MOST_REVOLUTIONS))
+                rows.append([params.contact, name, params.blade, lobes, clearance, exceedance.length(MOST_REVOLUTIONS), beyond])
     columns = ["contact", "scene", "blade", "lobes", "clearance_mm", "length_rad_s", "beyond"]
     pd.DataFrame(rows, columns=columns).to_csv(output[0], index=False)
 

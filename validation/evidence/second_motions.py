@@ -101,7 +101,7 @@ def _ranking(motions: xr.Dataset, blades: Iterable[str]) -> tuple[list[str], lis
     for name, (_, scene) in SCENES.items():
         table = ranking_with_motions(pd.DataFrame({"blade": list(blades), "scene": scene}), motions)
         for motion, words in (("rest", "from rest"), ("worst", "worst motion")):
-            length = table[f"length_certain_{motion}_rad_s"]
+            length = table[f"length_most_revolutions_{motion}_rad_s"]
             places = length.rank(method="min").astype(int)
             columns.append([f"{value:.0f} ({place})" for value, place in zip(length, places, strict=True)])
             head.append(f"{name}: {words}")

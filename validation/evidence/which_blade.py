@@ -12,7 +12,7 @@ import xarray as xr
 
 from r37core.config import Settings
 from r37core.contact.scene import Scene
-from r37core.results.columns import CERTAIN, POSSIBLE
+from r37core.results.columns import MOST_REVOLUTIONS, SOME_REVOLUTIONS
 from r37core.results.exceedance import Exceedance, exceedance_of
 from r37core.results.measures import motion
 from r37core.results.ranking import read_ranking
@@ -60,8 +60,8 @@ def length_text(length: float, scatter: float = np.nan) -> str:
 def lengths(response: xr.Dataset) -> str:
     """Certain and, in brackets, possible length (rad/s) of a response."""
     exceedance = exceedance_of(response)
-    certain = length_text(exceedance.length(CERTAIN), exceedance.scatter_of_length(CERTAIN))
-    return f"{certain} ({exceedance.length(POSSIBLE):.0f})"
+    certain = length_text(exceedance.length(MOST_REVOLUTIONS), exceedance.scatter_of_length(MOST_REVOLUTIONS))
+    return f"{certain} ({exceedance.length(SOME_REVOLUTIONS):.0f})"
 
 
 def rankings(input: Any, output: Any, params: Any) -> None:
@@ -79,8 +79,8 @@ def rankings(input: Any, output: Any, params: Any) -> None:
 
 
 def _lengths_of_row(row: pd.Series) -> str:
-    certain = length_text(row["length_certain_rad_s"], row["length_certain_scatter_rad_s"])
-    return f"{certain} ({row['length_possible_rad_s']:.0f})"
+    certain = length_text(row["length_most_revolutions_rad_s"], row["length_most_revolutions_scatter_rad_s"])
+    return f"{certain} ({row['length_some_revolutions_rad_s']:.0f})"
 
 
 def speeds(input: Any, output: Any, params: Any) -> None:
@@ -156,7 +156,7 @@ def _missed_at(settings: Settings, models: Models, blade: str, scene: str, speed
 
 def steep_speeds(response: xr.Dataset) -> list[float]:
     """Speeds over the range (rad/s), the tops of the widest ranges above yield and 2 rad/s above each."""
-    ranges = sorted(exceedance_of(response).ranges(CERTAIN), key=lambda part: part.length)[-_RANGES:]
+    ranges = sorted(exceedance_of(response).ranges(MOST_REVOLUTIONS), key=lambda part: part.length)[-_RANGES:]
     inside = [response.sel(speed=slice(part.begin, part.end)) for part in ranges]
     tops = [float(part["speed"][int(np.argmax(motion(part)))]) for part in inside]
     return [*_OVER_THE_RANGE, *(min(top + more, 2000.0) for top in tops for more in (0.0, 2.0))]
@@ -164,7 +164,7 @@ def steep_speeds(response: xr.Dataset) -> list[float]:
 
 def length_of_runs(settings: Settings, models: Models, blade: str, scene: Scene, speeds: np.ndarray) -> float:
     """Length (rad/s) above yield in most revolutions, from runs of its own."""
-    return exceedance_of_runs(settings, models, blade, scene, speeds).length(CERTAIN)
+    return exceedance_of_runs(settings, models, blade, scene, speeds).length(MOST_REVOLUTIONS)
 
 
 def exceedance_of_runs(settings: Settings, models: Models, blade: str, scene: Scene, speeds: np.ndarray) -> Exceedance:
@@ -187,7 +187,7 @@ def chances(input: Any, output: Any, params: Any) -> None:
     rows = []
     for blade, after in zip(table.index, [*table.index[1:], None], strict=True):
         row = table.loc[blade]
-        low, high = (row[f"length_certain_rad_s_{end}"] for end in ("low", "high"))
+        low, high = (row[f"length_most_revolutions_rad_s_{end}"] for end in ("low", "high"))
         better = "" if after is None else f"{100 * float(row[f'chance_better_than_{after}']):.0f}"
         rows.append([blade, _lengths_of_row(row), f"{low:.0f} to {high:.0f}", better])
     write_table(["blade", "nominal (rad/s)", "members (rad/s)", "better than the blade below (%)"], rows, output.table)

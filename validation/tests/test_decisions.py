@@ -149,7 +149,7 @@ def test_the_worst_motion_counts_and_a_divergence_is_above_yield():
 
 def test_correlation_over_designs(tmp_path):
     rows = [
-        {"blade": f"Sweep_{n}", "scene": scene, **dict.fromkeys(designs.LEFT, n), "length_certain_rad_s": sign * n}
+        {"blade": f"Sweep_{n}", "scene": scene, **dict.fromkeys(designs.LEFT, n), "length_most_revolutions_rad_s": sign * n}
         for n in range(4)
         for scene, sign in (("material_abradable", 1), ("direct", -1))
     ]

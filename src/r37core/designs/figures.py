@@ -17,7 +17,7 @@ from r37core.results.columns import names
 from .compared import Compared, axis_of_key
 from .table import MEASURES, STRUCTURE
 
-_ROBUSTNESS = ("shift_1b_rad_s", "length_certain_rad_s", "length_possible_rad_s")
+_ROBUSTNESS = ("shift_1b_rad_s", "length_most_revolutions_rad_s", "length_some_revolutions_rad_s")
 _DRAWN = {
     "blade": (*names(STRUCTURE), *_ROBUSTNESS, "largest_median_stress_pa"),
     "scene": (*_ROBUSTNESS, "exceedance_integral_rad_s", "largest_median_stress_pa", "largest_rms_m"),

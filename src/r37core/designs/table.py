@@ -80,7 +80,7 @@ def compared_in(table: pd.DataFrame) -> dict[str, Compared]:
 
 def length_column(table: pd.DataFrame) -> str:
     """Column of the length above yield in most revolutions: in operation, where it is known there."""
-    inside = "length_certain_operating_rad_s"
+    inside = "length_most_revolutions_operating_rad_s"
     return inside if inside in table and table[inside].notna().any() else RANKED_BY[0]
 
 

@@ -1,6 +1,6 @@
 // the first panel: which blade? Two bars for each blade and scene, above yield in most and in some revolutions, and the other numbers
 const drawRanking = (() => {
-  const KINDS = { length_certain_rad_s: "certain", length_possible_rad_s: "possible" };
+  const KINDS = { length_most_revolutions_rad_s: "certain", length_some_revolutions_rad_s: "possible" };
   const element = (tag, className, text = "") => Object.assign(document.createElement(tag), { className, textContent: text });
   const heading = (scope, ...content) => {
     const cell = Object.assign(document.createElement("th"), { scope });

@@ -16,7 +16,7 @@ from . import style
 _MOST_RANKED = 60
 """Blades whose bars fit in a picture."""
 
-_CERTAIN, _POSSIBLE = "length_certain_rad_s", "length_possible_rad_s"
+_IN_MOST, _IN_SOME = "length_most_revolutions_rad_s", "length_some_revolutions_rad_s"
 
 
 def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
@@ -99,26 +99,26 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
 
 def _draw_bars(axes: Axes, rows: pd.DataFrame) -> None:
     positions = np.arange(float(len(rows)))
-    axes.barh(positions, rows[_POSSIBLE], 0.76, color="C0", alpha=0.35, label="in some revolutions")
-    axes.barh(positions, rows[_CERTAIN], 0.44, color="C0", label="in most revolutions")
+    axes.barh(positions, rows[_IN_SOME], 0.76, color="C0", alpha=0.35, label="in some revolutions")
+    axes.barh(positions, rows[_IN_MOST], 0.44, color="C0", label="in most revolutions")
     low, high, meaning = _range(rows)
     if np.isfinite(low).any():
         axes.errorbar(
-            rows[_CERTAIN], positions, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
+            rows[_IN_MOST], positions, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
         )
     high = np.nan_to_num(high)
-    largest = np.nanmax([1.0, *rows[_POSSIBLE], *(rows[_CERTAIN] + high)])
+    largest = np.nanmax([1.0, *rows[_IN_SOME], *(rows[_IN_MOST] + high)])
     for position, above, (_, row) in zip(positions, high, rows.iterrows(), strict=True):
-        if np.isfinite(row[_CERTAIN]):
-            ends = np.nanmax([row[_POSSIBLE], row[_CERTAIN] + above])
-            axes.text(ends + 0.02 * largest, position, f"{row[_CERTAIN]:.0f} to {row[_POSSIBLE]:.0f}", va="center", fontsize=7)
+        if np.isfinite(row[_IN_MOST]):
+            ends = np.nanmax([row[_IN_SOME], row[_IN_MOST] + above])
+            axes.text(ends + 0.02 * largest, position, f"{row[_IN_MOST]:.0f} to {row[_IN_SOME]:.0f}", va="center", fontsize=7)
     axes.set_xlim(0.0, 1.25 * largest)
 
 
 def _range(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, str]:
     """Reach (rad/s) of the length in most revolutions, below and above, shape (blades,), NaN if unknown, and its meaning."""
-    if f"{_CERTAIN}_low" in rows and rows[f"{_CERTAIN}_low"].notna().any():
-        low, high = rows[_CERTAIN] - rows[f"{_CERTAIN}_low"], rows[f"{_CERTAIN}_high"] - rows[_CERTAIN]
+    if f"{_IN_MOST}_low" in rows and rows[f"{_IN_MOST}_low"].notna().any():
+        low, high = rows[_IN_MOST] - rows[f"{_IN_MOST}_low"], rows[f"{_IN_MOST}_high"] - rows[_IN_MOST]
         return low.clip(lower=0.0).values, high.clip(lower=0.0).values, "nine tenths of the members"
-    scatter = rows["length_certain_scatter_rad_s"].values
+    scatter = rows["length_most_revolutions_scatter_rad_s"].values
     return scatter, scatter, "standard deviation by chance"

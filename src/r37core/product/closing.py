@@ -47,7 +47,7 @@ def _found(rows: list[dict[str, str]]) -> str:
     if not rows:
         return "found no interaction"
     worn_through = sum(_number(row, "worn_through_share") > 0.0 for row in rows)
-    above = [row for row in rows if _number(row, "width_above_yield_rad_s") > 0.0 or row.get("certain_from_rad_s")]
+    above = [row for row in rows if _number(row, "width_above_yield_rad_s") > 0.0 or row.get("most_revolutions_from_rad_s")]
     text = f"found {len(rows)} interaction{'s' * (len(rows) > 1)}, {len(above)} of them above yield"
     if worn_through:
         text += f", {worn_through} with the lining worn through to the casing"
@@ -87,7 +87,7 @@ def _ranked(file: Path) -> list[str]:
     if not file.exists():
         return []
     with open(file, newline="", encoding="utf-8") as stream:
-        rows = [row for row in csv.DictReader(stream) if row["length_certain_rad_s"]]
+        rows = [row for row in csv.DictReader(stream) if row["length_most_revolutions_rad_s"]]
     alike: dict[str, list[dict[str, str]]] = {}
     for row in rows:
         alike.setdefault(row.get("contact", ""), []).append(row)
@@ -111,8 +111,8 @@ def _extremes(rows: list[dict[str, str]], file: Path) -> list[str]:
         scene_rows = [row for row in rows if row["scene"] == scene]
         best, worst = scene_rows[0], scene_rows[-1]
         names = [row["blade"] for row in scene_rows if row["rank"] == best["rank"]]
-        apart = _number(worst, "length_certain_rad_s") - _number(best, "length_certain_rad_s")
-        if apart > sum(_number(row, "length_certain_scatter_rad_s") for row in (best, worst)):
+        apart = _number(worst, "length_most_revolutions_rad_s") - _number(best, "length_most_revolutions_rad_s")
+        if apart > sum(_number(row, "length_most_revolutions_scatter_rad_s") for row in (best, worst)):
             verb = "is" if len(names) == 1 else "are"
             lines.append(
                 f"{scene}: {' and '.join(names)} {verb} above yield at the fewest speeds ({_length(best)}), "
@@ -123,7 +123,7 @@ def _extremes(rows: list[dict[str, str]], file: Path) -> list[str]:
 
 def _length(row: dict[str, str]) -> str:
     """Length above yield, and the widest of its ranges where it has several."""
-    text, ranges = f"{_number(row, 'length_certain_rad_s'):.0f} rad/s", _number(row, "ranges_certain")
+    text, ranges = f"{_number(row, 'length_most_revolutions_rad_s'):.0f} rad/s", _number(row, "ranges_most_revolutions")
     if ranges < 2:
         return text
     begin, width = _number(row, "widest_range_from_rad_s"), _number(row, "widest_range_rad_s")
@@ -133,14 +133,16 @@ def _length(row: dict[str, str]) -> str:
 def _overall(rows: list[dict[str, str]]) -> list[str]:
     """Blades ranked over all scenes, each with its longest length; nothing for one scene, and for one blade."""
     longest: dict[str, dict[str, str]] = {}
-    for row in sorted(rows, key=lambda row: _number(row, "length_certain_rad_s")):
+    for row in sorted(rows, key=lambda row: _number(row, "length_most_revolutions_rad_s")):
         if row.get("rank_over_scenes"):
             longest[row["blade"]] = row
     if len(longest) < 2:
         return []
-    ranked = sorted(longest.values(), key=lambda row: (_number(row, "rank_over_scenes"), _number(row, "length_certain_rad_s")))
+    ranked = sorted(
+        longest.values(), key=lambda row: (_number(row, "rank_over_scenes"), _number(row, "length_most_revolutions_rad_s"))
+    )
     places = [
-        " = ".join(f"{row['blade']} {_number(row, 'length_certain_rad_s'):.0f}" for row in equal)
+        " = ".join(f"{row['blade']} {_number(row, 'length_most_revolutions_rad_s'):.0f}" for row in equal)
         for _, equal in groupby(ranked[:MOST_BLADES], key=lambda row: row["rank_over_scenes"])
     ]
     more = ", ..." if len(ranked) > MOST_BLADES else ""

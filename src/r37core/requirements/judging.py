@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from r37core.results.columns import CERTAIN
+from r37core.results.columns import MOST_REVOLUTIONS
 from r37core.results.exceedance import SpeedRange, exceedance_of
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
@@ -212,14 +212,14 @@ def _above_yield(evidence: Evidence) -> Columns:
     if evidence.not_covered:
         return {"note": evidence.not_covered}
     exceedance = exceedance_of(response)
-    inside = [part for part in exceedance.ranges(CERTAIN) if operating.overlap(part.begin, part.end) > 0.0]
+    inside = [part for part in exceedance.ranges(MOST_REVOLUTIONS) if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
     notes = [evidence.divergence, "" if _has_rotation(response) else "stress of vibration alone"]
     return {
         "value": operating.length(inside),
         "from_rad_s": max(widest.begin, operating.first),
         "to_rad_s": min(widest.end, operating.last),
-        "scatter": scatter_of_length(response, operating, CERTAIN),
+        "scatter": scatter_of_length(response, operating, MOST_REVOLUTIONS),
         "note": "; ".join(filter(None, notes)),
     }
 

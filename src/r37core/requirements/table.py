@@ -11,7 +11,7 @@ import xarray as xr
 
 from r37core.base.io import read_json
 from r37core.results.closing import counted, interaction_title
-from r37core.results.columns import CERTAIN
+from r37core.results.columns import MOST_REVOLUTIONS
 from r37core.results.datasets import response_of
 from r37core.results.exceedance import exceedance_of
 from r37core.results.operating_range import OperatingRange
@@ -117,7 +117,7 @@ def operating_table(
         peaks = interactions[(interactions["blade"] == blade) & (interactions["scene"] == scene)]
         for row in peaks.itertuples():
             # where some revolutions are above yield, or else at the peak alone
-            ends = (getattr(row, "possible_from_rad_s", np.nan), getattr(row, "possible_to_rad_s", np.nan))
+            ends = (getattr(row, "some_revolutions_from_rad_s", np.nan), getattr(row, "some_revolutions_to_rad_s", np.nan))
             begin, end = 2 * (float(row.peak_speed_rad_s),) if pd.isna(ends[0]) else ends
             if operating.overlap(begin, end) >= 0.0:
                 order = None if pd.isna(row.engine_order) else int(row.engine_order)
@@ -126,7 +126,7 @@ def operating_table(
         response = response_of(datasets, blade, scene)
         if "share_of_revolutions_above_yield" not in response:
             continue
-        for part in exceedance_of(response).ranges(CERTAIN):
+        for part in exceedance_of(response).ranges(MOST_REVOLUTIONS):
             if operating.overlap(part.begin, part.end) > 0.0:
                 rows.append((blade, scene, ABOVE_YIELD, "", *_inside(part.begin, part.end, operating), np.nan))
     return pd.DataFrame(rows, columns=list(OPERATING_COLUMNS))

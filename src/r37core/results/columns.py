@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from r37core.base.units import shown_unit, si_name, unit_of
 
-CERTAIN, POSSIBLE = 0.5, 0.05
+MOST_REVOLUTIONS, SOME_REVOLUTIONS = 0.5, 0.05
 """Shares of the revolutions above which a speed counts as above yield in most, and in some, revolutions."""
 
 DROP_WITHIN = 24.0
@@ -21,7 +21,7 @@ CHANCE = "chance_better_than_"
 """Begin of columns of ranking.csv that compare a blade with another one, whose name follows."""
 
 
-IN_REGION = "length_certain_{}_rad_s"
+IN_REGION = "length_most_revolutions_{}_rad_s"
 """Columns of ranking.csv with the length in a region of the stress that does not decide, by its name."""
 
 
@@ -85,8 +85,8 @@ def names(columns: Iterable[Column]) -> list[str]:
 _REVOLUTIONS = "later revolutions"
 """Revolutions in the second half of a run; the last hundred of one that goes on until it settles."""
 
-_POSSIBLE = f"more than {POSSIBLE:.0%} of the {_REVOLUTIONS} exceed yield"
-_CERTAIN = f"more than {CERTAIN:.0%} of the {_REVOLUTIONS} exceed yield"
+_IN_SOME = f"more than {SOME_REVOLUTIONS:.0%} of the {_REVOLUTIONS} exceed yield"
+_IN_MOST = f"more than {MOST_REVOLUTIONS:.0%} of the {_REVOLUTIONS} exceed yield"
 _MEDIAN = f"largest median of the von Mises stress over the {_REVOLUTIONS}"
 _MOST, _SOME = "above yield in most revolutions", "above yield in some revolutions"
 _LOST = f"share of the amplitude lost within {DROP_WITHIN:g} rad/s above the peak"
@@ -148,11 +148,11 @@ INTERACTIONS = (
         percent=True,
     ),
     Column("width_ever_above_yield_rad_s", f"width above yield if any of the {_REVOLUTIONS} counts"),
-    Column("possible_from_rad_s", f"lowest speed at which {_POSSIBLE}", f"{_SOME} from", place=110, scatter=True),
-    Column("possible_to_rad_s", "highest such speed", f"{_SOME} to", place=120, scatter=True),
-    Column("certain_from_rad_s", f"lowest speed at which {_CERTAIN}", f"{_MOST} from", scatter=True),
-    Column("certain_to_rad_s", "highest such speed", f"{_MOST} to", scatter=True),
-    Column("certain_length_rad_s", f"length of all speeds at which {_CERTAIN}", _MOST, place=130),
+    Column("some_revolutions_from_rad_s", f"lowest speed at which {_IN_SOME}", f"{_SOME} from", place=110, scatter=True),
+    Column("some_revolutions_to_rad_s", "highest such speed", f"{_SOME} to", place=120, scatter=True),
+    Column("most_revolutions_from_rad_s", f"lowest speed at which {_IN_MOST}", f"{_MOST} from", scatter=True),
+    Column("most_revolutions_to_rad_s", "highest such speed", f"{_MOST} to", scatter=True),
+    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, place=130),
     Column("median_von_mises_pa", _MEDIAN, "median stress", place=140),
     Column("high_von_mises_pa", f"largest 90% quantile of the von Mises stress over the {_REVOLUTIONS}", "high stress"),
     Column("largest_goodman_share", _GOODMAN, "Goodman share", place=170),
@@ -188,8 +188,8 @@ SUMMARY = (*INTERACTIONS, *SECOND_MOTIONS, *MEMBERS_SHOWING)
 """All columns that summary.csv may have."""
 
 ROBUSTNESS = (
-    Column("length_certain_rad_s", f"length of all speeds at which {_CERTAIN}", _MOST, scatter=True, minimised=True),
-    Column("length_possible_rad_s", f"length of all speeds at which {_POSSIBLE}", _SOME, scatter=True, minimised=True),
+    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, scatter=True, minimised=True),
+    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}", _SOME, scatter=True, minimised=True),
     Column("length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", "ever above yield"),
     Column("length_lasting_rad_s", "the same where the motion lasts or grows at the end", f"{_MOST}, lasting"),
     Column(
@@ -212,11 +212,11 @@ ROBUSTNESS = (
         minimised=True,
     ),
     Column("largest_median_stress_pa", _MEDIAN, minimised=True),
-    Column("first_certain_rad_s", f"lowest speed {_MOST}", f"first speed {_MOST}"),
-    Column("first_possible_rad_s", f"lowest speed {_SOME}", f"first speed {_SOME}"),
+    Column("first_most_revolutions_rad_s", f"lowest speed {_MOST}", f"first speed {_MOST}"),
+    Column("first_some_revolutions_rad_s", f"lowest speed {_SOME}", f"first speed {_SOME}"),
     Column("widest_range_rad_s", "width of the widest of these ranges", f"widest range {_MOST}", minimised=True),
     Column("widest_range_from_rad_s", "its lowest speed", "widest range from"),
-    Column("ranges_certain", "number of these ranges", f"ranges {_MOST}"),
+    Column("ranges_most_revolutions", "number of these ranges", f"ranges {_MOST}"),
     Column(
         "largest_rms_m",
         "largest normal and tangential rms of the leading edge together",
@@ -232,7 +232,10 @@ ROBUSTNESS = (
 
 OPERATING = (
     Column(
-        "length_certain_operating_rad_s", "this length inside the operating range", f"{_MOST}, in operation", minimised=True
+        "length_most_revolutions_operating_rad_s",
+        "this length inside the operating range",
+        f"{_MOST}, in operation",
+        minimised=True,
     ),
     Column(
         "exceedance_integral_operating_rad_s",
@@ -251,8 +254,12 @@ OPERATING = (
 """Measures of a response inside the operating range."""
 
 WORST_MOTION = (
-    Column("length_certain_rest_rad_s", "this length from rest, at the speeds of sweeps", f"{_MOST}, from rest"),
-    Column("length_certain_worst_rad_s", "this length by the worst motion up, down and from rest", f"{_MOST}, worst motion"),
+    Column("length_most_revolutions_rest_rad_s", "this length from rest, at the speeds of sweeps", f"{_MOST}, from rest"),
+    Column(
+        "length_most_revolutions_worst_rad_s",
+        "this length by the worst motion up, down and from rest",
+        f"{_MOST}, worst motion",
+    ),
     Column("largest_rms_worst_m", "largest rms of these motions", "largest rms, worst motion"),
     Column("rank_worst", "place by the worst motion", "rank by the worst motion"),
 )
@@ -300,5 +307,5 @@ def column_named(name: str, columns: Iterable[Column]) -> Column | None:
             return replace(column, words=f"{column.title}, {end}", meaning=f"{end} of the members: {column.meaning}")
     if name.startswith(before) and name.endswith(after):
         region = name.removeprefix(before).removesuffix(after)
-        return Column(name, f"length of all speeds at which {_CERTAIN} in the region {region}", f"{_MOST}, {region}")
+        return Column(name, f"length of all speeds at which {_IN_MOST} in the region {region}", f"{_MOST}, {region}")
     return None

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from .columns import DROP_WITHIN, POSSIBLE
+from .columns import DROP_WITHIN, SOME_REVOLUTIONS
 from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from .interaction import Interaction, interaction_row, range_columns
 from .measures import motion, ratio_to_yield, strongest_order
@@ -22,8 +22,8 @@ _OF_NORMAL = 1.4826 / np.sqrt(1.5)
 def rows_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list[Interaction]:
     """Rows by ascending speed: every range that may be above yield, and of the `peaks` those that lie in none of them.
 
-    A range is where the smoothed share of the revolutions above yield is above POSSIBLE, where a speed's own share is, or where
-    its last revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
+    A range is where the smoothed share of the revolutions above yield is above SOME_REVOLUTIONS, where a speed's own share is,
+    or where its last revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
     """
     exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
     ranges = _ranges(response, exceedance)
@@ -44,7 +44,10 @@ def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> li
     return [
         _row(response, exceedance, within, note=NO_PEAK)
         for within in _ranges(response, exceedance)
-        if not any(row["possible_from_rad_s"] <= within.end and row["possible_to_rad_s"] >= within.begin for row in rows)
+        if not any(
+            row["some_revolutions_from_rad_s"] <= within.end and row["some_revolutions_to_rad_s"] >= within.begin
+            for row in rows
+        )
     ]
 
 
@@ -52,8 +55,8 @@ def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRa
     if exceedance is None:
         return []
     ratio = ratio_to_yield(response)
-    own = ranges_above(exceedance.speeds, exceedance.shares, POSSIBLE)
-    return joined([*exceedance.ranges(POSSIBLE), *own, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
+    own = ranges_above(exceedance.speeds, exceedance.shares, SOME_REVOLUTIONS)
+    return joined([*exceedance.ranges(SOME_REVOLUTIONS), *own, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
 
 
 def _row(
@@ -73,7 +76,7 @@ def _row(
         columns |= range_columns(exceedance, within)
     if exceedance and not peak_alone:
         # ends of the row itself, which may be single speeds
-        columns |= {"possible_from_rad_s": within.begin, "possible_to_rad_s": within.end}
+        columns |= {"some_revolutions_from_rad_s": within.begin, "some_revolutions_to_rad_s": within.end}
     if ended:
         columns["peak_motion_scatter_m"] = _scatter(speeds, level, index)
         columns["fall_speed_rad_s"], columns["fall_speed_scatter_rad_s"] = _fall(speeds, level, index)

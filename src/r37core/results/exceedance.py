@@ -16,7 +16,7 @@ import xarray as xr
 
 from r37core.time_integration.status import RunStatus
 
-from .columns import CERTAIN, POSSIBLE
+from .columns import MOST_REVOLUTIONS, SOME_REVOLUTIONS
 
 HALF_WIDTH = 10.0
 """Distance (rad/s) at which a neighbour's share has no weight any more; its weight falls in a straight line to there."""
@@ -111,7 +111,10 @@ class Exceedance:
     @cached_property
     def ranges_drawn(self) -> dict[float, list[list[SpeedRange]]]:
         """Share -> ranges above it, of each of the drawn shares."""
-        return {share: [ranges_above(self.speeds, drawn, share) for drawn in self.drawn] for share in (CERTAIN, POSSIBLE)}
+        return {
+            share: [ranges_above(self.speeds, drawn, share) for drawn in self.drawn]
+            for share in (MOST_REVOLUTIONS, SOME_REVOLUTIONS)
+        }
 
     def scatter_of_length(self, share: float) -> float:
         """Standard deviation of `length` (rad/s) by chance; NaN where there is none."""

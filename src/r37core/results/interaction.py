@@ -9,7 +9,7 @@ import xarray as xr
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
-from .columns import CERTAIN, INTERACTIONS, POSSIBLE, names
+from .columns import INTERACTIONS, MOST_REVOLUTIONS, SOME_REVOLUTIONS, names
 from .exceedance import Exceedance, SpeedRange
 from .measures import drop_after, lasts
 from .variables import PLACES
@@ -32,10 +32,12 @@ is chaotic.
 def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
     """Where within a row's speeds a share of the revolutions is above yield, with the scatter of the borders."""
     columns: dict[str, Any] = {}
-    for name, share in (("possible", POSSIBLE), ("certain", CERTAIN)):
+    for name, share in (("some_revolutions", SOME_REVOLUTIONS), ("most_revolutions", MOST_REVOLUTIONS)):
         ranges = [part for part in exceedance.ranges(share) if part.end >= within.begin and part.begin <= within.end]
-        if name == "certain":
-            columns["certain_length_rad_s"] = sum(min(part.end, within.end) - max(part.begin, within.begin) for part in ranges)
+        if name == "most_revolutions":
+            columns["length_most_revolutions_rad_s"] = sum(
+                min(part.end, within.end) - max(part.begin, within.begin) for part in ranges
+            )
         if ranges:
             begin, end = max(ranges[0].begin, within.begin), min(ranges[-1].end, within.end)
             columns[f"{name}_from_rad_s"], columns[f"{name}_to_rad_s"] = begin, end

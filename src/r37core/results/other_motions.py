@@ -11,7 +11,7 @@ import xarray as xr
 
 from r37core.time_integration.status import RunStatus
 
-from .columns import CERTAIN, SECOND_MOTIONS, WORST_MOTION, names
+from .columns import MOST_REVOLUTIONS, SECOND_MOTIONS, WORST_MOTION, names
 from .exceedance import Exceedance, is_lined
 
 REST = "rest"
@@ -36,7 +36,7 @@ def ranking_with_motions(ranking: pd.DataFrame, motions: xr.Dataset) -> pd.DataF
     *lengths, rank = names(WORST_MOTION)
     table = pd.concat([ranking, pd.DataFrame(rows, index=ranking.index, columns=lengths)], axis=1)
     alike = [name for name in ("scene", "contact") if name in table]
-    table[rank] = table.groupby(alike)["length_certain_worst_rad_s"].rank(method="min").astype("Int64")
+    table[rank] = table.groupby(alike)["length_most_revolutions_worst_rad_s"].rank(method="min").astype("Int64")
     return table
 
 
@@ -45,8 +45,8 @@ def _worst(pair: xr.Dataset) -> dict[str, float]:
         return {}
     row = {"largest_rms_worst_m": float(pair["motion_mean"].max())}
     if "share_of_revolutions_above_yield" in pair:
-        row["length_certain_rest_rad_s"] = worst_exceedance(pair.sel(motion=[REST])).length(CERTAIN)
-        row["length_certain_worst_rad_s"] = worst_exceedance(pair).length(CERTAIN)
+        row["length_most_revolutions_rest_rad_s"] = worst_exceedance(pair.sel(motion=[REST])).length(MOST_REVOLUTIONS)
+        row["length_most_revolutions_worst_rad_s"] = worst_exceedance(pair).length(MOST_REVOLUTIONS)
     return row
 
 

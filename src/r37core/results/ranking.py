@@ -11,7 +11,7 @@ from r37core.base.io import readable
 from r37core.base.units import si_name
 from r37core.time_integration.status import RunStatus
 
-from .columns import CERTAIN, CHANCE, ENDS, OPERATING, OVER_SCENES, POSSIBLE, ROBUSTNESS, names
+from .columns import CHANCE, ENDS, MOST_REVOLUTIONS, OPERATING, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from .exceedance import SpeedRange, exceedance_of
 from .measures import drop_after, has_strengths, lasts, motion, peak_of, speeds_above_yield
 from .operating_range import OperatingRange
@@ -20,7 +20,7 @@ from .table_file import read_table
 MeasuresOfMembers = dict[tuple[str, str], dict[str, dict[str, float]]]
 """(blade, scene) -> member -> column of RANKED_BY -> value."""
 
-RANKED_BY = ("length_certain_rad_s", "length_possible_rad_s", "diverged_runs", "largest_median_stress_pa")
+RANKED_BY = ("length_most_revolutions_rad_s", "length_some_revolutions_rad_s", "diverged_runs", "largest_median_stress_pa")
 """Columns that blades are ranked by: less of the first is better, of the next where that is the same."""
 
 
@@ -35,7 +35,7 @@ def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chanc
     exceedance = exceedance_of(response)
     if not operating.is_covered(exceedance.speeds):
         return measures
-    measures["length_certain_operating_rad_s"] = operating.length(exceedance.ranges(CERTAIN))
+    measures["length_most_revolutions_operating_rad_s"] = operating.length(exceedance.ranges(MOST_REVOLUTIONS))
     measures["exceedance_integral_operating_rad_s"] = operating.integral(exceedance.speeds, exceedance.shares)
     if exceedance.chance and chance_scatter:
         drawn = [operating.integral(exceedance.speeds, shares) for shares in exceedance.drawn]
@@ -68,7 +68,7 @@ def robustness(
     measures["largest_gap_rad_s"] = float(np.diff(response["speed"].values).max(initial=0.0))
     if "share_of_revolutions_above_yield" in response:
         exceedance = exceedance_of(response)
-        for name, share in (("certain", CERTAIN), ("possible", POSSIBLE)):
+        for name, share in (("most_revolutions", MOST_REVOLUTIONS), ("some_revolutions", SOME_REVOLUTIONS)):
             ranges = exceedance.ranges(share)
             measures[f"length_{name}_rad_s"] = exceedance.length(share)
             if chance_scatter:
@@ -80,31 +80,31 @@ def robustness(
         measures["length_ever_rad_s"] = speeds_above_yield(response, "max_von_mises_ever").length
         if "motion_at_end" in response:
             measures["length_lasting_rad_s"] = _length_lasting(response)
-        certain = exceedance.ranges(CERTAIN)
-        widest = max(certain, key=lambda above: above.length, default=SpeedRange(np.nan, np.nan, False))
+        above_yield = exceedance.ranges(MOST_REVOLUTIONS)
+        widest = max(above_yield, key=lambda above: above.length, default=SpeedRange(np.nan, np.nan, False))
         measures["widest_range_rad_s"], measures["widest_range_from_rad_s"] = np.nan_to_num(widest.length), widest.begin
-        measures["ranges_certain"] = len(certain)
+        measures["ranges_most_revolutions"] = len(above_yield)
         measures["largest_median_stress_pa"] = float(response["max_von_mises_median"].max())
     if has_strengths(response):
         exceedance = exceedance_of(response, "share_of_revolutions_above_goodman")
         measures["largest_goodman_share"] = float(response["goodman_share"].max())
-        measures["length_goodman_rad_s"] = exceedance.length(CERTAIN)
+        measures["length_goodman_rad_s"] = exceedance.length(MOST_REVOLUTIONS)
         measures["goodman_integral_rad_s"] = exceedance.integral
     return measures
 
 
-def length_certain(response: xr.Dataset) -> float:
+def length_most_revolutions(response: xr.Dataset) -> float:
     """Length (rad/s) of the speeds above yield in most revolutions; NaN of a response without stress."""
     if "share_of_revolutions_above_yield" not in response:
         return np.nan
     exceedance = exceedance_of(response)
-    return exceedance.length(CERTAIN) if len(exceedance.speeds) else np.nan
+    return exceedance.length(MOST_REVOLUTIONS) if len(exceedance.speeds) else np.nan
 
 
 def _length_lasting(response: xr.Dataset) -> float:
     """Length (rad/s) of the speeds above yield in most revolutions of the statistic whose motion lasts or grows."""
     share = response["share_of_revolutions_above_yield"].where(lasts(response), 0.0)
-    return exceedance_of(response.assign(share_of_revolutions_above_yield=share)).length(CERTAIN)
+    return exceedance_of(response.assign(share_of_revolutions_above_yield=share)).length(MOST_REVOLUTIONS)
 
 
 def measures_of_members(members: xr.Dataset) -> MeasuresOfMembers:
@@ -158,7 +158,7 @@ def _overall(table: pd.DataFrame) -> pd.DataFrame:
     ranked = table[table["rank"].notna()]
     blades, by = ranked.groupby("blade"), RANKED_BY[0]
     worst = ranked.loc[blades[by].idxmax()].set_index("blade")[blades.size() == ranked["scene"].nunique()]
-    scatter = worst["length_certain_scatter_rad_s"].fillna(0.0)
+    scatter = worst["length_most_revolutions_scatter_rad_s"].fillna(0.0)
     high, low = worst[by] + scatter, worst[by] - scatter
     ranks = [1 + (high[worst["contact"] == worst["contact"][blade]] < low[blade]).sum() for blade in worst.index]
     columns = [pd.Series(ranks, worst.index, dtype="Int64"), blades["rank"].max(), blades[by].sum()]

@@ -19,7 +19,7 @@ from .interactions import InteractionChoice, summarise
 from .operating_range import OperatingRange
 from .other_motions import ranking_with_motions, summary_with_motions
 from .ranges import ranged_summary, read_ranges
-from .ranking import length_certain, measures_of_members, ranking_table, robustness
+from .ranking import length_most_revolutions, measures_of_members, ranking_table, robustness
 from .regions import other_regions
 from .response import write_response
 from .table_file import write_table
@@ -104,6 +104,6 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     for region in other_regions(datasets["stress"]) if "stress" in datasets else []:
         for blade, scene in params.runs:
             response = response_of(datasets, blade, scene, region)
-            measures[blade, scene][IN_REGION.format(region)] = length_certain(response)
+            measures[blade, scene][IN_REGION.format(region)] = length_most_revolutions(response)
     table = ranking_table(measures, members, params.contacts)
     write_table(table if motions is None else ranking_with_motions(table, motions), output.table, digits=6)

@@ -297,7 +297,7 @@ A cantilever of length L and thickness h has about h c / 6 L**2 (c: speed of sou
 blade of fifteen chords, to 500 m/s, of a thick one of half a chord.
 """
 
-_POSSIBLE = (0.02, 50e3)
+_IN_SOME = (0.02, 50e3)
 """A hundred times less and more."""
 
 
@@ -318,7 +318,7 @@ def check_frequency(model: ReducedModel, chord: float) -> None:
         f"{wording(model)}, with a tip of {1e3 * chord:.3g} mm; blades of that size have {_USUAL[0] / chord:.2g} to "
         f"{_USUAL[1] / chord:.2g} Hz: look at mass_unit, stiffness_unit and length_unit"
     )
-    if not _POSSIBLE[0] <= frequency * chord <= _POSSIBLE[1]:
+    if not _IN_SOME[0] <= frequency * chord <= _IN_SOME[1]:
         raise ImportRefused(text)
     warnings.warn(text, MeshWarning, stacklevel=2)
 
