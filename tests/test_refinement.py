@@ -246,10 +246,10 @@ def test_a_round_s_file_says_what_it_was(tmp_path):
 
 
 def test_what_a_run_gives():
-    run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "max_von_mises": np.array(4.0)}
+    run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "max_von_mises": np.array([4.0, 9.0])}
     assert measure(run, 8.0) == [0, 0.0, 2.0, 0.5]
     assert np.isnan(measure({name: value for name, value in run.items() if name != "max_von_mises"}, 8.0)[3])
-    assert np.isnan(measure(run | {"status": np.array(1), "max_von_mises": np.array(np.nan)}, 8.0)[3])
+    assert np.isnan(measure(run | {"status": np.array(1), "max_von_mises": np.array([np.nan, 9.0])}, 8.0)[3])
 
 
 def test_a_round_of_a_blade_without_stress(tmp_path):
