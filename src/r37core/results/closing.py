@@ -42,7 +42,7 @@ def lining_texts(runs: Mapping[tuple[str, str], Mapping[str, Any]]) -> list[str]
     """
     lines = []
     for scene in dict.fromkeys(scene for _, scene in runs):
-        blades = [numbers for (_, of), numbers in runs.items() if of == scene]
+        blades = [numbers for (_, name), numbers in runs.items() if name == scene]
         spans = {name: _span([numbers[name] for numbers in blades]) for name in blades[0]}
         lines.append(
             f"{scene}: stiffness of the lining at the tip {spans['lining_elastic_stiffness']} N/m, "
