@@ -64,18 +64,23 @@ def lengths(response: xr.Dataset) -> str:
     return f"{certain} ({exceedance.length(SOME_REVOLUTIONS):.0f})"
 
 
+REGIONS = {"": "airfoil", "_airfoil_unfiltered": "airfoil, all modes", "_box": "box"}
+"""End of a column of lengths, and the region of the stress in words."""
+
+
 def rankings(input: Any, output: Any, params: Any) -> None:
-    """Lengths and places in both scenes, of contact on patches and on points. Input: patches, points."""
-    tables = {kind: read_ranking(file).set_index(["scene", "blade"]) for kind, file in input.items()}
+    """Lengths above yield and ranks in both scenes, in each region of the stress. Input: ranking."""
+    table = read_ranking(input.ranking).set_index(["scene", "blade"])
+    head = [f"{SCENES[scene]}: {words}" for scene in ON_PATCHES for words in REGIONS.values()]
     rows = []
-    for blade in dict.fromkeys(tables["patches"].index.get_level_values("blade")):
-        cells = [blade]
-        for scene, on_patches in ON_PATCHES.items():
-            found = {"patches": tables["patches"].loc[on_patches, blade], "points": tables["points"].loc[scene, blade]}
-            cells += [f"{found['patches']['rank']:g}", *map(_lengths_of_row, found.values())]
-        rows.append(cells)
-    kinds = ("place", "patches", "points")
-    write_table(["blade", *(f"{words}: {kind}" for words in SCENES.values() for kind in kinds)], rows, output.table)
+    for blade in table.loc["direct"].index:
+        lengths_of = {
+            (scene, end): table.loc[on_patches, f"length_most_revolutions{end}_rad_s"]
+            for scene, on_patches in ON_PATCHES.items()
+            for end in REGIONS
+        }
+        rows.append([blade, *(f"{each[blade]:.0f} ({each.rank(method='min')[blade]:.0f})" for each in lengths_of.values())])
+    write_table(["blade", *head], rows, output.table)
 
 
 def _lengths_of_row(row: pd.Series) -> str:

@@ -15,9 +15,26 @@ module ranking:
 use rule * from ranking as ranking_*
 
 
+# as long as a table needs: the airfoil, which decides, beside the benchmark's box and what all modes give
+module regions:
+    snakefile:
+        "../../Snakefile"
+    config:
+        run(
+            "regions",
+            scenes=["material_abradable", "direct"],
+            fidelity="draft",
+            structure={"boundary": {"contact": "patches"}},
+            speeds=[{"start": 760, "stop": 2000, "step": 20}],
+        )
+
+
+use rule * from regions as regions_*
+
+
 use rule evidence as which_blade with:
     input:
-        unpack(behind_engine(patches="results/runs/patches/ranking.csv", points="results/runs/campaign/ranking.csv")),
+        unpack(behind_engine(ranking="results/runs/regions/ranking.csv")),
     output:
         table=f"{TABLES}/which_blade.csv",
     log:
