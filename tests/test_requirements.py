@@ -91,7 +91,10 @@ def test_the_lining_that_is_used():
     # what still grows is a lower bound
     growing = np.where(SPEEDS == 1200.0, MotionAtEnd.GROWING, MotionAtEnd.LASTING)
     judgement = one(Requirements(used_lining=0.7), response=runs.assign(motion_at_end=("speed", growing)), thickness=1e-3)
-    assert judgement["verdict"] == UNKNOWN and "a lower bound" in judgement["note"]
+    assert judgement["verdict"] == UNKNOWN and judgement["note"].endswith("a lower bound")
+    # far from the limit, too
+    small = runs.assign(used_thickness=0.1 * runs["used_thickness"], motion_at_end=("speed", growing))
+    assert one(Requirements(used_lining=0.7), response=small, thickness=1e-3)["verdict"] == UNKNOWN
     through[place(1150.0)] = 0.1
     runs["worn_through_share"] = ("speed", through)
     judgement = one(Requirements(used_lining=1.0), response=runs, thickness=1e-3)

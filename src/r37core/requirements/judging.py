@@ -32,6 +32,9 @@ NEAR = 0.7
 CLEARLY = 1.15
 """Factor by which stress and wear may be smaller where a requirement fails clearly."""
 
+LOWER_BOUND = "wear still grows at the end: a lower bound"
+"""Note on a value that meets no limit, however far from it."""
+
 _CHANCE = 2.0
 """Standard deviations by which chance may move a length."""
 
@@ -147,8 +150,7 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     growing = evidence.growing(nearness(only, evidence) >= NEAR)
     doubts = _doubts(row, margins, evidence, growing)
     if doubts:
-        notes = [*doubts, *filter(None, [row["note"]])]
-        row |= {"verdict": UNKNOWN, "note": "; ".join(notes)}
+        row |= {"verdict": UNKNOWN, "note": "; ".join(dict.fromkeys([*doubts, *filter(None, [row["note"]])]))}
     return row
 
 
@@ -160,7 +162,8 @@ def _doubts(row: dict[str, Any], margins: dict[str, float], evidence: Evidence, 
         return [f"meets {' and '.join(kept)}"] if kept else []
     failed = [(name, margin) for name, margin in margins.items() if margin < 0.0]
     how = [f"fails {name}" + (f" by {-margin:.3g}{unit}" if np.isfinite(margin) else "") for name, margin in failed]
-    return [*how, *filter(None, [evidence.not_looked, evidence.too_coarse, growing])]
+    bound = row["note"] if row["note"] == LOWER_BOUND else ""
+    return [*how, *filter(None, [evidence.not_looked, evidence.too_coarse, growing, bound])]
 
 
 def _tried(evidence: Evidence) -> dict[str, Evidence]:
@@ -266,7 +269,7 @@ def _used_lining(evidence: Evidence) -> Columns:
     if "motion_at_end" in response:
         nearest = int(np.abs(response["speed"].values - speed).argmin())
         if response["motion_at_end"][nearest] == MotionAtEnd.GROWING:
-            note = "wear still grows at the end: a lower bound"
+            note = LOWER_BOUND
     return _worst_at(value, np.nan if value == 0.0 else speed, note)
 
 
