@@ -148,6 +148,9 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     row |= {"value_lowest": min(values), "value_highest": max(values)}
     row["margin_worst_motion"] = min((margins[name] for name in motions if name in margins), default=np.nan)
     growing = evidence.growing(nearness(only, evidence) >= NEAR)
+    if row["verdict"] == FAILS:
+        # another motion that keeps the limit takes nothing from one that does not
+        margins = {name: margin for name, margin in margins.items() if name not in motions}
     doubts = _doubts(row, margins, evidence, growing)
     if doubts:
         row |= {"verdict": UNKNOWN, "note": "; ".join(dict.fromkeys([*doubts, *filter(None, [row["note"]])]))}
