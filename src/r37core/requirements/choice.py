@@ -4,12 +4,19 @@ from dataclasses import dataclass, field
 from typing import Annotated
 
 from r37core.base.declared import Key
+from r37core.results.operating_range import OperatingRange
 
 WIDTH = 5.0
 """Width of a narrow interaction (rad/s): between speeds that lie farther apart one may be hidden."""
 
 STEP = 0.5 * WIDTH
 """Step (rad/s) between the further runs from rest."""
+
+CARRIED_STEP = WIDTH
+"""Step (rad/s) between the speeds that a motion is carried through."""
+
+MOST_NEAR, OTHERS = 24, 3
+"""Speeds, those nearest to the limit, that are run in so many other ways: with more and less friction and half the step."""
 
 LONGEST = 1000
 """Most revolutions of a run that ends as it has settled."""
@@ -70,3 +77,9 @@ class Requirements:
         """True if there is one."""
         numbers = (self.above_yield, self.goodman_share, self.used_lining, self.clearance, self.mass)
         return bool(self.campbell_margins) or any(number is not None for number in numbers)
+
+
+def most_further_runs(operating: OperatingRange) -> int:
+    """Further runs of a blade and scene in an operating range, without those about peaks."""
+    width = operating.last - operating.first
+    return round(width / STEP + 2.0 * width / CARRIED_STEP) + OTHERS * MOST_NEAR

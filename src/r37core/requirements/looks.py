@@ -25,18 +25,15 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import numbers_of_run
 
-from .choice import LONGEST, STEP, WIDTH, Requirements
+from .choice import CARRIED_STEP, LONGEST, MOST_NEAR, STEP, Requirements
 from .evidence import JUDGED, OF_ALL, Evidence, overlaid
 from .judging import DOWN, HALF_STEP, LESS_FRICTION, MORE_FRICTION, NEAR, REST, UP, fails_clearly, nearness
 
-CARRIED_STEP, CARRIED_REVOLUTIONS = WIDTH, 100
-"""Step (rad/s) between the speeds that a motion is carried through, and revolutions at each."""
+CARRIED_REVOLUTIONS = 100
+"""Revolutions at each speed that a motion is carried through."""
 
 _PEAK_STEP = 0.7
 """Step (rad/s) between runs about a peak that comes near to the limit."""
-
-_MOST_NEAR = 24
-"""Speeds, those nearest to the limit, that are run with another friction and step."""
 
 _FRICTION = 0.01
 """Relative change of the friction."""
@@ -128,7 +125,7 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     carried = _closer([first, last], CARRIED_STEP)
     yield UP, blade.carried(carried)
     yield DOWN, blade.carried(carried[::-1])
-    near = np.sort(runs["speed"].values[np.argsort(-nearness(requirements, rest), kind="stable")[:_MOST_NEAR]]).tolist()
+    near = np.sort(runs["speed"].values[np.argsort(-nearness(requirements, rest), kind="stable")[:MOST_NEAR]]).tolist()
     friction = blade.scene.friction
     if friction is not None:
         for look, factor in ((MORE_FRICTION, 1.0 + _FRICTION), (LESS_FRICTION, 1.0 - _FRICTION)):

@@ -21,7 +21,7 @@ from r37core.plans.sweep_plan import Simulations, Sweep
 from r37core.rom.naming import mode_names
 from r37core.rom.reduction_choice import POINTS
 
-from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements
+from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
 
 
 @declared_by(CampbellMargin)
@@ -187,15 +187,18 @@ def can_be_judged(settings: Settings) -> None:
 
 
 def remarks(settings: Settings) -> list[str]:
-    """Which blades and scenes are not run over the whole operating range, whose verdict is not known."""
-    operating = operating_range(settings)
+    """Which blades and scenes are not run over the whole operating range, and how many further runs a verdict may need."""
+    operating, lines = operating_range(settings), []
     if operating is None:
         return []
-    if not (short := pairs_not_covered(settings, operating)):
-        return []
-    named = ", ".join(f"{blade} in {scene}" for blade, scene in short[:3]) + (", ..." if len(short) > 3 else "")
-    reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
-    return [f"operating: the speeds of {named} do not reach over {reach}; what is judged there is not known"]
+    if short := pairs_not_covered(settings, operating):
+        named = ", ".join(f"{blade} in {scene}" for blade, scene in short[:3]) + (", ..." if len(short) > 3 else "")
+        reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
+        lines.append(f"operating: the speeds of {named} do not reach over {reach}; what is judged there is not known")
+    if looked := Judged(Sweep(settings)).looked:
+        runs = f"up to about {most_further_runs(operating)} further runs of each blade and scene ({len(looked)})"
+        lines.append(f"requirements: {runs} that does not fail clearly")
+    return lines
 
 
 EXTENSION = Extension(
