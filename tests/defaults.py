@@ -26,7 +26,7 @@ def _with_defaults(kind: type, **others: Any) -> Callable[..., Any]:
     return made
 
 
-Scene = _with_defaults(scene.Scene, lining=None, friction=None)
+Scene = _with_defaults(scene.Scene, lining=None, friction=None, damping_ratio=0.0005)
 BoundaryChoice = _with_defaults(reduction_choice.BoundaryChoice, contact="points")
 MeshSource = _with_defaults(source.MeshSource, sense_check=True)
 MatricesSource = _with_defaults(source.MatricesSource, mass_unit="kg", stiffness_unit="N/m", sense_check=True)

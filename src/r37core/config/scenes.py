@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, RootModel, model_validator
+from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
-from r37core.contact.scene import Friction, Lining, Scene
+from r37core.contact.scene import DampingTable, Friction, Lining, Scene
 from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
 from .bases import complete_scenes
@@ -50,6 +51,31 @@ class FrictionSection(Section):
     form: Any = DECLARED
 
 
+DampingNumber = Annotated[float, Field(ge=0, lt=1)]
+
+
+class DampingSection(Section):
+    """Damping ratio over the mode's frequency at the speed of a run: linear, constant beyond the ends."""
+
+    frequencies_hz: list[Annotated[float, Field(ge=0, le=1e12)]] = Field(min_length=2, description="Ascending frequencies")
+    ratios: list[DampingNumber] = Field(min_length=2, description="Damping ratio at each frequency")
+
+    @model_validator(mode="after")
+    def _table(self) -> DampingSection:
+        if any(after <= before for before, after in pairwise(self.frequencies_hz)):
+            raise refused(("frequencies_hz",), f"{self.frequencies_hz}", "ascending frequencies")
+        if len(self.ratios) != len(self.frequencies_hz):
+            found = f"{len(self.ratios)} numbers for {len(self.frequencies_hz)} frequencies"
+            raise refused(("ratios",), found, "one for each frequency")
+        return self
+
+
+DampingRatio: Any = Annotated[
+    Annotated[DampingNumber, Tag("number")] | Annotated[DampingSection, Tag("table")],
+    Discriminator(lambda value: "table" if isinstance(value, dict | Section) else "number"),
+]
+
+
 @declared_by(Scene)
 class SceneEntry(Section):
     """One scene of scenes.yaml; with `vary` or `designs` a family, many scenes that differ in some numbers."""
@@ -60,7 +86,7 @@ class SceneEntry(Section):
     lining: LiningSection | LeftOut = left_out("Abradable lining; the casing is bare without it")
     friction: FrictionSection | LeftOut = left_out("Friction at the tip")
     rotor: RotorSection | LeftOut = left_out("All blades in one casing; a single blade without it")
-    damping_ratio: Any = DECLARED
+    damping_ratio: DampingRatio = Field(default=0.0005, description="Damping ratio of all modes, or a table")
     gap: Any = DECLARED
     divergence_limit_m: Any = DECLARED
     revolutions: Annotated[int, Field(ge=1, le=20000)] | LeftOut = left_out(
@@ -138,7 +164,11 @@ class SceneEntry(Section):
         lining = self.lining and si_form(Lining, self.lining)
         friction = self.friction and si_form(Friction, self.friction)
         rotor = self.rotor and self.rotor.rotor()
-        return si_form(Scene, self, casing=self.casing.casing(), lining=lining, friction=friction, rotor=rotor)
+        damping: Any = self.damping_ratio
+        if isinstance(damping, DampingSection):
+            damping = DampingTable(**si_fields(damping))
+        parts = {"lining": lining, "friction": friction, "rotor": rotor, "damping_ratio": damping}
+        return si_form(Scene, self, casing=self.casing.casing(), **parts)
 
 
 class Scenes(RootModel[ByName[SceneEntry]]):

@@ -105,6 +105,14 @@ class Friction:
 
 
 @dataclass(frozen=True)
+class DampingTable:
+    """Damping ratio of a mode over its frequency: linear between `frequencies` (Hz), constant beyond the ends."""
+
+    frequencies: tuple[float, ...]
+    ratios: tuple[float, ...]
+
+
+@dataclass(frozen=True)
 class Scene:
     """Surroundings of the blade: casing, lining or None, friction or None, and how the gap is measured.
 
@@ -115,7 +123,7 @@ class Scene:
     casing: Casing
     lining: Lining | None
     friction: Friction | None
-    damping_ratio: Annotated[float, Key("Damping ratio of every mode of the reduced model", ge=0, lt=1)] = 0.0005
+    damping_ratio: float | DampingTable
     exact_gap: Annotated[
         bool,
         Key(
@@ -126,3 +134,10 @@ class Scene:
     ] = False
     divergence_limit: Annotated[float, Key("Tip displacement above which a run ends as diverged", "_m", ge=1e-6, le=100)] = 0.1
     rotor: Rotor | None = None
+
+    def damping(self, frequencies: np.ndarray) -> float | np.ndarray:
+        """Damping ratios of modes of the `frequencies` (rad/s), in their shape; one number where it is that of every mode."""
+        table = self.damping_ratio
+        if isinstance(table, DampingTable):
+            return np.interp(frequencies / (2.0 * np.pi), table.frequencies, table.ratios)
+        return table

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .integrators import Recursion
+from .integrators import Numbers, Recursion
 
 LARGEST_TURN = 2.0
 """Largest turn of a mode in a step (rad) with which the Coriolis force acts on it. Faster ones, which a large
@@ -40,12 +40,12 @@ class ComplexModes:
         return self.shapes.real - turned * u_factor, -turned * d_factor
 
     def begun(
-        self, frequencies: np.ndarray, displacement: np.ndarray, velocity: np.ndarray, damping_ratio: float, step: float
+        self, frequencies: np.ndarray, displacement: np.ndarray, velocity: np.ndarray, damping_ratio: Numbers, step: float
     ) -> tuple[np.ndarray, np.ndarray]:
         """u and d of the free motion that has `displacement` and `velocity` of the real modes, shape (real modes,).
 
         The amplitudes for which Re sum s_j zeta_j and Re sum lambda_j s_j zeta_j are these, with the damping in lambda_j.
-        `frequencies` (rad/s): of the real modes; `step` (s).
+        `frequencies` (rad/s): of the real modes; `damping_ratio`: of the complex ones; `step` (s).
         """
         turn = -damping_ratio + 1j * np.sqrt(1.0 - damping_ratio**2)
         # in w_j zeta_j, and with the rows of the displacement times W, all numbers are about one

@@ -90,11 +90,12 @@ class InitialMotion:
         if self.displacement is not None:
             _check_room(problem, displacement, state)
         blade = slice(len(displacement))
-        ratio, step = problem.scene.damping_ratio, problem.grid.time_step
-        if problem.blade.complex_modes is not None:
-            u, d = problem.blade.complex_modes.begun(problem.blade.frequencies, displacement, velocity, ratio, step)
+        own, coupled, step = problem.blade.frequencies, problem.blade.complex_modes, problem.grid.time_step
+        if coupled is not None:
+            ratio = problem.scene.damping(coupled.frequencies)
+            u, d = coupled.begun(own, displacement, velocity, ratio, step)
         else:
-            factors = increments(problem.choice.integrator, problem.blade.frequencies, ratio, step)
+            factors = increments(problem.choice.integrator, own, problem.scene.damping(own), step)
             u, d = displacement, factors.displacement_factor * displacement + factors.velocity_factor * velocity
         state.displacement[blade], state.increment[blade] = u, d
 

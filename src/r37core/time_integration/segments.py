@@ -68,9 +68,10 @@ def _motion_at(problem: Problem, speeds: np.ndarray) -> tuple[np.ndarray, float 
     if not np.all(ratio > 0.0):
         raise BucklingError(float(speeds[np.argmin(ratio.min(axis=1))]))
     steps = 2.0 * np.pi / speeds[:, None] / problem.grid.steps_per_revolution
-    frequencies, damping = blade.frequencies * np.sqrt(ratio), problem.scene.damping_ratio
+    frequencies = blade.frequencies * np.sqrt(ratio)
+    damping = problem.scene.damping(frequencies)
     if ring is None:
         return frequencies, damping, steps
-    ring_part = np.tile(ring.frequencies, (len(speeds), 1))
-    dampings = np.concatenate([np.full(len(blade.frequencies), damping), ring.damping_ratios])
-    return np.hstack([frequencies, ring_part]), dampings, steps
+    ring_part, ring_damping = (np.tile(part, (len(speeds), 1)) for part in (ring.frequencies, ring.damping_ratios))
+    damping = np.broadcast_to(damping, frequencies.shape)
+    return np.hstack([frequencies, ring_part]), np.hstack([damping, ring_damping]), steps

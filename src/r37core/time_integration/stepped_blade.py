@@ -72,7 +72,8 @@ class SteppedBlade:
         choice = self.grid.choice
 
         def is_stable(stepped: int) -> bool:
-            stepping = recursion(choice.integrator, frequencies[:stepped], self.scene.damping_ratio, choice.time_step)
+            own = frequencies[:stepped]
+            stepping = recursion(choice.integrator, own, self.scene.damping(own), choice.time_step)
             flexibility = residual_flexibility(frequencies[stepped:], rows[..., stepped:])[0]
             ratio = ratio_of_pressed_nodes(stepping, rows[0, :, :stepped], flexibility)
             return ratio < largest_pressed_ratio(self.scene)
@@ -108,7 +109,7 @@ class SteppedBlade:
         """Recursion of the stepped modes, without the casing's."""
         coupled = self.complex_modes
         frequencies = self.frequencies if coupled is None else coupled.frequencies
-        return recursion(self.grid.choice.integrator, frequencies, self.scene.damping_ratio, self.grid.time_step)
+        return recursion(self.grid.choice.integrator, frequencies, self.scene.damping(frequencies), self.grid.time_step)
 
     @cached_property
     def static_modes(self) -> tuple[np.ndarray, np.ndarray]:

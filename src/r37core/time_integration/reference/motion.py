@@ -68,6 +68,7 @@ class CoupledMotion:
 
     y' = A y in free flight (see r37core.time_integration.gyroscopic). Damping turns every eigenvalue i w of A into
     -xi w + i w sqrt(1 - xi^2): y' = (sqrt(1 - xi^2) A - xi (-A^2)^(1/2)) y, and Phi is the exponential of that times the step.
+    Where xi depends on w it is that function of (-A^2)^(1/2).
     A force is a kick at the beginning of a step, y + Theta (0, f), with Theta = [-A S]^-1 (I - Phi)^T (I - Phi) and
     S = (Phi - Phi^T)/2: 2 A^-1 tanh(A h/2) without damping, so that mid-kick a constant force holds the static deflection.
     The energy y^T S^T S [(I - Phi)^T (I - Phi)]^-1 y/2 changes by the work f^T W^-1 [S y]_q of the state mid-kick.
@@ -80,17 +81,19 @@ class CoupledMotion:
         coupled, coupling = problem.blade.complex_modes, problem.blade.gyroscopic_coupling
         assert coupled is not None and coupling is not None
         self._modes, self._root, self._coupled = problem.blade.modes, problem.blade.frequencies, coupled
-        modes, ratio, step = len(self._root), problem.scene.damping_ratio, problem.grid.time_step
+        modes, step = len(self._root), problem.grid.time_step
         system = np.block([[np.zeros((modes, modes)), np.diag(self._root)], [-np.diag(self._root), -coupling]])
         squares, axes = np.linalg.eigh(-system @ system)
-        size = (axes * np.sqrt(squares)) @ axes.T
-        self._flight = expm(step * (np.sqrt(1.0 - ratio**2) * system - ratio * size))
+        ratio = problem.scene.damping(np.sqrt(squares))
+        turning, decay = ((axes * part) @ axes.T for part in (np.sqrt(1.0 - ratio**2), ratio * np.sqrt(squares)))
+        self._flight = expm(step * (turning @ system - decay))
         left = np.eye(2 * modes) - self._flight
         gain, self._swing = left.T @ left, 0.5 * (self._flight - self._flight.T)
         self._kick = np.linalg.solve(-system @ self._swing, gain)[:, modes:]
         self._energy = self._swing.T @ self._swing @ np.linalg.inv(gain)
         self._back = np.linalg.inv(self._flight)
         # of the two roots of the recursion that of the motion, which may turn by more than half a turn in a step
+        ratio = problem.scene.damping(coupled.frequencies)
         sense = np.sign(np.sin(step * np.sqrt(1.0 - ratio**2) * coupled.frequencies))
         self._u_factor, self._d_factor = sense * imaginary_part(recursion[:modes])
         self.response = self._modes @ (self._flight @ self._kick / np.tile(self._root, 2)[:, None])[:modes] @ self._modes.T
