@@ -166,26 +166,26 @@ def choice(settings):
 
 
 @pytest.fixture(scope="session")
-def model(mesh, matrices, choice):
+def model(mesh, matrices, choice, steel):
     from r37core.rom.reduce import reduce_blade
 
-    return reduce_blade(mesh, matrices, choice)
+    return reduce_blade(mesh, matrices, choice, steel)
 
 
 @pytest.fixture(scope="session")
-def whole(mesh, matrices, choice):
+def whole(mesh, matrices, choice, steel):
     """The reduced model that gives the displacement of every node."""
     from r37core.rom.reduce import reduce_blade
 
-    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True))
+    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True), steel)
 
 
 @pytest.fixture(scope="session")
-def turning(mesh, matrices, choice):
+def turning(mesh, matrices, choice, steel):
     """The reduced model with the Coriolis force."""
     from r37core.rom.reduce import reduce_blade
 
-    return reduce_blade(mesh, matrices, replace(choice, coriolis=True))
+    return reduce_blade(mesh, matrices, replace(choice, coriolis=True), steel)
 
 
 @pytest.fixture(scope="session")

@@ -52,7 +52,7 @@ def compile_programs(root, folder):
     settings = read_settings(folder)
     level, blade = settings.fidelity.mesh, settings.blades["Ref"]
     mesh = generate_mesh(blade.definition.build(round_edges=True), level.nodes, level.layers, level.tip_elements)
-    reduced = reduce_blade(mesh, assemble(mesh, blade.material), settings.reduction_choice("Ref"))
+    reduced = reduce_blade(mesh, assemble(mesh, blade.material), settings.reduction_choice("Ref"), blade.material)
     model = contact_model(reduced, "pressure_edge")
     for name, scene in settings.scenes.items():
         choice = settings.integration_choice("Ref", name, 1150.0)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from box_mesh import box_mesh, inner_places
+from box_operator import box_operator
 
 from r37core.fem.abaqus_deck import write_abaqus
 from r37core.fem.elements import ELEMENTS
@@ -15,7 +16,6 @@ from r37core.fem.quadrature import wedge_rule
 from r37core.fem.solver import lowest_modes
 from r37core.fem.stress import stress_at
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.stress.recovery import stress_operator
 from r37core.stress.revolutions import stress_cycles
 
 pytestmark = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (apt-get install calculix-ccx)")
@@ -148,11 +148,11 @@ def test_fatigue_of_three_nodes(model, mesh, steel, tmp_path):
     for name, load in steps.items():
         (tmp_path / name).mkdir()
         run_calculix(tmp_path / name, mesh, steel, [*load, "*EL FILE", "S"])
-        tensors[name] = nodal_tensors(tmp_path / name, model.stress_submesh.nodes[places])
+        tensors[name] = nodal_tensors(tmp_path / name, model.stress_regions["box"].nodes.nodes[places])
     inside = np.linalg.solve(model.stiffness[number:, number:], -model.stiffness[number:, :number] @ moved.ravel())
     swing = np.concatenate([moved.ravel(), inside])
     sine = 2.0 * np.sin(2.0 * np.pi * np.arange(80) / 40)[:, None]
-    linear, stress = np.full(len(model.rotation_stiffening), SPEED**2), stress_operator(model, steel)
+    linear, stress = np.full(len(model.rotation_stiffening), SPEED**2), box_operator(model, steel)
     alternating, rotation = 2.0 * von_mises(tensors["swing"]), np.trace(tensors["rotation"], axis1=1, axis2=2)
     assert alternating.min() > 1e8 and rotation.min() > 1e8
     for place, mean in ((0.0, rotation), (3.0, rotation + 3.0 * np.trace(tensors["swing"], axis1=1, axis2=2))):

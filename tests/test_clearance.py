@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 from box_mesh import box_mesh
+from box_operator import box_operator
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, LINING, random_model, with_static_modes
 
@@ -29,7 +30,6 @@ from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
 from r37core.stress.operator import von_mises
-from r37core.stress.recovery import stress_operator
 from r37core.time_integration.clearance import NoRoomError, check_room, clearances, growth
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
@@ -86,8 +86,8 @@ def test_a_bar_on_the_axis_is_stretched_as_in_closed_form():
 
 
 @pytest.mark.parametrize("spin_softening", [False, True])
-def test_shapes_of_a_few_speeds_give_the_displacement_at_any(mesh, matrices, choice, spin_softening):
-    model = reduce_blade(mesh, matrices, replace(choice, spin_softening=spin_softening, recover_whole_blade=True))
+def test_shapes_of_a_few_speeds_give_the_displacement_at_any(mesh, matrices, choice, steel, spin_softening):
+    model = reduce_blade(mesh, matrices, replace(choice, spin_softening=spin_softening, recover_whole_blade=True), steel)
     per_square = matrices.geometric_stiffness() + (matrices.spin_softening() if spin_softening else 0.0 * matrices.mass())
     load = matrices.centrifugal_load[matrices.free_nodes].ravel()
     for speed in (200.0, 900.0, 1730.0, 2000.0):
@@ -252,15 +252,15 @@ def test_stress_is_that_of_both_displacements_together(whole, mesh, steel):
         name: run_speed(contact, speed, growing(NARROW), choice, results, spectrum_highest_order=5, wear_angles=60)
         for name, results in (("total", ["stress", "static_stress"]), ("vibration", ["stress"]))
     }
-    recovery = stress_operator(whole, steel)
+    recovery = box_operator(whole, steel)
     found = recovery.max_von_mises(kept["total"]["snapshots"])
     vibration = recovery.max_von_mises(kept["vibration"]["snapshots"])
-    still = whole.stress_submesh.rotation_shapes @ rotation_amplitudes(whole.rotation_stiffening, speed)
-    moving = whole.stress_submesh.basis @ kept["vibration"]["snapshots"].T
-    points = whole.stress_submesh.points
-    tensors = nodal_stress(whole.stress_elements, points, still[:, :, None] + moving, steel)
+    still = whole.stress_regions["box"].nodes.rotation_shapes @ rotation_amplitudes(whole.rotation_stiffening, speed)
+    moving = whole.stress_regions["box"].nodes.basis @ kept["vibration"]["snapshots"].T
+    points = whole.stress_regions["box"].nodes.points
+    tensors = nodal_stress(whole.stress_regions["box"].elements, points, still[:, :, None] + moving, steel)
     np.testing.assert_allclose(found, von_mises(tensors).max(axis=0), rtol=1e-5)
-    rotation = von_mises(nodal_stress(whole.stress_elements, points, still[:, :, None], steel)).max()
+    rotation = von_mises(nodal_stress(whole.stress_regions["box"].elements, points, still[:, :, None], steel)).max()
     assert rotation > 1e8
     assert np.all(found <= (rotation + vibration) * (1.0 + 1e-6))
     assert np.all(np.abs(found - rotation - vibration) > 1e-3 * rotation)
@@ -274,7 +274,7 @@ def test_responses_have_the_clearance_and_the_stress_of_rotation(whole, steel, t
     """A blade that touches nothing has the stress of rotation, in its response and in every revolution of a run-up."""
     contact, scene = contact_model(whole, "pressure_edge"), growing(Scene(Casing(1e-3, lobes=0)))
     choice = replace(SHORT, time_step=1e-6, snapshots_per_revolution=31, snapshot_revolutions=1)
-    results, speeds, recovery = ["stress", "static_stress"], (1000.0, 1500.0), stress_operator(whole, steel)
+    results, speeds, recovery = ["stress", "static_stress"], (1000.0, 1500.0), box_operator(whole, steel)
     files = [tmp_path / f"{speed:g}.npz" for speed in speeds]
     for speed, file in zip(speeds, files, strict=True):
         kept = run_speed(contact, speed, scene, choice, results, spectrum_highest_order=5, wear_angles=60, stress=recovery)
@@ -286,8 +286,9 @@ def test_responses_have_the_clearance_and_the_stress_of_rotation(whole, steel, t
         np.testing.assert_allclose(response["clearance"][:], clearances(contact, scene, np.array(speeds)))
         largest = response["max_von_mises"][:]
     for speed, found in zip(speeds, largest, strict=True):
-        alone = whole.stress_submesh.rotation_shapes @ rotation_amplitudes(whole.rotation_stiffening, speed)
-        tensors = nodal_stress(whole.stress_elements, whole.stress_submesh.points, alone[:, :, None], steel)
+        alone = whole.stress_regions["box"].nodes.rotation_shapes @ rotation_amplitudes(whole.rotation_stiffening, speed)
+        box = whole.stress_regions["box"]
+        tensors = nodal_stress(box.elements, box.nodes.points, alone[:, :, None], steel)
         assert found == pytest.approx(von_mises(tensors).max(), rel=1e-6)
     run_up, choice = RunUp(1000.0, 1500.0, 5.0, 1, 1, worn=False), replace(choice, revolutions=1)
     integration = RunUpIntegration(contact, scene, choice, run_up)
@@ -301,7 +302,7 @@ def test_a_run_up_leaves_no_instant_out_that_has_the_largest_stress(whole, steel
     contact, run_up = contact_model(whole, "pressure_edge"), RunUp(1490.0, 1500.0, 1.0, 2, 0, worn=False)
     choice = replace(SHORT, time_step=3.2e-6, revolutions=2, snapshots_per_revolution=31, snapshot_revolutions=2)
     found = []
-    recovery, shipped = stress_operator(whole, steel), revolutions.largest_stress
+    recovery, shipped = box_operator(whole, steel), revolutions.largest_stress
 
     def of_all(_recovery, coordinates, _bound):
         return np.array([recovery.max_von_mises(one).max() for one in coordinates])

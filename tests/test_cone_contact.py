@@ -116,7 +116,7 @@ def forward_swept(settings, choice):
 
     blade = settings.blades["S100"]
     mesh = generate_mesh(blade.definition.build(round_edges=True), nodes=2500, layers=1, tip_elements=14)
-    return reduce_blade(mesh, assemble(mesh, blade.material), choice)
+    return reduce_blade(mesh, assemble(mesh, blade.material), choice, blade.material)
 
 
 def test_sweep_closes_the_normal_clearance_of_bending_and_opens_the_radial_one(model, forward_swept):

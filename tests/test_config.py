@@ -57,7 +57,23 @@ def test_defaults_are_filled_in(config_copy):
         ({"blades": []}, r"config\.yaml: blades: found \[\]"),
         ({"structure": {"edges": "sharp"}}, r"structure\.edges: found 'sharp'; allowed: one of round, blunt"),
         ({"structure": {"maximum_speed_rad_s": -5}}, r"maximum_speed_rad_s: found -5; allowed: .*at least"),
-        ({"structure": {"stress_submesh": {"minimum_z_m": 1}}}, r"stress_submesh\.minimum_z_m: found 1; allowed: less than"),
+        (
+            {"structure": {"stress_regions": {"box": {"minimum_z_m": 1, "maximum_z_m": 1}}}},
+            r"box\.minimum_z_m: found 1; allowed: less than",
+        ),
+        (
+            {"structure": {"stress_regions": {"airfoil": {"minimum_span": 0.9, "maximum_span": 0.9}}}},
+            r"structure\.stress_regions\.airfoil\.minimum_span: found 0\.9; allowed: less than maximum_span \(0\.9\)",
+        ),
+        (
+            {"structure": {"stress_regions": {"box": {"span": 0.9}}}},
+            r"stress_regions\.box: found unknown key span; allowed keys: minimum_span",
+        ),
+        (
+            {"structure": {"stress_regions": dict.fromkeys(("airfoil", "airfoil_unfiltered", "box"))}},
+            r"structure\.stress_regions: found no region; allowed: one or more",
+        ),
+        ({"structure": {"stress_regions": {"worst": {}}}}, r"stress_regions\.worst: found 'worst'; allowed: another name"),
         ({"campbell": {"modes": 2}}, r"campbell\.modes: found 2; allowed: .*at least 3"),
         ({"blades_file": "config/none.yaml"}, r"config/none\.yaml: there is no such file"),
     ],

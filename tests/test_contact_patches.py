@@ -25,6 +25,7 @@ from r37core.rom.contact_weights import contact_weights, mean_positions, weights
 from r37core.rom.reduce import mean_fields, reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import BoundaryError, boundary_located
+from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.simulate import Simulation
 
@@ -42,16 +43,16 @@ def bar(count=12, element="hexahedron20", height=0.012, across=2, along=8):
 
 
 @pytest.fixture(scope="module")
-def patched(mesh, matrices, choice):
+def patched(mesh, matrices, choice, steel):
     """The reference blade on a coarse mesh, on five patches."""
-    return reduce_blade(mesh, matrices, replace(choice, boundary=replace(PATCHES, nodes=5)))
+    return reduce_blade(mesh, matrices, replace(choice, boundary=replace(PATCHES, nodes=5)), steel)
 
 
 @pytest.fixture(scope="module")
-def every(mesh, matrices, choice):
+def every(mesh, matrices, choice, steel):
     """The same blade on all nodes of its edge."""
     count = len(mesh.node_set("tip_pressure_edge"))
-    return reduce_blade(mesh, matrices, replace(choice, boundary=BoundaryChoice("pressure_edge", count, True)))
+    return reduce_blade(mesh, matrices, replace(choice, boundary=BoundaryChoice("pressure_edge", count, True)), steel)
 
 
 @pytest.mark.parametrize("contact", KINDS)
@@ -153,7 +154,7 @@ def test_a_beam_of_one_patch_bends_as_a_beam(choice):
     """One patch over the whole tip: the deflection of Timoshenko's cantilever, F L^3/(3 E I) + F L/(kappa G A)."""
     mesh = bar(4, height=0.012)
     boundary = BoundaryChoice("pressure_edge", 1, True, "area_patches")
-    reduced = reduce_blade(mesh, assemble(mesh, BEAM), replace(choice, boundary=boundary, speeds=(0.0,)))
+    reduced = reduce_blade(mesh, assemble(mesh, BEAM), replace(choice, boundary=boundary, speeds=(0.0,)), BEAM)
     found = la.inv(reduced.stiffness)[2, 2]
     area, inertia = 0.03 * 0.012, 0.03 * 0.012**3 / 12.0
     beam = 0.1**3 / (3.0 * 2.1e11 * inertia) + 0.1 / (5.0 / 6.0 * 2.1e11 / 2.0 * area)
@@ -170,7 +171,7 @@ def test_patches_have_a_limit_in_the_mesh_and_points_have_none(choice):
         def flexibility(boundary, mesh=mesh, matrices=matrices):
             # static, and so that of any number of modes
             few = replace(choice, boundary=boundary, speeds=(0.0,), fixed_interface_modes=1)
-            return la.inv(reduce_blade(mesh, matrices, few).stiffness)[0, 0]
+            return la.inv(reduce_blade(mesh, matrices, few, STEEL).stiffness)[0, 0]
 
         whole = flexibility(BoundaryChoice("pressure_edge", 1, True, "area_patches"))
         for contact, values in own.items():
@@ -195,10 +196,10 @@ def test_no_energy_is_made(patched, scene):
     np.testing.assert_allclose(samples[0], samples[1], atol=1e-7 * np.abs(samples[1]).max())
 
 
-def test_the_stress_region_leaves_out_every_element_that_contact_acts_on(mesh, matrices, choice):
-    everywhere = replace(choice.stress_submesh, maximum_x=np.inf, minimum_z=-np.inf, maximum_z=np.inf, excluded_layers=1)
-    model = reduce_blade(mesh, matrices, replace(choice, boundary=PATCHES, stress_submesh=everywhere))
-    assert not set(model.stress_submesh.nodes) & set(mesh.node_set("tip_pressure_edge"))
+def test_the_stress_region_leaves_out_every_element_that_contact_acts_on(mesh, matrices, choice, steel):
+    everywhere = {"everywhere": RegionChoice(excluded_layers=1)}
+    model = reduce_blade(mesh, matrices, replace(choice, boundary=PATCHES, stress_regions=everywhere), steel)
+    assert not set(model.stress_regions["everywhere"].nodes.nodes) & set(mesh.node_set("tip_pressure_edge"))
 
 
 SPEEDS = (0.0, 1000.0, 2000.0)

@@ -122,7 +122,7 @@ def test_quantities_and_the_two_stresses_have_long_names_and_speeds_the_chosen_u
     at_ref.click("#interactions tbody tr:has-text('1B/4')")
     assert "interaction" not in at_ref.text_content("#now")
     options = at_ref.locator("#quantity option").all_text_contents()
-    assert "largest von Mises stress on the submesh in the last revolution (MPa)" in options
+    assert "largest von Mises stress in the region in the last revolution (MPa)" in options
     assert "share of the steps with a contact force" in options
     at_ref.select_option("#unit", "rpm")
     assert "peak speed (rpm)" in at_ref.locator("#interactions th").all_text_contents()

@@ -121,7 +121,7 @@ def test_a_mesh(settings_with, config_copy):
     assert not source.pressure_side_forward
     np.testing.assert_allclose(source.orientation.points_to_blade(np.array([[1.0, 2.0, 1003.0]])), [[1.0, 0.0, 0.0]])
     choice = settings.reduction_choice("Fan")
-    assert (choice.stress_submesh.maximum_x, choice.stress_submesh.excluded_layers) == (np.inf, 1)
+    assert list(choice.stress_regions) == ["airfoil", "airfoil_unfiltered", "box"]
     assert choice.boundary.contact == "patches"
     before = structure_hash(settings, "Fan")
     (config_copy / "meshes/more.inc").write_text("1, 0, 0, 1\n")
@@ -163,7 +163,10 @@ def test_a_mesh_with_another_material(settings_with):
         ({"profiles": "a.csv"}, r"Fan: found unknown key profiles; allowed keys: length_unit, "),
         ({"material": {"density_kg_m3": 4430.0}}, r"Fan\.material: missing key youngs_modulus_pa, poissons_ratio, yield_"),
         ({"material": MATERIAL | {"youngs_modulus_pa": 1.15e6}}, r"Fan\.material: .* Units seem to be mixed: give Pa and"),
-        ({"stress_submesh": {"minimum_z_m": 1, "maximum_z_m": 0}}, r"Fan\.stress_submesh\.minimum_z_m: found 1; allowed: less"),
+        (
+            {"stress_regions": {"tip": {"minimum_z_m": 1, "maximum_z_m": 0}}},
+            r"Fan\.stress_regions\.tip\.minimum_z_m: found 1; allowed: less",
+        ),
     ],
 )
 def test_meshes_that_cannot_be_meant(settings_with, changes, message):

@@ -429,7 +429,7 @@ def test_the_command_does_what_the_page_says(root, finished, monkeypatch, capsys
     rows = [line.split() for line in told[2].splitlines()[2:]]
     assert [row[0] for row in rows] == ["1700.0", "1729.0"]
     peak = r37.simulate("Ref", "abradable", 1729)
-    assert float(rows[1][3]) == pytest.approx(1e-6 * peak["max_von_mises"].item(), rel=1e-5)
+    assert float(rows[1][3]) == pytest.approx(1e-6 * peak["max_von_mises"][0].item(), rel=1e-5)
     assert "blades: Ref, CS100\n" in told[3] and "simulations: 12\n" in told[3]
 
 

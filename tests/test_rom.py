@@ -40,8 +40,8 @@ def test_published_size_against_the_full_model(matrices, model, speed):
 
 
 @pytest.mark.slow
-def test_twenty_fixed_modes_bring_ten_frequencies_within_1e_4(mesh, matrices, choice):
-    rich_model = reduce_blade(mesh, matrices, replace(choice, fixed_interface_modes=20))
+def test_twenty_fixed_modes_bring_ten_frequencies_within_1e_4(mesh, matrices, choice, steel):
+    rich_model = reduce_blade(mesh, matrices, replace(choice, fixed_interface_modes=20), steel)
     for speed in SPEEDS:
         np.testing.assert_allclose(rich_model.modes(speed, 10)[0], full_frequencies(matrices, speed), rtol=1e-4)
 
@@ -70,7 +70,7 @@ def test_static_response_to_a_tip_load_is_exact(mesh, matrices, model):
     force = np.zeros(model.size)
     force[6:9] = [10.0, -40.0, 25.0]
     reduced = la.solve(model.stiffness, force, assume_a="pos")
-    for part in (*model.tip_lines.values(), model.stress_submesh):
+    for part in (*model.tip_lines.values(), model.stress_regions["box"].nodes):
         error = part.basis @ reduced - exact[part.nodes]
         assert np.abs(error).max() < 1e-9 * np.abs(exact).max()
 
@@ -105,16 +105,15 @@ def test_dependent_columns_are_dropped(matrices, model, choice):
 
 
 @pytest.mark.slow
-def test_rotation_terms_only_when_asked(mesh, matrices, choice, model, tmp_path):
+def test_rotation_terms_only_when_asked(mesh, matrices, choice, model, steel, tmp_path):
     assert model.spin_softening is None
     assert model.coriolis is None
     assert model.whole_blade is None
     write_reduced_model(model, tmp_path / "rom.nc")
     again = read_reduced_model(tmp_path / "rom.nc")
     assert again.spin_softening is None and again.coriolis is None and again.whole_blade is None
-    full = reduce_blade(
-        mesh, matrices, replace(choice, spin_softening=True, coriolis=True, recover_whole_blade=True, fixed_interface_modes=20)
-    )
+    rich = replace(choice, spin_softening=True, coriolis=True, recover_whole_blade=True, fixed_interface_modes=20)
+    full = reduce_blade(mesh, matrices, rich, steel)
     assert full.whole_blade.basis.shape == (len(mesh.points), 3, full.size)
     stiffness = matrices.stiffness() + 1500.0**2 * (matrices.geometric_stiffness() + matrices.spin_softening())
     exact = np.sqrt(lowest_modes(stiffness, matrices.mass(), 10)[0])
@@ -130,7 +129,13 @@ def test_file_holds_the_model(model, tmp_path):
         np.testing.assert_array_equal(getattr(again.contact_nodes, field), getattr(model.contact_nodes, field))
     for name in ("stiffness", "mass", "geometric_stiffness", "shape_products", "contact_chord"):
         np.testing.assert_array_equal(getattr(again, name), getattr(model, name))
-    np.testing.assert_array_equal(again.stress_elements["wedge15"], model.stress_elements["wedge15"])
+    assert list(again.stress_regions) == list(model.stress_regions)
+    for name, region in model.stress_regions.items():
+        found = again.stress_regions[name]
+        assert (found.description, found.highest_frequency) == (region.description, region.highest_frequency)
+        for ours, theirs in ((found.elements["wedge15"], region.elements["wedge15"]), (found.places, region.places)):
+            np.testing.assert_array_equal(ours, theirs)
+        np.testing.assert_array_equal(found.evaluated, region.evaluated)
     for line in model.tip_lines:
         np.testing.assert_array_equal(again.tip_lines[line].basis, model.tip_lines[line].basis)
     assert (again.tolerance, again.shape_names) == (model.tolerance, model.shape_names)
@@ -157,10 +162,11 @@ def test_too_many_boundary_nodes_are_refused(mesh):
         boundary_nodes(mesh, BoundaryChoice("camber", 40))
 
 
-def test_stress_submesh(mesh, model, choice):
-    x, _, z = model.stress_submesh.points.T
-    elements = model.stress_elements["wedge15"]
+def test_the_box(mesh, model, choice):
+    region = model.stress_regions["box"]
+    x, _, z = region.nodes.points.T
+    elements = region.elements["wedge15"]
     assert len(elements) >= 4
     assert x.max() < 0.197 and z.min() > 0.0165 and z.max() < 0.0265
-    assert not set(model.stress_submesh.nodes) & set(mesh.node_set("root"))
-    assert elements.max() == len(model.stress_submesh.nodes) - 1
+    assert not set(region.nodes.nodes) & set(mesh.node_set("root"))
+    assert elements.max() == len(region.nodes.nodes) - 1

@@ -15,6 +15,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.contact.laws import used_thickness, wear_at_the_casing, worn
 from r37core.contact.scene import Friction, Rotor
 from r37core.results.datasets import write_sweep_dataset
+from r37core.results.regions import read_judged
 from r37core.results.response import write_response
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.casing_of_run import CasingOfRun
@@ -340,12 +341,12 @@ def test_stress_of_a_settled_run_is_that_of_its_last_revolutions(tmp_path):
     stress, responses = StressOperator(components, 1, "node"), {}
     for snapshots, history in ((100, []), (400, [SPEED])):
         choice = replace(CHOICE, snapshots_per_revolution=31, snapshot_revolutions=snapshots)
-        kept = run(LINED, choice, ("stress", "wear"), stress=stress)
+        kept = run(LINED, choice, ("stress", "wear"), stress={"one": stress})
         write_speed(kept, tmp_path / "run.npz", {})
         file = responses["blade", f"{snapshots}"] = tmp_path / f"{snapshots}.nc"
         speeds = {"stress_history_speeds": history, "yield_stress": 1e6, "provenance": {}}
         write_response([tmp_path / "run.npz"], [SPEED], file, **speeds)
-    short, long = (read_dataset(file).isel(speed=0) for file in responses.values())
+    short, long = (read_judged(file).isel(speed=0) for file in responses.values())
     for name in ("max_von_mises", "max_von_mises_ever", "max_von_mises_median", "share_of_revolutions_above_yield"):
         assert short[name] == long[name] > 0.0
     end = int(kept["statistic_end"])

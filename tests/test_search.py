@@ -19,7 +19,7 @@ from r37core.plans.samples import Samples, folder_and_name
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import beside
 from r37core.product.reading import read_settings
-from r37core.rom.reduction_choice import StressSubmesh
+from r37core.rom.region_choice import RegionChoice
 from r37core.search import rounds
 from r37core.search.dataset import BLADES_HEADER, search_dataset, search_table, write_entries
 from r37core.search.plan import Search, choice_of, designs_of, is_asked
@@ -384,8 +384,8 @@ def test_a_shape_without_anything_where_stress_is_looked_for_is_refused(folder, 
     definition, level = settings.blades["Free"].definition, {"nodes": 1500, "layers": 1, "tip_elements": 14}
     params = {"edges": "round", "mesh": {**level, "minimum_scaled_jacobian": 0.1}, "shape": {"refused": None}}
     params["shape"]["definition"] = to_plain(definition)
-    for maximum, reason in ((0.2, None), (0.1, "the stress submesh")):
-        submesh = to_plain(StressSubmesh(maximum_x=maximum))
-        shape(Named(), Named(shape=tmp_path / "shape.json"), Named(**params, stress_submesh=submesh))
+    for maximum, reason in ((0.2, None), (0.1, "the stress region")):
+        region = to_plain(RegionChoice(maximum_x=maximum))
+        shape(Named(), Named(shape=tmp_path / "shape.json"), Named(**params, stress_region=region))
         refused = json.loads((tmp_path / "shape.json").read_text())["refused"]
         assert refused is reason or refused.startswith(reason)

@@ -97,7 +97,7 @@ def test_a_design_is_measured_by_its_structure_and_by_all_its_runs(tmp_path, mon
     operator[0, 0] = 7.0, 1.0
     monkeypatch.setattr(steps, "robustness", robustness)
     monkeypatch.setattr(steps, "read_contact_model", lambda file: Named(rotation_stiffening=np.zeros(1)))
-    monkeypatch.setattr(steps, "read_stress_operator", lambda file: StressOperator(operator, 1, ""))
+    monkeypatch.setattr(steps, "read_stress_operators", lambda file: {"one": StressOperator(operator, 1, "")})
     quantities = {
         "nominal": Quantity("length_certain_rad_s", ("a",)),
         "high": Quantity("length_certain_rad_s", ("a",), quantile=1.0),
@@ -251,7 +251,7 @@ def test_designs_of_scenes_alone_have_the_structure_of_the_nominal_blade(config_
     shape = search.shape(SimpleNamespace(design="d0000"))
     assert shape == {"definition": None, "refused": None} and search.shapes_of_all(None) == [] == list(search.entries(None))
     file = config_copy / "shape.json"
-    steps.shape(Named(), Named(shape=file), Named(shape=shape, edges="round", mesh={}, stress_submesh={}))
+    steps.shape(Named(), Named(shape=file), Named(shape=shape, edges="round", mesh={}, stress_region={}))
     assert yaml.safe_load(file.read_text()) == {"refused": None}
 
 

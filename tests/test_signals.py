@@ -17,7 +17,7 @@ from r37core.base.io import InputFileError
 from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.style import save
 from r37core.results.joining import join_runs
-from r37core.rom.reduced_model import RecoveryNodes
+from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.signals.dataset import RUNS, signals_dataset
 from r37core.signals.figures import draw_contact_forces, draw_orders, draw_spectrograms
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows

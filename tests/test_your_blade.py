@@ -126,7 +126,7 @@ class TestWhatRunsAgain:
         assert planned_outputs(project)["imported_mesh"] == {"Fan/mesh.msh"}
 
     def test_a_key_behind_the_mesh(self, project):
-        overlay(project, "blades.yaml", "Fan: { stress_submesh: { excluded_layers: 2 } }")
+        overlay(project, "blades.yaml", "Fan: { stress_regions: { airfoil: { excluded_layers: 2 } } }")
         jobs = planned_outputs(project)
         assert "imported_mesh" not in jobs
         assert jobs["reduced_model"] == {"Fan/rom_pressure_edge.nc"}

@@ -154,6 +154,7 @@ def _simulate(options: argparse.Namespace) -> None:
     import pandas as pd
 
     from r37core.base.units import RAD_S
+    from r37core.results.regions import judged
     from r37core.time_integration.status import RunStatus
 
     _check_output(options.output)
@@ -168,7 +169,7 @@ def _simulate(options: argparse.Namespace) -> None:
     table["rms, normal (mm)"] = 1e3 * edge["rms_normal"].values
     table["rms, tangential (mm)"] = 1e3 * edge["rms_tangential"].values
     if "max_von_mises" in dataset:
-        table["largest von Mises (MPa)"] = 1e-6 * dataset["max_von_mises"].values
+        table["largest von Mises (MPa)"] = 1e-6 * judged(dataset)["max_von_mises"].values
     table["status"] = [RunStatus(int(status)).text for status in dataset["status"].values]
     _show(table)
     _write(dataset, options.output)

@@ -13,6 +13,7 @@ import xarray as xr
 from r37core.base.plain import to_plain
 from r37core.config import ConfigError
 from r37core.designs.table import compared_in
+from r37core.results.regions import judged
 
 from .run_results import RunResults
 from .stages import checked_call
@@ -61,7 +62,7 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
     if campbell is not None:
         _check("campbell", campbell, "frequency", "r37.campbell")
     name = title or _label(response, "blade")
-    scenes = response.drop_vars("scene", errors="ignore").expand_dims(scene=[_label(response, "scene")])
+    scenes = judged(response).drop_vars("scene", errors="ignore").expand_dims(scene=[_label(response, "scene")])
     if "speed" not in scenes.dims:
         scenes = scenes.expand_dims("speed")
     stress = scenes if "max_von_mises" in scenes else None

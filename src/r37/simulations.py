@@ -100,8 +100,8 @@ def simulate(
             left out; the dataset has their share of the energy, and the attribute `initial_state`.
 
     Returns:
-        Variables of response.nc: `rms_normal` (m), shape (tip_point,); `max_von_mises` (Pa) and `status` (0: completed, 1:
-        diverged), scalars; and others, each with its unit.
+        Variables of response.nc: `rms_normal` (m), shape (tip_point,); `max_von_mises` (Pa), shape (region,); `status` (0:
+        completed, 1: diverged), a scalar; and others, each with its unit.
 
     Raises:
         ConfigError: For bad input, and for a displacement that reaches into casing or lining.
@@ -135,8 +135,8 @@ def sweep(
 
     Returns:
         The variables of `r37.simulate` by ascending `speed`, with the numbers of the workflow: `rms_normal` (m), shape (speed,
-        tip_point); `max_von_mises` (Pa) and `status`, shape (speed,); `amplitude` (m), shape (speed, engine_order);
-        and others.
+        tip_point); `max_von_mises` (Pa), shape (speed, region); `status`, shape (speed,); `amplitude` (m), shape (speed,
+        engine_order); and others.
 
     Examples:
         >>> response = r37.sweep("Ref", "abradable", [1550, 1150], fidelity="draft", results=["stress"])

@@ -22,6 +22,7 @@ from r37core.config import plain
 from r37core.plans.sweep_plan import Rounds, Sweep
 from r37core.results.interactions import Interaction, InteractionChoice, find_interactions
 from r37core.results.measures import leading_edge
+from r37core.results.regions import read_judged
 
 from .configuration import settings_of
 from .pages import write_table
@@ -84,7 +85,7 @@ def tables(input: Any, output: Any, params: Any) -> None:
     outcomes: dict[tuple[str, str], dict[str, Outcome]] = {}
     for file in as_list(input.files):
         blade, scene = Path(file).parts[-3:-1]
-        response, campbell, plan = read_dataset(file), diagrams.sel(blade=blade), settings.speed_plans[blade, scene]
+        response, campbell, plan = read_judged(file), diagrams.sel(blade=blade), settings.speed_plans[blade, scene]
         choice = from_plain(RefinementChoice, rounds.refinement_choice(SimpleNamespace(blade=blade, scene=scene)))
         ways = {"adaptive": replay(response, campbell, plan, choice)}
         ways |= {f"every {step:g} rad/s": [plain_grid(plan, step)] for step in STEPS}

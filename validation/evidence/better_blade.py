@@ -16,6 +16,7 @@ from r37core.figures import style
 from r37core.results.columns import ENDS
 from r37core.results.other_motions import REST, swept
 from r37core.results.ranking import robustness
+from r37core.results.regions import read_judged
 from r37core.search.problem import START
 from r37core.time_integration.status import RunStatus
 
@@ -63,7 +64,7 @@ def _design(search: xr.Dataset, name: str, folder: Path) -> list[str]:
 
 def integral_text(file: Path) -> str:
     """Integral of the share of revolutions above yield (rad/s) of a response, with its scatter by chance."""
-    measures = robustness(read_dataset(file))
+    measures = robustness(read_judged(file))
     return length_text(measures[f"{INTEGRAL}_rad_s"], measures[f"{INTEGRAL}_scatter_rad_s"])
 
 
@@ -151,7 +152,7 @@ def checks(input: Any, output: Any, params: Any) -> None:
 def _members(folder: Path, blade: str, scene: str) -> dict[str, float]:
     """Member -> its integral (rad/s)."""
     files = sorted(folder.glob(f"tolerances/*/{blade}/{scene}/response.nc"))
-    return {file.parents[2].name: robustness(read_dataset(file), chance_scatter=False)[f"{INTEGRAL}_rad_s"] for file in files}
+    return {file.parents[2].name: robustness(read_judged(file), chance_scatter=False)[f"{INTEGRAL}_rad_s"] for file in files}
 
 
 def _range(values: dict[str, float]) -> str:

@@ -177,7 +177,7 @@ class BladeRuns:
             fixed_interface_modes=model.modes,
         )
         begun = time.process_time()
-        reduced = reduce_blade(self._mesh, self._matrices, choice)
+        reduced = reduce_blade(self._mesh, self._matrices, choice, self._material)
         spent = time.process_time() - begun
         self.rows.append(self._row(model, what="the model", cpu_s=spent))
         return contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, self._material)
@@ -216,12 +216,12 @@ def _numbers(contact: ContactModel, speed: float, run: Run, stress: StressOperat
     results, choice = ((), run.choice) if stress is None else (("stress",), _with_snapshots(run.choice))
     begun = time.process_time()
     try:
-        numbers = run_speed(contact, speed, run.scene, choice, results, **_KEPT, stress=stress)
+        numbers = run_speed(contact, speed, run.scene, choice, results, **_KEPT, stress=stress and {"judged": stress})
     except UnstableStepError:
         return {"rms": np.nan}
     spent = time.process_time() - begun
     rms = np.hypot(*numbers["rms"][0, [0, 2]]) if numbers["status"] == 0 else np.nan
-    largest = np.nan if stress is None else np.median(numbers["revolution_von_mises"])
+    largest = np.nan if stress is None else np.median(numbers["revolution_von_mises"][0])
     shared = {
         "step_s": float(numbers["time_step"]),
         "in_contact": float(numbers["share_of_time_in_contact"]),

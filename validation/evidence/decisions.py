@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from r37core.base.dataset_file import read_dataset
+from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
 
 from .pages import write_table
@@ -49,7 +49,7 @@ def limit_text(part: pd.DataFrame) -> str:
 
 def fatigue(input: Any, output: Any, params: Any) -> None:
     """Largest stress against yield and the Goodman line. Inputs: stress, ranking, picture. Outputs: table, picture."""
-    stress, row = read_dataset(input.stress), read_table(input.ranking).iloc[0]
+    stress, row = read_judged(input.stress), read_table(input.ranking).iloc[0]
     largest = float((stress["max_von_mises_ever"] / stress["yield_stress"]).max())
     cells = ["Ref", f"{largest:.2f}", f"{row['largest_goodman_share']:.2f}", f"{row['length_goodman_rad_s']:.0f}"]
     write_table(

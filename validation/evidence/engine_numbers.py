@@ -23,9 +23,10 @@ from r37core.rom.reduction_choice import PATCHES
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
-from r37core.stress.recovery import stress_operator
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.speed_run import run_speed
+
+from .paper_box import BOX, box_operator
 
 WITHIN = 1e-5
 """Relative difference between processors."""
@@ -44,8 +45,9 @@ def measured(root: Path) -> Numbers:
     blade, tip_line = settings.blades[_BLADE], settings.structure.boundary.tip_line
     mesh = generate_mesh(blade.definition.build(round_edges=True), **_MESH)
     matrices, reduction = assemble(mesh, blade.material), settings.reduction_choice(_BLADE)
-    with_coriolis = reduce_blade(mesh, matrices, replace(reduction, coriolis=True))
-    patched = reduce_blade(mesh, matrices, replace(reduction, boundary=replace(reduction.boundary, contact=PATCHES)))
+    with_coriolis = reduce_blade(mesh, matrices, replace(reduction, coriolis=True), blade.material)
+    on_patches = replace(reduction, boundary=replace(reduction.boundary, contact=PATCHES))
+    patched = reduce_blade(mesh, matrices, on_patches, blade.material)
     model = replace(with_coriolis, coriolis=None)
     contact, coriolis, patches = (contact_model(each, tip_line) for each in (model, with_coriolis, patched))
 
@@ -60,7 +62,7 @@ def measured(root: Path) -> Numbers:
         "lined": run(contact, "abradable", results=["wear"]),
         "direct": run(contact, "direct", **_DIRECT),
         "central_difference": run(contact, "abradable", integrator=CENTRAL_DIFFERENCE, time_step=4e-7),
-        "stress": run(contact, "abradable", results=["stress"], stress=stress_operator(model, blade.material)),
+        "stress": run(contact, "abradable", results=["stress"], stress={BOX: box_operator(model, blade.material)}),
         "patches": run(patches, "direct", **_DIRECT),
         "coriolis": run(coriolis, "abradable"),
         "clearance": run(contact, "growing_abradable"),

@@ -79,5 +79,5 @@ def shapes(input: Any, output: Any, params: Any) -> None:
     meshes = dict(zip(BLADES, input.meshes, strict=True))
     reference = meshes.pop(REFERENCE)
     draw_modes(Path(input.modes) / "modes_0.vtu", output.modes)
-    draw_mesh(reference, settings_of(Path.cwd()).reduction_choice(REFERENCE).stress_submesh, output.mesh)
+    draw_mesh(reference, settings_of(Path.cwd()).reduction_choice(REFERENCE).judged_region, output.mesh)
     draw_variants(meshes, reference, output.variants)

@@ -1,4 +1,4 @@
-"""Rendered figures of the gallery: mode shapes, the submesh of stress, the variants' shapes."""
+"""Rendered figures of the gallery: mode shapes, the region of stress, the variants' shapes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from r37core.figures import style
 from r37core.figures.offscreen import look, new_plotter, save_picture
 from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.naming import NAMED_MODES
-from r37core.rom.reduction_choice import StressSubmesh
+from r37core.rom.region_choice import RegionChoice
 
 _HEIGHT = 380
 _SWING = 0.02
@@ -44,11 +44,11 @@ def add_mode(plotter: pyvista.Plotter, grid: pyvista.DataSet, name: str) -> None
     plotter.add_mesh(_surface(grid).extract_feature_edges(), color="black", line_width=1.5)
 
 
-def draw_mesh(file: Path | str, submesh: StressSubmesh, png: Path | str) -> None:
+def draw_mesh(file: Path | str, region: RegionChoice, png: Path | str) -> None:
     """A mesh with its elements, and the elements on which stress is recovered."""
     with readable(file):
         grid = pyvista.read(file)
-    elements = submesh.elements(read_vtu(file), np.empty(0, dtype=int)).values()
+    elements = region.elements(read_vtu(file), np.empty(0, dtype=int)).values()
     inside = np.unique(np.concatenate([nodes.ravel() for nodes in elements]))
     plotter = new_plotter(2, (600, _HEIGHT + 60))
     plotter.subplot(0, 0)
@@ -58,7 +58,7 @@ def draw_mesh(file: Path | str, submesh: StressSubmesh, png: Path | str) -> None
     plotter.add_mesh(_surface(grid), color="white", opacity=0.35)
     part = grid.extract_points(inside, adjacent_cells=False)
     plotter.add_mesh(_surface(part), color=style.COLOURS[1], show_edges=True, line_width=0.5)
-    _finish(plotter, "submesh of stress")
+    _finish(plotter, "region of stress")
     save_picture(plotter, png)
 
 

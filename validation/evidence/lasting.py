@@ -63,7 +63,9 @@ def _run(
         shipped, revolutions=length.revolutions, until_settled=length.until_settled, snapshot_revolutions=snapshots
     )
     results = ("wear",) if stress is None else ("stress", "wear")
-    return run_speed(contact, speed, scene, choice, results, spectrum_highest_order=1, wear_angles=8, stress=stress)
+    return run_speed(
+        contact, speed, scene, choice, results, spectrum_highest_order=1, wear_angles=8, stress=stress and {"judged": stress}
+    )
 
 
 def runs(input: Any, output: Any, params: Any) -> None:
@@ -74,7 +76,7 @@ def runs(input: Any, output: Any, params: Any) -> None:
     for speed in map(float, SPEEDS):
         for length in RUNS:
             run = _run(settings, models.contact, scene, speed, length, models.stress)
-            last = stress_statistic(run["revolution_von_mises"][-STATISTIC:], limit)
+            last = stress_statistic(run["revolution_von_mises"][0, -STATISTIC:], limit)
             rows.append(
                 {
                     "speed": speed,

@@ -26,6 +26,7 @@ from r37core.time_integration.speed_run import run_speed
 from .configuration import settings_of
 from .contact_runs import TIP_ELEMENTS, with_friction
 from .pages import write_table
+from .paper_box import BOX
 from .which_blade import Models, length_of_runs
 
 MATERIAL = "material_abradable"
@@ -78,9 +79,9 @@ def interaction_range(settings: Settings, models: Models, scene: Scene, speeds: 
     for speed in map(float, speeds):
         choice = settings.integration_choice("Ref", MATERIAL, speed)
         choice = choice if step is None else replace(choice, time_step=step)
-        run = run_speed(models.contact, speed, scene, choice, ("stress", "wear"), stress=models.stress, **_KEPT)
+        run = run_speed(models.contact, speed, scene, choice, ("stress", "wear"), stress={"judged": models.stress}, **_KEPT)
         limit = settings.blades["Ref"].material.yield_stress
-        share = stress_statistic(run["revolution_von_mises"], limit)["share_of_revolutions_above_yield"]
+        share = stress_statistic(run["revolution_von_mises"][0], limit)["share_of_revolutions_above_yield"]
         above.append(float(share) > 0.5)
         rms.append(float(run["rms"][0, 2]))
         wear.append(run["wear"])
@@ -93,7 +94,7 @@ def models_on(mesh: BladeMesh, settings: Settings, blade: str, contact: str, cou
     material, base = settings.blades[blade].material, settings.reduction_choice(blade)
     spacing = EVEN if count == max(COUNTS) else None
     choice = replace(base, boundary=replace(base.boundary, contact=contact, nodes=count, spacing=spacing))
-    reduced = reduce_blade(mesh, assemble(mesh, material), choice)
+    reduced = reduce_blade(mesh, assemble(mesh, material), choice, material)
     return Models(contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, material))
 
 
@@ -159,8 +160,8 @@ def own_blade(input: Any, output: Any, params: Any) -> None:
     shipped = settings.scenes[MATERIAL].scene
     casing = replace(shipped.casing, clearance=1e-3, height=2e-3)
     scene, peak = replace(shipped, casing=casing), peak_of("Ref") / scale
-    submesh = settings.reduction_choice("Ref").stress_submesh
-    bounds = {name: scale * getattr(submesh, name) for name in ("maximum_x", "minimum_z", "maximum_z")}
+    box = settings.reduction_choice("Ref").stress_regions[BOX]
+    bounds = {name: scale * getattr(box, name) for name in ("maximum_x", "minimum_z", "maximum_z")}
     speeds, ranges = np.arange((1.0 - BELOW) * peak, (1.0 + ABOVE) * peak, STEP / scale), {}
     for nodes in (10_000, 20_000, 40_000):
         mesh = mesh_of(settings, "Ref", nodes)
@@ -179,8 +180,9 @@ def own_blade(input: Any, output: Any, params: Any) -> None:
 def models_scaled(mesh: BladeMesh, settings: Settings, contact: str, count: int, bounds: dict[str, float]) -> Models:
     """Models of a mesh with another region of the stress."""
     material, base = settings.blades["Ref"].material, settings.reduction_choice("Ref")
-    boundary, submesh = replace(base.boundary, contact=contact, nodes=count), replace(base.stress_submesh, **bounds)
-    reduced = reduce_blade(mesh, assemble(mesh, material), replace(base, boundary=boundary, stress_submesh=submesh))
+    boundary, box = replace(base.boundary, contact=contact, nodes=count), replace(base.stress_regions[BOX], **bounds)
+    choice = replace(base, boundary=boundary, stress_regions={BOX: box})
+    reduced = reduce_blade(mesh, assemble(mesh, material), choice, material)
     return Models(contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, material))
 
 

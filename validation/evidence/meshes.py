@@ -61,7 +61,7 @@ def density(input: Any, output: Any, params: Any) -> None:
         shape = chosen.definition.build(round_edges=case.edges == "round")
         mesh = generate_mesh(shape, case.nodes, case.layers, case.tip_elements)
         matrices = assemble(mesh, chosen.material)
-        found = crossings(reduce_blade(mesh, matrices, settings.reduction_choice("Ref")), list(PUBLISHED))
+        found = crossings(reduce_blade(mesh, matrices, settings.reduction_choice("Ref"), chosen.material), list(PUBLISHED))
         off = 100.0 * (found / np.array(list(PUBLISHED.values())) - 1.0)
         values = [
             ", ".join(f"{value:.{digits}f}" for value in several)
@@ -117,8 +117,9 @@ def imported(element: str, folder: Path) -> BladeMesh:
 
 
 def _measured(settings: Settings, blade: str, mesh: BladeMesh) -> dict[str, Any]:
-    matrices = assemble(mesh, settings.blades[blade].material)
-    model = reduce_blade(mesh, matrices, settings.reduction_choice(blade))
+    material = settings.blades[blade].material
+    matrices = assemble(mesh, material)
+    model = reduce_blade(mesh, matrices, settings.reduction_choice(blade), material)
     contact = contact_model(model, settings.structure.boundary.tip_line)
     first, last = (share * crossings(model, [ORDER])[0] / SPEED_STEP for share in RANGE)
     speeds = np.arange(np.ceil(first), last) * SPEED_STEP

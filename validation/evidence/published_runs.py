@@ -19,10 +19,10 @@ from r37core.contact.scene import Scene
 from r37core.results.measures import peak_of
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.stress.recovery import stress_operator
 from r37core.time_integration.speed_run import run_speed
 
 from .configuration import settings_of
+from .paper_box import BOX, box_operator, box_part
 from .published_windows import BARE, DIRECT, LINED, Source, direct_speeds, histories_of, source
 
 Runs = Mapping[str, xr.Dataset]
@@ -33,7 +33,7 @@ SPEEDS = (DIRECT_PEAK, INTERACTIONS[0].peak, QUIET)
 
 def swept(files: Iterable[str]) -> dict[tuple[str, bool], xr.Dataset]:
     """Responses by blade and whether there is a lining, with all their speeds."""
-    responses = map(read_dataset, files)
+    responses = (box_part(read_dataset(file)) for file in files)
     return {(response.attrs["blade"], bool(response["lined"])): response for response in responses}
 
 
@@ -63,10 +63,10 @@ def stress_of_run(settings: Any, rom: str, response: xr.Dataset, speed: float, c
     model, blade = read_reduced_model(rom), response.attrs["blade"]
     contact = contact_model(model, Path(rom).stem.removeprefix("rom_"))
     choice = settings.integration_choice(blade, LINED if scene.lining else DIRECT, speed, [speed])
-    operator = stress_operator(model, settings.blades[blade].material)
-    wanted = {"spectrum_highest_order": 1, "wear_angles": 8, "stress": operator}
+    operator = box_operator(model, settings.blades[blade].material)
+    wanted = {"spectrum_highest_order": 1, "wear_angles": 8, "stress": {BOX: operator}}
     numbers = run_speed(contact, speed, scene, replace(choice, **changes), ["stress"], **wanted)
-    return numbers | {"operator": operator}
+    return numbers | {"operator": operator, "revolution_von_mises": numbers["revolution_von_mises"][0]}
 
 
 def histories(input: Any, output: Any, params: Any) -> None:

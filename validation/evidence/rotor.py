@@ -10,6 +10,7 @@ import xarray as xr
 
 from r37core.base.dataset_file import read_dataset
 from r37core.results.measures import range_above_yield, ratio_to_yield
+from r37core.results.regions import read_judged
 from r37core.time_integration.status import RunStatus
 
 from .pages import write_table
@@ -49,7 +50,7 @@ def blades(input: Any, output: Any, params: Any) -> None:
     """Single blades and rotors about the crossing of 1B with ORDER. Input: singles, rotors, campbells."""
     rows = []
     for single_file, rotor_file, campbell_file in zip(input.singles, input.rotors, input.campbells, strict=True):
-        single, rotor = ratio_to_yield(read_dataset(single_file)), read_dataset(rotor_file)
+        single, rotor = ratio_to_yield(read_judged(single_file)), read_dataset(rotor_file)
         ratio, crossings = rotor_ratio(rotor), read_dataset(campbell_file)["crossing_speed"].sel(mode="1B")
         cells = [f"{length_about(of, float(crossings.sel(engine_order=ORDER))):.0f}" for of in (single, ratio)]
         worst = rotor.isel(speed=int(ratio.argmax()))

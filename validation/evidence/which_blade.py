@@ -10,15 +10,15 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.base.dataset_file import read_dataset
 from r37core.config import Settings
 from r37core.contact.scene import Scene
 from r37core.results.columns import CERTAIN, POSSIBLE
 from r37core.results.exceedance import Exceedance, exceedance_of
 from r37core.results.measures import motion
 from r37core.results.ranking import read_ranking
+from r37core.results.regions import read_judged
 from r37core.rom.contact_model import ContactModel, read_contact_model
-from r37core.stress.operator import StressOperator, read_stress_operator
+from r37core.stress.operator import StressOperator, judged_operator, read_stress_operators
 from r37core.stress.revolutions import largest_of_revolutions
 from r37core.stress.statistic import stress_statistic
 from r37core.time_integration.simulate import Simulation
@@ -49,7 +49,7 @@ class Models:
     @classmethod
     def read(cls, contact: str, stress: str) -> Models:
         """Models in two files of a run."""
-        return cls(read_contact_model(contact), read_stress_operator(stress))
+        return cls(read_contact_model(contact), judged_operator(read_stress_operators(stress)))
 
 
 def length_text(length: float, scatter: float = np.nan) -> str:
@@ -87,7 +87,7 @@ def speeds(input: Any, output: Any, params: Any) -> None:
     """Lengths at fewer speeds than every 1 rad/s, and at the adaptive ones of the main job. Input: every, adaptive."""
     rows = []
     for every, adaptive in zip(input.every, input.adaptive, strict=True):
-        response, few = read_dataset(every), read_dataset(adaptive)
+        response, few = read_judged(every), read_judged(adaptive)
         halves = " | ".join(lengths(response.isel(speed=slice(first, None, 2))) for first in (0, 1))
         grids = [lengths(response.isel(speed=slice(None, None, step))) for step in (10, 20)]
         rows.append([blade_of(every), lengths(response), halves, *grids, lengths(few), str(few.sizes["speed"])])
@@ -99,7 +99,7 @@ def adaptive(input: Any, output: Any, params: Any) -> None:
     """Lengths at every 1 rad/s and at the adaptive speeds of the main job, in both scenes. Input: every, adaptive."""
     cells: dict[str, list[str]] = {}
     for files in zip(input.every, input.adaptive, strict=True):
-        cells.setdefault(blade_of(files[0]), []).extend(lengths(read_dataset(file)) for file in files)
+        cells.setdefault(blade_of(files[0]), []).extend(lengths(read_judged(file)) for file in files)
     head = [f"{words}: {which}" for words in SCENES.values() for which in ("every 1 rad/s", "adaptive")]
     write_table(["blade", *head], [[blade, *row] for blade, row in cells.items()], output.table)
 
@@ -115,7 +115,7 @@ def statistic(input: Any, output: Any, params: Any) -> None:
         "last revolution": "max_von_mises",
         "median of the last 100": "max_von_mises_median",
     }
-    rows = [[blade_of(file), *(f"{scatter(read_dataset(file)[name].values):.1f}" for name in names.values())] for file in input]
+    rows = [[blade_of(file), *(f"{scatter(read_judged(file)[name].values):.1f}" for name in names.values())] for file in input]
     write_table(["largest stress: scatter (%)", *names], rows, output.table)
 
 
@@ -133,7 +133,7 @@ def missed(input: Any, output: Any, params: Any) -> None:
         models, blade = Models.read(contact, stress), Path(contact).parent.name
         for scene, differences in off.items():
             (response,) = (file for file in input.responses if Path(file).parts[-3:-1] == (blade, scene))
-            differences += [_missed_at(settings, models, blade, scene, at) for at in steep_speeds(read_dataset(response))]
+            differences += [_missed_at(settings, models, blade, scene, at) for at in steep_speeds(read_judged(response))]
     rows = []
     for scene, differences in off.items():
         several = np.array(differences)
@@ -173,8 +173,8 @@ def exceedance_of_runs(settings: Settings, models: Models, blade: str, scene: Sc
     name = next(name for name, chosen in settings.scenes.items() if (chosen.scene.lining is not None) == lined)
     for speed in speeds:
         choice = settings.integration_choice(blade, name, float(speed))
-        run = run_speed(models.contact, float(speed), scene, choice, ("stress",), stress=models.stress, **KEPT)
-        statistic = stress_statistic(run["revolution_von_mises"], limit)
+        run = run_speed(models.contact, float(speed), scene, choice, ("stress",), stress={"judged": models.stress}, **KEPT)
+        statistic = stress_statistic(run["revolution_von_mises"][0], limit)
         shares.append(1.0 if run["status"] else float(statistic["share_of_revolutions_above_yield"]))
     coordinates = {"speed": np.asarray(speeds, float)}
     content = {"share_of_revolutions_above_yield": ("speed", shares), "status": ("speed", np.zeros(len(shares), int))}

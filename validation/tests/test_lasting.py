@@ -62,7 +62,7 @@ def made_up_run(settings, contact, scene, speed, length, stress=None):
     above = 9e9 if speed < 1700.0 and not length.until_settled else 0.0
     used = min(6e-3, scene.lining.thickness)
     return {
-        "revolution_von_mises": np.full(length.revolutions, above),
+        "revolution_von_mises": np.full((1, length.revolutions), above),
         "statistic_end": length.revolutions,
         "motion_at_end": 2,
         "rms": np.array([[3e-3, 0.0, 4e-3]]),

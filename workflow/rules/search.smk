@@ -47,7 +47,7 @@ use rule step as search_shape with:
         shape=search.shape,
         edges=settings.structure.edges,
         mesh=plain(settings.fidelity.mesh),
-        stress_submesh=lambda wildcards: to_plain(settings.reduction_choice(search.designs.entry.blade).stress_submesh),
+        stress_region=lambda wildcards: to_plain(settings.reduction_choice(search.designs.entry.blade).judged_region),
 
 
 checkpoint search_built:

@@ -56,9 +56,9 @@ def measure_members(yields: Sequence[float], speeds: Sequence[float], files: Ite
 
 
 def measure(run: Mapping[str, np.ndarray], yield_stress: float) -> list[float]:
-    """Status and CURVES of one run; NaN for a stress that is not wanted, and of a diverged run."""
+    """Status and CURVES of one run, by the region that decides; NaN for a stress that is not wanted, and of a diverged run."""
     rms = run["rms"][TIP_POINTS.index("leading_edge")]
-    stress = float(run["max_von_mises"]) / yield_stress if "max_von_mises" in run else math.nan
+    stress = float(run["max_von_mises"][0]) / yield_stress if "max_von_mises" in run else math.nan
     return [int(run["status"]), *(float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential")), stress]
 
 

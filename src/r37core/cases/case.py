@@ -20,7 +20,7 @@ class ModelChoice:
     """A model of a blade made for some cases: nodes of the mesh (or OWN_MESH) and of the tip line, fixed-interface modes.
 
     - `boundary_nodes`: number of contact nodes, 0 for as many as the mesh has room for by default.
-    - `stress_region`: `whole` blade or `submesh` of this run, on which stress is recovered.
+    - `stress_region`: `whole` blade or `submesh`, the regions of this run, where stress is recovered.
     - `tip_ends`: contact nodes reach the `corners` of the tip line, or lie `inside`.
     """
 

@@ -15,11 +15,12 @@ import xarray as xr
 
 from r37core.base.dataset_file import SPEED, about, read_dataset, write_dataset
 from r37core.base.io import read_json
+from r37core.results.regions import read_judged
 from r37core.results.response import write_response
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.stress.operator import StressOperator
-from r37core.stress.recovery import stress_operator
+from r37core.stress.operator import StressOperators, judged_operator
+from r37core.stress.recovery import stress_operators
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.speed_file import read_speed, write_speed
@@ -62,9 +63,9 @@ def run_case_of_files(case: Case, files: Mapping[str, str], output: Path | str) 
     if case.crossing:
         case = _about_the_crossing(case, *case.crossing, read_dataset(files["campbell"]))
 
-    def recovery() -> StressOperator | None:
+    def recovery() -> StressOperators | None:
         wanted = "stress" in case.results and case.material
-        return stress_operator(read_reduced_model(files["rom"]), wanted) if wanted else None
+        return stress_operators(read_reduced_model(files["rom"]), wanted) if wanted else None
 
     model, costs["reading_cpu_s"], _ = timed(lambda: read_contact_model(files["contact"]))
     operator, costs["recovery_cpu_s"], _ = timed(recovery)
@@ -98,7 +99,7 @@ def crossing_speed(campbell: xr.Dataset, mode: str, engine_order: int | None, hi
 def run_case(
     case: Case,
     model: ContactModel,
-    recovery: StressOperator | None,
+    recovery: StressOperators | None,
     output: Path | str,
     costs: Mapping[str, float] | None = None,
 ) -> None:
@@ -122,7 +123,7 @@ def write_refusal(reason: str, output: Path | str, attributes: Mapping[str, Any]
     write_dataset(nothing, output, {**(attributes or {}), "refused": reason.split(";")[0]})
 
 
-def _response(case: Case, model: ContactModel, recovery: StressOperator | None, folder: Path) -> xr.Dataset:
+def _response(case: Case, model: ContactModel, recovery: StressOperators | None, folder: Path) -> xr.Dataset:
     """The response of all speeds, with COSTS and the stress at instants; single runs lie in `folder`."""
     files = [folder / f"{speed!r}.npz" for speed in case.speeds]
     costs = []
@@ -140,7 +141,7 @@ def _response(case: Case, model: ContactModel, recovery: StressOperator | None, 
         provenance={},
     )
     _, reduction_cpu, _ = timed(reduce)
-    response = read_dataset(folder / "response.nc")
+    response = read_judged(folder / "response.nc")
     for (name, attributes), values in zip(COSTS.items(), zip(*costs, strict=True), strict=True):
         response[name] = "speed", list(values), attributes
     if "instants" in case.results and recovery:
@@ -148,13 +149,13 @@ def _response(case: Case, model: ContactModel, recovery: StressOperator | None, 
         for row, file in zip(stress, files, strict=True):
             # a run that diverged has none
             if len(snapshots := read_speed(file)["snapshots"]):
-                row[:] = recovery.max_von_mises(snapshots)
+                row[:] = judged_operator(recovery).max_von_mises(snapshots)
         meaning = "largest von Mises stress at each instant of the last revolution"
         response["max_von_mises_of_instant"] = ("speed", "instant"), stress, about("Pa", meaning)
     return response.assign_attrs({"reduction_cpu_s": reduction_cpu, "peak_memory_bytes": peak_memory()})
 
 
-def _run(case: Case, model: ContactModel, recovery: StressOperator | None, speed: float, file: Path) -> tuple[float, ...]:
+def _run(case: Case, model: ContactModel, recovery: StressOperators | None, speed: float, file: Path) -> tuple[float, ...]:
     """Simulate one speed (rad/s) into a file; gives its COSTS."""
     assert case.scene is not None
     scene, choice = case.scene, _choice(case, model, speed)

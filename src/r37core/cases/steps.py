@@ -16,7 +16,8 @@ from r37core.mesh.mesh_files import read_vtu
 from r37core.rom.contact_model import write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model
-from r37core.rom.reduction_choice import EVERYWHERE, BoundaryError, ReductionChoice
+from r37core.rom.reduction_choice import BoundaryError, ReductionChoice
+from r37core.rom.region_choice import EVERYWHERE
 from r37core.rom.rom_file import write_reduced_model
 
 from .case import OWN_MESH, Case, ModelChoice
@@ -36,12 +37,12 @@ def model(input: Any, output: Any, params: Any) -> None:
         base,
         boundary=replace(base.boundary, tip_line=choice.tip_line, nodes=nodes, corners=corners),
         fixed_interface_modes=choice.fixed_interface_modes,
-        stress_submesh=EVERYWHERE if choice.stress_region == "whole" else base.stress_submesh,
+        stress_regions={"whole": EVERYWHERE} if choice.stress_region == "whole" else base.stress_regions,
     )
 
     def reduced_model() -> ReducedModel:
         mesh = read_vtu(input.mesh) if choice.nodes == OWN_MESH else _meshed(input.geometry, choice.nodes)
-        return reduce_blade(mesh, assemble(mesh, material), reduction)
+        return reduce_blade(mesh, assemble(mesh, material), reduction, material)
 
     try:
         reduced, cpu, wall = timed(reduced_model)

@@ -1,14 +1,15 @@
-"""Sections of all kinds of blades: a material, and a region where stress is recovered."""
+"""Sections of all kinds of blades: a material, and regions of the stress."""
 
+from collections.abc import Mapping
 from typing import Literal, Self
 
 from pydantic import model_validator
 
 from r37core.base.declared import declared_keys
 from r37core.fem.material import Material
-from r37core.rom.reduction_choice import StressSubmesh
+from r37core.rom.region_choice import RegionChoice
 
-from .declaring import declared_by
+from .declaring import declared_by, si_form
 from .section import Section, refused
 
 Contact = Literal["points", "patches", "area_patches"]
@@ -26,20 +27,19 @@ REQUIRED_OF_MATERIAL = tuple(declared.name for declared in declared_keys(Materia
 """Keys that a material has, its own or of its base."""
 
 
-class _Box(Section):
+@declared_by(RegionChoice)
+class RegionSection(Section):
+    """Region of the stress: unclamped nodes within these bounds."""
+
     @model_validator(mode="after")
-    def _has_a_height(self) -> Self:
-        lowest, highest = self.minimum_z_m, self.maximum_z_m
-        if None not in (lowest, highest) and not lowest < highest:
-            raise refused(("minimum_z_m",), f"{lowest:g}", f"less than maximum_z_m ({highest:g})")
+    def _has_a_size(self) -> Self:
+        bounds = ("minimum_z_m", "maximum_z_m"), ("minimum_span", "maximum_span")
+        for (lower, lowest), (upper, highest) in (((key, getattr(self, key)) for key in keys) for keys in bounds):
+            if None not in (lowest, highest) and not lowest < highest:
+                raise refused((lower,), f"{lowest:g}", f"less than {upper} ({highest:g})")
         return self
 
 
-@declared_by(StressSubmesh, maximum_x_m=0.197, minimum_z_m=0.0165, maximum_z_m=0.0265)
-class Submesh(_Box):
-    """Region of the recovered stress: all nodes within these bounds."""
-
-
-@declared_by(StressSubmesh, excluded_layers=1)
-class ImportedSubmesh(_Box):
-    """Region of the recovered stress: nodes away from contact nodes and root, and within these bounds."""
+def chosen_regions(sections: Mapping[str, RegionSection | None]) -> dict[str, RegionChoice]:
+    """Regions by name, without those that null leaves out."""
+    return {name: si_form(RegionChoice, section) for name, section in sections.items() if section is not None}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -20,11 +20,11 @@ from r37core.blade.sense import check_profile_sense
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
-from r37core.rom.reduction_choice import StressSubmesh
+from r37core.rom.region_choice import RegionChoice
 from r37core.stress.statistic import Strengths
 
 from .bases import chain_of_bases
-from .blade_sections import CONTACT_IN_WORDS, REQUIRED_OF_MATERIAL, Contact, MaterialSection
+from .blade_sections import CONTACT_IN_WORDS, REQUIRED_OF_MATERIAL, Contact, MaterialSection, chosen_regions
 from .declaring import si_fields, si_form
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
@@ -114,12 +114,12 @@ class Blades(RootModel[ByName[Entry]]):
 
 @dataclass(frozen=True)
 class BladeSettings:
-    """One blade: what gives its shape, its material (none for matrices), what contact acts on, a mesh's region of stress."""
+    """One blade: what gives its shape, its material (none for matrices), what contact acts on, its own regions of stress."""
 
     definition: BladeDefinition | MeshSource | MatricesSource
     material: fem_material.Material | None
     contact: str
-    stress_submesh: StressSubmesh | None = None
+    stress_regions: Mapping[str, RegionChoice] = field(default_factory=dict, hash=False)
 
     @property
     def has_profiles(self) -> bool:
@@ -192,9 +192,8 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
             material.check_units()
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
-        return BladeSettings(
-            _source(entry, first, root, document), material, entries[name].contact, si_form(StressSubmesh, entry.stress_submesh)
-        )
+        regions = chosen_regions(entry.stress_regions or {})
+        return BladeSettings(_source(entry, first, root, document), material, entries[name].contact, regions)
     shift: dict[str, Any] = {}
     place = name, "base"
     for link in chain:

@@ -14,9 +14,9 @@ from r37core.results.interaction_choice import InteractionChoice
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice
 
-from .blade_sections import Contact, Submesh
+from .blade_sections import Contact, RegionSection
 from .declaring import DECLARED, declared_by, si_form
-from .section import AllOrNames, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
+from .section import AllOrNames, ByName, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
 
 
@@ -25,6 +25,16 @@ class Boundary(Section):
     """The contact nodes, kept as physical coordinates of the reduced model."""
 
     contact: Contact | LeftOut = left_out("Contact of all blades, in place of `contact` in blades.yaml")
+
+
+_SHIPPED_REGIONS: dict[str, RegionSection | None] = {
+    name: RegionSection.model_validate(bounds)
+    for name, bounds in {
+        "airfoil": {"minimum_span": 0.05, "maximum_span": 0.9, "highest_frequency_hz": 7500.0},
+        "airfoil_unfiltered": {"minimum_span": 0.05, "maximum_span": 0.9},
+        "box": {"maximum_x_m": 0.197, "minimum_z_m": 0.0165, "maximum_z_m": 0.0265},
+    }.items()
+}
 
 
 @declared_by(ReductionChoice, only_listed=True)
@@ -36,8 +46,18 @@ class StructureSection(Section):
     maximum_speed_rad_s: Speed = Field(default=2000.0, description="Highest speed of the basis and the Campbell diagram")
     spin_softening: Any = DECLARED
     coriolis: Any = DECLARED
-    stress_submesh: Submesh = Submesh()
+    stress_regions: ByName[RegionSection | None] = Field(
+        default=_SHIPPED_REGIONS, description="Regions of the stress; the first decides, null leaves one out"
+    )
     recover_whole_blade: Any = DECLARED
+
+    @model_validator(mode="after")
+    def _has_a_region(self) -> StructureSection:
+        if not any(self.stress_regions.values()):
+            raise refused(("stress_regions",), "no region", "one or more")
+        for name in {"operating", "rest", "worst"} & self.stress_regions.keys():
+            raise refused(("stress_regions", name), f"'{name}'", "another name: columns of ranking.csv end like this")
+        return self
 
 
 class CampbellSection(Section):

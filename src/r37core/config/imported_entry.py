@@ -10,9 +10,9 @@ from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
 
-from .blade_sections import CONTACT_IN_WORDS, Contact, ImportedSubmesh, MaterialSection
+from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection, RegionSection
 from .declaring import DECLARED, declared_by, si_form
-from .section import FileName, LeftOut, Section, left_out, refused
+from .section import ByName, FileName, LeftOut, Section, left_out, refused
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
 Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
@@ -110,7 +110,7 @@ class MeshEntry(Oriented):
     minimum_scaled_jacobian: Any = DECLARED
     end_check: Any = DECLARED
     contact: Contact = Field(default="patches", description=f"{CONTACT_IN_WORDS}; not taken from the base")
-    stress_submesh: ImportedSubmesh = ImportedSubmesh()
+    stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
 
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""

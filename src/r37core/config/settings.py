@@ -16,9 +16,10 @@ from r37core.base.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Scene
 from r37core.results.operating_range import OperatingRange
-from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice, StressSubmesh
+from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
+from .blade_sections import chosen_regions
 from .blades import BladeSettings, all_blades
 from .config_file import Config, StructureSection
 from .declaring import si_form
@@ -192,9 +193,9 @@ class Settings:
         structure, section = self.structure, self.structure.boundary
         boundary = si_form(BoundaryChoice, section, tip_line=tip_line or section.tip_line, contact=self.contact_of(blade))
         speeds = (0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s)
-        submesh = self.blades[blade].stress_submesh or si_form(StressSubmesh, structure.stress_submesh)
+        regions = chosen_regions(structure.stress_regions) | dict(self.blades[blade].stress_regions)
         size = dict(self.fidelity.reduction)
-        return si_form(ReductionChoice, structure, boundary=boundary, speeds=speeds, stress_submesh=submesh, **size)
+        return si_form(ReductionChoice, structure, boundary=boundary, speeds=speeds, stress_regions=regions, **size)
 
     def contact_nodes(self, blade: str, tip_elements: int) -> int:
         """Number of a blade's contact nodes on a tip of so many elements; 0 where the mesh of another program decides it."""

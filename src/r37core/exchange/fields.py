@@ -16,7 +16,8 @@ from r37core.fem.stress import nodal_stress
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.mesh_files import vtk_grid
 from r37core.results.campbell import name_modes
-from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
+from r37core.rom.recovery_nodes import RecoveryNodes
+from r37core.rom.reduced_model import ReducedModel
 from r37core.stress.operator import StressOperator, von_mises
 from r37core.time_integration.speed_file import read_speed
 
@@ -35,7 +36,7 @@ class Target:
 
 @dataclass(frozen=True)
 class WorstInstant:
-    """The instant `number` of the last revolution: that with the largest von Mises stress on the submesh, `largest` (Pa).
+    """The instant `number` of the last revolution: that with the largest von Mises stress in the region, `largest` (Pa).
 
     `revolution`: the reduced coordinates at all its instants, shape (instants, coordinates).
     """
@@ -122,7 +123,7 @@ def write_stress(
             "von Mises stress": von_mises(stress),
         }
         files[speed] = f"stress_{exact_text(speed)}"
-        _write_fields(shown, fields, {"largest von Mises stress of the submesh (Pa)": instant.largest}, files[speed], target)
+        _write_fields(shown, fields, {"largest von Mises stress of the region (Pa)": instant.largest}, files[speed], target)
     _write_collection(files, "stress", target)
 
 

@@ -4,10 +4,10 @@ from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
 
-from r37core.base.dataset_file import read_dataset
 from r37core.base.plain import from_plain
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranking import read_ranking
+from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
 
 from . import page_parts, write_page
@@ -23,7 +23,7 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     files = dict(input.items())
     panels = {name: resolve_name(function)(_read(files.pop(name))) for name, function in params.panels.items()}
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
-    datasets = {kind: read_dataset(file) for kind, file in files.items()}
+    datasets = {kind: read_judged(file) for kind, file in files.items()}
     file = Path(output.page)
     report_addresses = {blade: str(params.address(file.parent / f"shapes/{blade}.html")) for blade, _ in params.shapes}
     operating = params.operating and from_plain(OperatingRange, params.operating)
@@ -33,4 +33,4 @@ def explorer(input: Any, output: Any, params: Any) -> None:
 
 def _read(file: str) -> Any:
     """A table or a dataset."""
-    return read_table(file) if file.endswith(".csv") else read_dataset(file)
+    return read_table(file) if file.endswith(".csv") else read_judged(file)

@@ -12,7 +12,8 @@ from r37core.base.io import atomic_write
 from r37core.base.speeds import exact_text
 from r37core.exchange.importing.matrices_in import COLUMNS, TIP_LENGTH
 from r37core.fem.matrices import StructuralMatrices
-from r37core.rom.reduced_model import CORIOLIS_TERM, RecoveryNodes, ReducedModel
+from r37core.rom.recovery_nodes import RecoveryNodes
+from r37core.rom.reduced_model import CORIOLIS_TERM, ReducedModel
 from r37core.rom.reduction_choice import POINTS
 
 CORIOLIS = "G"

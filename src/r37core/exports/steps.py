@@ -52,7 +52,7 @@ def stress(input: Any, output: Any, params: Any) -> None:
     operator = stress_operator(model, material)
     instants = worst_instants(as_list(input.speeds), params.speeds, operator, params.only_worst)
     for speed, instant in instants.items():
-        JOB_LOG.debug(f"{speed:g} rad/s: largest von Mises stress of the submesh {instant.largest:.6g} Pa")
+        JOB_LOG.debug(f"{speed:g} rad/s: largest von Mises stress of the region {instant.largest:.6g} Pa")
     write_stress(read_vtu(input.mesh), model, material, instants, _target(output, params))
 
 

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from r37core.base.io import readable
 from r37core.results.measures import has_strengths
 from r37core.rom.rom_file import read_reduced_model
+from r37core.stress.operator import mapped_region
 from r37core.stress.statistic import Strengths
 
 from .offscreen import look, new_plotter, rendered, without_margins
@@ -25,8 +26,10 @@ _DIRECTIONS = ((0.35, -1.0, -0.25), (0.35, 1.0, 0.25))
 
 
 def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str) -> Figure:
-    """Draw as draw_fatigue does, with the nodes of the reduced model in the file `rom`."""
-    return draw_fatigue(mesh, read_reduced_model(rom).stress_submesh.nodes, response, title)
+    """Draw as draw_fatigue does, with nodes of the reduced model in the file `rom`."""
+    regions = read_reduced_model(rom).stress_regions
+    region = regions[mapped_region(regions)]
+    return draw_fatigue(mesh, region.nodes.nodes[region.evaluated], response, f"{title}, {region.description}")
 
 
 def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, title: str) -> Figure:
@@ -41,8 +44,9 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
         missing = "no run that ended" if has_strengths(response) else "no strengths in blades.yaml"
         axes.text(0.5, 0.5, f"{title}: {missing}", ha="center", va="center")
         return figure
-    worst = response.isel(speed=int(response["goodman_share"].argmax("speed")))
-    strengths = Strengths(float(worst["fatigue_strength"]), float(worst["ultimate_strength"]))
+    strengths = Strengths(float(response["fatigue_strength"]), float(response["ultimate_strength"]))
+    shares = strengths.share(response["alternating_stress"].values, response["mean_stress"].values)
+    worst = response.isel(speed=int(np.nan_to_num(shares).max(axis=1).argmax()))
     alternating, mean = (worst[f"{kind}_stress"].values for kind in ("alternating", "mean"))
     share = strengths.share(alternating, mean)
     with readable(mesh):

@@ -9,6 +9,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.results.operating_range import OperatingRange
+from r37core.results.regions import judged
 from r37core.results.table_file import read_table
 
 from .blade_shapes import draw_blade_shapes
@@ -32,7 +33,7 @@ def draw(input: Any, output: Any, params: Any) -> None:
             arguments[name] = Path(file)
         elif file:
             # a table, or the part of a dataset that is of the figure's blade and scene
-            arguments[name] = read_table(file) if file.endswith(".csv") else read_dataset(file, drawn | of)
+            arguments[name] = read_table(file) if file.endswith(".csv") else judged(read_dataset(file, drawn | of))
     names = of | ({"title": ", ".join(of.values())} if of else {})
     figure = drawing(**arguments, **{name: names[name] for name in names.keys() & parameters})
     if operating:

@@ -21,6 +21,10 @@ CHANCE = "chance_better_than_"
 """Begin of columns of ranking.csv that compare a blade with another one, whose name follows."""
 
 
+IN_REGION = "length_certain_{}_rad_s"
+"""Columns of ranking.csv with the length in a region of the stress that does not decide, by its name."""
+
+
 @dataclass(frozen=True)
 class Column:
     """Column of a table: its `name`, which ends with its SI unit, and its `meaning`; `words`: title that is not the name.
@@ -110,6 +114,9 @@ INTERACTIONS = (
     ),
     Column("max_von_mises_pa", "largest von Mises stress of the last revolution", "largest stress, last revolution", place=150),
     Column("max_von_mises_speed_rad_s", "speed of the largest stress", "at speed", place=160),
+    Column("max_von_mises_span", "its span", "span", place=162),
+    Column("max_von_mises_chord", "its chord", "chord", place=164),
+    Column("max_von_mises_side", "its side", "side", place=166),
     Column("stress_region", "part of the blade where stress is evaluated"),
     Column("max_wear_m", "largest wear of the lining", "largest wear", place=180),
     Column(
@@ -269,6 +276,7 @@ def column_named(name: str, columns: Iterable[Column]) -> Column | None:
         other = name.removeprefix(CHANCE)
         meaning = f"share of the members in which the blade is better than {other}"
         return Column(name, meaning, f"chance to be better than {other}", percent=True)
+    before, after = IN_REGION.split("{}")
     for column in columns:
         if name == column.name:
             return column
@@ -279,4 +287,7 @@ def column_named(name: str, columns: Iterable[Column]) -> Column | None:
             quantile = ENDS[name.removeprefix(f"{column.name}_")]
             end = "median" if quantile == 0.5 else f"{quantile:.0%}"
             return replace(column, words=f"{column.title}, {end}", meaning=f"{end} of the members: {column.meaning}")
+    if name.startswith(before) and name.endswith(after):
+        region = name.removeprefix(before).removesuffix(after)
+        return Column(name, f"length of all speeds at which {_CERTAIN} in the region {region}", f"{_MOST}, {region}")
     return None

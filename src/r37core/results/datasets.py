@@ -11,6 +11,7 @@ from r37core.base.io import InputFileError
 from r37core.time_integration.status import RunStatus
 
 from .joining import Along, join
+from .regions import judged, named_region
 from .variables import DATASETS, FLAGS
 
 
@@ -41,14 +42,16 @@ def write_sweep_dataset(
     join(responses, Along(names=("tip_point", *DATASETS[kind], *FLAGS)), file, made)
 
 
-def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
+def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str, region: str = "") -> xr.Dataset:
     """One blade in one scene of the joined datasets as its response: their variables, over the speeds that it was run at.
 
-    `datasets` by the keys of DATASETS, rms among them; others are left aside, and those without this blade and scene.
+    Its stress is that in a `region`, by default the one that decides. `datasets` by the keys of DATASETS, rms among them;
+    others are left aside, and those without this blade and scene.
     """
     parts = []
     for kind in DATASETS:
         if kind in datasets and blade in datasets[kind]["blade"].values and scene in datasets[kind]["scene"].values:
             part = datasets[kind].sel(blade=blade, scene=scene, drop=True)
+            part = named_region(part, region) if region and "region" in part.dims else judged(part)
             parts.append(part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN)))
     return xr.merge([part for part in parts if part.sizes["speed"]] or parts[:1], compat="override", join="exact")

@@ -12,6 +12,7 @@ from r37core.time_integration.status import RunStatus
 from .columns import CERTAIN, INTERACTIONS, POSSIBLE, names
 from .exceedance import Exceedance, SpeedRange
 from .measures import drop_after, lasts
+from .variables import PLACES
 
 LEAST_THICKNESS = "the sufficient thickness is a lower bound"
 
@@ -64,6 +65,7 @@ def interaction_row(
         "peak_rms_tangential_m": tangential,
         "peak_motion_m": float(np.hypot(normal, tangential)),
         "drop": drop_after(response, index),
+        **_place(reach),
         "stress_region": str(reach["stress_region"].item()) if "stress_region" in reach else "",
         "median_von_mises_pa": _largest(reach, "max_von_mises_median"),
         "high_von_mises_pa": _largest(reach, "max_von_mises_high"),
@@ -79,6 +81,14 @@ def interaction_row(
         **columns,
         "shift_rad_s": speed - columns.get("campbell_speed_rad_s", np.nan),
     }
+
+
+def _place(reach: xr.Dataset) -> dict[str, float]:
+    """Where on the blade the largest stress of all speeds is."""
+    if "max_von_mises_ever" not in reach or not (known := reach["max_von_mises_ever"].dropna("speed")).size:
+        return {}
+    worst = reach.sel(speed=known["speed"][int(np.argmax(known.values))])
+    return {f"max_von_mises_{name}": float(worst[f"max_von_mises_{name}"]) for name in PLACES}
 
 
 def _largest(reach: xr.Dataset, name: str) -> float:

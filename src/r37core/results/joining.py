@@ -51,12 +51,15 @@ def join(
         with read(source) as dataset:
             rows.append(dataset.sizes[along.dim] if along.dim else 1)
             indexes = {str(name): index for name, index in dataset.indexes.items() if name != along.dim}
-            axes |= {name: axes.get(name, index).union(index) for name, index in indexes.items()}
+            # texts, such as the regions of the stress, keep their order
+            orders = {name: False if index.dtype.kind in "OU" else None for name, index in indexes.items()}
+            axes |= {name: axes.get(name, index).union(index, sort=orders[name]) for name, index in indexes.items()}
             described = {str(name): variable for name, variable in dataset.variables.items()}
             # texts without any rows are read as numbers
             variables = variables | described if rows[-1] else described | variables
     wanted = [name for name in along.names or variables if name in variables]
     names = [name for name in wanted if name not in axes]
+    texts = [name for name in names if variables[name].dtype.kind in "OU"]
     states = {name: max(variables[name].attrs["flag_values"]) for name in names if "flag_values" in variables[name].attrs}
     columns = {label: [key[number] for key in sources] for number, label in enumerate(along.labels)}
     with new_netcdf(file, {}) as target:
@@ -78,7 +81,8 @@ def join(
                 continue
             with read(source) as dataset:
                 there = [name for name in names if name in dataset.variables]
-                part = dataset[there].reindex({name: axes[name] for name in axes if name in dataset.dims}, fill_value=states)
+                wider = {name: axes[name] for name in axes if name in dataset.dims}
+                part = dataset[there].reindex(wider, fill_value=states | dict.fromkeys(texts, ""))
                 for name in there:
                     values = part[name]
                     if along.rows and along.dim not in values.dims:

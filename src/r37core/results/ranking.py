@@ -94,6 +94,14 @@ def robustness(
     return measures
 
 
+def length_certain(response: xr.Dataset) -> float:
+    """Length (rad/s) of the speeds above yield in most revolutions; NaN of a response without stress."""
+    if "share_of_revolutions_above_yield" not in response:
+        return np.nan
+    exceedance = exceedance_of(response)
+    return exceedance.length(CERTAIN) if len(exceedance.speeds) else np.nan
+
+
 def _length_lasting(response: xr.Dataset) -> float:
     """Length (rad/s) of the speeds above yield in most revolutions of the statistic whose motion lasts or grows."""
     share = response["share_of_revolutions_above_yield"].where(lasts(response), 0.0)

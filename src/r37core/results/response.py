@@ -13,7 +13,7 @@ from r37core.time_integration.speed_file import read_speed
 
 from .measures import first_yield
 from .netcdf import create_axis, create_variable
-from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, VARIABLES
+from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, PLACES, VARIABLES
 
 _BLOCK = 32
 """Speeds that are in memory at once, since writing takes as long for one as for many."""
@@ -49,7 +49,7 @@ def write_response(
             for speed in rows.keys() & history_speeds:
                 history, number = rows[speed]["revolution_von_mises"], history_speeds.index(speed)
                 dataset["max_von_mises_history"][number] = history
-                dataset["first_yield_revolution"][number] = first_yield(history, yield_stress)
+                dataset["first_yield_revolution"][number] = [first_yield(part, yield_stress) for part in history]
 
 
 def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Strengths) -> dict[str, np.ndarray]:
@@ -71,6 +71,8 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
         values["casing_mode"] = np.arange(1, len(run["casing_energy"]) + 1)
     if "max_von_mises" in run:
         values["yield_stress"] = np.array(yield_stress)
+    if "max_von_mises_place" in run:
+        values |= {f"max_von_mises_{name}": part for name, part in zip(PLACES, run["max_von_mises_place"].T, strict=True)}
     if "revolution_von_mises" in run:
         values |= stress_statistic(_in_statistic(run), yield_stress)
         # histories of all revolutions are in single precision
@@ -82,11 +84,11 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
 
 
 def _in_statistic(run: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Largest stress (Pa) of each revolution in the statistic, shape (revolutions,)."""
+    """Largest stress (Pa) in each region of each revolution in the statistic, shape (regions, revolutions)."""
     history, revolutions, end = run["revolution_von_mises"], len(run["revolution_maxima"]), int(run["statistic_end"])
     # a history of all revolutions has them in place, a shorter one is that of the last
-    last = history[:end] if len(history) == revolutions else history
-    return last[-int(run["statistic_revolutions"]) :]
+    last = history[:, :end] if history.shape[1] == revolutions else history
+    return last[:, -int(run["statistic_revolutions"]) :]
 
 
 def _create(
@@ -96,6 +98,8 @@ def _create(
     if history_speeds:
         coordinates["history_speed"] = np.array(history_speeds)
     create_axis(dataset, "tip_point", TIP_POINTS)
+    if "region" in values:
+        create_axis(dataset, "region", values["region"])
     for name, numbers in coordinates.items():
         create_axis(dataset, name, np.asarray(numbers, AXES[name].dtype), AXES[name].attributes)
     for name, variable in VARIABLES.items():
@@ -106,4 +110,4 @@ def _create(
     for name, variable in OF_ALL_SPEEDS.items():
         if name in values:
             value = values[name]
-            create_variable(dataset, name, variable)[...] = str(value) if variable.dtype == "str" else value
+            create_variable(dataset, name, variable)[...] = value.astype(object) if variable.dtype == "str" else value

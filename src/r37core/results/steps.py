@@ -13,12 +13,14 @@ from r37core.stress.statistic import Strengths
 
 from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
+from .columns import IN_REGION
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
 from .operating_range import OperatingRange
 from .other_motions import ranking_with_motions, summary_with_motions
 from .ranges import ranged_summary, read_ranges
-from .ranking import measures_of_members, ranking_table, robustness
+from .ranking import length_certain, measures_of_members, ranking_table, robustness
+from .regions import other_regions
 from .response import write_response
 from .table_file import write_table
 
@@ -99,5 +101,9 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     measures = {
         (blade, scene): robustness(response_of(datasets, blade, scene), operating=operating) for blade, scene in params.runs
     }
+    for region in other_regions(datasets["stress"]) if "stress" in datasets else []:
+        for blade, scene in params.runs:
+            response = response_of(datasets, blade, scene, region)
+            measures[blade, scene][IN_REGION.format(region)] = length_certain(response)
     table = ranking_table(measures, members)
     write_table(table if motions is None else ranking_with_motions(table, motions), output.table, digits=6)

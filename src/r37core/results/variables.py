@@ -9,7 +9,15 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import MotionKind, RunStatus
 
 _TIP = ("tip_point",)
+_REGION = ("region",)
 _OF_REVOLUTIONS = "largest von Mises stress of each of the later revolutions"
+
+PLACES = {
+    "chord": "0 at the leading, 1 at the trailing edge",
+    "span": "0 at the root, 1 at the tip",
+    "side": "-1 on the pressure, 1 on the suction side",
+}
+"""Numbers of a place on the blade, as BladeMesh has them."""
 
 STATUS = {
     "status": Variable((), "1", "how the run ended", "i1", RunStatus),
@@ -58,21 +66,27 @@ _SPECTRUM = {
 }
 
 _STRESS = {
-    "max_von_mises": Variable((), "Pa", "largest von Mises stress on the submesh in the last revolution"),
-    "max_von_mises_ever": Variable((), "Pa", f"{_OF_REVOLUTIONS}: largest"),
-    "max_von_mises_median": Variable((), "Pa", f"{_OF_REVOLUTIONS}: median"),
-    "max_von_mises_high": Variable((), "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),
-    "share_of_revolutions_above_yield": Variable((), "1", "share of the later revolutions whose largest stress exceeds yield"),
+    "max_von_mises": Variable(_REGION, "Pa", "largest von Mises stress in the region in the last revolution"),
+    "max_von_mises_ever": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: largest"),
+    "max_von_mises_median": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: median"),
+    "max_von_mises_high": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),
+    **{
+        f"max_von_mises_{name}": Variable(_REGION, "1", f"{name} of the largest stress of the later revolutions: {meaning}")
+        for name, meaning in PLACES.items()
+    },
+    "share_of_revolutions_above_yield": Variable(
+        _REGION, "1", "share of the later revolutions whose largest stress exceeds yield"
+    ),
 }
 
 _GOODMAN = {
-    "goodman_share": Variable((), "1", "share of the Goodman line: largest of all nodes and later revolutions"),
-    "goodman_share_median": Variable((), "1", "largest share of the Goodman line in each of the later revolutions: median"),
+    "goodman_share": Variable(_REGION, "1", "share of the Goodman line: largest of all nodes and later revolutions"),
+    "goodman_share_median": Variable(_REGION, "1", "median of the largest share of the Goodman line in each later revolution"),
     "share_of_revolutions_above_goodman": Variable(
-        (), "1", "share of the later revolutions with a node above the Goodman line"
+        _REGION, "1", "share of the later revolutions with a node above the Goodman line"
     ),
-    "goodman_alternating_stress": Variable((), "Pa", "alternating stress where the share of the Goodman line is largest"),
-    "goodman_mean_stress": Variable((), "Pa", "mean stress there, 0 in compression"),
+    "goodman_alternating_stress": Variable(_REGION, "Pa", "alternating stress where the share of the Goodman line is largest"),
+    "goodman_mean_stress": Variable(_REGION, "Pa", "mean stress there, 0 in compression"),
 }
 
 _OF_NODES = {
@@ -125,7 +139,7 @@ OF_CASING = {
 
 OF_STRESS = {
     "yield_stress": Variable((), "Pa", "yield stress of the blade's material"),
-    "stress_region": Variable((), "1", "where max_von_mises is looked for", "str"),
+    "stress_region": Variable(_REGION, "1", "where max_von_mises is looked for", "str"),
     "static_stress": Variable((), "1", "1 where max_von_mises has the stress of rotation, 0: vibration alone", "f4"),
 }
 
@@ -146,9 +160,9 @@ OF_ALL_SPEEDS = {
 
 HISTORIES = {
     "max_von_mises_history": Variable(
-        ("history_speed", "revolution"), "Pa", "largest von Mises stress of each revolution", "f4"
+        ("history_speed", "region", "revolution"), "Pa", "largest von Mises stress of each revolution", "f4"
     ),
-    "first_yield_revolution": Variable(("history_speed",), "1", "first revolution whose largest stress exceeds yield"),
+    "first_yield_revolution": Variable(("history_speed", "region"), "1", "first revolution whose largest stress exceeds yield"),
 }
 """Variables of the speeds with a stress history."""
 
@@ -159,7 +173,7 @@ AXES = {
     "angle": Variable(("angle",), "rad", "start of the sector round the casing"),
     "lobes": Variable(("lobes",), "1", "number of lobes"),
     "contact_node": Variable(("contact_node",), "1", "number of the contact node, from the leading edge on"),
-    "stress_node": Variable(("stress_node",), "1", "number of the node in the region of the stress"),
+    "stress_node": Variable(("stress_node",), "1", "number of the node in the region that a map shows"),
     "casing_mode": Variable(("casing_mode",), "1", "number of the casing's mode"),
     "casing_order": Variable(
         ("casing_order",), "1", "frequency over speed, not turning; positive with the rotor, negative against it"

@@ -1,21 +1,28 @@
 """Building the reduced model of a blade from its mesh and matrices."""
 
 import numpy as np
+import scipy.linalg as la
 import scipy.sparse as sp
 
+from r37core.fem.material import Material
 from r37core.fem.matrices import StructuralMatrices
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 from .contact_weights import contact_weights, mean_positions, tip_lengths
 from .craig_bampton import multi_speed_basis
 from .naming import ideal_shapes
-from .reduced_model import RecoveryNodes, ReducedModel
+from .recovery_nodes import RecoveryNodes
+from .reduced_model import ReducedModel
 from .reduction_choice import ReductionChoice
 from .rotation import shapes_of_rotation
+from .stress_region import RegionMaker
 
 
-def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice) -> ReducedModel:
-    """Project the blade's matrices on a Craig-Bampton basis over several speeds; BoundaryError for too few tip nodes."""
+def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice, material: Material) -> ReducedModel:
+    """Project the blade's matrices on a Craig-Bampton basis over several speeds; BoundaryError for too few tip nodes.
+
+    `material`: of which the matrices are, for the nodes where stress is looked for.
+    """
     stiffness, geometric, mass = matrices.stiffness(), matrices.geometric_stiffness(), matrices.mass()
     softening = matrices.spin_softening() if choice.spin_softening else None
     per_square = geometric if softening is None else geometric + softening
@@ -39,14 +46,15 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         return RecoveryNodes(nodes, mesh.points[nodes], whole[nodes], rotated[nodes])
 
     line, chord = mesh.node_set(TIP_LINES[choice.boundary.tip_line]), mesh.parameters[:, 0]
-    stress_blocks = choice.stress_submesh.elements(mesh, weights.indices)
-    stress_nodes = np.unique(np.concatenate([np.empty(0, int), *(nodes.ravel() for nodes in stress_blocks.values())]))
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
     mass_times_vectors, static = mass @ vectors, projected(stiffness, vectors)
+    reduced_mass = _symmetric(vectors.T @ mass_times_vectors)
+    squares, modes = la.eigh(static, reduced_mass)
+    maker = RegionMaker(mesh, recovery, material, np.sqrt(squares) / (2.0 * np.pi), modes, weights.indices)
     return ReducedModel(
         stiffness=static,
         geometric_stiffness=projected(geometric, vectors),
-        mass=_symmetric(vectors.T @ mass_times_vectors),
+        mass=reduced_mass,
         spin_softening=None if softening is None else projected(softening, vectors),
         coriolis=vectors.T @ (matrices.coriolis() @ vectors) if choice.coriolis else None,
         contact=choice.boundary.contact,
@@ -54,9 +62,7 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         contact_chord=weights @ chord,
         contact_tip_lengths=tip_lengths(mesh.points[line], chord[line], choice.boundary.chord_positions(weights.shape[0])),
         tip_lines={line: recovery(mesh.node_set(name)) for line, name in TIP_LINES.items()},
-        stress_submesh=recovery(stress_nodes),
-        stress_elements={name: np.searchsorted(stress_nodes, nodes) for name, nodes in stress_blocks.items()},
-        stress_region=choice.stress_submesh.description(),
+        stress_regions=maker.regions(choice.stress_regions),
         whole_blade=recovery(np.arange(len(mesh.points))) if choice.recover_whole_blade else None,
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ mass_times_vectors for shape in shapes.values()]),

@@ -8,51 +8,12 @@ import numpy as np
 import scipy.linalg as la
 
 from .contact_model import ContactModel
+from .recovery_nodes import RecoveryNodes
 from .rotation import BucklingError
+from .stress_region import StressRegion
 
 CORIOLIS_TERM = "M x'' + Omega G x' + K(Omega) x = f, for Omega > 0 and a rotor that turns towards negative theta, about -z"
 """Place of a Coriolis matrix G per speed, written into files."""
-
-
-@dataclass(frozen=True)
-class RecoveryNodes:
-    """Nodes whose displacement can be recovered from the reduced coordinates.
-
-    `nodes`: mesh node numbers, shape (n,); `points` (m), shape (n, 3); `basis`, shape (n, 3, coordinates): displacement
-    (x, y, z) per unit of each reduced coordinate; `rotation_shapes` (m s2/rad2), shape (n, 3, shapes): what rotation does,
-    see r37core.rom.rotation.
-    """
-
-    nodes: np.ndarray
-    points: np.ndarray
-    basis: np.ndarray
-    rotation_shapes: np.ndarray
-
-    @property
-    def fields(self) -> np.ndarray:
-        """Displacement per reduced coordinate, then per amplitude of rotation's shapes, shape (n, 3, coordinates + shapes)."""
-        return np.concatenate([self.basis, self.rotation_shapes], axis=2)
-
-    def select(self, which: list[int]) -> RecoveryNodes:
-        """Some of the nodes, by their place."""
-        return RecoveryNodes(self.nodes[which], self.points[which], self.basis[which], self.rotation_shapes[which])
-
-    @property
-    def cone_angle(self) -> float:
-        """Half angle (rad) of the cone through the first and the last node, negative where it narrows downstream.
-
-        Zero for a single node. The nodes of a tip line lie on the cone of the tip profile.
-        """
-        radius, axial = np.hypot(self.points[:, 0], self.points[:, 1]), self.points[:, 2]
-        length = axial[-1] - axial[0]
-        return float(np.arctan((radius[-1] - radius[0]) / length)) if length != 0.0 else 0.0
-
-    def cylindrical(self, displacement: np.ndarray) -> np.ndarray:
-        """Turn displacements (..., n, 3) from x, y, z to radial, tangential (growing theta) and axial parts."""
-        theta = np.arctan2(self.points[:, 1], self.points[:, 0])
-        x, y, z = np.moveaxis(displacement, -1, 0)
-        cosine, sine = np.cos(theta), np.sin(theta)
-        return np.stack([cosine * x + sine * y, cosine * y - sine * x, z], axis=-1)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,12 +24,12 @@ class ReducedModel:
     Omega^2) and `coriolis` (see CORIOLIS_TERM): each of shape (coordinates, coordinates). `contact`: what contact acts on (see
     r37core.rom.contact_weights); `contact_nodes`: mean displacements there, with the number of the nearest node of the tip
     line; `contact_chord`: their chord fractions; `contact_tip_lengths` (m): see r37core.rom.contact_weights. `tip_lines`:
-    recovery along each tip line; `stress_submesh` with `stress_elements`, element type -> shape (elements, nodes of the type),
-    indexing its nodes, and `stress_region`, what it is in words; `whole_blade` only on request. `shape_names`,
-    `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the ideal bending and
-    torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis, one for each of its columns over all
-    speeds. `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation; none of a blade
-    whose load is not known. `quadratic_residual`: share of the Omega^4 term in the reduced stiffness at the highest speed.
+    recovery along each tip line; `stress_regions` by name, the first of which decides; `whole_blade` only on request.
+    `shape_names`, `shape_products`, shape (shapes, coordinates), and `shape_norms`: mass products of the basis with the ideal
+    bending and torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis, one for each of its
+    columns over all speeds. `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation;
+    none of a blade whose load is not known. `quadratic_residual`: share of the Omega^4 term in the reduced stiffness at the
+    highest speed.
     """
 
     stiffness: np.ndarray
@@ -81,9 +42,7 @@ class ReducedModel:
     contact_chord: np.ndarray
     contact_tip_lengths: np.ndarray
     tip_lines: dict[str, RecoveryNodes]
-    stress_submesh: RecoveryNodes
-    stress_elements: dict[str, np.ndarray]
-    stress_region: str
+    stress_regions: dict[str, StressRegion]
     whole_blade: RecoveryNodes | None = None
     shape_names: tuple[str, ...]
     shape_products: np.ndarray

@@ -1,6 +1,6 @@
-"""Choices of a reduced model: its boundary nodes, basis and nodes of stress. Light: the configuration imports it."""
+"""Choices of a reduced model: its boundary nodes and basis. Light: the configuration imports it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Self
@@ -9,6 +9,8 @@ import numpy as np
 
 from r37core.base.declared import Key
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
+
+from .region_choice import RegionChoice
 
 
 class BoundaryError(ValueError):
@@ -135,56 +137,12 @@ def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
 
 
 @dataclass(frozen=True)
-class StressSubmesh:
-    """Region of the stress: unclamped nodes with x < `maximum_x` and `minimum_z` < z < `maximum_z` (m).
-
-    `excluded_layers`: elements that hold a contact node or a clamped node are left out, and so many further layers round them
-    as this number exceeds one: there a force on a single node and the clamping give stresses that grow with a finer mesh.
-    """
-
-    maximum_x: Annotated[float, Key("Upper bound of x (radial)", "_m", ge=1e-6, le=100)] = np.inf
-    minimum_z: Annotated[float, Key("Lower bound of z (downstream)", "_m", ge=-100, le=100)] = -np.inf
-    maximum_z: Annotated[float, Key("Upper bound of z", "_m", ge=-100, le=100)] = np.inf
-    excluded_layers: Annotated[
-        int, Key("Element layers left out round contact nodes and root, where stress grows with every finer mesh", ge=0, le=20)
-    ] = 0
-
-    def description(self) -> str:
-        """The region as results name it."""
-        bounds = (("x <", self.maximum_x), ("z >", self.minimum_z), ("z <", self.maximum_z))
-        box = ", ".join(f"{name} {bound:g} m" for name, bound in bounds if np.isfinite(bound)) or "whole blade"
-        layers = f"{self.excluded_layers} layer{'s' if self.excluded_layers > 1 else ''} of elements"
-        return box + (f", without {layers} at contact nodes and root" if self.excluded_layers else "")
-
-    def elements(self, mesh: BladeMesh, contact_nodes: np.ndarray) -> dict[str, np.ndarray]:
-        """Nodes of the elements all of whose nodes qualify, by element type."""
-        x, _, z = mesh.points.T
-        qualifies = (x < self.maximum_x) & (z > self.minimum_z) & (z < self.maximum_z)
-        root = mesh.node_set("root")
-        qualifies[root] = False
-        near = np.zeros(len(x), dtype=bool)
-        near[contact_nodes] = near[root] = True
-        for _ in range(self.excluded_layers - 1):
-            near[np.concatenate([nodes[near[nodes].any(axis=1)].ravel() for nodes in mesh.blocks.values()])] = True
-        chosen = {}
-        for name, nodes in mesh.blocks.items():
-            inside = qualifies[nodes].all(axis=1) & ~(near[nodes].any(axis=1) & (self.excluded_layers > 0))
-            if inside.any():
-                chosen[name] = nodes[inside]
-        return chosen
-
-
-EVERYWHERE = StressSubmesh()
-"""Stress on the whole blade but for the clamped elements."""
-
-
-@dataclass(frozen=True)
 class ReductionChoice:
-    """Choices of a reduced model: basis at `speeds` (rad/s), contact nodes of `boundary`, stress on `stress_submesh`."""
+    """Choices of a reduced model: basis at `speeds` (rad/s), contact nodes of `boundary`, stress in `stress_regions`."""
 
     boundary: BoundaryChoice
     speeds: tuple[float, ...]
-    stress_submesh: StressSubmesh
+    stress_regions: Mapping[str, RegionChoice] = field(hash=False)
     fixed_interface_modes: Annotated[
         int, Key("Number of modes at each of three speeds: rest, half the maximum and the maximum", ge=0, le=500)
     ]
@@ -192,3 +150,8 @@ class ReductionChoice:
     spin_softening: Annotated[bool, Key("Whether centrifugal forces follow the motion, which lowers the stiffness")] = False
     coriolis: Annotated[bool, Key("Whether Coriolis forces act; simulations then need exact_modal")] = False
     recover_whole_blade: Annotated[bool, Key("Whether the basis is kept on every node (a large file)")] = False
+
+    @property
+    def judged_region(self) -> RegionChoice:
+        """The region that decides."""
+        return next(iter(self.stress_regions.values()))

@@ -10,7 +10,9 @@ import xarray as xr
 from r37core.base.dataset_file import about, read_dataset, write_dataset
 from r37core.base.io import readable
 
-from .reduced_model import CORIOLIS_TERM, RecoveryNodes, ReducedModel
+from .recovery_nodes import RecoveryNodes
+from .reduced_model import CORIOLIS_TERM, ReducedModel
+from .stress_region import StressRegion
 
 _SQUARE = ("row", "column")
 _ARRAYS = {
@@ -32,7 +34,7 @@ _OF_NODES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "basis": (("axis", "column"), "1", "displacement per coordinate"),
     "rotation_shapes": (("axis", "rotation_shape"), "m s2 rad-2", "shapes of the displacement by rotation"),
 }
-_ELEMENTS = "stress_elements_"
+_REGION = "stress_"
 
 
 def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mapping[str, object] | None = None) -> None:
@@ -40,23 +42,23 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
     arrays = {name: array for name in _ARRAYS if (array := getattr(model, name)) is not None}
     data: dict = {name: (_ARRAYS[name][0], array, about(*_ARRAYS[name][1:])) for name, array in arrays.items()}
     node_groups = {f"tip_{line}": nodes for line, nodes in model.tip_lines.items()}
-    node_groups |= {"contact": model.contact_nodes, "stress": model.stress_submesh}
+    node_groups |= {"contact": model.contact_nodes}
+    node_groups |= {_REGION + name: region.nodes for name, region in model.stress_regions.items()}
     if model.whole_blade is not None:
         node_groups["blade"] = model.whole_blade
     for group, recovery in node_groups.items():
         for part, (axes, units, text) in _OF_NODES.items():
             content = getattr(recovery, part), about(units, f"{text} ({group})")
             data[f"{group}_{part}"] = ((f"{group}_node", *axes), *content)
-    for name, elements in model.stress_elements.items():
-        dims = (f"stress_{name}", f"node_of_{name}")
-        data[_ELEMENTS + name] = (dims, elements, about("1", f"submesh elements of type {name}"))
+    for name, region in model.stress_regions.items():
+        data |= _region_variables(_REGION + name, region)
     attributes = {
         "basis_columns": len(model.singular_values),
         "basis_independent_columns": model.size,
         "basis_tolerance": model.tolerance,
         "quadratic_residual": model.quadratic_residual,
         "tip_line_names": list(model.tip_lines),
-        "stress_region": model.stress_region,
+        "stress_region_names": " ".join(model.stress_regions),
         "contact": model.contact,
     }
     dataset = xr.Dataset(data, coords={"shape": list(model.shape_names)}, attrs=attributes)
@@ -67,21 +69,43 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
     """The model of a rom.nc; InputFileError when the file cannot be read."""
     dataset = read_dataset(file)
     with readable(file):
-        elements = [name for name in map(str, dataset) if name.startswith(_ELEMENTS)]
         arrays: dict[str, Any] = {name: dataset[name].values for name in _ARRAYS if name in dataset}
         return ReducedModel(
             **arrays,
             contact=str(dataset.attrs["contact"]),
             contact_nodes=_recovery(dataset, "contact"),
             tip_lines={line: _recovery(dataset, f"tip_{line}") for line in np.atleast_1d(dataset.tip_line_names)},
-            stress_submesh=_recovery(dataset, "stress"),
-            stress_elements={name.removeprefix(_ELEMENTS): dataset[name].values for name in elements},
-            stress_region=str(dataset.attrs["stress_region"]),
+            stress_regions={name: _region(dataset, _REGION + name) for name in dataset.stress_region_names.split()},
             whole_blade=_recovery(dataset, "blade") if "blade_basis" in dataset else None,
             shape_names=tuple(str(name) for name in dataset["shape"].values),
             tolerance=float(dataset.attrs["basis_tolerance"]),
             quadratic_residual=float(dataset.attrs["quadratic_residual"]),
         )
+
+
+def _region_variables(group: str, region: StressRegion) -> dict[str, tuple[Any, ...]]:
+    """Variables of a region beside its nodes."""
+    texts = {"description": region.description, "highest_frequency": region.highest_frequency}
+    evaluated = about("1", f"places of the evaluated nodes among {group}_nodes") | texts
+    variables: dict[str, tuple[Any, ...]] = {f"{group}_evaluated": (f"{group}_evaluated_node", region.evaluated, evaluated)}
+    places = about("1", "chord, span and thickness of the evaluated nodes")
+    variables[f"{group}_places"] = (f"{group}_evaluated_node", "parameter"), region.places, places
+    for kind, elements in region.elements.items():
+        dims = f"{group}_{kind}", f"node_of_{kind}"
+        variables[f"{group}_elements_{kind}"] = dims, elements, about("1", f"elements of type {kind} ({group})")
+    return variables
+
+
+def _region(dataset: xr.Dataset, group: str) -> StressRegion:
+    evaluated, elements = dataset[f"{group}_evaluated"], f"{group}_elements_"
+    return StressRegion(
+        description=str(evaluated.attrs["description"]),
+        highest_frequency=float(evaluated.attrs["highest_frequency"]),
+        nodes=_recovery(dataset, group),
+        elements={name.removeprefix(elements): dataset[name].values for name in map(str, dataset) if name.startswith(elements)},
+        evaluated=evaluated.values,
+        places=dataset[f"{group}_places"].values,
+    )
 
 
 def _recovery(dataset: xr.Dataset, group: str) -> RecoveryNodes:

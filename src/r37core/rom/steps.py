@@ -39,10 +39,11 @@ def reduced_model(input: Any, output: Any, params: Any) -> None:
 
 def _reduced(mesh_file: str, params: Any) -> ReducedModel:
     mesh = read_vtu(mesh_file)
-    matrices = assemble(mesh, from_plain(Material, params.material))
+    material = from_plain(Material, params.material)
+    matrices = assemble(mesh, material)
     JOB_LOG.debug(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
     with boundary_located(params.contact["location"]):
-        model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction))
+        model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction), material)
     JOB_LOG.debug(f"{len(model.singular_values)} columns, {model.size} independent at {model.tolerance:g}")
     return model
 

@@ -25,7 +25,9 @@ VARIABLES = {
     "blade_maximum": Variable((*_BLADES, "span"), "m", f"largest value of {_MOTION} in the span", "f4"),
     "blade_contact": Variable(_BLADES, "1", "share of the steps with a contact force"),
     "blade_worn": Variable(_BLADES, "m3", "volume of lining that the blade has worn off, of bars of the scene's width"),
-    "blade_max_von_mises": Variable(_BLADES, "Pa", "largest von Mises stress on the submesh in the last revolution"),
+    "blade_max_von_mises": Variable(
+        _BLADES, "Pa", "largest von Mises stress of the last revolution in the region that decides"
+    ),
     "blade_von_mises": Variable((*_BLADES, "stress_span"), "Pa", "largest von Mises stress in the span", "f4"),
     "leader": Variable((), "1", "number of the blade with the largest blade_rms; where the run diverged, that did first", "i4"),
     "blades_above_yield": Variable((), "1", "share of the blades above yield in the last revolution"),

@@ -42,7 +42,7 @@ VARIABLES = {
     "amplitude_tangential": Variable(
         _ORDER, "m", "amplitude of the leading edge's tangential displacement in the revolution", "f4"
     ),
-    "max_von_mises": Variable(_TURN, "Pa", "largest von Mises stress on the submesh in the revolution"),
+    "max_von_mises": Variable(_TURN, "Pa", "largest von Mises stress in the region that decides, in the revolution"),
     "max_wear": Variable(
         _TURN, "m", "largest wear of the lining by the end of the constant-speed segment, up to 7 revolutions on"
     ),

@@ -8,7 +8,7 @@ from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model
-from r37core.stress.operator import read_stress_operator
+from r37core.stress.operator import judged_operator, read_stress_operators
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import write_speed
 
@@ -31,7 +31,7 @@ def record(input: Any, output: Any, params: Any) -> None:
         RunUpIntegration(read_contact_model(input.model), from_plain(Scene, params.scene), choice, run_up),
         params.results,
         highest_order=params.highest_order,
-        stress=read_stress_operator(input.stress) if hasattr(input, "stress") else None,
+        stress=judged_operator(read_stress_operators(input.stress)) if hasattr(input, "stress") else None,
         yield_stress=params.yield_stress,
     )
     write_speed(result, output.run_up, params.provenance)

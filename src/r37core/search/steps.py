@@ -17,10 +17,11 @@ from r37core.exchange.step_file import write_step
 from r37core.machine_code.kept import content_digest
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranking import robustness
+from r37core.results.regions import read_judged
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model
-from r37core.rom.reduction_choice import StressSubmesh
-from r37core.stress.operator import read_stress_operator
+from r37core.rom.region_choice import RegionChoice
+from r37core.stress.operator import judged_operator, read_stress_operators
 
 from .dataset import BLADES_HEADER, SCENES_HEADER, search_dataset, search_table, write_entries
 from .problem import SearchChoice
@@ -47,7 +48,7 @@ def propose_round(input: Any, output: Any, params: Any) -> str:
 
 
 def shape(input: Any, output: Any, params: Any) -> None:
-    """Test whether a design can be built. Output: shape (json). Params: shape, edges, mesh, stress_submesh."""
+    """Test whether a design can be built. Output: shape (json). Params: shape, edges, mesh, stress_region."""
     # gmsh takes a second to load, which rounds have no use for
     from r37core.fem.mesh_quality import check_quality, mesh_quality
     from r37core.mesh.generate import generate_mesh
@@ -58,10 +59,10 @@ def shape(input: Any, output: Any, params: Any) -> None:
             blade = from_plain(BladeDefinition, params.shape["definition"]).build(round_edges=params.edges == "round")
             mesh = generate_mesh(blade, level["nodes"], level["layers"], level["tip_elements"])
             check_quality(mesh, mesh_quality(mesh), level["minimum_scaled_jacobian"])
-            submesh = from_plain(StressSubmesh, params.stress_submesh)
+            region = from_plain(RegionChoice, params.stress_region)
             # elements next to contact nodes, which are known with the model, count here
-            if not submesh.elements(mesh, np.empty(0, dtype=int)):
-                raise ValueError(f"the stress submesh ({submesh.description()}) has no elements")
+            if not region.elements(mesh, np.empty(0, dtype=int)):
+                raise ValueError(f"the stress region ({region.description()}) has no elements")
         except ValueError as error:
             refused = str(error)
     write_json({"refused": refused}, output.shape)
@@ -87,13 +88,13 @@ def measure(input: Any, output: Any, params: Any) -> None:
         volume=float(read_dataset(input.geometry)["volume"]),
         density=params.density,
         campbell=read_dataset(input.campbell),
-        static_stress=static_stress(read_stress_operator(input.stress), stiffening, sorted(speeds)),
+        static_stress=static_stress(judged_operator(read_stress_operators(input.stress)), stiffening, sorted(speeds)),
     )
     files = iter(as_list(input.responses))
     nominal, members = {}, {}
     for scene, number in params.scenes.items():
-        nominal[scene] = robustness(read_dataset(next(files)), operating=operating)
-        several = map(read_dataset, islice(files, number - 1))
+        nominal[scene] = robustness(read_judged(next(files)), operating=operating)
+        several = map(read_judged, islice(files, number - 1))
         members[scene] = [robustness(member, chance_scatter=False, operating=operating) for member in several]
     values = {
         name: contact_value(quantity, nominal, members)

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.base.dataset_file import about, read_dataset
+from r37core.results.regions import judged
 
 from .choice import MOTIONS
 from .motion_files import SweptStates, levels_of
@@ -47,7 +48,7 @@ def second_motions_dataset(
     for blade, scene in pairs:
         motions = []
         for motion in MOTIONS:
-            response = read_dataset(responses[blade, scene, motion], {"tip_point": "leading_edge"})
+            response = judged(read_dataset(responses[blade, scene, motion], {"tip_point": "leading_edge"}))
             motions.append(response[[name for name in (*KEPT, *OF_ALL) if name in response]].reset_coords(drop=True))
         over_motions = [str(name) for name in motions[0].data_vars if name not in OF_ALL]
         part = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=over_motions)

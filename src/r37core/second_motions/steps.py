@@ -13,7 +13,7 @@ from r37core.results.joining import Along, join_runs
 from r37core.results.response import write_response
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model
-from r37core.stress.operator import read_stress_operator
+from r37core.stress.operator import read_stress_operators
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import DOWN, MOTIONS, BranchChoice, DwellChoice, SweepChoice
@@ -110,7 +110,7 @@ def _sweep_of(input: Any, params: Any, motion: str = MOTIONS[0]) -> CarriedSweep
         motion,
         getattr(params, "results", ()),
         getattr(params, "kept", {}),
-        read_stress_operator(stress[0]) if stress else None,
+        read_stress_operators(stress[0]) if stress else None,
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
-from r37core.stress.operator import StressOperator
+from r37core.stress.operator import StressOperators
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
 from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -34,8 +34,8 @@ END_WEAR = "end_wear"
 class CarriedSweep:
     """A sweep of one `motion` (MOTIONS) of a blade's `model` in a `scene`.
 
-    `choice`: the time integration of the scene's runs; `results` and `kept`: as run_speed takes them; `stress`: operator, where
-    stress is among the results.
+    `choice`: the time integration of the scene's runs; `results` and `kept`: as run_speed takes them; `stress`: operators,
+    where stress is among the results.
     """
 
     model: ContactModel
@@ -45,7 +45,7 @@ class CarriedSweep:
     motion: str
     results: Sequence[str]
     kept: Mapping[str, Any]
-    stress: StressOperator | None = None
+    stress: StressOperators | None = None
 
     @property
     def speeds(self) -> list[float]:

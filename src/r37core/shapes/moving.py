@@ -70,7 +70,7 @@ def write_worst_shapes(
     """Write the worst instant at each speed (rad/s): stress_<speed>.vtu with stress.pvd, and stress_<speed>.glb.
 
     The .glb moves as the blade did in its last revolution; its colours are the von Mises stress (Pa) of the worst instant, up
-    to the largest one of the submesh, or to what SHOWN of the nodes stay below if that is more. `titles` of the interactions
+    to the largest one of the region, or to what SHOWN of the nodes stay below if that is more. `titles` of the interactions
     at the speeds. The model must recover the whole blade.
     """
     write_stress(mesh, model, material, instants, Target(folder))
@@ -88,7 +88,7 @@ def write_worst_shapes(
         largest = max(instant.largest, float(np.quantile(stress, SHOWN)))
         about = {
             "shape": name,
-            "title": f"{titles[speed]} at {speed:g} rad/s ({RPM * speed:.0f} rpm): largest von Mises stress of the submesh "
+            "title": f"{titles[speed]} at {speed:g} rad/s ({RPM * speed:.0f} rpm): largest von Mises stress of the region "
             f"{1e-6 * instant.largest:.0f} MPa{outside}; displacement {magnified:g} times as large",
             "quantity": "von Mises stress",
             "unit": "Pa",

@@ -12,6 +12,7 @@ from r37core.explorer import write_page
 from r37core.fem.material import Material
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
+from r37core.results.regions import read_judged
 from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.recovery import stress_operator
 
@@ -30,7 +31,7 @@ def worst(input: Any, output: Any, params: Any) -> None:
 
     Params: scene, speeds, interactions, material.
     """
-    model, response = read_reduced_model(input.model), read_dataset(input.response)
+    model, response = read_reduced_model(input.model), read_judged(input.response)
     # the elastic material in params and the yield stress that the response was judged by
     material = replace(from_plain(Material, params.material), yield_stress=float(response["yield_stress"]))
     choice = from_plain(InteractionChoice, params.interactions)

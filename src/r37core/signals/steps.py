@@ -9,6 +9,7 @@ from r37core.contact.scene import Scene
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.interactions import InteractionChoice, find_interactions, titles
 from r37core.results.joining import join_runs
+from r37core.results.regions import read_judged
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -28,7 +29,7 @@ def record(input: Any, output: Any, params: Any) -> None:
     positions: dict[str, Any] = {}
     if hasattr(input, "response"):
         wanted = from_plain(InteractionChoice, params.interactions)
-        named = titles(find_interactions(read_dataset(input.response), read_dataset(input.campbell), wanted))
+        named = titles(find_interactions(read_judged(input.response), read_dataset(input.campbell), wanted))
     if params.gauges:
         mesh, gauges = read_vtu(input.mesh), from_plain(list[Gauge], list(params.gauges.values()))
         whole = read_reduced_model(input.whole).whole_blade

@@ -1,12 +1,15 @@
-"""Stress on the submesh from reduced coordinates. Light: the simulation jobs import it."""
+"""Stress in a region from reduced coordinates. Light: the simulation jobs import it."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from r37core.base.io import atomic_write, readable
+from r37core.fem.deviatoric import deviatoric
 
 
 def von_mises(stress: np.ndarray) -> np.ndarray:
@@ -18,54 +21,98 @@ def von_mises(stress: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class StressOperator:
-    """Stress at the nodes of the stress submesh: of the vibration, and of rotation where the coordinates have it.
+    """Stress at the evaluated nodes of a region: of the vibration, and of rotation where the coordinates have it.
 
-    `operator`, shape (6, nodes, coordinates + shapes): components xx yy zz xy yz zx (Pa) per unit of each reduced coordinate,
-    then of each amplitude of rotation's shapes. `coordinates`: how many of the former. `region`: the submesh in words.
+    `operator`, shape (6, nodes, numbers + shapes): components xx yy zz xy yz zx (Pa) per unit of each number of the vibration,
+    then of each amplitude of rotation's shapes. `coordinates`: how many reduced coordinates there are. `band`, shape (numbers,
+    coordinates): amplitudes of the modes that count, per coordinate; None where the numbers are the coordinates. `region`: in
+    words; `is_complete`: whether its nodes are all of the region's; `places`, shape (nodes, 3): their chord, span, thickness,
+    where known.
     """
 
     operator: np.ndarray
     coordinates: int
     region: str
+    band: np.ndarray | None = None
+    is_complete: bool = True
+    places: np.ndarray | None = None
 
     @cached_property
     def deviatoric(self) -> np.ndarray:
-        """Parts a to e per coordinate, whose length is the von Mises stress: shape (5, nodes, coordinates + shapes), float32.
-
-        a = sqrt(3)/2 (xx - yy),  b = zz - (xx + yy)/2,  (c, d, e) = sqrt(3) (xy, yz, zx)
-        """
-        xx, yy, zz, xy, yz, zx = self.operator
-        root = np.sqrt(3.0)
-        parts = (0.5 * root * (xx - yy), zz - 0.5 * (xx + yy), root * xy, root * yz, root * zx)
-        return np.stack(parts).astype(np.float32)
+        """Parts per number whose length is the von Mises stress: shape (5, nodes, numbers + shapes), float32."""
+        return deviatoric(self.operator)
 
     @cached_property
     def trace(self) -> np.ndarray:
-        """Sum of the normal stresses (Pa) per coordinate, shape (nodes, coordinates + shapes)."""
+        """Sum of the normal stresses (Pa) per number, shape (nodes, numbers + shapes)."""
         return self.operator[:3].sum(axis=0)
+
+    def place(self, node: int) -> np.ndarray:
+        """Chord, span and thickness of one of the nodes; NaN where they are not known."""
+        return np.full(3, np.nan) if self.places is None else self.places[node]
 
     def have_rotation(self, coordinates: np.ndarray) -> bool:
         """True where the coordinates, shape (instants, coordinates), have the amplitudes of rotation's shapes."""
         return coordinates.shape[1] > self.coordinates
 
+    def band_part(self, states: np.ndarray, shapes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The part of `states`, shape (instants, numbers), in the modes that count, and their `shapes`.
+
+        `shapes`, shape (coordinates, numbers): reduced coordinates per number; those given back are of the operator's numbers.
+        """
+        if self.band is None:
+            return states, shapes
+        return states @ (self.band @ shapes).T, np.eye(len(self.band))
+
     def max_von_mises(self, coordinates: np.ndarray) -> np.ndarray:
-        """Largest von Mises stress (Pa) over the submesh, shape (instants,).
+        """Largest von Mises stress (Pa) over the region, shape (instants,).
 
         `coordinates`, shape (instants, coordinates), of the vibration alone, or with the amplitudes of rotation's shapes after
         them: then it is the stress of both together.
         """
+        return self.von_mises(coordinates).max(axis=1)
+
+    def von_mises(self, coordinates: np.ndarray) -> np.ndarray:
+        """Von Mises stress (Pa), shape (instants, nodes), for coordinates as above."""
+        if self.band is not None:
+            vibration, rotation = np.split(coordinates, [self.coordinates], axis=1)
+            coordinates = np.concatenate([vibration @ self.band.T, rotation], axis=1)
         operator = self.operator[:, :, : coordinates.shape[1]]
-        stress = np.einsum("cnj,tj->ctn", operator, coordinates, optimize=True)
-        return von_mises(stress).max(axis=1)
+        return von_mises(np.einsum("cnj,tj->ctn", operator, coordinates, optimize=True))
 
 
-def write_stress_operator(stress: StressOperator, file: Path | str) -> None:
-    """Write it as .npz."""
+StressOperators = Mapping[str, StressOperator]
+"""Operators of a blade's regions by name; the first one decides."""
+
+
+def judged_operator(operators: StressOperators) -> StressOperator:
+    """The operator of the region that decides."""
+    return next(iter(operators.values()))
+
+
+def mapped_region(regions: Mapping[str, Any]) -> str:
+    """Name of the region whose nodes a map shows: the first with all of its nodes, else the one that decides."""
+    return next((name for name, region in regions.items() if region.is_complete), next(iter(regions)))
+
+
+def write_stress_operators(operators: StressOperators, file: Path | str) -> None:
+    """Write them as .npz."""
+    arrays = {
+        f"{name}.{field.name}": value
+        for name, operator in operators.items()
+        for field in fields(operator)
+        if (value := getattr(operator, field.name)) is not None
+    }
     with atomic_write(file) as partial:
-        np.savez(partial, operator=stress.operator, coordinates=stress.coordinates, region=stress.region)
+        np.savez(partial, allow_pickle=False, **arrays)
 
 
-def read_stress_operator(file: Path | str) -> StressOperator:
-    """Read what `write_stress_operator` wrote. InputFileError when it cannot be read."""
+def read_stress_operators(file: Path | str) -> dict[str, StressOperator]:
+    """Read what `write_stress_operators` wrote. InputFileError when it cannot be read."""
+    members: dict[str, dict[str, Any]] = {}
     with readable(file), np.load(file) as stored:
-        return StressOperator(stored["operator"], int(stored["coordinates"]), str(stored["region"]))
+        for member in stored:
+            name, field = member.rsplit(".", 1)
+            value = stored[member]
+            members.setdefault(name, {})[field] = value if value.ndim else value.item()
+        return {name: StressOperator(**values) for name, values in members.items()}

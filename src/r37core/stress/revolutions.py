@@ -3,6 +3,7 @@
 All nodes at all instants of a hundred revolutions would take ten times as long as the simulation.
 """
 
+from collections.abc import Callable
 from functools import reduce
 
 import numpy as np
@@ -12,8 +13,8 @@ from .operator import StressOperator
 
 def largest_of_revolutions(
     stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray, per_revolution: int
-) -> np.ndarray:
-    """Largest von Mises stress (Pa) of each revolution, shape (revolutions,).
+) -> tuple[np.ndarray, np.ndarray]:
+    """Largest von Mises stress (Pa) of each revolution, and its node by its place in the operator, shape (revolutions,).
 
     `states`, shape (instants, numbers), of whole revolutions of `per_revolution` instants each; `shapes`, shape (coordinates,
     numbers): reduced coordinates per number; `rotation`, shape (shapes,): amplitudes of rotation's shapes, or none.
@@ -22,29 +23,37 @@ def largest_of_revolutions(
     each revolution that is the worst so far, until neither gives another one. A node that is the worst at another instant
     alone is missed. In single precision.
     """
+    states, shapes = stress.band_part(states, shapes)
+    squares, states = _squares(stress, shapes, rotation), states.astype(np.float32)
+    everything, revolutions = slice(None), np.arange(len(states) // per_revolution)
+    nodes = np.unique(squares(states[-per_revolution:], everything).argmax(axis=1))
+    new, largest = nodes, np.zeros(len(states), dtype=np.float32)
+    node_of = np.full(len(states), -1)
+    while len(new):
+        np.maximum(largest, squares(states, new).max(axis=1), out=largest)
+        worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions * per_revolution
+        worst = worst[node_of[worst] < 0]
+        worst_squares = squares(states[worst], everything)
+        largest[worst], node_of[worst] = worst_squares.max(axis=1), worst_squares.argmax(axis=1)
+        new = np.setdiff1d(node_of[worst], nodes)
+        nodes = np.union1d(nodes, new)
+    worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions * per_revolution
+    return np.sqrt(largest[worst].astype(float)), node_of[worst]
+
+
+def _squares(
+    stress: StressOperator, shapes: np.ndarray, rotation: np.ndarray
+) -> Callable[[np.ndarray, np.ndarray | slice], np.ndarray]:
+    """Gives squares of the von Mises stress, shape (instants, nodes), for states and some of the nodes."""
     vibration_part, rotation_part = np.split(stress.deviatoric[:, :, : len(shapes) + len(rotation)], [len(shapes)], axis=2)
     per_number, still = vibration_part @ shapes.astype(np.float32), rotation_part @ rotation.astype(np.float32)
-    states = states.astype(np.float32)
 
-    def squares(instants: np.ndarray | slice, nodes: np.ndarray | slice) -> np.ndarray:
+    def squares(states: np.ndarray, nodes: np.ndarray | slice) -> np.ndarray:
         # part by part: a sum over a short last axis takes several times as long
-        chosen, parts = states[instants], zip(per_number[:, nodes], still[:, nodes], strict=True)
-        return reduce(np.add, (np.square(chosen @ rows.T + constant) for rows, constant in parts))
+        parts = zip(per_number[:, nodes], still[:, nodes], strict=True)
+        return reduce(np.add, (np.square(states @ rows.T + constant) for rows, constant in parts))
 
-    everything, revolutions = slice(None), np.arange(len(states) // per_revolution)
-    nodes = np.unique(squares(slice(-per_revolution, None), everything).argmax(axis=1))
-    new, largest = nodes, np.zeros(len(states), dtype=np.float32)
-    seen = np.zeros(len(states), dtype=bool)
-    while len(new):
-        np.maximum(largest, squares(everything, new).max(axis=1), out=largest)
-        worst = largest.reshape(-1, per_revolution).argmax(axis=1) + revolutions * per_revolution
-        worst = worst[~seen[worst]]
-        seen[worst] = True
-        worst_squares = squares(worst, everything)
-        largest[worst] = worst_squares.max(axis=1)
-        new = np.setdiff1d(worst_squares.argmax(axis=1), nodes)
-        nodes = np.union1d(nodes, new)
-    return np.sqrt(largest.reshape(-1, per_revolution).max(axis=1).astype(float))
+    return squares
 
 
 def stress_cycles(
@@ -57,6 +66,7 @@ def stress_cycles(
     differ it is more than half of the range. Mean: sum of the mean normal stresses, negative in compression. All nodes at all
     instants, in single precision: stress is linear, so the mean is that of the states, and rotation changes it alone.
     """
+    states, shapes = stress.band_part(states, shapes)
     mean_state = states.mean(axis=0)
     parts = stress.deviatoric[:, :, : len(shapes)] @ shapes.astype(np.float32)
     vibration = (states - mean_state).astype(np.float32)

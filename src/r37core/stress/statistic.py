@@ -40,31 +40,37 @@ UNKNOWN = Strengths()
 def goodman_statistic(run: Mapping[str, np.ndarray], strengths: Strengths) -> dict[str, np.ndarray]:
     """Numbers of a run, as fatigue_numbers has them, against its material's `strengths`, which are among them.
 
-    Largest share of all nodes and revolutions, with its two stresses (Pa), median of the largest of each revolution, and the
-    share of revolutions with a node above the line. NaN of a diverged run, and without strengths.
+    Of each region the largest share of all nodes and revolutions, with its two stresses (Pa), median of the largest of each
+    revolution, and the share of revolutions with a node above the line. NaN of a diverged run, and without strengths.
     """
-    alternating, mean, counts = run["cycle_alternating"], run["cycle_mean"], run["cycle_counts"]
-    share = strengths.share(alternating, mean)
+    ends = np.cumsum(run["cycle_counts"].sum(axis=1))[:-1]
+    regions = zip(np.split(run["cycle_alternating"], ends), np.split(run["cycle_mean"], ends), run["cycle_counts"], strict=True)
+    rows = [_goodman(*of_region, strengths) for of_region in regions]
     names = ["goodman_share", "goodman_share_median", "share_of_revolutions_above_goodman"]
     names += ["goodman_alternating_stress", "goodman_mean_stress"]
-    values: tuple[Any, ...] = len(names) * (np.nan,)
-    if len(share) and np.isfinite(share).all():
-        largest, worst = np.maximum.reduceat(share, np.cumsum(counts) - counts), share.argmax()
-        values = share[worst], np.median(largest), np.mean(largest > 1.0), alternating[worst], mean[worst]
-    statistic = asdict(strengths) | dict(zip(names, values, strict=True))
-    return {name: np.array(value, dtype=float) for name, value in statistic.items()}
+    limits = {name: np.array(value, dtype=float) for name, value in asdict(strengths).items()}
+    return limits | dict(zip(names, np.array(rows, dtype=float).T, strict=True))
+
+
+def _goodman(alternating: np.ndarray, mean: np.ndarray, counts: np.ndarray, strengths: Strengths) -> tuple[Any, ...]:
+    """Numbers of one region."""
+    share = strengths.share(alternating, mean)
+    if not len(share) or not np.isfinite(share).all():
+        return 5 * (np.nan,)
+    largest, worst = np.maximum.reduceat(share, np.cumsum(counts) - counts), share.argmax()
+    return share[worst], np.median(largest), np.mean(largest > 1.0), alternating[worst], mean[worst]
 
 
 def stress_statistic(of_revolutions: np.ndarray, yield_stress: float) -> dict[str, np.ndarray]:
     """Largest, median and HIGH quantile (Pa) of the largest stress of each revolution (Pa), and the share of them above yield.
 
-    `of_revolutions`, shape (revolutions,): of the last half of a run; NaN where there is one among them: it diverged.
+    `of_revolutions`, shape (..., revolutions): of the last half of a run; NaN where there is one among them: it diverged.
     """
-    ended = bool(np.isfinite(of_revolutions).all())
-    median, high, ever = np.quantile(of_revolutions, (0.5, HIGH, 1.0)) if ended else 3 * (np.nan,)
+    ended = np.isfinite(of_revolutions).all(axis=-1)
+    median, high, ever = np.quantile(of_revolutions, (0.5, HIGH, 1.0), axis=-1)
     return {
-        "max_von_mises_ever": np.array(ever),
-        "max_von_mises_median": np.array(median),
-        "max_von_mises_high": np.array(high),
-        "share_of_revolutions_above_yield": np.array(np.mean(of_revolutions > yield_stress) if ended else np.nan),
+        "max_von_mises_ever": np.where(ended, ever, np.nan),
+        "max_von_mises_median": np.where(ended, median, np.nan),
+        "max_von_mises_high": np.where(ended, high, np.nan),
+        "share_of_revolutions_above_yield": np.where(ended, np.mean(of_revolutions > yield_stress, axis=-1), np.nan),
     }

@@ -3,29 +3,42 @@
 import numpy as np
 
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.stress.operator import StressOperator
+from r37core.stress.operator import StressOperator, StressOperators, mapped_region
 from r37core.stress.revolutions import largest_cycles, stress_cycles
 
 from .finished_run import FinishedRun
 from .problem import Problem
 
 
-def fatigue_numbers(run: FinishedRun, stress: StressOperator, shown: int) -> dict[str, np.ndarray]:
+def fatigue_numbers(run: FinishedRun, stress: StressOperators, shown: int) -> dict[str, np.ndarray]:
     """Alternating and mean stress (Pa) over the revolutions of the statistic; rotation is always in the mean.
 
-    `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, the former the largest of
-    all revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), and `cycle_counts`, shape (revolutions,): those of all
-    blades, see largest_cycles. A diverged run has NaN and no pairs.
+    `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, in mapped_region, the
+    former the largest of all revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), region by region, and
+    `cycle_counts`, shape (regions, revolutions): those of all blades, see largest_cycles. A diverged run has NaN and no pairs.
     """
+    mapped = stress[mapped_region(stress)]
     if run.first_diverged is not None:
-        alternating_stress = mean_stress = np.full(stress.operator.shape[1], np.nan, dtype=np.float32)
-        alternating, mean = np.empty((0, 0), dtype=np.float32), np.empty(0, dtype=np.float32)
+        alternating_stress = mean_stress = np.full(mapped.operator.shape[1], np.nan, dtype=np.float32)
+        nothing = np.empty(0, dtype=np.float32)
+        pairs = len(stress) * [(nothing, nothing, np.empty(0, dtype=np.int32))]
     else:
-        blades = [_cycles(problem, part.snapshots, stress) for problem, part in zip(run.problems, run.records, strict=True)]
-        alternating_stress, mean_stress = blades[shown][0].max(axis=0), blades[shown][1]
-        alternating, mean = (np.concatenate(parts, axis=-1) for parts in zip(*blades, strict=True))
-    pairs = zip(("cycle_alternating", "cycle_mean", "cycle_counts"), largest_cycles(alternating, mean), strict=True)
-    return {"alternating_stress": alternating_stress, "mean_stress": mean_stress, **dict(pairs)}
+        pairs = []
+        motions = [(problem, part.snapshots) for problem, part in zip(run.problems, run.records, strict=True)]
+        for operator in stress.values():
+            blades = [_cycles(*motion, operator) for motion in motions]
+            if operator is mapped:
+                alternating_stress, mean_stress = blades[shown][0].max(axis=0), blades[shown][1]
+            alternating, mean = (np.concatenate(parts, axis=-1) for parts in zip(*blades, strict=True))
+            pairs.append(largest_cycles(alternating, mean))
+    every_alternating, every_mean, counts = zip(*pairs, strict=True)
+    return {
+        "alternating_stress": alternating_stress,
+        "mean_stress": mean_stress,
+        "cycle_alternating": np.concatenate(every_alternating),
+        "cycle_mean": np.concatenate(every_mean),
+        "cycle_counts": np.stack(counts),
+    }
 
 
 def _cycles(problem: Problem, snapshots: np.ndarray, stress: StressOperator) -> tuple[np.ndarray, np.ndarray]:

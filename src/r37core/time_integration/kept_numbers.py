@@ -8,7 +8,7 @@ from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Lining
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.stress.operator import StressOperator
+from r37core.stress.operator import StressOperators, judged_operator
 from r37core.stress.revolutions import largest_of_revolutions
 
 from .finished_run import FinishedRun
@@ -62,7 +62,7 @@ def status_numbers(problem: Problem, reached: float | None) -> dict[str, np.ndar
 
 
 def snapshot_numbers(
-    problem: Problem, record: SimulationRecord, stress: StressOperator | None, static_stress: bool
+    problem: Problem, record: SimulationRecord, stress: StressOperators | None, static_stress: bool
 ) -> dict[str, np.ndarray]:
     """Numbers kept of the snapshots of the last revolution: see run_speed."""
     shapes = problem.model.to_reduced @ problem.contact.state_shapes
@@ -73,25 +73,29 @@ def snapshot_numbers(
     coordinates = coordinates.astype(np.float32)
     if stress is None:
         return {"snapshots": coordinates}
+    largest = [np.nan if record.diverged else operator.max_von_mises(coordinates).max() for operator in stress.values()]
     return {
         "snapshots": coordinates,
-        "max_von_mises": np.array(np.nan if record.diverged else stress.max_von_mises(coordinates).max()),
-        "stress_region": np.array(stress.region),
-        "static_stress": np.array(int(stress.have_rotation(coordinates))),
+        "region": np.array(list(stress)),
+        "max_von_mises": np.array(largest),
+        "stress_region": np.array([operator.region for operator in stress.values()]),
+        "static_stress": np.array(int(judged_operator(stress).have_rotation(coordinates))),
     }
 
 
-def stress_histories(run: FinishedRun, stress: StressOperator, static_stress: bool) -> np.ndarray:
-    """Largest stress (Pa) of each blade in each revolution of the statistic, shape (blades, revolutions); NaN where it ended.
+def stress_histories(run: FinishedRun, stress: StressOperators, static_stress: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Largest stress (Pa) of each blade in each revolution with snapshots, NaN where it ended, and its node in the operator.
 
-    Blades with as many stepped modes are looked at together: their modes have the same shapes, and what follows a force at once
-    is in proportion to the flexibility, 1/factor^2 for a factor of the frequencies.
+    Both by region, shape (regions, blades, revolutions). Blades with as many stepped modes are looked at together: their modes
+    have the same shapes, and what follows a force at once is in proportion to the flexibility, 1/factor^2 for a factor of the
+    frequencies.
     """
     problems, records, factors = run.problems, run.records, run.frequency_factors
     choice, per_revolution = problems[0].choice, problems[0].choice.snapshots_per_revolution
     model, speed = problems[0].model, problems[0].speed
     rotation = rotation_amplitudes(model.rotation_stiffening, speed) if static_stress else np.empty(0)
-    history = np.full((len(records), choice.snapshot_revolutions), np.nan, dtype=np.float32)
+    history = np.full((len(stress), len(records), choice.snapshot_revolutions), np.nan, dtype=np.float32)
+    nodes = np.zeros(history.shape, dtype=int)
     groups: dict[tuple[int, int], list[int]] = {}
     for place, record in enumerate(records):
         revolutions = len(record.snapshots) // per_revolution
@@ -106,9 +110,25 @@ def stress_histories(run: FinishedRun, stress: StressOperator, static_stress: bo
             states[row][:, stepped:] *= (factors[places[0]] / factors[place]) ** 2
         shapes = model.to_reduced @ contact.state_shapes
         joined = states[0] if len(states) == 1 else np.concatenate(states)
-        largest = largest_of_revolutions(stress, joined, shapes, rotation, per_revolution)
-        history[places, :revolutions] = largest.reshape(len(places), revolutions)
-    return history
+        for region, operator in enumerate(stress.values()):
+            worst = largest_of_revolutions(operator, joined, shapes, rotation, per_revolution)
+            for kept, values in zip((history, nodes), worst, strict=True):
+                kept[region, places, :revolutions] = values.reshape(len(places), revolutions)
+    return history, nodes
+
+
+def worst_places(run: FinishedRun, stress: StressOperators, history: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+    """Chord, span and thickness, shape (regions, 3), of the largest stress in the statistic, of all blades; NaN if diverged.
+
+    `history` and `nodes`: see stress_histories.
+    """
+    if run.first_diverged is not None:
+        return np.full((len(stress), 3), np.nan)
+    choice = run.problem.choice
+    reached = len(run.records[0].snapshots) // choice.snapshots_per_revolution
+    late = slice(max(reached - choice.revolutions_in_statistic, 0), reached)
+    regions = zip(stress.values(), history[:, :, late], nodes[:, :, late], strict=True)
+    return np.array([operator.place(worst.flat[largest.argmax()]) for operator, largest, worst in regions])
 
 
 def casing_numbers(problem: Problem, record: SimulationRecord, revolutions: int, highest_order: int) -> dict[str, np.ndarray]:

@@ -10,7 +10,7 @@ from r37core.base.io import JOB_LOG, as_list, readable
 from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel, read_contact_model
-from r37core.stress.operator import read_stress_operator
+from r37core.stress.operator import read_stress_operators
 
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
@@ -38,8 +38,8 @@ def run_job(speed: str, output: str, task: str, about: str, *models: str, motion
     Raises InputFileError, and what Problem and `run_speed` raise.
     """
     wanted, (model, *stress) = json.loads(task), models
-    operator = _kept(read_stress_operator, *stress) if stress else None
-    run = run_speed(*_given(model, speed, wanted), wanted["results"], **wanted["kept"], stress=operator, motion=motion)
+    operators = _kept(read_stress_operators, *stress) if stress else None
+    run = run_speed(*_given(model, speed, wanted), wanted["results"], **wanted["kept"], stress=operators, motion=motion)
     write_speed(run, output, json.loads(about))
 
 
@@ -62,7 +62,8 @@ def make_ready(input: Any, params: Any) -> None:
     _READY.add((model, task))
     simulation_of(*_given(model, params.job["speed"], json.loads(task)))
     if stress:
-        _ = _kept(read_stress_operator, *stress).deviatoric
+        for operator in _kept(read_stress_operators, *stress).values():
+            _ = operator.deviatoric
 
 
 def _given(model: str, speed: str, wanted: dict[str, Any]) -> tuple[ContactModel, float, Scene, IntegrationChoice]:

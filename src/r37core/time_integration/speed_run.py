@@ -6,7 +6,7 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
-from r37core.stress.operator import StressOperator
+from r37core.stress.operator import StressOperators
 
 from . import kept_numbers
 from .fatigue_numbers import fatigue_numbers
@@ -32,7 +32,7 @@ def run_speed(
     *,
     spectrum_highest_order: int,
     wear_angles: int,
-    stress: StressOperator | None = None,
+    stress: StressOperators | None = None,
     motion: InitialMotion | None = None,
 ) -> dict[str, np.ndarray]:
     """Simulate one speed (rad/s) and keep what is asked for in `results` (OF_RUNS).
@@ -44,9 +44,10 @@ def run_speed(
     `largest_penetration` (m) of the tip's edge into the casing among them. `clearance` (m), shape (nodes,): where it changes
     with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
     `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
-    of rotation's shapes. With a `stress` operator: `max_von_mises` (Pa) in the last revolution, `revolution_von_mises` (Pa),
-    the largest of each of the last `choice.snapshot_revolutions`, `stress_region` and `static_stress`, 1 where rotation's is in
-    them; with fatigue: see fatigue_numbers. `casing_...`: see casing_waves. A diverged run has NaN where a number would need
+    of rotation's shapes. With `stress` operators, by `region`: `max_von_mises` (Pa) in the last revolution,
+    `revolution_von_mises` (Pa), shape (regions, revolutions), the largest of each of the last `choice.snapshot_revolutions`,
+    `max_von_mises_place`, see worst_places, `stress_region` and `static_stress`, 1 where rotation's is in them; with fatigue:
+    see fatigue_numbers. `casing_...`: see casing_waves. A diverged run has NaN where a number would need
     the rest of the run. With a rotor: the largest of all blades' rms, peaks, maxima, forces and stresses; the sum of hits and
     energies; the spectrum of the leading blade, the snapshots of the one with the largest stress; and numbers of each blade,
     see RotorRun. `status` is that of the rotor: all blades end when one diverges, whose snapshots are
@@ -79,7 +80,7 @@ def numbers_of_run(
     *,
     spectrum_highest_order: int,
     wear_angles: int,
-    stress: StressOperator | None = None,
+    stress: StressOperators | None = None,
 ) -> dict[str, np.ndarray]:
     """Numbers of a run that is done: see run_speed."""
     problem, scene, ended = run.problem, run.problem.scene, run.first_diverged
@@ -115,7 +116,8 @@ def numbers_of_run(
     history = None
     if "stress" in results:
         if stress is not None:
-            history = kept_numbers.stress_histories(run, stress, "static_stress" in results)
+            history, nodes = kept_numbers.stress_histories(run, stress, "static_stress" in results)
+            numbers["max_von_mises_place"] = kept_numbers.worst_places(run, stress, history, nodes)
         numbers |= _stress(run, stress, history, results)
     if "wear" in results:
         assert scene.lining is not None
@@ -130,7 +132,7 @@ def numbers_of_run(
         numbers |= kept_numbers.casing_numbers(problem, run.records[0], revolutions, spectrum_highest_order)
     if "motion_kind" in results:
         numbers |= kind_numbers(problem, run.states[0], diverged=ended is not None)
-    return numbers | run.numbers_of_each(samples, history)
+    return numbers | run.numbers_of_each(samples, None if history is None else history[0])
 
 
 def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str, np.ndarray]:
@@ -155,16 +157,16 @@ def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str,
 
 
 def _stress(
-    run: FinishedRun, stress: StressOperator | None, history: np.ndarray | None, results: Sequence[str]
+    run: FinishedRun, stress: StressOperators | None, history: np.ndarray | None, results: Sequence[str]
 ) -> dict[str, np.ndarray]:
     """Numbers of the blade with the largest stress (snapshot_numbers), the largest of the `history`, and fatigue."""
     shown = run.first_diverged or 0
     if history is not None and run.first_diverged is None:
-        shown = int(np.nan_to_num(history[:, -1]).argmax())
+        shown = int(np.nan_to_num(history[0, :, -1]).argmax())
     # a blade that another one ends may have no snapshots: of a diverged run they are of the one that diverged
     numbers = kept_numbers.snapshot_numbers(run.problems[shown], run.records[shown], stress, "static_stress" in results)
     if stress is None or history is None:
         return numbers
     if "fatigue" in results:
         numbers |= fatigue_numbers(run, stress, shown)
-    return numbers | {"revolution_von_mises": history.max(axis=0)}
+    return numbers | {"revolution_von_mises": history.max(axis=1)}

@@ -7,13 +7,14 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import SPEED_RPM, Variable, about, read_dataset
+from r37core.base.dataset_file import SPEED_RPM, Variable, about
 from r37core.base.io import readable
 from r37core.base.units import RPM, si_name
 from r37core.plans.member_values import is_of_sample, number_of
 from r37core.results.columns import ENDS
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
 from r37core.results.ranking import RANKED_BY, robustness
+from r37core.results.regions import read_judged
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 
@@ -62,7 +63,7 @@ def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.
     groups: dict[tuple[str, str], list[xr.Dataset]] = {}
     measured: dict[tuple[str, str], dict[str, dict[str, float]]] = {}
     for run in runs:
-        response, pair = read_dataset(run.file), (run.blade, run.scene)
+        response, pair = read_judged(run.file), (run.blade, run.scene)
         with readable(run.file):
             values = _measured(response)
         for name, value in values.items():

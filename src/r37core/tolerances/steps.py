@@ -7,6 +7,7 @@ from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, 
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.results.interactions import InteractionChoice, find_interactions
+from r37core.results.regions import read_judged
 from r37core.results.table_file import write_table
 
 from .dataset import MemberRun, tolerances_dataset
@@ -33,7 +34,7 @@ def table(input: Any, output: Any, params: Any) -> None:
 
     def read(responses: Any, campbells: Any) -> Any:
         for file, campbell in zip(as_list(responses), as_list(campbells), strict=True):
-            response = read_dataset(file)
+            response = read_judged(file)
             yield find_interactions(response, read_dataset(campbell), choice), response["speed"].values[[0, -1]]
 
     members: dict[tuple[str, str], dict[str, Any]] = {}

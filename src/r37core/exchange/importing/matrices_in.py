@@ -24,8 +24,9 @@ from r37core.fem.solver import Solve, factorise
 from r37core.rom.contact_weights import tip_lengths, weights_along
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes, multi_speed_basis
 from r37core.rom.naming import NAMED_MODES
+from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.rom.reduce import contact_nodes, projected
-from r37core.rom.reduced_model import RecoveryNodes, ReducedModel
+from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, BoundaryError, ReductionChoice
 
 from .matrix_file import read_matrix
@@ -118,9 +119,7 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
         contact_chord=weights @ chord,
         contact_tip_lengths=_tip_lengths(matrices, chord, choice.boundary, weights.shape[0]),
         tip_lines={choice.boundary.tip_line: line},
-        stress_submesh=RecoveryNodes(np.empty(0, dtype=int), np.empty((0, 3)), np.empty((0, 3, size)), np.empty((0, 3, 0))),
-        stress_elements={},
-        stress_region="none",
+        stress_regions={},
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ (matrices.mass @ vectors) for shape in shapes.values()]),
         shape_norms=np.array([np.sqrt(shape @ (matrices.mass @ shape)) for shape in shapes.values()]),

@@ -1,0 +1,48 @@
+"""Nodes of a blade that move with the reduced coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class RecoveryNodes:
+    """Nodes whose displacement can be recovered from the reduced coordinates.
+
+    `nodes`: mesh node numbers, shape (n,); `points` (m), shape (n, 3); `basis`, shape (n, 3, coordinates): displacement
+    (x, y, z) per unit of each reduced coordinate; `rotation_shapes` (m s2/rad2), shape (n, 3, shapes): what rotation does,
+    see r37core.rom.rotation.
+    """
+
+    nodes: np.ndarray
+    points: np.ndarray
+    basis: np.ndarray
+    rotation_shapes: np.ndarray
+
+    @property
+    def fields(self) -> np.ndarray:
+        """Displacement per reduced coordinate, then per amplitude of rotation's shapes, shape (n, 3, coordinates + shapes)."""
+        return np.concatenate([self.basis, self.rotation_shapes], axis=2)
+
+    def select(self, which: list[int]) -> RecoveryNodes:
+        """Some of the nodes, by their place."""
+        return RecoveryNodes(self.nodes[which], self.points[which], self.basis[which], self.rotation_shapes[which])
+
+    @property
+    def cone_angle(self) -> float:
+        """Half angle (rad) of the cone through the first and the last node, negative where it narrows downstream.
+
+        Zero for a single node. The nodes of a tip line lie on the cone of the tip profile.
+        """
+        radius, axial = np.hypot(self.points[:, 0], self.points[:, 1]), self.points[:, 2]
+        length = axial[-1] - axial[0]
+        return float(np.arctan((radius[-1] - radius[0]) / length)) if length != 0.0 else 0.0
+
+    def cylindrical(self, displacement: np.ndarray) -> np.ndarray:
+        """Turn displacements (..., n, 3) from x, y, z to radial, tangential (growing theta) and axial parts."""
+        theta = np.arctan2(self.points[:, 1], self.points[:, 0])
+        x, y, z = np.moveaxis(displacement, -1, 0)
+        cosine, sine = np.cos(theta), np.sin(theta)
+        return np.stack([cosine * x + sine * y, cosine * y - sine * x, z], axis=-1)
