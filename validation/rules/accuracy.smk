@@ -176,3 +176,27 @@ use rule evidence as adaptive_speeds with:
         "logs/validation/adaptive_speeds.log",
     params:
         **evidence("adaptive_speeds.tables"),
+
+
+# stress of the airfoil against the highest frequency kept, damping of high modes, step, patches and elastic casing
+use rule evidence as stress_band_runs with:
+    input:
+        unpack(behind_engine()),
+    output:
+        "results/evidence/stress_band.csv",
+    log:
+        "logs/validation/stress_band_runs.log",
+    params:
+        **evidence("stress_band.runs"),
+
+
+use rule evidence as stress_band with:
+    input:
+        unpack(behind_engine("results/evidence/stress_band.csv")),
+    output:
+        table=f"{TABLES}/stress_band.csv",
+        picture="docs/stress_band.png",
+    log:
+        "logs/validation/stress_band.log",
+    params:
+        **evidence("stress_band.table_and_picture"),
