@@ -20,6 +20,7 @@ from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.product.reporting import FIGURES, drawing
+from r37core.requirements.plan import Judged
 from r37core.run_ups.plan import RunUps
 from r37core.second_motions.plan import SecondMotions
 
@@ -164,7 +165,7 @@ def rules(root):
     settings = read_settings(root)
     structure, made, sweep = Structure(settings), Provenance(settings), Sweep(settings)
     shared = {**structure_stages(structure, made), **sweep_stages(sweep, made), "run_up": RunUps(sweep).stage(made)}
-    shared |= SecondMotions(sweep).stages(made)
+    shared |= {**SecondMotions(sweep).stages(made), "looks": Judged(sweep).looks(made)}
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]

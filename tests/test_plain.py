@@ -15,7 +15,8 @@ from r37core.blade.definition import BladeDefinition
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Lining
 from r37core.fem.material import Material
-from r37core.rom.reduction_choice import EVERYWHERE, ReductionChoice
+from r37core.rom.reduction_choice import ReductionChoice
+from r37core.rom.region_choice import EVERYWHERE
 
 LINING = defaults.Lining(5e-3, 8e9, 2e9, 15e6, bar_width=0.035)
 ORIENTATION = defaults.Orientation("mm", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), "negative")
@@ -28,7 +29,9 @@ JOBS_GET = [
     defaults.Scene(defaults.Casing(5e-4, cone_angle=0.1)),
     defaults.IntegrationChoice(1e-7, 200, 64),
     Material(180e9, 7800.0, 0.3),
-    ReductionChoice(defaults.BoundaryChoice(), (0.0, 900.0), replace(EVERYWHERE, maximum_z=0.1), 12, 1e-9, True, False, False),
+    ReductionChoice(
+        defaults.BoundaryChoice(), (0.0, 900.0), {"tip": replace(EVERYWHERE, maximum_z=0.1)}, 12, 1e-9, True, False, False
+    ),
     RefinementChoice((Window("1B", 12, 0.0, 0.1, 5.0),), 0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
     SpeedPlan((900.0, 1000.0), (RefinedRange(900.0, 1.0, 50, 100),)),
     defaults.MeshSource("blade.inp", ORIENTATION, defaults.Where("ROOT"), CONE),

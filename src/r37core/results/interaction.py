@@ -90,7 +90,8 @@ def _place(reach: xr.Dataset) -> dict[str, float]:
     if "max_von_mises_ever" not in reach or not (known := reach["max_von_mises_ever"].dropna("speed")).size:
         return {}
     worst = reach.sel(speed=known["speed"][int(np.argmax(known.values))])
-    return {f"max_von_mises_{name}": float(worst[f"max_von_mises_{name}"]) for name in PLACES}
+    places = (f"max_von_mises_{name}" for name in PLACES)
+    return {place: float(worst[place]) for place in places if place in worst}
 
 
 def _largest(reach: xr.Dataset, name: str) -> float:

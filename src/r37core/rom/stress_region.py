@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from r37core.fem.deviatoric import deviatoric
 from r37core.fem.material import Material
 from r37core.fem.stress import nodal_stress
 from r37core.mesh.blade_mesh import BladeMesh
+from r37core.rom.deviatoric import deviatoric
 
 from .recovery_nodes import RecoveryNodes
 from .region_choice import RegionChoice

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from r37core.base.io import atomic_write, readable
-from r37core.fem.deviatoric import deviatoric
+from r37core.rom.deviatoric import deviatoric
 
 
 def von_mises(stress: np.ndarray) -> np.ndarray:
