@@ -109,6 +109,7 @@ def test_every_key_of_the_shipped_files_is_there(root, rows):
             if "of_scenes" in steps or not steps:
                 continue
             shown = ".".join("[]" if isinstance(step, int) else step for step in steps).replace(".[]", "[]")
+            shown = re.sub(r"^(structure\.stress_regions)\.\w+", r"\1.NAME", shown)
             steps_up = shown.split(".")[:-1]
             above = keys.get(".".join(steps_up), [""])[-1]
             referred = "keys of `" in above  # rows of models that come again are elsewhere

@@ -78,14 +78,15 @@ def _label(axes: Axes, rows: pd.DataFrame, keys: Sequence[str]) -> None:
 
 
 def _draw_verdict(axes: Axes, rows: pd.DataFrame, keys: Sequence[str], verdict: pd.DataFrame) -> None:
-    """A mark on each design that meets all requirements, and lines round those that meet each."""
+    """A mark on each design that meets all requirements, and lines round those that do not fail one."""
     judged = rows[["blade", "scene", *keys]].merge(verdict, on=["blade", "scene"])
     judged = judged.assign(meets=judged["verdict"].isin(["meets", "does not apply"]).astype(float))
     up, across = np.nonzero(_grid(judged, keys, "meets", "min") == 1.0)
     if len(up):
         axes.plot(across, up - 0.3, "o", color="white", markeredgecolor="black", markersize=5, label="meets all requirements")
+    judged = judged.assign(keeps=(judged["verdict"] != "fails").astype(float))
     for number, (name, part) in enumerate(judged.groupby("requirement", sort=False)):
-        borders = _borders(_grid(part, keys, "meets", "min"))
+        borders = _borders(_grid(part, keys, "keeps", "min"))
         if borders:
             # dashed on solid, where limits lie on each other
             colour, dashes = style.COLOURS[(1 + number) % len(style.COLOURS)], "--" if number % 2 else "-"
