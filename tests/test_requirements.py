@@ -12,7 +12,19 @@ from r37core.fem.assembly import mesh_volume
 from r37core.product.reading import read_settings
 from r37core.requirements.choice import CampbellMargin, Requirements
 from r37core.requirements.evidence import Evidence, overlaid
-from r37core.requirements.judging import FAILS, LESS_FRICTION, MEETS, NOT_APPLICABLE, REST, UNKNOWN, UP, fails_clearly, judge
+from r37core.requirements.judging import (
+    DOWN,
+    FAILS,
+    LESS_FRICTION,
+    MEETS,
+    NOT_APPLICABLE,
+    REST,
+    UNKNOWN,
+    UP,
+    fails_clearly,
+    judge,
+    nearness,
+)
 from r37core.requirements.plan import remarks
 from r37core.requirements.table import Sureness, closing, operating_table, overall, reason, verdict_table
 from r37core.results.operating_range import OperatingDwell, OperatingRange
@@ -196,6 +208,61 @@ def test_a_motion_that_grows_near_the_limit_cannot_tell():
     assert (judgement["verdict"], judgement["note"][:52]) == (UNKNOWN, "the motion still grows as the run ends, at 1150 rad/")
     far = np.where(SPEEDS == 1100.0, MotionAtEnd.GROWING, MotionAtEnd.QUIET)
     assert one(NEEDS, response=runs.assign(motion_at_end=("speed", far)))["verdict"] == MEETS
+
+
+def test_chance_in_a_bare_casing_moves_a_length():
+    """Half of the revolutions, more or less, are above yield from 1100 to 1200 rad/s: no length near the limit is sure."""
+    shares = np.where((SPEEDS >= 1100.0) & (SPEEDS <= 1200.0), np.random.default_rng(0).uniform(0.4, 0.6, len(SPEEDS)), 0.01)
+    bare = response(shares).assign(lined=0.0)
+    found = one(Requirements(above_yield=1000.0), response=bare)
+    value, scatter = found["value"], found["scatter"]
+    assert scatter > 1.0 and found["verdict"] == MEETS
+    for limit, verdict in ((-2.1, FAILS), (-1.9, UNKNOWN), (1.9, UNKNOWN), (2.1, MEETS)):
+        judgement = one(Requirements(above_yield=value + limit * scatter), response=bare)
+        assert judgement["verdict"] == verdict, limit
+    assert np.isnan(one(Requirements(above_yield=1000.0), response=response(shares))["scatter"])
+
+
+def test_how_near_runs_come_to_a_limit():
+    median = np.where(SPEEDS == 1100.0, 0.9, 0.5)
+    runs = response(above(2000.0, 2000.0), max_von_mises_median=("speed", median), yield_stress=1.0, fatigue_strength=6e8)
+    runs = runs.assign(goodman_share=0.4 + 0.0 * runs["status"], used_thickness=1e-3 + 0.0 * runs["status"])
+    evidence = Evidence(runs, operating=FLOWN, thickness=5e-3)
+    assert nearness(NEEDS, evidence).max() == 0.9
+    assert nearness(Requirements(goodman_share=0.5), evidence).max() == pytest.approx(0.8)
+    assert nearness(Requirements(used_lining=0.25), evidence).max() == pytest.approx(0.8)
+    both = nearness(Requirements(above_yield=0.0, goodman_share=0.5), evidence)
+    assert (both.min(), both.max()) == (pytest.approx(0.8), 0.9)
+    runs["status"][0] = RunStatus.DIVERGED
+    assert nearness(NEEDS, evidence)[0] == np.inf
+
+
+def test_the_worst_of_several_motions_counts_and_by_how_little_does_not_matter():
+    share = np.full(len(SPEEDS), 0.2)
+    runs = response(above(2000.0, 2000.0), goodman_share=("speed", share), fatigue_strength=6e8)
+    up, down = (runs.assign(goodman_share=("speed", factor * share)) for factor in (3.0, 3.5))
+    judgement = one(Requirements(goodman_share=0.5), response=runs, looks={REST: runs, UP: up, DOWN: down})
+    assert judgement["verdict"] == UNKNOWN and judgement["margin_worst_motion"] == pytest.approx(-0.2)
+    assert judgement["note"].startswith("fails carried up by 0.1; fails carried down by 0.2")
+
+
+def test_what_lies_outside_of_the_range_neither_grows_nor_diverges():
+    median = np.where(SPEEDS == 1020.0, 0.9, 0.5)
+    runs = response(above(2000.0, 2000.0), max_von_mises_median=("speed", median), yield_stress=1.0)
+    growing = np.where(SPEEDS == 1020.0, MotionAtEnd.GROWING, MotionAtEnd.QUIET)
+    assert one(NEEDS, response=runs.assign(motion_at_end=("speed", growing)))["verdict"] == MEETS
+    # up to the next run nothing is known beside one that diverged, however near that is
+    runs = response(above(2000.0, 2000.0), goodman_share=("speed", np.full(len(SPEEDS), 0.2)), fatigue_strength=6e8)
+    runs["status"][place(1045.0)] = RunStatus.DIVERGED
+    near = OperatingRange(1049.9, 1060.0)
+    assert one(Requirements(goodman_share=0.5), response=runs, operating=near)["verdict"] == FAILS
+    # no lining used: no speed where it is worst
+    unworn = runs.assign(used_thickness=0.0 * runs["goodman_share"], worn_through_share=0.0 * runs["goodman_share"])
+    unworn["status"][:] = RunStatus.COMPLETED
+    judgement = one(Requirements(used_lining=0.5), response=unworn, thickness=5e-3)
+    assert (judgement["value"], judgement["verdict"]) == (0.0, MEETS) and np.isnan(judgement["from_rad_s"])
+    rotating = response(above(2000.0, 2000.0), static_stress=1.0)
+    assert one(NEEDS, response=rotating)["note"] == "" and "vibration alone" in one(NEEDS)["note"]
 
 
 def test_runs_over_others():

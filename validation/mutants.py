@@ -31,6 +31,7 @@ TESTS = {
     "contact/laws.py": "test_contact.py",
     "fem/matrices.py": "test_fem.py",
     "results/campbell.py": "test_campbell.py",
+    "requirements/": "test_requirements.py test_looks.py",
     "results/closing.py": "test_closing.py",
     "results/contact_ranges.py": "test_exceedance.py",
     "results/datasets.py": "test_results.py",

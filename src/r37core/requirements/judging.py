@@ -232,7 +232,7 @@ def _above_yield(evidence: Evidence) -> Columns:
 
 def _has_rotation(response: xr.Dataset) -> bool:
     """True where the stress of rotation is in that of the response."""
-    return "static_stress" in response and bool(response["static_stress"] > 0.0)
+    return "static_stress" in response and bool(response["static_stress"])
 
 
 def _goodman_share(evidence: Evidence) -> Columns:
