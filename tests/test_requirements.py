@@ -159,6 +159,8 @@ def test_speeds_too_far_apart_for_an_interaction_cannot_tell_that_a_limit_is_kep
     assert judgement["verdict"] == UNKNOWN and judgement["note"].startswith("speeds lie up to 10 rad/s apart")
     # where nothing touches at any speed, nothing is hidden
     assert one(NEEDS, response=coarse.assign(share_of_time_in_contact=0.0 * coarse["status"]))["verdict"] == MEETS
+    touching = coarse.assign(share_of_time_in_contact=0.3 + 0.0 * coarse["status"])
+    assert one(NEEDS, response=touching)["verdict"] == UNKNOWN
     # where it is not kept they tell
     assert one(NEEDS, response=response(above(1100.0, 1120.0)).isel(speed=slice(None, None, 2)))["verdict"] == FAILS
 
