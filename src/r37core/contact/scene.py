@@ -1,7 +1,7 @@
 """A scene: what the blade meets. Plain numbers only, so that its repr tells whether it was edited."""
 
-from dataclasses import dataclass
-from typing import Annotated
+from dataclasses import dataclass, replace
+from typing import Annotated, Self
 
 import numpy as np
 
@@ -141,3 +141,14 @@ class Scene:
         if isinstance(table, DampingTable):
             return np.interp(frequencies / (2.0 * np.pi), table.frequencies, table.ratios)
         return table
+
+    @property
+    def grown(self) -> Self:
+        """The scene with lobes that are full-grown from the start."""
+        return replace(self, casing=replace(self.casing, rise_fraction=0.0, rise_revolutions=None))
+
+    def rising_over(self, revolutions: float) -> Self:
+        """The scene with lobes that grow as in a run of so many `revolutions`, however long a run is."""
+        if self.casing.rise_revolutions is not None:
+            return self
+        return replace(self, casing=replace(self.casing, rise_revolutions=self.casing.rise_fraction * revolutions))

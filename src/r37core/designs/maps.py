@@ -22,8 +22,8 @@ def draw_design_map(
 ) -> Figure:
     """Length above yield in most revolutions over two keys, a panel for each of what does not vary.
 
-    `compared`: a Compared, as plain values; `verdict`: verdict.csv, whose requirements are lines between designs that meet
-    them and others, and marks on the designs that meet all.
+    `compared`: a Compared, as plain values; `verdict`: verdict.csv, whose requirements are lines round the designs
+    that do not fail them, and marks on those that meet all.
     """
     chosen = from_plain(Compared, compared)
     column = length_column(table)

@@ -89,18 +89,22 @@ class Evidence:
         return "" if narrow else f"speeds lie up to {self.gap:.3g} rad/s apart, and an interaction may be {WIDTH:g} wide"
 
     @property
+    def operates(self) -> np.ndarray:
+        """Runs in the operating range: true or false, shape (speeds,)."""
+        speeds = self.response["speed"].values
+        return (speeds >= self.operating.first) & (speeds <= self.operating.last)
+
+    @property
     def operated(self) -> xr.Dataset:
         """The runs in the operating range."""
-        speeds = self.response["speed"]
-        return self.response.isel(speed=np.flatnonzero((speeds >= self.operating.first) & (speeds <= self.operating.last)))
+        return self.response.isel(speed=np.flatnonzero(self.operates))
 
     def growing(self, near: np.ndarray) -> str:
         """Where a motion still grows as its run ends, of runs `near` a limit, shape (speeds,); empty where none does."""
         if "motion_at_end" not in self.response:
             return ""
-        speeds = self.response["speed"].values
         grows = near & (self.response["motion_at_end"].values == MotionAtEnd.GROWING)
-        speeds = speeds[grows & (speeds >= self.operating.first) & (speeds <= self.operating.last)]
+        speeds = self.response["speed"].values[grows & self.operates]
         return f"the motion still grows as the run ends, at {speeds[0]:.5g} rad/s" if len(speeds) else ""
 
     @property

@@ -21,6 +21,7 @@ from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperators
 from r37core.stress.statistic import Strengths
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
+from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import numbers_of_run
@@ -58,44 +59,33 @@ class JudgedBlade:
     @cached_property
     def long_choice(self) -> IntegrationChoice:
         """Time integration of a run that ends as it has settled."""
-        choice = replace(self.choice, revolutions=max(self.choice.revolutions, LONGEST), until_settled=True)
-        return self._recorded(choice)
+        return replace(self.choice, revolutions=max(self.choice.revolutions, LONGEST), until_settled=True).recorded
 
     @cached_property
     def rising_scene(self) -> Scene:
         """The scene with lobes that grow as in the sweep's runs, however long a run is."""
-        casing = self.scene.casing
-        if casing.rise_revolutions is None:
-            casing = replace(casing, rise_revolutions=casing.rise_fraction * self.choice.length_of_rise_fraction)
-        return replace(self.scene, casing=casing)
+        return self.scene.rising_over(self.choice.length_of_rise_fraction)
 
     def runs_from_rest(self, speeds: Iterable[float], scene: Scene | None = None, step: float = 1.0) -> xr.Dataset:
         """Runs from rest at speeds (rad/s), in another scene if it is given, with a share of the time `step`."""
         choice = replace(self.long_choice, time_step=step * self.long_choice.time_step)
-        return self._dataset({speed: self._numbers(speed, scene or self.rising_scene, choice) for speed in speeds})
+        runs = ((speed, Simulation(self.model, speed, scene or self.rising_scene, choice).run()) for speed in speeds)
+        return self._dataset({speed: self._row(run) for speed, run in runs})
 
     def carried(self, speeds: Sequence[float]) -> xr.Dataset:
         """The motion carried on from each speed (rad/s) to the next in an unworn lining, from rest at the first one."""
         step = resolved_problem(self.model, max(speeds), self.scene, self.choice).choice.time_step
-        choice = self._recorded(replace(self.choice, time_step=step, revolutions=CARRIED_REVOLUTIONS, until_settled=False))
-        grown = replace(self.scene, casing=replace(self.scene.casing, rise_fraction=0.0, rise_revolutions=None))
+        choice = replace(self.choice, time_step=step, revolutions=CARRIED_REVOLUTIONS, until_settled=False).recorded
         rows: dict[float, dict[str, Any]] = {}
         motion: CarriedMotion | None = None
         for speed in speeds:
-            run = Simulation(self.model, speed, grown, choice).run(motion)
+            run = Simulation(self.model, speed, self.scene.grown, choice).run(motion)
             motion = None if run.first_diverged is not None else CarriedMotion.ended(run.problem, run.states[0])
-            rows[speed] = self._row(numbers_of_run(run, self.results, stress=self.stress, **self.kept))
+            rows[speed] = self._row(run)
         return self._dataset(rows)
 
-    def _recorded(self, choice: IntegrationChoice) -> IntegrationChoice:
-        stress = choice.snapshots_per_revolution > 0
-        return replace(choice, snapshot_revolutions=choice.revolutions_in_statistic if stress else 0)
-
-    def _numbers(self, speed: float, scene: Scene, choice: IntegrationChoice) -> dict[str, Any]:
-        run = Simulation(self.model, speed, scene, choice).run()
-        return self._row(numbers_of_run(run, self.results, stress=self.stress, **self.kept))
-
-    def _row(self, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
+    def _row(self, run: FinishedRun) -> dict[str, Any]:
+        numbers = numbers_of_run(run, self.results, stress=self.stress, **self.kept)
         return run_row(numbers, self.yield_stress, self.strengths)
 
     def _dataset(self, rows: Mapping[float, Mapping[str, Any]]) -> xr.Dataset:

@@ -86,24 +86,19 @@ class CarriedSweep:
     @property
     def grown_scene(self) -> Scene:
         """The scene with lobes that are full-grown from the start."""
-        return replace(self.scene, casing=replace(self.scene.casing, rise_fraction=0.0, rise_revolutions=None))
+        return self.scene.grown
 
     @property
     def rising_scene(self) -> Scene:
         """The scene with lobes that grow as in a run of the pipeline, however long a run is."""
-        casing = self.scene.casing
-        if casing.rise_revolutions is None:
-            casing = replace(casing, rise_revolutions=casing.rise_fraction * self.choice.length_of_rise_fraction)
-        return replace(self.scene, casing=casing)
+        return self.scene.rising_over(self.choice.length_of_rise_fraction)
 
     @cached_property
     def carried_choice(self) -> IntegrationChoice:
         """Time integration of a speed to which the motion is carried, with its statistic over the last half."""
         highest = self.sweep.speeds[-1]
         step = resolved_problem(self.model, highest, self.scene, self.choice).choice.time_step
-        choice = replace(self.choice, time_step=step, revolutions=self.sweep.revolutions, until_settled=False)
-        stress = choice.snapshots_per_revolution > 0
-        return replace(choice, snapshot_revolutions=choice.revolutions_in_statistic if stress else 0)
+        return replace(self.choice, time_step=step, revolutions=self.sweep.revolutions, until_settled=False).recorded
 
     @property
     def unrecorded_choice(self) -> IntegrationChoice:

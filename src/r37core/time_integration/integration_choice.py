@@ -1,7 +1,7 @@
 """Numbers of a time integration."""
 
-from dataclasses import dataclass
-from typing import Annotated
+from dataclasses import dataclass, replace
+from typing import Annotated, Self
 
 from r37core.base.declared import Key
 
@@ -85,3 +85,8 @@ class IntegrationChoice:
         """
         length = min(self.revolutions, PUBLISHED_REVOLUTIONS) if self.until_settled else self.revolutions
         return length - length // 2
+
+    @property
+    def recorded(self) -> Self:
+        """The choice with snapshots of all revolutions in its statistic, if it has snapshots."""
+        return replace(self, snapshot_revolutions=self.revolutions_in_statistic if self.snapshots_per_revolution else 0)
