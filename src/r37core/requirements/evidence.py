@@ -56,7 +56,7 @@ class Evidence:
     error: float = 0.0
 
     def replaced(self, response: xr.Dataset) -> Self:
-        """The same of other runs."""
+        """The evidence with another response in place of its own."""
         return replace(self, response=response)
 
     @property
@@ -139,7 +139,7 @@ class Evidence:
         return float(inside[place]), float(places[place])
 
     def scaled(self, factor: float) -> Self:
-        """The same with stress, share of the Goodman line and used lining times a `factor`."""
+        """The evidence with stress, share of the Goodman line and used lining times a `factor`."""
         runs = self.response
         scale = ("max_von_mises_median", "goodman_share", "used_thickness")
         changed = {name: factor * runs[name] for name in scale if name in runs}

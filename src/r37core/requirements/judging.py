@@ -33,7 +33,7 @@ CLEARLY = 1.15
 """Factor by which stress and wear may be smaller where a requirement fails clearly."""
 
 LOWER_BOUND = "wear still grows at the end: a lower bound"
-"""Note on a value that meets no limit, however far from it."""
+"""Note on a lower bound: it meets no limit, however far it lies below."""
 
 _CHANCE = 2.0
 """Standard deviations by which chance may move a length."""

@@ -1,4 +1,4 @@
-"""Parts of a stress by which von Mises judges it. Light: the simulation jobs import it."""
+"""Parts of a stress whose length is the von Mises stress. Light: the simulation jobs import it."""
 
 import numpy as np
 

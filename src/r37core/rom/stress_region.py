@@ -10,8 +10,8 @@ import numpy as np
 from r37core.fem.material import Material
 from r37core.fem.stress import nodal_stress
 from r37core.mesh.blade_mesh import BladeMesh
-from r37core.rom.deviatoric import deviatoric
 
+from .deviatoric import deviatoric
 from .recovery_nodes import RecoveryNodes
 from .region_choice import RegionChoice
 
