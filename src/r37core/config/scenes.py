@@ -65,8 +65,8 @@ class DampingSection(Section):
         if any(after <= before for before, after in pairwise(self.frequencies_hz)):
             raise refused(("frequencies_hz",), f"{self.frequencies_hz}", "ascending frequencies")
         if len(self.ratios) != len(self.frequencies_hz):
-            found = f"{len(self.ratios)} numbers for {len(self.frequencies_hz)} frequencies"
-            raise refused(("ratios",), found, "one for each frequency")
+            lengths = f"{len(self.ratios)} numbers for {len(self.frequencies_hz)} frequencies"
+            raise refused(("ratios",), lengths, "one for each frequency")
         return self
 
 
