@@ -35,6 +35,7 @@ use rule step as verdict with:
         looked=judged.looked,
         not_looked=judged.not_looked,
         errors=judged.errors,
+        on_points=judged.on_points,
         requirements=judged.requirements,
         operating=operating,
         densities=judged.densities,

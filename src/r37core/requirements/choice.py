@@ -1,7 +1,7 @@
 """Requirements: what a blade has to keep in operation."""
 
-from dataclasses import dataclass, field
-from typing import Annotated
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Self
 
 from r37core.base.declared import Key
 from r37core.results.operating_range import OperatingRange
@@ -68,9 +68,14 @@ class Requirements:
     campbell_margins: tuple[CampbellMargin, ...] = field(default=())
 
     @property
+    def of_runs(self) -> Self:
+        """Those on what runs give."""
+        return replace(self, clearance=None, mass=None, campbell_margins=())
+
+    @property
     def any_of_runs(self) -> bool:
         """True if there is one on what runs give."""
-        return any(limit is not None for limit in (self.above_yield, self.goodman_share, self.used_lining))
+        return self.of_runs.any
 
     @property
     def any(self) -> bool:

@@ -20,6 +20,7 @@ JUDGED = (
     "motion_at_end",
     "share_of_revolutions_above_yield",
     "max_von_mises_median",
+    "max_von_mises_of_run",
     "goodman_share",
     "used_thickness",
     "worn_through_share",
@@ -40,7 +41,7 @@ class Evidence:
     `members`, `motions`: parts of the datasets of members under tolerances and of more motions. `looks`: further runs, see
     requirements.looks, each a response of JUDGED; none where none were done, for the reason in `not_looked`. `clearance` (m):
     of a casing whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); NaN each where not
-    known. `error`: relative error of stress and wear by mesh and step.
+    known. `error`: relative error of stress and wear by mesh and step. `on_points`: whether contact acts on points.
     """
 
     response: xr.Dataset
@@ -54,6 +55,7 @@ class Evidence:
     thickness: float = np.nan
     mass: float = np.nan
     error: float = 0.0
+    on_points: bool = False
 
     def replaced(self, response: xr.Dataset) -> Self:
         """The evidence with another response in place of its own."""
@@ -79,8 +81,14 @@ class Evidence:
 
     @property
     def touches(self) -> bool:
-        """True unless the runs over the operating range say that the tip never touches casing or lining."""
-        return "share_of_time_in_contact" not in self.response or bool((self.operated["share_of_time_in_contact"] > 0.0).any())
+        """True unless runs over the whole operating range say that the tip never touches casing or lining.
+
+        Where the clearance changes with the speed it may touch between them.
+        """
+        if "share_of_time_in_contact" not in self.response or self.not_covered or np.isnan(self.clearance):
+            return True
+        touching = self.diverged | ~(self.response["share_of_time_in_contact"].values <= 0.0)
+        return bool(np.any(touching & self._spans))
 
     @property
     def too_coarse(self) -> str:
@@ -93,6 +101,30 @@ class Evidence:
         """Runs in the operating range: true or false, shape (speeds,)."""
         speeds = self.response["speed"].values
         return (speeds >= self.operating.first) & (speeds <= self.operating.last)
+
+    @property
+    def _spans(self) -> np.ndarray:
+        """Runs in the operating range and, where it begins or ends between two, the nearest outside, shape (speeds,)."""
+        speeds, ran = self.response["speed"].values, self.response["status"].values != RunStatus.NOT_RUN
+        below = np.max(speeds, where=ran & (speeds <= self.operating.first), initial=-np.inf)
+        above = np.min(speeds, where=ran & (speeds >= self.operating.last), initial=np.inf)
+        return ran & (speeds >= below) & (speeds <= above)
+
+    @property
+    def within(self) -> Self:
+        """The evidence without stress and wear of runs outside of the operating range."""
+        kept = {
+            name: self.response[name].where(self.operates, RunStatus.COMPLETED if name == "status" else 0.0)
+            for name in JUDGED
+            if name in self.response
+        }
+        return self.replaced(self.response.assign(kept))
+
+    def lacks(self, name: str) -> str:
+        """Where a completed run has no number of this `name`; empty where all have."""
+        completed = self._spans & (self.response["status"].values == RunStatus.COMPLETED)
+        speeds = self.response["speed"].values[completed & np.isnan(self.response[name].values)]
+        return f"no {name} at {speeds[0]:.5g} rad/s" if len(speeds) else ""
 
     @property
     def operated(self) -> xr.Dataset:
@@ -163,10 +195,20 @@ def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
     return joined.assign({name: above[name] for name in OF_ALL if name in above})
 
 
+def beside(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
+    """Runs `above`, and those of `below` at speeds that these do not reach to."""
+    speeds, reached = below["speed"].values, above["speed"].values
+    return overlaid(below.isel(speed=np.flatnonzero((speeds < reached.min()) | (speeds > reached.max()))), above)
+
+
 def worst_of(motions: xr.Dataset) -> xr.Dataset:
     """Response whose stress and wear are the largest of all motions, of a dataset over (motion, speed)."""
     kept = motions[[name for name in (*JUDGED, *OF_ALL) if name in motions]].reset_coords(drop=True)
-    return kept.max("motion") if "motion" in kept.dims else kept
+    if "motion" not in kept.dims:
+        return kept
+    status = kept["status"]
+    diverged = (status == RunStatus.DIVERGED).any("motion")
+    return kept.max("motion").assign(status=xr.where(diverged, RunStatus.DIVERGED, status.min("motion")))
 
 
 def scatter_of_length(response: xr.Dataset, operating: OperatingRange, share: float) -> float:

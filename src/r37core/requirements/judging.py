@@ -1,6 +1,6 @@
 """Requirements judged: the value of each, its margin, where it is worst, and how certain that is."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import Requirements
-from .evidence import Evidence, overlaid, scatter_of_length, worst_of
+from .evidence import Evidence, beside, overlaid, scatter_of_length, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
@@ -29,11 +29,21 @@ _OTHER_MOTIONS = (UP, DOWN)
 NEAR = 0.7
 """Share of a limit from which a run counts as near to it."""
 
+GROWS = 0.5
+"""Share of a limit from which a motion that still grows may come to it."""
+
 CLEARLY = 1.15
 """Factor by which stress and wear may be smaller where a requirement fails clearly."""
 
 LOWER_BOUND = "wear still grows at the end: a lower bound"
 """Note on a lower bound: it meets no limit, however far it lies below."""
+
+VIBRATION_ALONE = "stress of vibration alone: add static_stress to the scene's results"
+"""Note on a stress without that of rotation: it meets no limit."""
+
+ON_POINTS = "contact acts on points, whose motion changes with the mesh: structure.boundary.contact: patches"
+
+NO_CONTACT = "the tip touches nothing, which needs no further runs"
 
 _CHANCE = 2.0
 """Standard deviations by which chance may move a length."""
@@ -57,6 +67,7 @@ COLUMNS = (
     "members",
     "share_of_members",
     "margin_worst_motion",
+    "further_runs",
     "note",
 )
 """Columns of verdict.csv after blade and scene.
@@ -65,7 +76,7 @@ COLUMNS = (
 `value_highest`: of everything that was tried. `margin`: distance from the limit, above 0 where the requirement is met.
 `from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard deviation of the value by chance; `members`,
 `share_of_members`: number of members under tolerances, and the share of them that meets it; `margin_worst_motion`: margin of
-the worst of all motions; NaN each where not run.
+the worst of all motions; NaN each where not run. `further_runs`: how many there were, NaN of what is not judged by runs.
 """
 
 
@@ -88,8 +99,8 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, 
 
 
 def fails_clearly(requirements: Requirements, evidence: Evidence) -> list[str]:
-    """Requirements that runs fail, with stress and wear smaller by CLEARLY, too."""
-    smaller = evidence.scaled(1.0 / CLEARLY)
+    """Requirements that runs inside the operating range fail, with stress and wear smaller by CLEARLY, too."""
+    smaller = evidence.within.scaled(1.0 / CLEARLY)
     names = []
     for name, (_, factor, columns_of) in _OF_RUNS.items():
         limit = getattr(requirements, name)
@@ -100,6 +111,17 @@ def fails_clearly(requirements: Requirements, evidence: Evidence) -> list[str]:
 
 def nearness(requirements: Requirements, evidence: Evidence) -> np.ndarray:
     """How near each run comes to a limit, shape (speeds,): 1 at the nearest limit, infinite where it diverged."""
+    return np.where(evidence.diverged, np.inf, np.max(_shares_of_limits(requirements, evidence), axis=0))
+
+
+def closeness(requirements: Requirements, evidence: Evidence) -> np.ndarray:
+    """How close each run lies to a limit, below or above it, shape (speeds,): 1 at a limit, 0 far off or where it diverged."""
+    shares = _shares_of_limits(requirements, evidence)
+    return np.where(evidence.diverged, 0.0, np.max(np.minimum(shares, 1.0 / np.maximum(shares, 1.0)), axis=0))
+
+
+def _shares_of_limits(requirements: Requirements, evidence: Evidence) -> np.ndarray:
+    """Stress and wear of each run as a share of each limit, shape (limits + 1, speeds); the first row is 0."""
     runs, shares = evidence.response, [np.zeros(evidence.response.sizes["speed"])]
     if requirements.above_yield is not None and "max_von_mises_median" in runs:
         shares.append((runs["max_von_mises_median"] / runs["yield_stress"]).values)
@@ -107,7 +129,7 @@ def nearness(requirements: Requirements, evidence: Evidence) -> np.ndarray:
         shares.append(runs["goodman_share"].values / requirements.goodman_share)
     if requirements.used_lining is not None and "used_thickness" in runs:
         shares.append(runs["used_thickness"].values / evidence.thickness / requirements.used_lining)
-    return np.where(evidence.diverged, np.inf, np.nan_to_num(np.max(shares, axis=0)))
+    return np.nan_to_num(np.array(shares))
 
 
 def _row(requirement: str, unit: str, limit: float, columns: Columns, *, is_lower_limit: bool = False) -> dict[str, Any]:
@@ -130,16 +152,15 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     """The row of a requirement on runs: it meets where all that was tried does, and fails where none of it meets."""
     unit, factor, columns_of = _OF_RUNS[requirement]
     limit, only = factor * getattr(requirements, requirement), Requirements(**{requirement: getattr(requirements, requirement)})
-    motions = _motions(evidence)
+    further_runs = float(sum(runs.sizes["speed"] for runs in evidence.looks.values()))
     if REST in evidence.looks:
         evidence = evidence.replaced(evidence.looks[REST])
-    columns = columns_of(evidence)
-    row = _row(requirement, unit, limit, columns) | _members(columns_of, limit, evidence)
+    columns, motions = columns_of(evidence), _motions(evidence)
+    row = _row(requirement, unit, limit, columns) | _members(columns_of, limit, evidence) | {"further_runs": further_runs}
     if "verdict" in columns or np.isnan(row["value"]):
         return row
-    tried = {name: columns_of(other) for name, other in _tried(evidence).items()} | {
-        name: columns_of(evidence.replaced(runs)) for name, runs in motions.items()
-    }
+    others = _tried(evidence) | motions
+    tried = {name: columns_of(other) for name, other in (others | _by_error(evidence)).items()}
     margins = {name: margin for name, each in tried.items() if not np.isnan(margin := _margin(each, limit))}
     values = [value for each in (columns, *tried.values()) if np.isfinite(value := each.get("value", np.nan))]
     scatter = columns.get("scatter", np.nan)
@@ -147,48 +168,85 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
         margins |= {"by chance": limit - row["value"] - np.copysign(_CHANCE * scatter, limit - row["value"])}
     row |= {"value_lowest": min(values), "value_highest": max(values)}
     row["margin_worst_motion"] = min((margins[name] for name in motions if name in margins), default=np.nan)
-    growing = evidence.growing(nearness(only, evidence) >= NEAR)
     if row["verdict"] == FAILS:
         # another motion that keeps the limit takes nothing from one that does not
-        margins = {name: margin for name, margin in margins.items() if name not in motions}
-    doubts = _doubts(row, margins, evidence, growing)
+        kept = [name for name, margin in margins.items() if margin >= 0.0 and name not in motions]
+        doubts = [f"meets {' and '.join(kept)}"] if kept else []
+    else:
+        growing = next(filter(None, (_growing(only, name, other) for name, other in ({"": evidence} | others).items())), "")
+        doubts = [*_failed(columns_of, limit, margins, others, unit), *filter(None, [evidence.too_coarse, growing])]
+        doubts += _left_out(evidence, row["note"])
     if doubts:
         row |= {"verdict": UNKNOWN, "note": "; ".join(dict.fromkeys([*doubts, *filter(None, [row["note"]])]))}
+    elif row["verdict"] == MEETS and not evidence.touches:
+        row["note"] = NO_CONTACT
     return row
 
 
-def _doubts(row: dict[str, Any], margins: dict[str, float], evidence: Evidence, growing: str) -> list[str]:
-    """Reasons why a verdict by the main runs alone is not sure; of a failed one, only what meets the limit."""
-    unit = "" if row["unit"] == "1" else f" {row['unit']}"
-    if row["verdict"] == FAILS:
-        kept = [name for name, margin in margins.items() if margin >= 0.0]
-        return [f"meets {' and '.join(kept)}"] if kept else []
-    failed = [(name, margin) for name, margin in margins.items() if margin < 0.0]
-    how = [f"fails {name}" + (f" by {-margin:.3g}{unit}" if np.isfinite(margin) else "") for name, margin in failed]
-    bound = row["note"] if row["note"] == LOWER_BOUND else ""
-    return [*how, *filter(None, [evidence.not_looked, evidence.too_coarse, growing, bound])]
+def _failed(
+    columns_of: Callable[[Evidence], Columns],
+    limit: float,
+    margins: Mapping[str, float],
+    others: Mapping[str, Evidence],
+    unit: str,
+) -> list[str]:
+    """What fails and by how much: of `margins`, and of `others` that keep the limit where stress and wear are not larger."""
+    failed = {name: margin for name, margin in margins.items() if margin < 0.0}
+    for name, other in others.items():
+        if name not in failed and other.error:
+            margin = _margin(columns_of(other.scaled(1.0 + other.error)), limit)
+            failed |= {f"{name} and {_percent(other.error)} more": margin} if margin < 0.0 else {}
+    in_unit = "" if unit == "1" else f" {unit}"
+    return [f"fails {name}" + (f" by {-by:.3g}{in_unit}" if np.isfinite(by) else "") for name, by in failed.items()]
+
+
+def _growing(only: Requirements, name: str, evidence: Evidence) -> str:
+    """Where a motion, tried by this name, still grows as its run ends and may come to the one limit; empty where none does."""
+    near = nearness(only, evidence)
+    # any wear is a lower bound then; a speed above yield counts in full already
+    near_enough = (near >= GROWS) & (near < 1.0) if only.above_yield is not None else near >= GROWS
+    where = evidence.growing(near_enough | (only.used_lining is not None))
+    return where and f"{where}{name and f', {name}'}"
+
+
+def _left_out(evidence: Evidence, note: str) -> list[str]:
+    """What the runs leave out, so that they cannot show that a limit is met; `note`: on the value."""
+    reasons = [bound for bound in (LOWER_BOUND, VIBRATION_ALONE) if bound in note]
+    return reasons + [text for text in (evidence.not_looked, evidence.on_points and ON_POINTS) if text and evidence.touches]
 
 
 def _tried(evidence: Evidence) -> dict[str, Evidence]:
-    """Runs with another friction or step, and stress and wear larger and smaller by the error of mesh and step."""
+    """Runs with another friction or step, and speeds that are above yield before the motion settles counted as above it."""
     chance = (MORE_FRICTION, LESS_FRICTION, HALF_STEP)
     tried = {
         f"with {name}": evidence.replaced(overlaid(evidence.response, evidence.looks[name]))
         for name in chance
         if name in evidence.looks
     }
-    if evidence.error:
-        percent = f"{100.0 * evidence.error:.2g}%"
-        tried[f"with {percent} more"] = evidence.scaled(1.0 + evidence.error)
-        tried[f"with {percent} less"] = evidence.scaled(1.0 / (1.0 + evidence.error))
+    runs = evidence.response
+    if "max_von_mises_of_run" in runs:
+        share = runs["share_of_revolutions_above_yield"].where(~(runs["max_von_mises_of_run"] > runs["yield_stress"]), 1.0)
+        tried["before it settles"] = evidence.replaced(runs.assign(share_of_revolutions_above_yield=share))
     return tried
 
 
-def _motions(evidence: Evidence) -> dict[str, xr.Dataset]:
-    """Motions other than that from rest."""
-    motions = {name: evidence.looks[name] for name in _OTHER_MOTIONS if name in evidence.looks}
-    if evidence.motions is not None:
-        motions["in the worst motion"] = worst_of(swept(evidence.motions))
+def _by_error(evidence: Evidence) -> dict[str, Evidence]:
+    """Stress and wear larger and smaller by the error of mesh and step."""
+    if not evidence.error:
+        return {}
+    percent, factor = _percent(evidence.error), 1.0 + evidence.error
+    return {f"with {percent} more": evidence.scaled(factor), f"with {percent} less": evidence.scaled(1.0 / factor)}
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g}%"
+
+
+def _motions(evidence: Evidence) -> dict[str, Evidence]:
+    """Motions other than that from rest, which stands in for them where they do not reach over the operating range."""
+    motions = {name: evidence.replaced(evidence.looks[name]) for name in _OTHER_MOTIONS if name in evidence.looks}
+    if evidence.motions is not None and (worst := worst_of(swept(evidence.motions))).sizes["speed"]:
+        motions["in the worst motion"] = evidence.replaced(beside(evidence.response, worst))
     return motions
 
 
@@ -214,13 +272,15 @@ def _worst_at(value: float, speed: float, note: str = "") -> Columns:
 def _above_yield(evidence: Evidence) -> Columns:
     operating, response = evidence.operating, evidence.response
     if "share_of_revolutions_above_yield" not in response:
-        return {"note": "stress is not computed"}
+        return {"note": "stress is not computed: add it to the scene's results"}
     if evidence.not_covered:
         return {"note": evidence.not_covered}
+    if lacking := evidence.lacks("share_of_revolutions_above_yield"):
+        return {"note": lacking}
     exceedance = exceedance_of(response)
     inside = [part for part in exceedance.ranges(MOST_REVOLUTIONS) if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
-    notes = [evidence.divergence, "" if _has_rotation(response) else "stress of vibration alone"]
+    notes = [evidence.divergence, _without_rotation(response)]
     return {
         "value": operating.length(inside),
         "from_rad_s": max(widest.begin, operating.first),
@@ -230,20 +290,24 @@ def _above_yield(evidence: Evidence) -> Columns:
     }
 
 
-def _has_rotation(response: xr.Dataset) -> bool:
-    """True where the stress of rotation is in that of the response."""
-    return "static_stress" in response and bool(response["static_stress"])
+def _without_rotation(response: xr.Dataset) -> str:
+    """The note on a response whose stress lacks that of rotation; empty where it has it."""
+    return "" if "static_stress" in response and bool(response["static_stress"]) else VIBRATION_ALONE
 
 
 def _goodman_share(evidence: Evidence) -> Columns:
     if "goodman_share" not in evidence.response:
-        return {"note": "fatigue is not computed"}
+        return {"note": "fatigue is not computed: add it to the scene's results"}
     if not has_strengths(evidence.response):
         return {"note": "the material has no strengths"}
     if evidence.not_covered:
         return {"note": evidence.not_covered}
+    if lacking := evidence.lacks("goodman_share"):
+        return {"note": lacking}
     share, speed = evidence.worst(np.where(evidence.diverged, np.inf, evidence.response["goodman_share"].values))
-    return _worst_at(share, speed) if np.isfinite(share) else _no_number(speed, evidence.divergence)
+    if not np.isfinite(share):
+        return _no_number(speed, evidence.divergence)
+    return _worst_at(share, speed)
 
 
 def _no_number(speed: float, note: str) -> Columns:
@@ -256,9 +320,11 @@ def _used_lining(evidence: Evidence) -> Columns:
     if not np.isfinite(evidence.thickness):
         return {"verdict": NOT_APPLICABLE, "note": "no lining"}
     if "used_thickness" not in response:
-        return {"note": "wear is not computed"}
+        return {"note": "wear is not computed: add it to the scene's results"}
     if evidence.not_covered:
         return {"note": evidence.not_covered}
+    if lacking := evidence.lacks("used_thickness"):
+        return {"note": lacking}
     # what is worn through has used all, and would use more
     through = (
         response["worn_through_share"].values > 0.0 if "worn_through_share" in response else np.zeros_like(evidence.diverged)

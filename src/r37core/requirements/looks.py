@@ -22,16 +22,13 @@ from r37core.stress.operator import StressOperators
 from r37core.stress.statistic import Strengths
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
 from r37core.time_integration.finished_run import FinishedRun
-from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import numbers_of_run
 
 from .choice import CARRIED_STEP, LONGEST, MOST_NEAR, STEP, Requirements
 from .evidence import JUDGED, OF_ALL, Evidence, overlaid
-from .judging import DOWN, HALF_STEP, LESS_FRICTION, MORE_FRICTION, NEAR, REST, UP, fails_clearly, nearness
-
-CARRIED_REVOLUTIONS = 100
-"""Revolutions at each speed that a motion is carried through."""
+from .judging import DOWN, HALF_STEP, LESS_FRICTION, MORE_FRICTION, NEAR, REST, UP, closeness, fails_clearly, nearness
 
 _PEAK_STEP = 0.7
 """Step (rad/s) between runs about a peak that comes near to the limit."""
@@ -58,8 +55,10 @@ class JudgedBlade:
 
     @cached_property
     def long_choice(self) -> IntegrationChoice:
-        """Time integration of a run that ends as it has settled."""
-        return replace(self.choice, revolutions=max(self.choice.revolutions, LONGEST), until_settled=True).recorded
+        """Time integration of a run that ends as it has settled, and keeps the stress of all its revolutions."""
+        longest = max(self.choice.revolutions, LONGEST)
+        kept = longest if self.choice.snapshots_per_revolution else 0
+        return replace(self.choice, revolutions=longest, snapshot_revolutions=kept, until_settled=True)
 
     @cached_property
     def rising_scene(self) -> Scene:
@@ -75,7 +74,7 @@ class JudgedBlade:
     def carried(self, speeds: Sequence[float]) -> xr.Dataset:
         """The motion carried on from each speed (rad/s) to the next in an unworn lining, from rest at the first one."""
         step = resolved_problem(self.model, max(speeds), self.scene, self.choice).choice.time_step
-        choice = replace(self.choice, time_step=step, revolutions=CARRIED_REVOLUTIONS, until_settled=False).recorded
+        choice = replace(self.long_choice, time_step=step)
         rows: dict[float, dict[str, Any]] = {}
         motion: CarriedMotion | None = None
         for speed in speeds:
@@ -86,7 +85,11 @@ class JudgedBlade:
 
     def _row(self, run: FinishedRun) -> dict[str, Any]:
         numbers = numbers_of_run(run, self.results, stress=self.stress, **self.kept)
-        return run_row(numbers, self.yield_stress, self.strengths)
+        row = run_row(numbers, self.yield_stress, self.strengths)
+        if "revolution_von_mises" in numbers:
+            # NaN after the end of a run that settled
+            row["max_von_mises_of_run"] = np.nan_to_num(numbers["revolution_von_mises"]).max(axis=1)
+        return row
 
     def _dataset(self, rows: Mapping[float, Mapping[str, Any]]) -> xr.Dataset:
         """Response of JUDGED, by ascending speed."""
@@ -101,8 +104,12 @@ class JudgedBlade:
 
 
 def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence) -> Iterator[tuple[str, xr.Dataset]]:
-    """Further runs, one look (LOOKS) after another, as long as no requirement fails clearly; none where nothing touches."""
-    if fails_clearly(requirements, evidence) or not evidence.touches:
+    """Further runs, one look (LOOKS) after another, as long as no requirement fails clearly; none where nothing touches.
+
+    A run shorter than the published ones shows a beginning alone, and fails nothing clearly.
+    """
+    long_enough = blade.choice.revolutions >= PUBLISHED_REVOLUTIONS
+    if (long_enough and fails_clearly(requirements, evidence)) or not evidence.touches:
         return
     first, last = evidence.operating.first, evidence.operating.last
     runs = blade.runs_from_rest(_closer(_speeds_within(evidence.speeds, first, last), STEP))
@@ -115,7 +122,7 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     carried = _closer([first, last], CARRIED_STEP)
     yield UP, blade.carried(carried)
     yield DOWN, blade.carried(carried[::-1])
-    near = np.sort(runs["speed"].values[np.argsort(-nearness(requirements, rest), kind="stable")[:MOST_NEAR]]).tolist()
+    near = np.sort(runs["speed"].values[np.argsort(-closeness(requirements, rest), kind="stable")[:MOST_NEAR]]).tolist()
     friction = blade.scene.friction
     if friction is not None:
         for look, factor in ((MORE_FRICTION, 1.0 + _FRICTION), (LESS_FRICTION, 1.0 - _FRICTION)):

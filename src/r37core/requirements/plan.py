@@ -1,6 +1,6 @@
 """requirements of config.yaml, and their plan: what is judged, by what, and where it lies."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import nan
 from typing import Any
@@ -98,13 +98,18 @@ class Judged:
         """Relative error of the level, by mesh and step, of each blade and scene; 0 where it was not measured."""
         settings, measured = self.sweep.settings, self.sweep.settings.fidelity.measured
         bare = {name for name, chosen in settings.scenes.items() if chosen.scene.lining is None}
-        points = {name for name in settings.blades if settings.contact_of(name) == POINTS}
         pairs = self.sweep.runs_with("rms")
-        return [(measured and measured.error_of(blade in points and scene in bare)) or 0.0 for blade, scene in pairs]
+        return [(measured and measured.error_of(blade in self.on_points and scene in bare)) or 0.0 for blade, scene in pairs]
+
+    @property
+    def on_points(self) -> list[str]:
+        """Blades whose contact acts on points."""
+        return [name for name in self.sweep.settings.blades if self.sweep.settings.contact_of(name) == POINTS]
 
     def looks(self, made: Provenance) -> Stage:
         """The stage of the further runs of a blade and scene."""
         simulations, settings = Simulations(self.sweep), self.sweep.settings
+        operating = operating_range(settings)
         params = {
             "scene": simulations.plain_scene,
             # of a run from rest: those of the pipeline
@@ -113,8 +118,10 @@ class Judged:
             "kept": self.sweep.kept,
             "yield_stress": self.sweep.yield_stress,
             "strengths": self.sweep.strengths,
-            "requirements": self.requirements,
-            "operating": to_plain(operating_range(settings)),
+            # nothing else moves a run
+            "requirements": to_plain(settings.section(SECTION).requirements().of_runs),
+            "operating": to_plain(operating and replace(operating, dwell=())),
+            "clearance": lambda wildcards: self.clearance.get(wildcards.scene, nan),
             "thickness": lambda wildcards: self.thickness.get(wildcards.scene, nan),
             "provenance": made.sweep,
         }

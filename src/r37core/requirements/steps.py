@@ -25,7 +25,7 @@ from .table import Sureness, operating_table, verdict_table
 def look(input: Any, output: Any, params: Any) -> None:
     """Run what could overturn the verdict on one blade and scene. Inputs: response, model, and stress. Output: looks (nc).
 
-    Params: scene, choice, results, kept, yield_stress, strengths, requirements, operating, thickness, provenance.
+    Params: scene, choice, results, kept, yield_stress, strengths, requirements, operating, clearance, thickness, provenance.
     """
     blade = JudgedBlade(
         read_contact_model(input.model),
@@ -40,6 +40,7 @@ def look(input: Any, output: Any, params: Any) -> None:
     evidence = Evidence(
         judged_part(read_judged(input.response)),
         operating=from_plain(OperatingRange, params.operating),
+        clearance=params.clearance,
         thickness=params.thickness,
     )
     looks = looks_of(blade, from_plain(Requirements, params.requirements), evidence)
@@ -51,7 +52,7 @@ def judge(input: Any, output: Any, params: Any) -> None:
 
     Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members and
     motions. Params: pairs, looked (those of them with looks), not_looked (why others have none), requirements, operating,
-    densities, clearance and thickness by scene, errors (of each pair).
+    densities, clearance and thickness by scene, errors (of each pair), on_points (blades whose contact acts on points).
     """
     files = dict(input.items())
     shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)
@@ -62,7 +63,7 @@ def judge(input: Any, output: Any, params: Any) -> None:
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
     pairs = [(blade, scene) for blade, scene in params.pairs]
-    sureness = Sureness(looks, params.not_looked, dict(zip(pairs, params.errors, strict=True)))
+    sureness = Sureness(looks, params.not_looked, dict(zip(pairs, params.errors, strict=True)), params.on_points)
     write_table(verdict_table(pairs, requirements, operating, datasets, numbers, sureness), output.verdict, digits=6)
 
 
