@@ -231,7 +231,7 @@ def test_a_lined_row_has_both_widths():
     lined = response(speeds, np.where(last, 1.0, np.where(ever, 0.2, 0.0)), motion, lined=1)
     lined["max_von_mises"][:], lined["max_von_mises_ever"][:] = np.where(last, 2e9, 0.0), np.where(ever, 2e9, 0.0)
     (row,) = find_interactions(lined, campbell(), CHOICE)
-    assert (row["mode"], row["engine_order"], row["note"]) == ("1B", 6, "")
+    assert (row["mode"], row["engine_order"], row["note"]) == ("", None, "")
     assert (row["width_above_yield_rad_s"], row["width_ever_above_yield_rad_s"]) == (3.0, 5.0)
     assert row["length_most_revolutions_rad_s"] == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
 

@@ -167,6 +167,7 @@ def test_a_mesh_with_another_material(settings_with):
             {"stress_regions": {"tip": {"minimum_z_m": 1, "maximum_z_m": 0}}},
             r"Fan\.stress_regions\.tip\.minimum_z_m: found 1; allowed: less",
         ),
+        ({"stress_regions": {"operating": {}}}, r"Fan\.stress_regions\.operating: found 'operating'; allowed: another name"),
     ],
 )
 def test_meshes_that_cannot_be_meant(settings_with, changes, message):

@@ -1,6 +1,6 @@
 """Sections of all kinds of blades: a material, and regions of the stress."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Literal, Self
 
 from pydantic import model_validator
@@ -38,6 +38,12 @@ class RegionSection(Section):
             if None not in (lowest, highest) and not lowest < highest:
                 raise refused((lower,), f"{lowest:g}", f"less than {upper} ({highest:g})")
         return self
+
+
+def refuse_taken_names(regions: Iterable[str]) -> None:
+    """Refuse names of regions that other columns of ranking.csv end with."""
+    for name in {"operating", "rest", "scatter", "worst"}.intersection(regions):
+        raise refused(("stress_regions", name), f"'{name}'", "another name: columns of ranking.csv end like this")
 
 
 def chosen_regions(sections: Mapping[str, RegionSection | None]) -> dict[str, RegionChoice]:

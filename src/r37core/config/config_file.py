@@ -14,7 +14,7 @@ from r37core.results.interaction_choice import InteractionChoice
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice
 
-from .blade_sections import Contact, RegionSection
+from .blade_sections import Contact, RegionSection, refuse_taken_names
 from .declaring import DECLARED, declared_by, si_form
 from .section import AllOrNames, ByName, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
@@ -55,8 +55,7 @@ class StructureSection(Section):
     def _has_a_region(self) -> StructureSection:
         if not any(self.stress_regions.values()):
             raise refused(("stress_regions",), "no region", "one or more")
-        for name in {"operating", "rest", "worst"} & self.stress_regions.keys():
-            raise refused(("stress_regions", name), f"'{name}'", "another name: columns of ranking.csv end like this")
+        refuse_taken_names(self.stress_regions)
         return self
 
 

@@ -10,7 +10,7 @@ from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
 
-from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection, RegionSection
+from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection, RegionSection, refuse_taken_names
 from .declaring import DECLARED, declared_by, si_form
 from .section import ByName, FileName, LeftOut, Section, left_out, refused
 
@@ -111,6 +111,11 @@ class MeshEntry(Oriented):
     end_check: Any = DECLARED
     contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
     stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
+
+    @model_validator(mode="after")
+    def _has_names_of_its_own(self) -> MeshEntry:
+        refuse_taken_names(self.stress_regions or ())
+        return self
 
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""

@@ -88,7 +88,7 @@ class Evidence:
         if "share_of_time_in_contact" not in self.response or self.not_covered or np.isnan(self.clearance):
             return True
         touching = self.diverged | ~(self.response["share_of_time_in_contact"].values <= 0.0)
-        return bool(np.any(touching & self._spans))
+        return bool(np.any(touching & _spanning(self)))
 
     @property
     def too_coarse(self) -> str:
@@ -101,30 +101,6 @@ class Evidence:
         """Runs in the operating range: true or false, shape (speeds,)."""
         speeds = self.response["speed"].values
         return (speeds >= self.operating.first) & (speeds <= self.operating.last)
-
-    @property
-    def _spans(self) -> np.ndarray:
-        """Runs in the operating range and, where it begins or ends between two, the nearest outside, shape (speeds,)."""
-        speeds, ran = self.response["speed"].values, self.response["status"].values != RunStatus.NOT_RUN
-        below = np.max(speeds, where=ran & (speeds <= self.operating.first), initial=-np.inf)
-        above = np.min(speeds, where=ran & (speeds >= self.operating.last), initial=np.inf)
-        return ran & (speeds >= below) & (speeds <= above)
-
-    @property
-    def within(self) -> Self:
-        """The evidence without stress and wear of runs outside of the operating range."""
-        kept = {
-            name: self.response[name].where(self.operates, RunStatus.COMPLETED if name == "status" else 0.0)
-            for name in JUDGED
-            if name in self.response
-        }
-        return self.replaced(self.response.assign(kept))
-
-    def lacks(self, name: str) -> str:
-        """Where a completed run has no number of this `name`; empty where all have."""
-        completed = self._spans & (self.response["status"].values == RunStatus.COMPLETED)
-        speeds = self.response["speed"].values[completed & np.isnan(self.response[name].values)]
-        return f"no {name} at {speeds[0]:.5g} rad/s" if len(speeds) else ""
 
     @property
     def operated(self) -> xr.Dataset:
@@ -180,6 +156,32 @@ class Evidence:
             # the share itself is that of yield, so only which side of it most revolutions lie on is known
             changed["share_of_revolutions_above_yield"] = xr.where(above, np.maximum(share, 1.0), np.minimum(share, 0.0))
         return self.replaced(runs.assign(changed))
+
+
+def within(evidence: Evidence) -> Evidence:
+    """The evidence without stress and wear of runs outside of the operating range."""
+    runs = evidence.response
+    kept = {
+        name: runs[name].where(evidence.operates, RunStatus.COMPLETED if name == "status" else 0.0)
+        for name in JUDGED
+        if name in runs
+    }
+    return evidence.replaced(runs.assign(kept))
+
+
+def lacking(evidence: Evidence, name: str) -> str:
+    """Where a completed run has no number of this `name`; empty where all have."""
+    completed = _spanning(evidence) & (evidence.response["status"].values == RunStatus.COMPLETED)
+    speeds = evidence.response["speed"].values[completed & np.isnan(evidence.response[name].values)]
+    return f"no {name} at {speeds[0]:.5g} rad/s" if len(speeds) else ""
+
+
+def _spanning(evidence: Evidence) -> np.ndarray:
+    """Runs in the operating range and, where it begins or ends between two, the nearest outside, shape (speeds,)."""
+    speeds, ran = evidence.response["speed"].values, evidence.response["status"].values != RunStatus.NOT_RUN
+    below = np.max(speeds, where=ran & (speeds <= evidence.operating.first), initial=-np.inf)
+    above = np.min(speeds, where=ran & (speeds >= evidence.operating.last), initial=np.inf)
+    return ran & (speeds >= below) & (speeds <= above)
 
 
 def judged_part(response: xr.Dataset) -> xr.Dataset:

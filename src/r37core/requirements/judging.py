@@ -15,7 +15,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import Requirements
-from .evidence import Evidence, beside, overlaid, scatter_of_length, worst_of
+from .evidence import Evidence, beside, lacking, overlaid, scatter_of_length, within, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
@@ -100,7 +100,7 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, 
 
 def fails_clearly(requirements: Requirements, evidence: Evidence) -> list[str]:
     """Requirements that runs inside the operating range fail, with stress and wear smaller by CLEARLY, too."""
-    smaller = evidence.within.scaled(1.0 / CLEARLY)
+    smaller = within(evidence).scaled(1.0 / CLEARLY)
     names = []
     for name, (_, factor, columns_of) in _OF_RUNS.items():
         limit = getattr(requirements, name)
@@ -275,8 +275,8 @@ def _above_yield(evidence: Evidence) -> Columns:
         return {"note": "stress is not computed: add it to the scene's results"}
     if evidence.not_covered:
         return {"note": evidence.not_covered}
-    if lacking := evidence.lacks("share_of_revolutions_above_yield"):
-        return {"note": lacking}
+    if without := lacking(evidence, "share_of_revolutions_above_yield"):
+        return {"note": without}
     exceedance = exceedance_of(response)
     inside = [part for part in exceedance.ranges(MOST_REVOLUTIONS) if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
@@ -302,8 +302,8 @@ def _goodman_share(evidence: Evidence) -> Columns:
         return {"note": "the material has no strengths"}
     if evidence.not_covered:
         return {"note": evidence.not_covered}
-    if lacking := evidence.lacks("goodman_share"):
-        return {"note": lacking}
+    if without := lacking(evidence, "goodman_share"):
+        return {"note": without}
     share, speed = evidence.worst(np.where(evidence.diverged, np.inf, evidence.response["goodman_share"].values))
     if not np.isfinite(share):
         return _no_number(speed, evidence.divergence)
@@ -323,8 +323,8 @@ def _used_lining(evidence: Evidence) -> Columns:
         return {"note": "wear is not computed: add it to the scene's results"}
     if evidence.not_covered:
         return {"note": evidence.not_covered}
-    if lacking := evidence.lacks("used_thickness"):
-        return {"note": lacking}
+    if without := lacking(evidence, "used_thickness"):
+        return {"note": without}
     # what is worn through has used all, and would use more
     through = (
         response["worn_through_share"].values > 0.0 if "worn_through_share" in response else np.zeros_like(evidence.diverged)

@@ -111,14 +111,16 @@ def _peaks(response: xr.Dataset, campbell: xr.Dataset | None, direction: str, ch
 def _nearest_crossing(
     campbell: xr.Dataset | None, speed: float, strongest: int | None, choice: InteractionChoice
 ) -> tuple[str, int | None, float]:
-    """Mode, engine order and speed of the nearest Campbell crossing in the allowed window, of the strongest order if known."""
-    if campbell is None:
+    """Mode, engine order and speed of the nearest Campbell crossing of the strongest order in the allowed window.
+
+    Without a spectrum the order is not known, and of the many crossings the nearest says nothing.
+    """
+    if campbell is None or strongest is None:
         return "", strongest, float("nan")
     candidates: list[tuple[float, str, int, float]] = []
     for mode in NAMED_MODES:
         for order, crossing in campbell["crossing_speed"].sel(mode=mode).to_series().dropna().items():
-            fits = strongest is None or order == strongest
-            if fits and -choice.below * crossing <= speed - crossing <= choice.above * crossing:
+            if order == strongest and -choice.below * crossing <= speed - crossing <= choice.above * crossing:
                 candidates.append((abs(speed - crossing), mode, int(order), float(crossing)))
     return min(candidates)[1:] if candidates else ("", strongest, float("nan"))
 
