@@ -272,10 +272,10 @@ def test_stress_of_vibration_alone_and_contact_on_points_show_no_limit_to_be_kep
     judgement = one(NEEDS, response=alone)
     assert (judgement["verdict"], judgement["note"][:25]) == (UNKNOWN, "stress of vibration alone")
     assert one(NEEDS, response=response(above(1100.0, 1120.0), static_stress=0.0))["verdict"] == FAILS
-    judgement = one(NEEDS, on_points=True)
+    judgement = one(NEEDS, point_contact=True)
     assert judgement["verdict"] == UNKNOWN and judgement["note"].startswith("contact acts on points")
     quiet = response(above(2000.0, 2000.0)).assign(share_of_time_in_contact=("speed", np.zeros(len(SPEEDS))))
-    judgement = one(NEEDS, response=quiet, on_points=True, not_looked="no further runs of a rotor")
+    judgement = one(NEEDS, response=quiet, point_contact=True, not_looked="no further runs of a rotor")
     assert (judgement["verdict"], judgement["note"]) == (MEETS, "the tip touches nothing, which needs no further runs")
 
 

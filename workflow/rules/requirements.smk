@@ -35,7 +35,7 @@ use rule step as verdict with:
         looked=judged.looked,
         not_looked=judged.not_looked,
         errors=judged.errors,
-        on_points=judged.on_points,
+        point_contact=judged.point_contact,
         requirements=judged.requirements,
         operating=operating,
         densities=judged.densities,

@@ -68,14 +68,14 @@ class Requirements:
     campbell_margins: tuple[CampbellMargin, ...] = field(default=())
 
     @property
-    def of_runs(self) -> Self:
-        """Those on what runs give."""
+    def run_requirements(self) -> Self:
+        """Requirements on what runs give alone."""
         return replace(self, clearance=None, mass=None, campbell_margins=())
 
     @property
     def any_of_runs(self) -> bool:
         """True if there is one on what runs give."""
-        return self.of_runs.any
+        return self.run_requirements.any
 
     @property
     def any(self) -> bool:

@@ -41,7 +41,7 @@ class Evidence:
     `members`, `motions`: parts of the datasets of members under tolerances and of more motions. `looks`: further runs, see
     requirements.looks, each a response of JUDGED; none where none were done, for the reason in `not_looked`. `clearance` (m):
     of a casing whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); NaN each where not
-    known. `error`: relative error of stress and wear by mesh and step. `on_points`: whether contact acts on points.
+    known. `error`: relative error of stress and wear by mesh and step. `point_contact`: whether contact acts on points.
     """
 
     response: xr.Dataset
@@ -55,7 +55,7 @@ class Evidence:
     thickness: float = np.nan
     mass: float = np.nan
     error: float = 0.0
-    on_points: bool = False
+    point_contact: bool = False
 
     def replaced(self, response: xr.Dataset) -> Self:
         """The evidence with another response in place of its own."""
@@ -158,7 +158,7 @@ class Evidence:
         return self.replaced(runs.assign(changed))
 
 
-def within(evidence: Evidence) -> Evidence:
+def operated_alone(evidence: Evidence) -> Evidence:
     """The evidence without stress and wear of runs outside of the operating range."""
     runs = evidence.response
     kept = {
@@ -197,7 +197,7 @@ def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
     return joined.assign({name: above[name] for name in OF_ALL if name in above})
 
 
-def beside(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
+def extended(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
     """Runs `above`, and those of `below` at speeds that these do not reach to."""
     speeds, reached = below["speed"].values, above["speed"].values
     return overlaid(below.isel(speed=np.flatnonzero((speeds < reached.min()) | (speeds > reached.max()))), above)

@@ -15,7 +15,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import Requirements
-from .evidence import Evidence, beside, lacking, overlaid, scatter_of_length, within, worst_of
+from .evidence import Evidence, extended, lacking, operated_alone, overlaid, scatter_of_length, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
@@ -100,7 +100,7 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, 
 
 def fails_clearly(requirements: Requirements, evidence: Evidence) -> list[str]:
     """Requirements that runs inside the operating range fail, with stress and wear smaller by CLEARLY, too."""
-    smaller = within(evidence).scaled(1.0 / CLEARLY)
+    smaller = operated_alone(evidence).scaled(1.0 / CLEARLY)
     names = []
     for name, (_, factor, columns_of) in _OF_RUNS.items():
         limit = getattr(requirements, name)
@@ -160,7 +160,7 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     if "verdict" in columns or np.isnan(row["value"]):
         return row
     others = _tried(evidence) | motions
-    tried = {name: columns_of(other) for name, other in (others | _by_error(evidence)).items()}
+    tried = {name: columns_of(other) for name, other in (others | _larger_and_smaller(evidence)).items()}
     margins = {name: margin for name, each in tried.items() if not np.isnan(margin := _margin(each, limit))}
     values = [value for each in (columns, *tried.values()) if np.isfinite(value := each.get("value", np.nan))]
     scatter = columns.get("scatter", np.nan)
@@ -190,14 +190,14 @@ def _failed(
     others: Mapping[str, Evidence],
     unit: str,
 ) -> list[str]:
-    """What fails and by how much: of `margins`, and of `others` that keep the limit where stress and wear are not larger."""
+    """Tries that fail, and by how much: of `margins`, and of `others` that keep the limit, with the error of mesh and step."""
     failed = {name: margin for name, margin in margins.items() if margin < 0.0}
     for name, other in others.items():
         if name not in failed and other.error:
             margin = _margin(columns_of(other.scaled(1.0 + other.error)), limit)
             failed |= {f"{name} and {_percent(other.error)} more": margin} if margin < 0.0 else {}
-    in_unit = "" if unit == "1" else f" {unit}"
-    return [f"fails {name}" + (f" by {-by:.3g}{in_unit}" if np.isfinite(by) else "") for name, by in failed.items()]
+    suffix = "" if unit == "1" else f" {unit}"
+    return [f"fails {name}" + (f" by {-margin:.3g}{suffix}" if np.isfinite(margin) else "") for name, margin in failed.items()]
 
 
 def _growing(only: Requirements, name: str, evidence: Evidence) -> str:
@@ -210,9 +210,9 @@ def _growing(only: Requirements, name: str, evidence: Evidence) -> str:
 
 
 def _left_out(evidence: Evidence, note: str) -> list[str]:
-    """What the runs leave out, so that they cannot show that a limit is met; `note`: on the value."""
+    """Reasons why runs cannot show that a limit is met, by what they leave out; `note`: on the value."""
     reasons = [bound for bound in (LOWER_BOUND, VIBRATION_ALONE) if bound in note]
-    return reasons + [text for text in (evidence.not_looked, evidence.on_points and ON_POINTS) if text and evidence.touches]
+    return reasons + [text for text in (evidence.not_looked, evidence.point_contact and ON_POINTS) if text and evidence.touches]
 
 
 def _tried(evidence: Evidence) -> dict[str, Evidence]:
@@ -230,7 +230,7 @@ def _tried(evidence: Evidence) -> dict[str, Evidence]:
     return tried
 
 
-def _by_error(evidence: Evidence) -> dict[str, Evidence]:
+def _larger_and_smaller(evidence: Evidence) -> dict[str, Evidence]:
     """Stress and wear larger and smaller by the error of mesh and step."""
     if not evidence.error:
         return {}
@@ -246,7 +246,7 @@ def _motions(evidence: Evidence) -> dict[str, Evidence]:
     """Motions other than that from rest, which stands in for them where they do not reach over the operating range."""
     motions = {name: evidence.replaced(evidence.looks[name]) for name in _OTHER_MOTIONS if name in evidence.looks}
     if evidence.motions is not None and (worst := worst_of(swept(evidence.motions))).sizes["speed"]:
-        motions["in the worst motion"] = evidence.replaced(beside(evidence.response, worst))
+        motions["in the worst motion"] = evidence.replaced(extended(evidence.response, worst))
     return motions
 
 

@@ -99,10 +99,12 @@ class Judged:
         settings, measured = self.sweep.settings, self.sweep.settings.fidelity.measured
         bare = {name for name, chosen in settings.scenes.items() if chosen.scene.lining is None}
         pairs = self.sweep.runs_with("rms")
-        return [(measured and measured.error_of(blade in self.on_points and scene in bare)) or 0.0 for blade, scene in pairs]
+        return [
+            (measured and measured.error_of(blade in self.point_contact and scene in bare)) or 0.0 for blade, scene in pairs
+        ]
 
     @property
-    def on_points(self) -> list[str]:
+    def point_contact(self) -> list[str]:
         """Blades whose contact acts on points."""
         return [name for name in self.sweep.settings.blades if self.sweep.settings.contact_of(name) == POINTS]
 
@@ -119,7 +121,7 @@ class Judged:
             "yield_stress": self.sweep.yield_stress,
             "strengths": self.sweep.strengths,
             # nothing else moves a run
-            "requirements": to_plain(settings.section(SECTION).requirements().of_runs),
+            "requirements": to_plain(settings.section(SECTION).requirements().run_requirements),
             "operating": to_plain(operating and replace(operating, dwell=())),
             "clearance": lambda wildcards: self.clearance.get(wildcards.scene, nan),
             "thickness": lambda wildcards: self.thickness.get(wildcards.scene, nan),

@@ -52,7 +52,7 @@ def judge(input: Any, output: Any, params: Any) -> None:
 
     Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members and
     motions. Params: pairs, looked (those of them with looks), not_looked (why others have none), requirements, operating,
-    densities, clearance and thickness by scene, errors (of each pair), on_points (blades whose contact acts on points).
+    densities, clearance and thickness by scene, errors (of each pair), point_contact (blades whose contact acts on points).
     """
     files = dict(input.items())
     shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)
@@ -63,7 +63,7 @@ def judge(input: Any, output: Any, params: Any) -> None:
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
     pairs = [(blade, scene) for blade, scene in params.pairs]
-    sureness = Sureness(looks, params.not_looked, dict(zip(pairs, params.errors, strict=True)), params.on_points)
+    sureness = Sureness(looks, params.not_looked, dict(zip(pairs, params.errors, strict=True)), params.point_contact)
     write_table(verdict_table(pairs, requirements, operating, datasets, numbers, sureness), output.verdict, digits=6)
 
 

@@ -53,14 +53,14 @@ OPERATING_COLUMNS = (
 class Sureness:
     """Certainty of what is judged: `looks` of each blade and scene (requirements.looks), and why scenes have none.
 
-    `errors`: relative error of stress and wear by mesh and step, of each blade and scene where it is known. `on_points`:
+    `errors`: relative error of stress and wear by mesh and step, of each blade and scene where it is known. `point_contact`:
     blades whose contact acts on points.
     """
 
     looks: Mapping[tuple[str, str], Mapping[str, xr.Dataset]] = field(default_factory=dict)
     not_looked: Mapping[str, str] = field(default_factory=dict)
     errors: Mapping[tuple[str, str], float] = field(default_factory=dict)
-    on_points: Sequence[str] = ()
+    point_contact: Sequence[str] = ()
 
 
 def verdict_table(
@@ -81,8 +81,8 @@ def verdict_table(
         more: dict[str, Any] = {name: _part(datasets.get(name), blade, scene) for name in ("members", "motions")}
         more |= {name: known.get(blade if name == "mass" else scene, np.nan) for name, known in numbers.items()}
         response, campbell = response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade)
-        error, on_points = sureness.errors.get((blade, scene), 0.0), blade in sureness.on_points
-        evidence = Evidence(response, campbell=campbell, operating=operating, error=error, on_points=on_points, **more)
+        error, point_contact = sureness.errors.get((blade, scene), 0.0), blade in sureness.point_contact
+        evidence = Evidence(response, campbell=campbell, operating=operating, error=error, point_contact=point_contact, **more)
         looks = sureness.looks.get((blade, scene), {})
         failed = fails_clearly(requirements, evidence.replaced(looks[REST]) if REST in looks else evidence)
         reason = f"no further runs, as {failed[0]} fails" if failed else sureness.not_looked.get(scene, "")

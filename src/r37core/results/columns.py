@@ -95,7 +95,7 @@ _GOODMAN = "largest share of the Goodman line"
 INTERACTIONS = (
     Column("blade", "name of the blade", place=10),
     Column("scene", "name of the scene", place=20),
-    Column("mode", "mode of the crossing that explains the peak: 1B, 1T, 2B or empty, as without a spectrum"),
+    Column("mode", "mode of the crossing that explains the peak: 1B, 1T, 2B or empty, as without spectrum"),
     Column("engine_order", "engine order of that crossing, or else the strongest order of the spectrum"),
     Column("direction", "direction of the peak: normal to the casing, tangential or both", place=30),
     Column("campbell_speed_rad_s", "speed of that crossing in the Campbell diagram", "Campbell speed", place=40),
