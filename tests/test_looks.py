@@ -98,6 +98,21 @@ def test_a_motion_is_carried_on_in_a_new_lining(lined):
     alone = lined.carried([1305.0])
     assert float(down["used_thickness"].sel(speed=1305.0)) == float(alone["used_thickness"][0])
     assert float(up["used_thickness"].sel(speed=1305.0)) != float(alone["used_thickness"][0])
+    # as long as a run from rest may be
+    row = run_row(run_speed(lined.model, 1305.0, LINED.grown, lined.long_choice, ("wear",), **KEPT), 1e9, UNKNOWN)
+    assert float(alone["share_of_time_in_contact"][0]) == row["share_of_time_in_contact"]
+
+
+def test_a_short_run_fails_nothing_clearly(lined):
+    short = replace(lined, choice=replace(CHOICE, revolutions=CHOICE.revolutions - 1))
+    assert tuple(dict(looks_of(short, NEEDS, evidence(used=4e-3))))
+
+
+def test_other_friction_and_step_are_tried_closest_to_the_limit(lined, monkeypatch):
+    monkeypatch.setattr(further_runs, "MOST_NEAR", 1)
+    monkeypatch.setattr(further_runs, "closeness", lambda _, of: -np.abs(of.speeds - 1302.5))
+    found = dict(looks_of(lined, NEEDS, evidence()))
+    assert all(found[name]["speed"].values.tolist() == [1302.5] for name in (MORE_FRICTION, LESS_FRICTION, HALF_STEP))
 
 
 def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):

@@ -1,5 +1,7 @@
 """Requirements: each judged on numbers that are known, its margin, place and certainty, and the tables of a run."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -9,6 +11,7 @@ from box_mesh import box_mesh
 from r37core.base.io import write_json
 from r37core.config import ConfigError, command_line_document
 from r37core.fem.assembly import mesh_volume
+from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.requirements.choice import CampbellMargin, Requirements
 from r37core.requirements.evidence import Evidence, overlaid, worst_of
@@ -26,7 +29,7 @@ from r37core.requirements.judging import (
     judge,
     nearness,
 )
-from r37core.requirements.plan import remarks
+from r37core.requirements.plan import Judged, remarks
 from r37core.requirements.table import Sureness, closing, operating_table, overall, reason, verdict_table
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.results.table_file import write_table
@@ -500,3 +503,17 @@ def test_a_range_that_is_not_run_is_remarked_on(with_requirements):
     (line,) = remarks(with_requirements(operating=RANGE, requirements=needs, scenes=["direct"]))
     assert "up to about 232 further runs of each blade and scene (1)" in line
     assert not remarks(with_requirements(operating=RANGE, requirements={"mass_at_most_kg": 1.0}))
+
+
+def test_what_moves_no_run_runs_no_further_runs_again(with_requirements):
+    """Neither a limit on the mass nor a dwell; a limit on runs does."""
+
+    def params(needs, **operating):
+        settings = with_requirements(operating=RANGE | operating, requirements=needs)
+        stage = Judged(Sweep(settings)).looks(SimpleNamespace(sweep={}))
+        return stage.params["requirements"], stage.params["operating"]
+
+    dwell = {"from_rad_s": 1150.0, "to_rad_s": 1160.0, "share_percent": 50.0}
+    wanted = params({"above_yield_at_most_rad_s": 0.0})
+    assert params({"above_yield_at_most_rad_s": 0.0, "mass_at_most_kg": 1.0}, dwell=[dwell]) == wanted
+    assert params({"above_yield_at_most_rad_s": 5.0}) != wanted
