@@ -26,9 +26,6 @@ LOOKS = (REST, UP, DOWN, MORE_FRICTION, LESS_FRICTION, HALF_STEP)
 
 _OTHER_MOTIONS = (UP, DOWN)
 
-NEAR = 0.7
-"""Share of a limit from which a run counts as near to it."""
-
 GROWS = 0.5
 """Share of a limit from which a motion that still grows may come to it."""
 
@@ -42,8 +39,10 @@ VIBRATION_ALONE = "stress of vibration alone: add static_stress to the scene's r
 """Note on a stress without that of rotation: it meets no limit."""
 
 ON_POINTS = "contact acts on points, whose motion changes with the mesh: structure.boundary.contact: patches"
+"""Note on contact that a finer mesh changes: where the tip touches it meets no limit."""
 
 NO_CONTACT = "the tip touches nothing, which needs no further runs"
+"""Note on a requirement that is met without contact."""
 
 _CHANCE = 2.0
 """Standard deviations by which chance may move a length."""

@@ -28,7 +28,10 @@ from r37core.time_integration.speed_run import numbers_of_run
 
 from .choice import CARRIED_STEP, LONGEST, MOST_NEAR, STEP, Requirements
 from .evidence import JUDGED, OF_ALL, Evidence, overlaid
-from .judging import DOWN, HALF_STEP, LESS_FRICTION, MORE_FRICTION, NEAR, REST, UP, closeness, fails_clearly, nearness
+from .judging import DOWN, HALF_STEP, LESS_FRICTION, MORE_FRICTION, REST, UP, closeness, fails_clearly, nearness
+
+_NEAR = 0.7
+"""Share of a limit from which a peak counts as near to it."""
 
 _PEAK_STEP = 0.7
 """Step (rad/s) between runs about a peak that comes near to the limit."""
@@ -160,6 +163,6 @@ def _closer(speeds: Sequence[float], step: float) -> list[float]:
 def _speeds_about_peaks(speeds: np.ndarray, near: np.ndarray) -> list[float]:
     """Middles of the intervals beside peaks that come near to the limit, where these are longer than _PEAK_STEP."""
     higher = np.maximum(np.append(near[1:], 0.0), np.append(0.0, near[:-1]))
-    peaks = (near >= NEAR) & (near < 1.0) & (near >= higher)
+    peaks = (near >= _NEAR) & (near < 1.0) & (near >= higher)
     beside = (peaks[1:] | peaks[:-1]) & (np.diff(speeds) > _PEAK_STEP)
     return (0.5 * (speeds[1:] + speeds[:-1]))[beside].tolist()

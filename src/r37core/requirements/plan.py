@@ -98,10 +98,8 @@ class Judged:
         """Relative error of the level, by mesh and step, of each blade and scene; 0 where it was not measured."""
         settings, measured = self.sweep.settings, self.sweep.settings.fidelity.measured
         bare = {name for name, chosen in settings.scenes.items() if chosen.scene.lining is None}
-        pairs = self.sweep.runs_with("rms")
-        return [
-            (measured and measured.error_of(blade in self.point_contact and scene in bare)) or 0.0 for blade, scene in pairs
-        ]
+        pairs, points = self.sweep.runs_with("rms"), self.point_contact
+        return [(measured and measured.error_of(blade in points and scene in bare)) or 0.0 for blade, scene in pairs]
 
     @property
     def point_contact(self) -> list[str]:
