@@ -15,6 +15,8 @@ import numpy as np
 
 from r37core.base.io import atomic_write, readable
 
+from .logarithmic_stiffness import LogarithmicStiffness
+from .quadratic_terms import QuadraticTerms
 from .rotation import BucklingError, rotation_amplitudes
 
 _NODE_FIELDS = ("displacement_operator", "radius", "theta", "rotation_shapes")
@@ -51,6 +53,8 @@ class ContactModel:
     rotation_shapes: np.ndarray
     rotation_stiffening: np.ndarray
     coriolis: np.ndarray | None = None
+    logarithmic_stiffness: LogarithmicStiffness | None = None
+    quadratic: QuadraticTerms | None = None
     edge_displacement_operator: np.ndarray | None = None
     edge_radius: np.ndarray | None = None
     edge_theta: np.ndarray | None = None
@@ -70,10 +74,17 @@ class ContactModel:
         edge |= dict.fromkeys((f"edge_{name}" for name in _NODE_FIELDS), None)
         return replace(self, **edge)
 
+    @property
+    def is_displaced(self) -> bool:
+        """True where the modes are those about the equilibrium under rotation."""
+        return self.logarithmic_stiffness is not None
+
     def modes_at(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
         """Angular frequencies (rad/s), ascending, and modes, shape (modes at rest, modes), at `speed`; see BucklingError."""
-        stiffness = np.diag(self.squared_frequencies) + speed**2 * self.stiffness_per_square
-        squares, modes = np.linalg.eigh(stiffness)
+        if self.logarithmic_stiffness is None:
+            squares, modes = np.linalg.eigh(np.diag(self.squared_frequencies) + speed**2 * self.stiffness_per_square)
+        else:
+            squares, modes = self.logarithmic_stiffness.spectrum(self.squared_frequencies, speed)
         if not squares[0] > 0.0:
             raise BucklingError(speed)
         return np.sqrt(squares), modes
@@ -93,10 +104,17 @@ class ContactModel:
         return replace(self, radius=radius, theta=self.theta + turned, displacement_operator=operator)
 
 
+_PARTS: dict[str, type] = {"logarithmic_stiffness": LogarithmicStiffness, "quadratic": QuadraticTerms}
+"""Fields of a model that have fields themselves."""
+
+
 def write_contact_model(model: ContactModel, file: Path | str) -> None:
     """Write the model as a small .npz; a term that it lacks is absent from the file."""
+    content = asdict(model)
+    for part in _PARTS:
+        content |= {f"{part}.{name}": value for name, value in (content.pop(part) or {}).items()}
     with atomic_write(file) as partial:
-        np.savez(partial, **{name: value for name, value in asdict(model).items() if value is not None})
+        np.savez(partial, **{name: value for name, value in content.items() if value is not None})
 
 
 def read_contact_model(file: Path | str) -> ContactModel:
@@ -104,4 +122,8 @@ def read_contact_model(file: Path | str) -> ContactModel:
     with readable(file), np.load(file) as stored:
         content = {field.name: stored[field.name] for field in fields(ContactModel) if field.name in stored}
         content["tip_cone_angle"] = float(content["tip_cone_angle"])
+        for part, kind in _PARTS.items():
+            names = {field.name: f"{part}.{field.name}" for field in fields(kind)}
+            if all(name in stored for name in names.values()):
+                content[part] = kind(**{name: stored[key] if stored[key].ndim else stored[key].item() for name, key in names.items()})
         return ContactModel(**content)

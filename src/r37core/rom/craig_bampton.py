@@ -4,7 +4,8 @@ Sources: R. R. Craig and M. C. C. Bampton, AIAA Journal 6 (1968) 1313; A. Sternc
 of quasi-cyclic disks with variable rotation speeds" (2006), for the combination of bases computed at several speeds.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg as la
@@ -15,30 +16,33 @@ from r37core.fem.solver import Solve, factorise, lowest_modes
 from .reduction_choice import ReductionChoice
 
 
+class StateAtSpeed(NamedTuple):
+    """A blade at a `speed` (rad/s): its `stiffness` (N/m) between unclamped degrees of freedom, and factors of it."""
+
+    speed: float
+    stiffness: sp.csr_array
+    solve: Solve
+
+
 def multi_speed_basis(
-    stiffness_at: Callable[[float], sp.csr_array],
+    states: Iterable[StateAtSpeed],
     mass: sp.csr_array,
     boundary: sp.csr_array,
     choice: ReductionChoice,
-    solve_at_rest: Solve,
-    load: np.ndarray | None = None,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Constraint modes and fixed-interface modes at each of the choice's speeds, as one basis: see combine_columns.
+    further: Callable[[StateAtSpeed], np.ndarray] | None = None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Constraint modes and fixed-interface modes in each of the states, as one basis: see combine_columns.
 
     `boundary`, shape (boundary coordinates, dofs): each row gives one of them from the displacements, by a 1 or by weights.
-    `stiffness_at` gives the stiffness at a speed (rad/s); `solve_at_rest` solves with that at rest. The first speed's
-    constraint modes stay as they are, so that static responses to boundary loads at that speed are exact. Last, from the same
-    factors, the displacements (m) under a `load` (N), shape (dofs, speeds); none without it.
+    The first state's constraint modes stay as they are, so that static responses to boundary loads are exact there. `further`:
+    more columns of a state, shape (dofs, columns).
     """
     columns: list[np.ndarray] = []
-    displaced = np.empty((mass.shape[0], 0 if load is None else len(choice.speeds)))
-    for number, speed in enumerate(choice.speeds):
-        stiffness = stiffness_at(speed)
-        solve = factorise(stiffness) if speed else solve_at_rest
-        columns += constraint_and_fixed_modes(stiffness, mass, boundary, choice.fixed_interface_modes, solve)
-        if load is not None:
-            displaced[:, number] = solve(load)
-    return *combine_columns(columns[0], np.hstack(columns), mass, boundary, choice.basis_tolerance), displaced
+    for state in states:
+        columns += constraint_and_fixed_modes(state.stiffness, mass, boundary, choice.fixed_interface_modes, state.solve)
+        if further is not None:
+            columns.append(further(state))
+    return combine_columns(columns[0], np.hstack(columns), mass, boundary, choice.basis_tolerance)
 
 
 def combine_columns(
@@ -83,6 +87,16 @@ def constraint_and_fixed_modes(
         return displacement - constraint @ (boundary @ displacement)
 
     return constraint, lowest_modes(stiffness, mass, count, solve_held)[1]
+
+
+def projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
+    """A symmetric matrix in the coordinates of the basis `vectors`, symmetric to the bit."""
+    return symmetric(vectors.T @ (matrix @ vectors))
+
+
+def symmetric(matrix: np.ndarray) -> np.ndarray:
+    """The symmetric part of a matrix."""
+    return 0.5 * (matrix + matrix.T)
 
 
 def _alone(boundary: sp.csr_array) -> np.ndarray:

@@ -9,30 +9,28 @@ from r37core.fem.matrices import StructuralMatrices
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
 from .contact_weights import contact_weights, mean_positions, tip_lengths
-from .craig_bampton import multi_speed_basis
+from .craig_bampton import multi_speed_basis, symmetric
+from .linear_blade import LinearBlade
 from .naming import ideal_shapes
 from .recovery_nodes import RecoveryNodes
 from .reduced_model import ReducedModel
-from .reduction_choice import ReductionChoice
-from .rotation import shapes_of_rotation
+from .reduction_choice import LINEAR, ReductionChoice
+from .rotating_blade import RotatingBlade
 from .stress_region import RegionMaker
 
 
 def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: ReductionChoice, material: Material) -> ReducedModel:
-    """Project the blade's matrices on a Craig-Bampton basis over several speeds; BoundaryError for too few tip nodes.
+    """Project the blade's matrices on a Craig-Bampton basis over several speeds.
 
-    `material`: of which the matrices are, for the nodes where stress is looked for.
+    `material`: of which the matrices are. Raises BoundaryError for too few tip nodes, and NoEquilibriumError.
     """
-    stiffness, geometric, mass = matrices.stiffness(), matrices.geometric_stiffness(), matrices.mass()
-    softening = matrices.spin_softening() if choice.spin_softening else None
-    per_square = geometric if softening is None else geometric + softening
+    mass = matrices.mass()
     weights = contact_weights(mesh, choice.boundary)
     boundary = sp.csr_array(sp.kron(weights[:, matrices.free_nodes], sp.eye_array(3)))
-    load = matrices.centrifugal_load[matrices.free_nodes].ravel()
-    vectors, singular_values, displaced = multi_speed_basis(
-        lambda speed: sp.csr_array(stiffness + speed**2 * per_square), mass, boundary, choice, matrices.solve_at_rest, load
-    )
-    rotation_shapes, rotation_stiffening = shapes_of_rotation(stiffness, per_square, displaced, load)
+    is_linear = choice.kinematics == LINEAR
+    blade = LinearBlade(matrices, choice) if is_linear else RotatingBlade(mesh, matrices, material, choice)
+    vectors, singular_values = multi_speed_basis(blade.states(), mass, boundary, choice, blade.derivatives)
+    rotation_shapes, rotation_stiffening = blade.shapes_of_rotation()
 
     def whole_field(free_field: np.ndarray) -> np.ndarray:
         """The columns over the unclamped degrees of freedom as displacements of all nodes, shape (nodes, 3, columns)."""
@@ -47,15 +45,13 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
 
     line, chord = mesh.node_set(TIP_LINES[choice.boundary.tip_line]), mesh.parameters[:, 0]
     shapes = {name: shape[matrices.free_nodes].ravel() for name, shape in ideal_shapes(mesh).items()}
-    mass_times_vectors, static = mass @ vectors, projected(stiffness, vectors)
-    reduced_mass = _symmetric(vectors.T @ mass_times_vectors)
-    squares, modes = la.eigh(static, reduced_mass)
+    mass_times_vectors, stiffness = mass @ vectors, blade.stiffness_terms(vectors)
+    reduced_mass = symmetric(vectors.T @ mass_times_vectors)
+    squares, modes = la.eigh(stiffness["stiffness"], reduced_mass)
     maker = RegionMaker(mesh, recovery, material, np.sqrt(squares) / (2.0 * np.pi), modes, weights.indices)
     return ReducedModel(
-        stiffness=static,
-        geometric_stiffness=projected(geometric, vectors),
+        **stiffness,
         mass=reduced_mass,
-        spin_softening=None if softening is None else projected(softening, vectors),
         coriolis=vectors.T @ (matrices.coriolis() @ vectors) if choice.coriolis else None,
         contact=choice.boundary.contact,
         contact_nodes=contact_nodes(weights, line, chord, RecoveryNodes(np.arange(len(chord)), mesh.points, whole, rotated)),
@@ -70,7 +66,6 @@ def reduce_blade(mesh: BladeMesh, matrices: StructuralMatrices, choice: Reductio
         tolerance=choice.basis_tolerance,
         singular_values=singular_values,
         rotation_stiffening=rotation_stiffening,
-        quadratic_residual=_quadratic_residual(stiffness, per_square, vectors, static, max(choice.speeds)),
     )
 
 
@@ -88,27 +83,3 @@ def mean_fields(weights: sp.csr_array, fields: np.ndarray) -> np.ndarray:
     """Fields at the contact nodes, shape (contact nodes, 3, columns), from those at all nodes, shape (nodes, 3, columns)."""
     nodes, axes, columns = fields.shape
     return (weights @ fields.reshape(nodes, axes * columns)).reshape(weights.shape[0], axes, columns)
-
-
-def projected(matrix: sp.csr_array, vectors: np.ndarray) -> np.ndarray:
-    """A symmetric matrix in the coordinates of the basis `vectors`, symmetric to the bit."""
-    return _symmetric(vectors.T @ (matrix @ vectors))
-
-
-def _symmetric(matrix: np.ndarray) -> np.ndarray:
-    return 0.5 * (matrix + matrix.T)
-
-
-def _quadratic_residual(
-    stiffness: sp.csr_array, per_square: sp.csr_array, vectors: np.ndarray, static: np.ndarray, highest: float
-) -> float:
-    """Largest entry of the Omega^4 term (at the highest speed) of the reduced stiffness, over that of the stiffness.
-
-    The term is fitted through the stiffness reduced at three speeds, `static` among them; the linear theory makes it zero.
-    """
-    if highest == 0.0:
-        return 0.0
-    middle, top = (projected(sp.csr_array(stiffness + (share * highest) ** 2 * per_square), vectors) for share in (0.5, 1.0))
-    # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3
-    quadratic = (16.0 * middle - 4.0 * top - 12.0 * static) / -3.0
-    return float(np.max(np.abs(quadratic)) / np.max(np.abs(static)))

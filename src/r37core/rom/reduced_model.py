@@ -8,6 +8,9 @@ import numpy as np
 import scipy.linalg as la
 
 from .contact_model import ContactModel
+from .craig_bampton import symmetric
+from .logarithmic_stiffness import LogarithmicStiffness
+from .quadratic_terms import QuadraticTerms
 from .recovery_nodes import RecoveryNodes
 from .rotation import BucklingError
 from .stress_region import StressRegion
@@ -29,7 +32,8 @@ class ReducedModel:
     bending and torsion shapes, by which modes are named. `tolerance`, `singular_values`: of the basis, one for each of its
     columns over all speeds. `rotation_stiffening` (s2/rad2), shape (shapes,): of what rotation does, see r37core.rom.rotation;
     none of a blade whose load is not known. `quadratic_residual`: share of the Omega^4 term in the reduced stiffness at the
-    highest speed.
+    highest speed. `logarithmic_stiffness`, whose matrices its modes at rest project, and `quadratic`: of a blade about its
+    equilibrium under rotation; its `geometric_stiffness` is the mean change up to half of the highest speed.
     """
 
     stiffness: np.ndarray
@@ -51,6 +55,8 @@ class ReducedModel:
     singular_values: np.ndarray
     rotation_stiffening: np.ndarray
     quadratic_residual: float
+    logarithmic_stiffness: LogarithmicStiffness | None = None
+    quadratic: QuadraticTerms | None = None
 
     @property
     def size(self) -> int:
@@ -63,8 +69,13 @@ class ReducedModel:
         return self.geometric_stiffness + (0.0 if self.spin_softening is None else self.spin_softening)
 
     def stiffness_at(self, speed: float) -> np.ndarray:
-        """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1."""
-        return self.stiffness + speed**2 * self.stiffness_per_square
+        """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1, or that about the equilibrium there."""
+        if self.logarithmic_stiffness is None:
+            return self.stiffness + speed**2 * self.stiffness_per_square
+        at_rest, modes_at_rest = la.eigh(self.stiffness, self.mass)
+        squares, modes = self.logarithmic_stiffness.in_modes(modes_at_rest).spectrum(at_rest, speed)
+        shapes = self.mass @ (modes_at_rest @ modes)
+        return symmetric((shapes * squares) @ shapes.T)
 
     def modes(self, speed: float, count: int | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Lowest angular frequencies (rad/s), ascending, and mode shapes, shape (coordinates, modes), at `speed`.
@@ -105,13 +116,15 @@ def _gyroscopic_modes(
 def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
     """The contact model of a reduced model whose contact nodes lie on `tip_line`."""
     frequencies, modes = model.modes(0.0)
-    per_square = modes.T @ model.stiffness_per_square @ modes
+    logarithmic, quadratic = model.logarithmic_stiffness, model.quadratic
     coriolis = None if model.coriolis is None else modes.T @ model.coriolis @ modes
     line, nodes = model.tip_lines[tip_line], model.contact_nodes
     ends = line.select([0, -1])
     return ContactModel(
         squared_frequencies=frequencies**2,
-        stiffness_per_square=0.5 * (per_square + per_square.T),
+        stiffness_per_square=symmetric(modes.T @ model.stiffness_per_square @ modes),
+        logarithmic_stiffness=None if logarithmic is None else logarithmic.in_modes(modes),
+        quadratic=None if quadratic is None else quadratic.in_modes(modes),
         **_node_fields(nodes, modes),
         tip_lengths=model.contact_tip_lengths,
         tip_cone_angle=line.cone_angle,

@@ -10,6 +10,7 @@ import numpy as np
 from r37core.base.declared import Key
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
+from .quadratic_terms import MOST_QUADRATIC_MODES
 from .region_choice import RegionChoice
 
 
@@ -136,6 +137,11 @@ def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
     return len(chord) >= max(2 * count - 1, 2) and len(between) == count - 1
 
 
+LINEAR, ROTATING, QUADRATIC = KINEMATICS = ("linear", "rotating", "quadratic")
+"""Displacements: small ones of the undeformed blade; small ones about the equilibrium of large displacements under rotation;
+and with terms of second order about that equilibrium."""
+
+
 @dataclass(frozen=True)
 class ReductionChoice:
     """Choices of a reduced model: basis at `speeds` (rad/s), contact nodes of `boundary`, stress in `stress_regions`."""
@@ -147,6 +153,16 @@ class ReductionChoice:
         int, Key("Number of modes at each of three speeds: rest, half the maximum and the maximum", ge=0, le=500)
     ]
     basis_tolerance: Annotated[float, Key("Relative singular value below which a column is removed", ge=0, lt=1)] = 1e-8
+    kinematics: Annotated[
+        str,
+        Key(
+            "Displacements: small, small about the blade's equilibrium under rotation, or there to second order",
+            one_of=KINEMATICS,
+        ),
+    ] = LINEAR
+    quadratic_modes: Annotated[
+        int, Key("Number of modes with displacements of second order, from the lowest on", ge=1, le=MOST_QUADRATIC_MODES)
+    ] = 2
     spin_softening: Annotated[bool, Key("Whether centrifugal forces follow the motion, which lowers the stiffness")] = False
     coriolis: Annotated[bool, Key("Whether Coriolis forces act; simulations then need exact_modal")] = False
     recover_whole_blade: Annotated[bool, Key("Whether the basis is kept on every node (a large file)")] = False

@@ -10,6 +10,8 @@ import xarray as xr
 from r37core.base.dataset_file import about, read_dataset, write_dataset
 from r37core.base.io import readable
 
+from .logarithmic_stiffness import LogarithmicStiffness
+from .quadratic_terms import QuadraticTerms
 from .recovery_nodes import RecoveryNodes
 from .reduced_model import CORIOLIS_TERM, ReducedModel
 from .stress_region import StressRegion
@@ -27,6 +29,16 @@ _ARRAYS = {
     "shape_norms": (("shape",), "kg1/2", "mass norm of the ideal shapes"),
     "rotation_stiffening": (("rotation_shape",), "s2 rad-2", "relative stiffening of these shapes per squared speed"),
     "singular_values": (("basis_column",), "1", "singular values of the basis columns"),
+}
+_LOGARITHMIC = {
+    "linear": "change of the logarithm of the stiffness with the logarithm of 1 + rate times the squared speed",
+    "quadratic": "change with the square of that",
+}
+_LARGE = tuple(f"large_mode_{number}" for number in range(4))
+_QUADRATIC_TERMS: dict[str, tuple[tuple[str, ...], str, str]] = {
+    "coordinates": (("large_mode_0", "column"), "kg1/2", "mass product with the modes that have displacements of second order"),
+    "derivatives": (("power", "mode_pair", "column"), "1", "mass product with the static derivatives of these modes"),
+    "cubic": (("power", *_LARGE), "s-2 m-2 kg-1", "stiffness of third order of these modes where all others follow at once"),
 }
 _OF_NODES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "nodes": ((), "1", "mesh node numbers"),
@@ -52,6 +64,14 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
             data[f"{group}_{part}"] = ((f"{group}_node", *axes), *content)
     for name, region in model.stress_regions.items():
         data |= _region_variables(_REGION + name, region)
+    if model.logarithmic_stiffness is not None:
+        for name, text in _LOGARITHMIC.items():
+            content = getattr(model.logarithmic_stiffness, name)
+            data[f"logarithmic_{name}"] = (_SQUARE, content, about("kg", text))
+        data["logarithmic_rate"] = ((), model.logarithmic_stiffness.rate, about("s2 rad-2", "rate of that logarithm"))
+    if model.quadratic is not None:
+        for name, (axes, units, text) in _QUADRATIC_TERMS.items():
+            data[f"quadratic_{name}"] = (axes, getattr(model.quadratic, name), about(units, text))
     attributes = {
         "basis_columns": len(model.singular_values),
         "basis_independent_columns": model.size,
@@ -80,7 +100,18 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
             shape_names=tuple(str(name) for name in dataset["shape"].values),
             tolerance=float(dataset.attrs["basis_tolerance"]),
             quadratic_residual=float(dataset.attrs["quadratic_residual"]),
+            logarithmic_stiffness=_logarithmic_stiffness(dataset) if "logarithmic_rate" in dataset else None,
+            quadratic=_quadratic_terms(dataset) if "quadratic_cubic" in dataset else None,
         )
+
+
+def _logarithmic_stiffness(dataset: xr.Dataset) -> LogarithmicStiffness:
+    matrices = {name: dataset[f"logarithmic_{name}"].values for name in _LOGARITHMIC}
+    return LogarithmicStiffness(**matrices, rate=float(dataset["logarithmic_rate"]))
+
+
+def _quadratic_terms(dataset: xr.Dataset) -> QuadraticTerms:
+    return QuadraticTerms(**{name: dataset[f"quadratic_{name}"].values for name in _QUADRATIC_TERMS})
 
 
 def _region_variables(group: str, region: StressRegion) -> dict[str, tuple[Any, ...]]:

@@ -33,8 +33,9 @@ class CasingOfRun:
 
     @cached_property
     def tip(self) -> ContactModel:
-        """The model whose contact nodes are where the rotation holds them, if the blade grows with the speed."""
-        return self.model.spun(self.grid.speed) if self.scene.casing.centrifugal else self.model
+        """The model whose contact nodes are where the rotation holds them, if the blade grows, or moves, about that place."""
+        displaced = self.scene.casing.centrifugal or self.model.is_displaced
+        return self.model.spun(self.grid.speed) if displaced else self.model
 
     @cached_property
     def clearance(self) -> np.ndarray:

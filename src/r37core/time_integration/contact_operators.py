@@ -10,6 +10,7 @@ from r37core.contact.casing import casing_axes
 from .casing_of_run import CasingOfRun
 from .gyroscopic import ComplexRecursion
 from .integrators import Recursion, joined, recursion
+from .quadratic_motion import QuadraticMotion
 from .stepped_blade import SteppedBlade
 
 
@@ -116,6 +117,22 @@ class ContactOperators:
         residual = (modes / frequencies**2) @ rows.T
         return residual if self.blade.complex_modes is None else residual + self._half_kick
 
+    @cached_property
+    def product_shapes(self) -> np.ndarray:
+        """Displacement per product of second order, shape (modes at rest, products); no column without: see quadratic_motion."""
+        return np.empty((len(self.blade.modes), 0)) if self.quadratic is None else self.quadratic.shapes
+
+    @property
+    def product_operator(self) -> np.ndarray:
+        """Displacement of the contact nodes per product of second order, shape (3, nodes, products)."""
+        return self.operator_at_rest @ self.product_shapes
+
+    @cached_property
+    def quadratic(self) -> QuadraticMotion | None:
+        """Displacements of second order; None for a model without."""
+        terms = self.blade.model.quadratic
+        return None if terms is None else QuadraticMotion(self.blade, terms)
+
     def static_energy(self, forces: np.ndarray) -> float:
         """Elastic energy (J) of the static modes under `forces` (N) on the nodes, shape (3, nodes).
 
@@ -138,9 +155,9 @@ class ContactOperators:
     def state_shapes(self) -> np.ndarray:
         """Displacement in the modes at rest per number of a snapshot.
 
-        They are the stepped modes' u, with Coriolis their d, then the contact forces (N).
+        They are the stepped modes' u, with Coriolis their d, products of second order, then the contact forces (N).
         """
-        return np.hstack([*self._shapes, self.static_shapes])
+        return np.hstack([*self._shapes, self.product_shapes, self.static_shapes])
 
     @cached_property
     def output_operator(self) -> np.ndarray:

@@ -68,10 +68,11 @@ class InitialMotion:
         whole, model = self.rest_coordinates(problem.model), problem.model
         rest = whole - (whole @ problem.blade.modes) @ problem.blade.modes.T
 
+        frequencies, modes = model.modes_at(problem.speed)
+
         def energy(motion: np.ndarray) -> float:
             displacement, velocity = motion
-            force = model.squared_frequencies * displacement + problem.speed**2 * (model.stiffness_per_square @ displacement)
-            return float(velocity @ velocity + displacement @ force)
+            return float(velocity @ velocity + np.sum((frequencies * (displacement @ modes)) ** 2))
 
         with np.errstate(over="ignore", invalid="ignore"):
             total = energy(whole)

@@ -82,4 +82,5 @@ def mistuned(model: ContactModel, factor: float) -> ContactModel:
         model,
         squared_frequencies=model.squared_frequencies * square,
         stiffness_per_square=np.multiply(model.stiffness_per_square, square),
+        quadratic=model.quadratic and model.quadratic.stiffened(square),
     )

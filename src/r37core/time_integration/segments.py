@@ -55,7 +55,8 @@ def own_increments(problem: Problem) -> Increments:
 
 
 def _jumps(problem: Problem, recursion: Recursion) -> JumpPlan | None:
-    if not problem.choice.jumps:
+    if not problem.choice.jumps or problem.contact.quadratic is not None:
+        # elastic forces of second order act in flight, too
         return None
     # the casing's modes turn as they go, and so do not follow a tangent
     return plan_jumps(recursion, problem.grid.steps_per_sample, LANES, followed=len(problem.blade.frequencies))

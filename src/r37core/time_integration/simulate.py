@@ -155,8 +155,11 @@ class Simulation:
 
     def energy(self, state: SimulationState) -> float:
         """Energy (J) of the vibration, that of the static modes in it; see Recursion."""
-        stepped = float(self.problem.contact.recursion.energy(state.displacement, state.increment))
-        return stepped + self.problem.contact.static_energy(state.contact_force)
+        contact = self.problem.contact
+        stepped = float(contact.recursion.energy(state.displacement, state.increment))
+        if contact.quadratic is not None:
+            stepped += contact.quadratic.energy(state.displacement[: len(self.problem.blade.frequencies)])
+        return stepped + contact.static_energy(state.contact_force)
 
     def work(self, state: SimulationState) -> float:
         """Work (J) of the contact forces since the start: on the stepped modes, and all that the static ones hold."""

@@ -117,7 +117,14 @@ class SteppedBlade:
         frequencies, modes = self._modes_of_speed
         return frequencies[self._stepped :], modes[:, self._stepped :]
 
+    @property
+    def stepped_modes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Frequencies (rad/s) and shapes of the modes that are stepped."""
+        return self.frequencies, self.modes
+
     @cached_property
     def stiffening(self) -> np.ndarray:
         """Relative change of the modes' squared frequencies per squared speed (s2), shape (modes,)."""
+        if self.model.logarithmic_stiffness is not None:
+            return self.model.logarithmic_stiffness.relative_change(self.modes, self.grid.speed)
         return np.sum(self.modes * (self.model.stiffness_per_square @ self.modes), axis=0) / self.frequencies**2

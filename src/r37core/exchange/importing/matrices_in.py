@@ -8,7 +8,7 @@ nodes of the tip line, from which the patches are made.
 """
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -22,10 +22,16 @@ from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
 from r37core.exchange.refusal import ImportRefused, MeshWarning, blamed
 from r37core.fem.solver import Solve, factorise
 from r37core.rom.contact_weights import tip_lengths, weights_along
-from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes, multi_speed_basis
+from r37core.rom.craig_bampton import (
+    StateAtSpeed,
+    combine_columns,
+    constraint_and_fixed_modes,
+    multi_speed_basis,
+    projected,
+)
 from r37core.rom.naming import NAMED_MODES
 from r37core.rom.recovery_nodes import RecoveryNodes
-from r37core.rom.reduce import contact_nodes, projected
+from r37core.rom.reduce import contact_nodes
 from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, BoundaryError, ReductionChoice
 
@@ -66,6 +72,12 @@ class _InputMatrices:
         except RuntimeError:
             raise _not_held(0.0) from None
 
+    def states(self, speeds: Iterable[float]) -> Iterator[StateAtSpeed]:
+        """The blade at the speeds (rad/s), one after another."""
+        for speed in speeds:
+            stiffness = sp.csr_array(self.stiffness + speed**2 * self.per_square)
+            yield StateAtSpeed(speed, stiffness, factorise(stiffness) if speed else self.solve_at_rest)
+
 
 def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Path | str = ".") -> ReducedModel:
     """The reduced model of the matrices: as they are if small, else reduced as `choice` says.
@@ -98,12 +110,8 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
             vectors, _ = combine_columns(constraint, vectors, matrices.mass, boundary, 0.0)
         tolerance, singular = 0.0, np.ones(rows)
     else:
-
-        def stiffness_at(speed: float) -> sp.csr_array:
-            return sp.csr_array(matrices.stiffness + speed**2 * matrices.per_square)
-
-        tolerance, solve = choice.basis_tolerance, matrices.solve_at_rest
-        vectors, singular, _ = multi_speed_basis(stiffness_at, matrices.mass, boundary, choice, solve)
+        tolerance = choice.basis_tolerance
+        vectors, singular = multi_speed_basis(matrices.states(choice.speeds), matrices.mass, boundary, choice)
     mass, stiffness = projected(matrices.mass, vectors), projected(matrices.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(matrices)

@@ -1,5 +1,7 @@
 """Tables of the tip's edge, as edge_steps reads them by their addresses."""
 
+from typing import Protocol
+
 import numpy as np
 
 from r37core.machine_code.alignment import LANES, aligned_zeros, padded
@@ -14,13 +16,22 @@ DEEPER = 0.1
 """How much deeper the edge may go than every contact node, as a share of the tip's length."""
 
 
+class LanesOfModes(Protocol):
+    """Lanes of a laid-out problem: how many, and which of them are of its modes and of its products of second order."""
+
+    mode_lanes: int
+    mode_columns: np.ndarray | slice
+    product_columns: slice
+
+
 class EdgeTables:
     """Tables of the edge of a `problem`, for a program of this `kind`: a few nodes come first, then all, in groups.
 
-    `modes`: lanes of them, of which those of the problem's are the `mode_columns`.
+    `lanes_of_modes`: where those of the problem's modes and products are among so many.
     """
 
-    def __init__(self, problem: Problem, kind: Kind, modes: int, mode_columns: np.ndarray | slice):
+    def __init__(self, problem: Problem, kind: Kind, lanes_of_modes: LanesOfModes):
+        modes = lanes_of_modes.mode_lanes
         edge, capacity_nodes = problem.edge, padded(len(problem.casing.tip.radius))
         nodes = len(edge.casing.tip.radius)
         few = np.rint((nodes - 1) * (0.5 - 0.5 * np.cos(np.pi * np.arange(FEW) / (FEW - 1)))).astype(int)
@@ -37,7 +48,9 @@ class EdgeTables:
         self.rows = aligned_zeros((len(operators[0][directions]), self._groups, self._width, LANES))
         for number, operator in enumerate(operators):
             columns = np.zeros((*operator[directions, order].shape[:2], modes))
-            columns[..., mode_columns] = operator[directions, order]
+            columns[..., lanes_of_modes.mode_columns] = operator[directions, order]
+            if number == 0:
+                columns[..., lanes_of_modes.product_columns] = edge.motion.product_operator[directions, order]
             for direction, values in enumerate(columns):
                 self.rows[direction, :, number * modes : (number + 1) * modes] = _grouped(values, lanes)
         self.flexibility = aligned_zeros((self._groups, 3 * capacity_nodes, LANES))

@@ -17,13 +17,14 @@ from ..state import Schedule, SimulationRecord, SimulationState
 from .laid_out import LaidOutProblem
 from .layout import NORMAL, TANGENTIAL, Capacity, Kind
 
-_COMPILED = ("contact_steps", "edge_steps", "jump_steps", "layout", "segment_steps", "program", "steps")
+_COMPILED = ("contact_steps", "edge_steps", "jump_steps", "layout", "quadratic_steps", "segment_steps", "program", "steps")
 SOURCES = Sources(
     *(f"machine_code/{name}.py" for name in ("alignment", "kept", "lanes", "native", "program_constants")),
     "base/declared.py",
     "base/units.py",
     *(f"contact/{name}.py" for name in ("casing", "complementarity", "laws", "node_sweeps", "ring", "scene")),
     *(f"time_integration/compiled/{name}.py" for name in _COMPILED),
+    "rom/quadratic_terms.py",
     *(f"time_integration/{name}.py" for name in ("jump_numbers", "state")),
 )
 """Files that the compiled time integration is made from: a change in one of them compiles it again."""
@@ -148,6 +149,9 @@ class Passage:
         numbers, kept = per_mode * modes, per_mode * len(state.displacement)
         modal_numbers = snapshots[:, :numbers].reshape(len(snapshots), per_mode, modes)[:, :, columns]
         out[:, :kept] = modal_numbers.reshape(len(snapshots), kept)
+        products = snapshots[:, engine.product_columns]
+        out[:, kept : kept + products.shape[1]] = products
+        kept += products.shape[1]
         if self._grid.choice.second_order:
             forces = snapshots[:, numbers:].reshape(len(snapshots), 3, (snapshots.shape[1] - numbers) // 3)
             out[:, kept:] = forces[:, :, :nodes].reshape(len(snapshots), 3 * nodes)

@@ -16,6 +16,7 @@ from ..integrators import CENTRAL_DIFFERENCE
 from ..jump_numbers import NEVER
 from ..jump_plan import jump_lengths, nearest_casing
 from ..problem import Problem
+from ..quadratic_motion import QuadraticMotion
 from ..segments import Segments
 from .edge_tables import EdgeTables
 from .layout import LINING, NORMAL, Capacity, Kind, capacity_of, constants_record, integration_record
@@ -42,12 +43,14 @@ class LaidOutProblem:
         blade, pairs = len(problem.blade.frequencies), len(problem.scene.casing.ring)
         # lanes that are used; the modes of an elastic casing begin whole vectors
         self._pairs, self._node_lanes = padded(pairs), padded(self._nodes)
-        self.mode_lanes = padded(blade) + 2 * self._pairs
+        products = problem.contact.product_shapes.shape[1]
+        self.mode_lanes = padded(blade + products) + 2 * self._pairs
         firsts = (self.mode_lanes - 2 * self._pairs, self.mode_lanes - self._pairs)
         ring_columns = [first + np.arange(pairs) for first in firsts]
         self.casing_lanes = slice(firsts[0], self.mode_lanes)
         # an array of indices costs more in every segment of a run-up
         self.mode_columns = np.concatenate([np.arange(blade), *ring_columns]) if pairs else slice(blade)
+        self.product_columns = slice(blade, blade + products)
         scene, choice = problem.scene, problem.choice
         self.capacity = capacity_of(self.mode_lanes, self._node_lanes)
         if beside is not None:
@@ -59,6 +62,7 @@ class LaidOutProblem:
             lined=scene.lining is not None,
             exact_gap=scene.exact_gap,
             coriolis=coriolis,
+            quadratic=problem.contact.quadratic is not None,
         )
         self._take_room(before)
         self._lay_out(problem)
@@ -71,8 +75,10 @@ class LaidOutProblem:
             self._lay_out_lining(problem, scene.lining)
         if not kind.published:
             self._lay_out_static_modes(problem)
+        if problem.contact.quadratic is not None:
+            self._lay_out_quadratic(problem.contact.quadratic, problem)
         if segments.increments is None:
-            self._edge = EdgeTables(problem, kind, self.mode_lanes, self.mode_columns)
+            self._edge = EdgeTables(problem, kind, self)
             self._edge.put_into(self.record[0]["edge"])
         self.put(jumping=segments.jumps is not None, follows_sliding=follows_sliding)
         self.constants = self._table_of(segments)
@@ -235,6 +241,26 @@ class LaidOutProblem:
         force_outputs = problem.contact.output_operator[:, -3 * self._nodes :].reshape(-1, 3, self._nodes)
         padded_forces = aligned_copy(force_outputs, self._node_lanes).reshape(1, len(force_outputs), -1)
         self.put(flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces)
+
+
+    def _lay_out_quadratic(self, quadratic: QuadraticMotion, problem: Problem) -> None:
+        m, columns, (functionals, modes) = self.record[0], self.product_columns, quadratic.rows.shape
+        products = columns.stop - columns.start
+        m["displacement_operator"][:, : self._nodes, columns] = problem.contact.product_operator
+        first = self.numbers_of_mode * self._modes
+        outputs = problem.contact.output_operator[:, first : first + products]
+        m["outputs"][0, : len(outputs), columns] = outputs
+        m["functional_rows"][0, :functionals, :modes] = quadratic.rows
+        self.put(
+            product_weight=quadratic.weights,
+            cubic=quadratic.cubic,
+            pair_first=quadratic.pairs[:, 0],
+            pair_second=quadratic.pairs[:, 1],
+            functionals=functionals,
+            functional_lanes=padded(functionals),
+            products=products,
+            first_product=columns.start,
+        )
 
 
 class _CasingTables:

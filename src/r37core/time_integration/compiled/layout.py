@@ -11,6 +11,7 @@ import numpy as np
 
 from r37core.contact.scene import Lining
 from r37core.machine_code.alignment import LANES, Field, aligned_record, padded
+from r37core.rom.quadratic_terms import MOST_QUADRATIC_MODES, pairs_of
 
 from ..jump_numbers import STRIDES
 from ..state import TOTALS
@@ -22,12 +23,14 @@ class Kind(NamedTuple):
     Only what changes a loop over modes or nodes is one of these; the rest of a scene is numbers of the record.
     `published`: the integrator is central_difference, whose forces correct the prediction; else they are those at t_n, see
     contact_steps. `lined`, `exact_gap`: see Scene. `coriolis`: modes are complex, see r37core.time_integration.gyroscopic.
+    `quadratic`: displacements are of second order, see r37core.time_integration.quadratic_motion.
     """
 
     published: bool
     lined: bool
     exact_gap: bool
     coriolis: bool
+    quadratic: bool
 
     @property
     def constants(self) -> dict[str, bool]:
@@ -35,7 +38,7 @@ class Kind(NamedTuple):
         return {name.upper(): value for name, value in self._asdict().items()}
 
 
-PUBLISHED = LINED = EXACT_GAP = CORIOLIS = False
+PUBLISHED = LINED = EXACT_GAP = CORIOLIS = QUADRATIC = False
 """Placeholders of a kind's constants: each program has its own (r37core.machine_code.program_constants)."""
 
 NORMAL, TANGENTIAL, MERIDIONAL = range(3)
@@ -43,6 +46,12 @@ NORMAL, TANGENTIAL, MERIDIONAL = range(3)
 
 FEWEST_MODES, FEWEST_NODES = 96, 8
 """Smallest capacity. A program takes seconds to make, and a step costs what is used of its record, not its room."""
+
+MOST_PRODUCTS = len(pairs_of(MOST_QUADRATIC_MODES))
+"""Largest number of products of second order."""
+
+MOST_FUNCTIONALS = padded(MOST_QUADRATIC_MODES + MOST_PRODUCTS)
+"""Room for the rows of r37core.time_integration.quadratic_motion."""
 
 OF_MODES, OF_NODES = range(2)
 """Places of the numbers of vectors in the record."""
@@ -53,7 +62,8 @@ class Capacity(NamedTuple):
 
     Most blades step 32 or 40 modes, with central differences up to 93. A vector of nodes is handled without loops, so more
     nodes are another capacity. Both are doubled. The modes of an elastic casing count, by pairs: the first of each pair come
-    after the blade's modes, then the second, each whole vectors. Outputs are never more than modes.
+    after the blade's modes, then the second, each whole vectors. Products of second order count, too, behind the blade's modes.
+    Outputs are never more than modes.
     """
 
     modes: int
@@ -205,6 +215,15 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("static_force", 3 * nodes),
         _fields("force_outputs", 1, modes, 3 * nodes),
         _fields("contact", kind=contact_record(nodes)),
+        # of second order: the amplitudes of the lowest modes and, behind them, what stiffens each product, at t_n and t_{n-1},
+        # what pulls at each, and what pushes; their rows; modes of each product, and how often it counts; b/6
+        _fields("functional last_functional functional_pull functional_push", MOST_FUNCTIONALS),
+        _fields("functional_rows", 1, MOST_FUNCTIONALS, modes),
+        _fields("product_weight", MOST_PRODUCTS),
+        _fields("cubic", MOST_PRODUCTS, MOST_PRODUCTS),
+        _fields("pair_first pair_second", MOST_PRODUCTS, kind=np.int64),
+        # how many of them, whole vectors of them, and how many products; the first product's lane
+        _fields("functionals functional_lanes products first_product", kind=np.int64),
         _fields("rotation", nodes),  # signed sliding in a step by the rotation (m)
         # angle at step 0, in bars; surface (m2) of the casing under a bar; penetration (m) and, with the
         # exact gap, angle in bars at t_n

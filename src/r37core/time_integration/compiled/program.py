@@ -19,7 +19,8 @@ from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, release_contact
 from .edge_steps import measure_edge
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead, turn_jump, turn_step
-from .layout import EXACT_GAP, LINED, MODAL_ROWS, PUBLISHED, Capacity, Kind, constants_record, integration_record
+from .layout import EXACT_GAP, LINED, MODAL_ROWS, PUBLISHED, QUADRATIC, Capacity, Kind, constants_record, integration_record
+from .quadratic_steps import begin_quadratic, follow_quadratic, push_quadratic
 from .segment_steps import begin_segment, end_segment
 from .steps import (
     follow_gaps,
@@ -122,6 +123,9 @@ def _fly(addresses, blades):
         if not PUBLISHED and m.follows != 0:
             sum_pushes(m)
             pushed = True
+        if QUADRATIC:
+            push_quadratic(m)
+            pushed = True
     return pushed
 
 
@@ -149,11 +153,13 @@ def _share_pushes(addresses, blades):
 def _push(m, counted):
     """Push a blade and the casing, whose work is `counted` with one of them."""
     work, lost, casing = load(m.block_work, 0), load(m.block_loss, 0), _first_of_casing(m)
-    if m.follows != 0:
+    if QUADRATIC or m.follows != 0:
         work, lost = push_lanes(m, 0, casing, work, lost)
     work_of_both, lost_of_both = push_lanes(m, casing, mode_lanes(m), work, lost)
     if counted:
         work, lost = work_of_both, lost_of_both
+    if QUADRATIC:
+        work = follow_quadratic(m, work)
     store(m.block_work, 0, work)
     store(m.block_loss, 0, lost)
 
@@ -222,6 +228,9 @@ def _integrate(addresses, blades):
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
             busy, bounded, first_stride = False, False, shortest
+            if QUADRATIC:
+                for b in range(blades):
+                    begin_quadratic(pointed_at(addresses[b]))
             if not PUBLISHED:
                 busy = _find_forces(addresses, blades)
             if LINED:

@@ -18,7 +18,7 @@ from ..casing_of_run import CasingOfRun
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
-from .motion import CoupledMotion, Motion, MotionWithCasing, RealMotion
+from .motion import Motion, MotionWithCasing, blade_motion
 
 _MOST_SWEEPS = 200
 
@@ -35,8 +35,10 @@ class ReferenceEngine:
 
     def __init__(self, problem: Problem, segments: Segments, before: Self | None = None, beside: Self | None = None):
         self.problem, self._segments = problem, segments
-        self._blade_rows = problem.contact.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
-        self._edge_rows = problem.edge.motion.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T
+        self._blade_rows, self._edge_rows = (
+            np.concatenate([each.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T, each.product_operator], axis=-1)
+            for each in (problem.contact, problem.edge.motion)
+        )
         self._turn(0)
         self.flexibility = problem.contact.contact_flexibility
         self.take(0)
@@ -44,7 +46,7 @@ class ReferenceEngine:
     def take(self, speed_index: int) -> None:
         """Go on at this one of the speeds."""
         self._speed_index, recursion = speed_index, self._segments.recursion[speed_index]
-        blade = (RealMotion if self.problem.blade.complex_modes is None else CoupledMotion)(self.problem, recursion)
+        blade = blade_motion(self.problem, recursion)
         self.motion: Motion = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
         self.clearance = self._segments.clearance[speed_index]
         # a revolution has as many steps at every speed

@@ -16,8 +16,11 @@ class RealMotion:
     """Modes without coupling, in u_n and d_n = u_n - u_{n-1} of the modes at rest.
 
     A + B rounds to 1 - 1e-9 of omega^2 away, so the recursion is carried in these. `response`: displacement of the modes at
-    rest one step on per force on them.
+    rest one step on per force on them. `products`: how many of second order come behind the modes at rest, in displacements
+    and forces.
     """
+
+    products = 0
 
     def __init__(self, problem: Problem, recursion: Recursion):
         self._modes, recursion = problem.blade.modes, recursion[: len(problem.blade.frequencies)]
@@ -63,6 +66,67 @@ class RealMotion:
         return float(0.5 * force @ moved), float(moved @ self._loss @ moved)
 
 
+class QuadraticMotionOfModes(RealMotion):
+    """Modes with displacements of second order, as r37core.time_integration.quadratic_motion has them, written out."""
+
+    def __init__(self, problem: Problem, recursion: Recursion):
+        super().__init__(problem, recursion)
+        assert problem.contact.quadratic is not None
+        self._quadratic, self._stepped = problem.contact.quadratic, problem.blade.modes
+        self.products = len(self._quadratic.pairs)
+        pairs, rest = self._quadratic.pairs, len(self._stepped)
+        rows = self._quadratic.rows @ self._stepped.T
+        self._coordinates, self._changes = rows[: len(rows) - len(pairs)], rows[len(rows) - len(pairs) :]
+        whole = np.zeros((rest + self.products,) * 2)
+        whole[:rest, :rest] = self.response
+        self.response = whole
+
+    def _gradient(self, u: np.ndarray) -> np.ndarray:
+        """Change of the products per displacement of the modes at rest, shape (products, modes at rest)."""
+        q, (a, b) = self._coordinates @ u, self._quadratic.pairs.T
+        return q[a, None] * self._coordinates[b] + q[b, None] * self._coordinates[a]
+
+    def _elastic_force(self, u: np.ndarray) -> np.ndarray:
+        """Minus the gradient of the energy of second order."""
+        quadratic = self._quadratic
+        products, changes = quadratic.products(u @ self._stepped), self._changes @ u
+        # of w r (s/2 + c r/4) with symmetric w c
+        stiffness = quadratic.weights * (0.5 * changes + 0.5 * quadratic.cubic @ products)
+        return -self._gradient(u).T @ stiffness - 0.5 * self._changes.T @ (quadratic.weights * products)
+
+    def numbers(self, motion: np.ndarray) -> np.ndarray:
+        """Numbers of a snapshot."""
+        return np.append(super().numbers(motion), self._quadratic.products(motion[0] @ self._stepped))
+
+    def pushed(self, motion: np.ndarray, force: np.ndarray) -> np.ndarray:
+        """Motion with what a force on the modes at rest and products adds at the end of a step, and the elastic forces.
+
+        Those act from its begin on.
+        """
+        before = motion[0] - motion[1]
+        own = self.effective(before, force)
+        own[: len(before)] += self._elastic_force(before)
+        return motion + self.response[: len(before)] @ own
+
+    def effective(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
+        """A force in which those on the products, at a displacement u, are on the modes."""
+        on_modes = force[: len(u)] + self._gradient(u).T @ force[len(u) :]
+        return np.append(on_modes, np.zeros(self.products))
+
+    def displacement(self, motion: np.ndarray) -> np.ndarray:
+        """Displacement of the modes at rest, and the products."""
+        return np.append(motion[0], self._quadratic.products(motion[0] @ self._stepped))
+
+    def slid(self, motion: np.ndarray) -> np.ndarray:
+        """Displacement in the last step, and the change of the products."""
+        before = np.array([motion[0] - motion[1], motion[1]])
+        return np.append(motion[1], (self.displacement(motion) - self.displacement(before))[len(motion[0]) :])
+
+    def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
+        """Work of a force, without that of the elastic forces of second order, and loss of a step."""
+        return super().work_and_loss(before, after, self.effective(before[0], force)[: len(before[0])])
+
+
 class CoupledMotion:
     """Modes that the Coriolis force couples, in y = (W q, q') of the stepped modes q: real, without complex modes.
 
@@ -73,6 +137,8 @@ class CoupledMotion:
     S = (Phi - Phi^T)/2: 2 A^-1 tanh(A h/2) without damping, so that mid-kick a constant force holds the static deflection.
     The energy y^T S^T S [(I - Phi)^T (I - Phi)]^-1 y/2 changes by the work f^T W^-1 [S y]_q of the state mid-kick.
     """
+
+    products = 0
 
     def __init__(self, problem: Problem, recursion: Recursion):
         # simulation jobs of the other engine never import SciPy
@@ -140,6 +206,13 @@ class CoupledMotion:
         return float(work), float(0.5 * (kicked @ self._energy @ kicked - after @ self._energy @ after))
 
 
+def blade_motion(problem: Problem, recursion: Recursion) -> RealMotion | CoupledMotion:
+    """Motion of a problem's blade."""
+    if problem.contact.quadratic is not None:
+        return QuadraticMotionOfModes(problem, recursion)
+    return (RealMotion if problem.blade.complex_modes is None else CoupledMotion)(problem, recursion)
+
+
 class MotionWithCasing:
     """A blade's motion, and beside it that of an elastic casing: u and d of its modes in the frame that does not turn.
 
@@ -156,7 +229,8 @@ class MotionWithCasing:
         self._blade, self._problem, self._ring = blade, problem, problem.casing.ring
         self._stepped = len(problem.blade.frequencies)
         self._casing = recursion[self._stepped :]
-        rest_modes = len(problem.blade.modes)
+        # and products
+        rest_modes = len(problem.blade.modes) + blade.products
         self.response = np.zeros((rest_modes + len(self._casing.keep),) * 2)
         self.response[:rest_modes, :rest_modes] = blade.response
         self.response[rest_modes:, rest_modes:] = np.diag(self._casing.inverse)
@@ -187,9 +261,10 @@ class MotionWithCasing:
 
     def numbers(self, motion: Any) -> np.ndarray:
         """Numbers of a snapshot, in the rotor's frame; casing modes have no increment of their own to show."""
-        blade, casing = self._blade.numbers(motion[0]), self._turned(*motion[1:])
+        numbers, casing = self._blade.numbers(motion[0]), self._turned(*motion[1:])
+        blade, products = np.split(numbers, [len(numbers) - self._blade.products])
         parts = np.split(blade, range(self._stepped, len(blade), self._stepped))
-        return np.concatenate([np.concatenate(pair) for pair in zip(parts, casing, strict=False)])
+        return np.concatenate([*(np.concatenate(pair) for pair in zip(parts, casing, strict=False)), products])
 
     def flown(self, motion: Any) -> Any:
         """Motion one step on, without force."""

@@ -1,0 +1,132 @@
+r"""Elastic forces of a solid at large displacement, and all their derivatives: they are a cubic of the displacement.
+
+Total Lagrangian, of a linear elastic solid (St. Venant and Kirchhoff): with H_ij = du_i/dX_j and F = I + H
+
+    E = (H + H^T + H^T H)/2,    S = lambda tr(E) I + 2 mu E,    f_a = \int F S grad N_a dV.
+
+Source: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, chapters 3 and 9. With no displacement the
+tangent is the stiffness of r37core.fem.assembly: the quadrature is the same.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .assembly import Blocks, NodePattern, typed_blocks
+from .material import Material
+
+
+@dataclass(frozen=True, eq=False)
+class LargeDisplacement:
+    """Forces of a solid of `material` with nodes at `points` (m), shape (nodes, 3), that are displaced far.
+
+    Displacements (m) and forces (N) have the shape (nodes, 3).
+    """
+
+    blocks: Blocks
+    points: np.ndarray
+    material: Material
+
+    @cached_property
+    def _gradients(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Gradients of the shape functions, shape (elements, points, n, 3), and volumes of the points, by element type."""
+        found = {}
+        for name, element, coordinates in typed_blocks(self.blocks, self.points):
+            rule_points, rule_weights = element.stiffness_rule
+            gradients, determinant = element.physical_gradients(coordinates, rule_points)
+            found[name] = gradients, determinant * rule_weights
+        return found
+
+    def forces(self, displacement: np.ndarray) -> np.ndarray:
+        """Elastic forces of a displacement."""
+
+        def first_piola(name: str) -> np.ndarray:
+            slope = self._slope(name, displacement)
+            return (np.eye(3) + slope) @ self._stress(_symmetric(slope) + 0.5 * _product(slope, slope))
+
+        return self._nodal(first_piola)
+
+    def second_derivative(self, displacement: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+        """Second derivative of the forces at a displacement, along two others."""
+
+        def first_piola(name: str) -> np.ndarray:
+            along = [self._slope(name, field) for field in (first, second)]
+            deformation = np.eye(3) + self._slope(name, displacement)
+            total = deformation @ self._stress(_symmetric(_product(*along)))
+            for one, other in (along, along[::-1]):
+                total = total + one @ self._stress(_symmetric(_product(deformation, other)))
+            return total
+
+        return self._nodal(first_piola)
+
+    def third_derivative(self, first: np.ndarray, second: np.ndarray, third: np.ndarray) -> np.ndarray:
+        """Third derivative of the forces along three displacements: the same everywhere."""
+
+        def first_piola(name: str) -> np.ndarray:
+            a, b, c = (self._slope(name, field) for field in (first, second, third))
+            pairs = ((a, b, c), (b, c, a), (c, a, b))
+            return sum((one @ self._stress(_symmetric(_product(two, three))) for one, two, three in pairs), np.zeros_like(a))
+
+        return self._nodal(first_piola)
+
+    def tangent(self, displacement: np.ndarray, pattern: NodePattern) -> np.ndarray:
+        """Tangent stiffness (N/m) at a displacement as blocks of the pattern's node pairs, shape (pairs, 3, 3).
+
+        With g_a = grad N_a, block (a, b) is the integral of lambda (F g_a)(F g_b)^T + mu (F g_b)(F g_a)^T
+        + mu (g_a . g_b) F F^T + (g_a . S g_b) I.
+        """
+        lame, shear = self.material.lame_constants
+        blocks = np.zeros((len(pattern.indices), 3, 3))
+        for name, (gradients, volumes) in self._gradients.items():
+            slope = self._slope(name, displacement)
+            deformation = np.eye(3) + slope
+            stress = self._stress(_symmetric(slope) + 0.5 * _product(slope, slope))
+            # (elements, n, points, 3), so that sums over points and one axis are products of matrices
+            still, pushed = gradients, gradients @ deformation.swapaxes(-1, -2)
+            size = gradients.shape[2]
+
+            def products(left: np.ndarray, right: np.ndarray, volumes: np.ndarray = volumes, size: int = size) -> np.ndarray:
+                weighted = (left * volumes[:, :, None, None]).reshape(len(left), len(volumes[0]), -1)
+                flat = weighted.transpose(0, 2, 1) @ right.reshape(len(left), len(volumes[0]), -1)
+                return flat.reshape(-1, size, left.shape[-1], size, right.shape[-1])
+
+            outer = products(pushed, pushed)
+            initial = np.einsum("eakbk->eab", products(still, still @ stress))
+            left_cauchy_green = deformation @ deformation.swapaxes(-1, -2)
+            for i in range(3):
+                for j in range(3):
+                    entry = lame * outer[:, :, i, :, j] + shear * outer[:, :, j, :, i]
+                    scaled = still * left_cauchy_green[:, :, i, j, None, None]
+                    entry = entry + shear * np.einsum("eakbk->eab", products(scaled, still))
+                    blocks[:, i, j] += pattern.scatter(name, entry + initial if i == j else entry)
+        return blocks
+
+    def _slope(self, name: str, displacement: np.ndarray) -> np.ndarray:
+        """Derivatives H_ij of a displacement at the points of a type's elements, shape (elements, points, 3, 3)."""
+        return displacement[self.blocks[name]].swapaxes(1, 2)[:, None] @ self._gradients[name][0]
+
+    def _stress(self, strain: np.ndarray) -> np.ndarray:
+        """Hooke's law, shape (..., 3, 3)."""
+        lame, shear = self.material.lame_constants
+        return 2.0 * shear * strain + lame * np.trace(strain, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
+
+    def _nodal(self, first_piola: Callable[[str], np.ndarray]) -> np.ndarray:
+        """Nodal forces of a stress, as first_piola(name of a type) gives it at the points of its elements."""
+        forces = np.zeros_like(self.points)
+        for name, (gradients, volumes) in self._gradients.items():
+            stress = first_piola(name) * volumes[:, :, None, None]
+            nodal = np.einsum("eqij,eqaj->eai", stress, gradients, optimize=True)
+            for i in range(3):
+                forces[:, i] += np.bincount(self.blocks[name].ravel(), weights=nodal[:, :, i].ravel(), minlength=len(forces))
+        return forces
+
+
+def _symmetric(matrix: np.ndarray) -> np.ndarray:
+    return 0.5 * (matrix + matrix.swapaxes(-1, -2))
+
+
+def _product(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """left^T right at every point."""
+    return left.swapaxes(-1, -2) @ right

@@ -1,0 +1,73 @@
+"""A blade of small displacements: what its reduced model needs of it at the speeds of its basis."""
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from r37core.fem.matrices import StructuralMatrices
+from r37core.fem.solver import factorise
+
+from .craig_bampton import StateAtSpeed, projected
+from .reduction_choice import ReductionChoice
+from .rotation import shapes_of_rotation
+
+
+class LinearBlade:
+    """The undeformed blade of `matrices` at the speeds of a `choice`."""
+
+    def __init__(self, matrices: StructuralMatrices, choice: ReductionChoice):
+        self._matrices, self._choice = matrices, choice
+        self._displaced: list[np.ndarray] = []
+
+    @cached_property
+    def _terms(self) -> tuple[sp.csr_array, sp.csr_array]:
+        """Stiffness, and its change per squared speed."""
+        geometric = self._matrices.geometric_stiffness()
+        softened = geometric + self._matrices.spin_softening() if self._choice.spin_softening else geometric
+        return self._matrices.stiffness(), sp.csr_array(softened)
+
+    @property
+    def _load(self) -> np.ndarray:
+        return self._matrices.centrifugal_load[self._matrices.free_nodes].ravel()
+
+    def states(self) -> Iterator[StateAtSpeed]:
+        """The blade at the speeds one after another."""
+        stiffness, per_square = self._terms
+        for speed in self._choice.speeds:
+            at_speed = sp.csr_array(stiffness + speed**2 * per_square)
+            solve = factorise(at_speed) if speed else self._matrices.solve_at_rest
+            self._displaced.append(solve(self._load))
+            yield StateAtSpeed(speed, at_speed, solve)
+
+    def derivatives(self, state: StateAtSpeed) -> np.ndarray:
+        """No columns of a basis: modes of small displacements do not change."""
+        return np.empty((state.stiffness.shape[0], 0))
+
+    def shapes_of_rotation(self) -> tuple[np.ndarray, np.ndarray]:
+        """Shapes and stiffening of rotation: see r37core.rom.rotation."""
+        return shapes_of_rotation(*self._terms, np.stack(self._displaced, axis=1), self._load)
+
+    def stiffness_terms(self, vectors: np.ndarray) -> dict[str, Any]:
+        """Fields of the reduced model about its stiffness in a basis."""
+        matrices, static = self._matrices, projected(self._terms[0], vectors)
+        softening = projected(matrices.spin_softening(), vectors) if self._choice.spin_softening else None
+        return {
+            "stiffness": static,
+            "geometric_stiffness": projected(matrices.geometric_stiffness(), vectors),
+            "spin_softening": softening,
+            "quadratic_residual": self._quadratic_residual(vectors, static) if max(self._choice.speeds) > 0.0 else 0.0,
+        }
+
+    def _quadratic_residual(self, vectors: np.ndarray, static: np.ndarray) -> float:
+        """Largest entry of the Omega^4 term (at the highest speed) of the reduced stiffness, over that of the stiffness.
+
+        The term is fitted through the stiffness reduced at three speeds, `static` among them; the linear theory makes it zero.
+        """
+        (stiffness, per_square), highest = self._terms, max(self._choice.speeds)
+        middle, top = (projected(sp.csr_array(stiffness + (share * highest) ** 2 * per_square), vectors) for share in (0.5, 1.0))
+        # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3
+        quadratic = (16.0 * middle - 4.0 * top - 12.0 * static) / -3.0
+        return float(np.max(np.abs(quadratic)) / np.max(np.abs(static)))

@@ -1,0 +1,83 @@
+r"""Terms of a blade's elastic energy beyond the quadratic ones, of its lowest modes. Light: the simulation jobs import it.
+
+About the equilibrium under rotation, of a motion v = \sum_a q_a p_a + w of the lowest modes p_a and the others w,
+
+    V = q_a q_b (g_ab x)/2 - a_abc q_a q_b q_c/3 + b_abcd q_a q_b q_c q_d/24,    g_ab = -K \theta_ab,  a_abc = g_ab p_c,
+
+with the coordinates x of the whole motion and the static derivatives \theta_ab = -K^{-1} D2f[p_a, p_b]. Terms of the others
+alone are left out. Large displacements couple bending to stretching, 10^5 times as stiff: g and b are large numbers that nearly
+cancel, so between speeds not they are interpolated, but \theta_ab and what is left of b where all other modes follow at once,
+b_abcd - (\theta_ab K \theta_cd + \theta_ac K \theta_bd + \theta_ad K \theta_bc).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import combinations_with_replacement
+
+import numpy as np
+
+MOST_QUADRATIC_MODES = 6
+"""Largest number of modes with displacements of second order."""
+
+
+@dataclass(frozen=True)
+class QuadraticTerms:
+    """The terms at any speed, as polynomials of the abscissa t of r37core.rom.logarithmic_stiffness.
+
+    `coordinates`, shape (modes, coordinates): mass products of the basis with the p_a of one speed, which those of the others
+    follow (see followed_modes); `derivatives`, shape (3, pairs, coordinates): coefficients of the mass products with theta_ab
+    of the pairs a <= b; `cubic`, shape (3, modes, modes, modes, modes): of what is left of b.
+    """
+
+    coordinates: np.ndarray
+    derivatives: np.ndarray
+    cubic: np.ndarray
+
+    @classmethod
+    def through(
+        cls, places: np.ndarray, coordinates: np.ndarray, derivatives: np.ndarray, cubic: np.ndarray
+    ) -> QuadraticTerms:
+        """Terms with these `derivatives` and `cubic` at three places of the abscissa, the first axis of each."""
+        coefficients = np.linalg.inv(np.vander(places, increasing=True))
+        return cls(coordinates, *(np.tensordot(coefficients, values, axes=1) for values in (derivatives, cubic)))
+
+    def at(self, place: float) -> tuple[np.ndarray, np.ndarray]:
+        """`derivatives` and `cubic` at a place of the abscissa."""
+        powers = place ** np.arange(3)
+        return np.tensordot(powers, self.derivatives, axes=1), np.tensordot(powers, self.cubic, axes=1)
+
+    def stiffened(self, factor: float) -> QuadraticTerms:
+        """Those of a blade whose elastic modulus is larger by a factor."""
+        return replace(self, cubic=self.cubic * factor)
+
+    def in_modes(self, modes: np.ndarray) -> QuadraticTerms:
+        """The terms in coordinates y with x = modes y; `modes`, shape (coordinates, new coordinates)."""
+        return replace(self, coordinates=self.coordinates @ modes, derivatives=self.derivatives @ modes)
+
+
+def pairs_of(modes: int) -> list[tuple[int, int]]:
+    """Pairs a <= b of so many modes, in the order of their products."""
+    return list(combinations_with_replacement(range(modes), 2))
+
+
+def followed_modes(overlap: np.ndarray) -> np.ndarray:
+    """The p_a among the modes of a speed: amplitudes of these, shape (p, modes), from mass products `overlap` of that shape.
+
+    They span as many modes, those nearest to the p_a of the other speed, and are as near to these as they can be: so they
+    change smoothly where modes of the span come near to each other.
+    """
+    nearest = np.sort(np.argsort(-np.sum(overlap**2, axis=0), kind="stable")[: len(overlap)])
+    left, _, right = np.linalg.svd(overlap[:, nearest])
+    followed = np.zeros_like(overlap)
+    followed[:, nearest] = left @ right
+    return followed
+
+
+def pairings(products: np.ndarray, modes: int) -> np.ndarray:
+    """X_ab,cd + X_ac,bd + X_ad,bc of symmetric `products` X of pairs, shape (pairs, pairs); shape (modes,) * 4."""
+    number = np.empty((modes, modes), dtype=int)
+    for place, (a, b) in enumerate(pairs_of(modes)):
+        number[a, b] = number[b, a] = place
+    whole = products[number[:, :, None, None], number]
+    return whole + whole.transpose(0, 2, 1, 3) + whole.transpose(0, 2, 3, 1)

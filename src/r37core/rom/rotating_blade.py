@@ -1,0 +1,154 @@
+r"""A blade about its equilibrium under rotation, with large displacements: what its reduced model needs of it.
+
+About the equilibrium u0(Omega) the elastic forces of displacements v are K v + D2f[v, v]/2 + D3f[v, v, v]/6, with the tangent
+K and the derivatives of r37core.fem.large_displacement. The motion of the lowest modes p_a, v = \sum_a q_a p_a, pushes all
+others by D2f[p_a, p_b] q_a q_b/2. What they do then, K \theta_ab = -D2f[p_a, p_b], is in the basis: the static derivatives of
+the modes (Idelsohn and Cardona, Computers & Structures 20 (1985) 203-210). So the basis and the mass stay constant, and the
+displacement to second order with its inertia is that of these columns.
+"""
+
+from collections.abc import Iterator
+from functools import cached_property
+from itertools import combinations_with_replacement, permutations
+from typing import Any
+
+import numpy as np
+import scipy.linalg as la
+import scipy.sparse as sp
+
+from r37core.fem.equilibrium import Rotation
+from r37core.fem.large_displacement import LargeDisplacement
+from r37core.fem.material import Material
+from r37core.fem.matrices import StructuralMatrices
+from r37core.fem.solver import lowest_modes
+from r37core.mesh.blade_mesh import BladeMesh
+
+from .craig_bampton import StateAtSpeed, projected, symmetric
+from .logarithmic_stiffness import LogarithmicStiffness
+from .quadratic_terms import QuadraticTerms, followed_modes, pairings, pairs_of
+from .reduction_choice import QUADRATIC, ReductionChoice
+
+_RELATIVE_STIFFENING = np.array([0.0, 1.0, 4.0])
+"""kappa Omega^2 at the highest speed of the three shapes of rotation; see r37core.rom.rotation."""
+
+
+class RotatingBlade:
+    """The blade of a `mesh` and its `matrices` at the three speeds of a `choice`, the first of which is rest."""
+
+    def __init__(self, mesh: BladeMesh, matrices: StructuralMatrices, material: Material, choice: ReductionChoice):
+        self._solid = LargeDisplacement(mesh.blocks, mesh.points, material)
+        self._rotation = Rotation(self._solid, matrices, follows=choice.spin_softening)
+        self._matrices, self._choice = matrices, choice
+        self._equilibria = [np.zeros_like(mesh.points)]
+
+    @property
+    def _squares(self) -> np.ndarray:
+        """Squares of the speeds beyond rest."""
+        return np.square(self._choice.speeds[1:])
+
+    @cached_property
+    def _slope(self) -> np.ndarray:
+        """Displacement per squared speed from rest on, shape (nodes, 3)."""
+        load = self._rotation.free(self._matrices.centrifugal_load)
+        return self._rotation.whole(self._matrices.solve_at_rest(load))
+
+    def states(self) -> Iterator[StateAtSpeed]:
+        """The blade at the speeds one after another. Raises NoEquilibriumError."""
+        yield StateAtSpeed(0.0, self._matrices.stiffness(), self._matrices.solve_at_rest)
+        guess = self._slope * self._choice.speeds[1] ** 2
+        for speed in self._choice.speeds[1:]:
+            found = self._rotation.equilibrium(speed, guess)
+            self._equilibria.append(found.displacement)
+            # the factors are of a tangent near this one, which a basis may be of
+            yield StateAtSpeed(speed, self._rotation.tangent(found.displacement, speed), found.solve)
+            guess = self._extrapolated(max(self._choice.speeds))
+
+    def _extrapolated(self, speed: float) -> np.ndarray:
+        """Displacement at a speed from that at a lower one, which has stiffened the blade."""
+        square = self._choice.speeds[1] ** 2
+        displacement, linear = self._equilibria[1], self._slope * square
+        stiffened = max(np.linalg.norm(linear) / np.linalg.norm(displacement) - 1.0, 0.0)
+        faster = speed**2 / square
+        share = faster * (1.0 + stiffened) / (1.0 + faster * stiffened)
+        return faster * (linear + share * (displacement - linear))
+
+    def derivatives(self, state: StateAtSpeed) -> np.ndarray:
+        """Static derivatives of the lowest modes of a state that has been reached, shape (dofs, pairs); none without QUADRATIC.
+
+        Columns of a basis: their scale counts for nothing.
+        """
+        if self._choice.kinematics != QUADRATIC:
+            return np.empty((state.stiffness.shape[0], 0))
+        _, modes = lowest_modes(state.stiffness, self._matrices.mass(), self._choice.quadratic_modes, state.solve)
+        fields = [self._rotation.whole(mode) for mode in modes.T]
+        pushes = [
+            self._rotation.free(self._solid.second_derivative(self._equilibria[-1], *pair))
+            for pair in combinations_with_replacement(fields, 2)
+        ]
+        return state.solve(np.array(pushes).T)
+
+    def shapes_of_rotation(self) -> tuple[np.ndarray, np.ndarray]:
+        """Shapes (m s2/rad2), shape (dofs, 3), and kappa (s2/rad2), shape (3,), of the displacement: see r37core.rom.rotation.
+
+        They give that of every speed of the basis, and from rest on the linear one.
+        """
+        stiffening = _RELATIVE_STIFFENING / max(self._choice.speeds) ** 2
+        squares = np.concatenate([[0.0], self._squares])
+        per_square = [self._slope, *(field / square for field, square in zip(self._equilibria[1:], self._squares, strict=True))]
+        fields = np.array([self._rotation.free(field) for field in per_square])
+        return la.solve(1.0 / (1.0 + np.outer(squares, stiffening)), fields).T, stiffening
+
+    def stiffness_terms(self, vectors: np.ndarray) -> dict[str, Any]:
+        """Fields of the reduced model about its stiffness in a basis, spin softening in it."""
+        mass, speeds = projected(self._matrices.mass(), vectors), self._choice.speeds
+        stiffness = np.array([projected(tangent, vectors) for tangent in self._tangents()])
+        squares, modes = la.eigh(stiffness[0], mass)
+        in_modes = np.array([symmetric(modes.T @ matrix @ modes) for matrix in stiffness[1:]])
+        logarithmic = LogarithmicStiffness.through(squares, in_modes, np.array(speeds[1:]))
+        terms = {
+            "stiffness": stiffness[0],
+            "geometric_stiffness": (stiffness[1] - stiffness[0]) / speeds[1] ** 2,
+            "logarithmic_stiffness": logarithmic.in_modes(modes.T @ mass),
+            "quadratic_residual": 0.0,
+        }
+        if self._choice.kinematics == QUADRATIC:
+            places = np.array([logarithmic.abscissa(speed) for speed in speeds])
+            terms["quadratic"] = self._quadratic_terms(vectors, mass, stiffness, places)
+        return terms
+
+    def _tangents(self) -> Iterator[sp.csr_array]:
+        yield self._matrices.stiffness()
+        # assembled again: all of them at once would be the most that a reduction holds
+        for speed, displacement in zip(self._choice.speeds[1:], self._equilibria[1:], strict=True):
+            yield self._rotation.tangent(displacement, speed)
+
+    def _quadratic_terms(
+        self, vectors: np.ndarray, mass: np.ndarray, stiffness: np.ndarray, places: np.ndarray
+    ) -> QuadraticTerms:
+        """Terms of second order, of the lowest modes of the middle speed and those that follow them at the others.
+
+        `mass` and, at each speed, `stiffness`: in the basis `vectors`; `places`: of the speeds.
+        """
+        count = self._choice.quadratic_modes
+        lowest = la.eigh(stiffness[1], mass, subset_by_index=(0, count - 1))[1]
+        coordinates, derivatives, cubic = lowest.T @ mass, [], []
+        for matrix, displacement in zip(stiffness, self._equilibria, strict=True):
+            squares, modes = la.eigh(matrix, mass)
+            followed = modes @ followed_modes(coordinates @ modes).T
+            fields = [self._rotation.whole(field) for field in (vectors @ followed).T]
+            pushes = np.array(
+                [self._pushed(vectors, self._solid.second_derivative(displacement, fields[a], fields[b])) for a, b in pairs_of(count)]
+            )
+            third = np.zeros((count,) * 4)
+            for a, b, c in combinations_with_replacement(range(count), 3):
+                along = followed.T @ self._pushed(vectors, self._solid.third_derivative(fields[a], fields[b], fields[c]))
+                for order in permutations((a, b, c)):
+                    third[order] = along
+            modal = pushes @ modes
+            derivatives.append(-(modal / squares) @ modes.T @ mass)
+            cubic.append(third - pairings((modal / squares) @ modal.T, count))
+        return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic))
+
+    def _pushed(self, vectors: np.ndarray, forces: np.ndarray) -> np.ndarray:
+        """Forces on the coordinates of a basis from those on all nodes."""
+        return vectors.T @ self._rotation.free(forces)
