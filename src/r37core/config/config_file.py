@@ -44,6 +44,8 @@ class StructureSection(Section):
     edges: Literal["round", "blunt"] = Field(default="round", description="Shape of the leading and trailing edges")
     boundary: Boundary = Boundary()
     maximum_speed_rad_s: Speed = Field(default=2000.0, description="Highest speed of the basis and the Campbell diagram")
+    kinematics: Any = DECLARED
+    quadratic_modes: Any = DECLARED
     spin_softening: Any = DECLARED
     coriolis: Any = DECLARED
     stress_regions: ByName[RegionSection | None] = Field(

@@ -14,7 +14,16 @@ from r37core.base.units import RPM
 from r37core.base.yaml_file import KeyPath
 from r37core.machine_code.alignment import padded
 from r37core.results.operating_range import OperatingRange
-from r37core.rom.reduction_choice import AREA_PATCHES, PATCHES, POINTS, BoundaryError, patches_on
+from r37core.rom.reduction_choice import (
+    AREA_PATCHES,
+    LINEAR,
+    PATCHES,
+    POINTS,
+    QUADRATIC,
+    ROTATING,
+    BoundaryError,
+    patches_on,
+)
 from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_blades import NO_ROTOR
@@ -131,6 +140,24 @@ def matrices_hold_their_terms(settings: Settings) -> None:
             raise settings.documents.config.refusal(("structure", key), value, f"false; {remedy}")
 
 
+def kinematics_can_be_had(settings: Settings) -> None:
+    """Large displacements are wanted of blades with a mesh, and those of second order with what carries them."""
+    structure, key, document = settings.structure, ("structure", "kinematics"), settings.documents.config
+    matrices = [name for name, blade in settings.blades.items() if blade.is_matrices]
+    if structure.kinematics != LINEAR and matrices:
+        of_matrices = f"the blade '{matrices[0]}', given by matrices, which say nothing of large displacements"
+        value = f"{structure.kinematics} with {of_matrices}"
+        raise document.refusal(key, value, f"{LINEAR}, or the blade's mesh")
+    if structure.kinematics != QUADRATIC:
+        return
+    if structure.coriolis:
+        raise document.refusal(key, f"{QUADRATIC} with structure.coriolis: true", f"{LINEAR} or {ROTATING}, or coriolis: false")
+    integrator = settings.fidelity.time_integration.integrator
+    if integrator != EXACT_MODAL:
+        value = f"{QUADRATIC} at the level '{settings.fidelity_name}', whose integrator {integrator} does not carry it"
+        raise document.refusal(key, value, f"{LINEAR} or {ROTATING}, or {_exact_level(settings)}")
+
+
 def tips_have_room_for_patches(settings: Settings) -> None:
     """Patches are no finer than the tip's mesh, as far as it is known before it is made, and matrices have no face."""
     mesh, document = settings.fidelity.mesh, settings.documents.config
@@ -212,6 +239,7 @@ CHECKS: tuple[Callable[[Settings], None], ...] = (
     history_speeds_are_run,
     slowest_speeds_can_be_run,
     matrices_hold_their_terms,
+    kinematics_can_be_had,
     tips_have_room_for_patches,
     coriolis_can_be_carried,
     rotors_press_a_casing_that_is_carried,

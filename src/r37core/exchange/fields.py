@@ -12,12 +12,13 @@ from r37core.base.speeds import exact_text
 from r37core.exchange.importing.meshio_reader import quietly
 from r37core.exchange.orientation import OURS, Orientation
 from r37core.fem.material import Material
-from r37core.fem.stress import nodal_stress
+from r37core.fem.stress import nodal_second_order_stress, nodal_stress
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.mesh_files import vtk_grid
 from r37core.results.campbell import name_modes
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.rom.reduced_model import ReducedModel
+from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.operator import StressOperator, von_mises
 from r37core.time_integration.speed_file import read_speed
 
@@ -98,7 +99,7 @@ def worst_instants(
         if run["status"] or not len(run["snapshots"]):
             continue
         revolution = run["snapshots"]
-        largest = stress.max_von_mises(revolution)
+        largest = stress.at(speed).max_von_mises(revolution)
         instant = int(np.argmax(largest))
         instants[speed] = WorstInstant(float(largest[instant]), revolution, instant)
     worst = max(instants, key=lambda speed: instants[speed].largest, default=None)
@@ -116,7 +117,7 @@ def write_stress(
     shown = target.orientation.mesh_to_file(mesh)
     files = {}
     for speed, instant in instants.items():
-        displacement, stress = stress_of(mesh, model, material, instant)
+        displacement, stress = stress_of(mesh, model, material, instant, speed)
         fields = {
             "displacement": target.orientation.vectors_to_file(displacement),
             "stress": _turned(stress, target.orientation.rows).T,
@@ -127,10 +128,28 @@ def write_stress(
     _write_collection(files, "stress", target)
 
 
-def stress_of(mesh: BladeMesh, model: ReducedModel, material: Material, instant: WorstInstant) -> tuple[np.ndarray, np.ndarray]:
-    """Displacement (m), shape (nodes, 3), and stress (Pa), shape (6, nodes), on the whole blade."""
-    displacement = displacement_of(model, instant.revolution[[instant.number]])[0]
-    return displacement, nodal_stress(mesh.blocks, mesh.points, displacement[:, :, None], material)[:, :, 0]
+def stress_of(
+    mesh: BladeMesh, model: ReducedModel, material: Material, instant: WorstInstant, speed: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement (m), shape (nodes, 3), and stress (Pa), shape (6, nodes), on the whole blade at a `speed` (rad/s).
+
+    Of large displacements by the strain of the whole displacement, less that of rotation where the coordinates are those of the
+    vibration alone.
+    """
+    coordinates = instant.revolution[[instant.number]]
+    displacement = displacement_of(model, coordinates)[0]
+
+    def stress(field: np.ndarray) -> np.ndarray:
+        fields = field[:, :, None]
+        first = nodal_stress(mesh.blocks, mesh.points, fields, material)[:, :, 0]
+        if model.logarithmic_stiffness is None:
+            return first
+        return first + 0.5 * nodal_second_order_stress(mesh.blocks, mesh.points, fields, fields, material)[:, :, 0]
+
+    if model.logarithmic_stiffness is None or coordinates.shape[1] > model.size:
+        return displacement, stress(displacement)
+    rotated = _whole(model).rotation_shapes @ rotation_amplitudes(model.rotation_stiffening, speed)
+    return displacement, stress(rotated + displacement) - stress(rotated)
 
 
 def displacement_of(model: ReducedModel, coordinates: np.ndarray) -> np.ndarray:

@@ -18,6 +18,7 @@ from r37core.plans import paths
 from r37core.plans.extension import Extension
 from r37core.plans.structure_plan import Imported
 from r37core.plans.sweep_plan import Sweep
+from r37core.rom.reduction_choice import LINEAR
 
 ModeSpeed = Annotated[float, Field(ge=0, le=1e6)]
 ChosenSpeeds: Any = word_or_speeds("worst", "all")
@@ -142,10 +143,17 @@ def exported_speeds_are_run(settings: Settings) -> None:
             raise document.refusal(("exports", "mode_speeds_rad_s", number), f"{speed:g}", allowed)
 
 
+def full_matrices_are_linear(settings: Settings) -> None:
+    """Matrices of all nodes are those of small displacements: of the others there is none that is right at every speed."""
+    if settings.section(SECTION).full_matrices and settings.structure.kinematics != LINEAR:
+        value = f"true with structure.kinematics: {settings.structure.kinematics}"
+        raise settings.documents.config.refusal(("exports", "full_matrices"), value, f"false, or kinematics: {LINEAR}")
+
+
 EXTENSION = Extension(
     name="exports",
     section=SECTION,
-    checks=(exported_speeds_are_run,),
+    checks=(exported_speeds_are_run, full_matrices_are_linear),
     targets=targets,
     look_at="<results>/exports",
     made_on_request=True,

@@ -19,6 +19,17 @@ _FAST = 0.25
 """Size of a correction over that of the one before, below which factors are kept."""
 
 
+class NoEquilibriumError(ValueError):
+    """Error of a blade that has no stable position under its rotation, as far as small steps of the load find one."""
+
+    def __init__(self, speed: float, reached: float):
+        super().__init__(
+            f"the blade has no stable position at {speed:g} rad/s with large displacements: the last one was found at "
+            f"{reached:.5g} rad/s; choose a lower structure.maximum_speed_rad_s, a stiffer or lighter material, less sweep and "
+            "lean, or structure.kinematics: linear"
+        )
+
+
 @dataclass(frozen=True)
 class Equilibrium:
     """Displacement (m), shape (nodes, 3), and factors of a tangent near it, which it was found with."""

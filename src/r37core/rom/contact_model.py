@@ -125,5 +125,7 @@ def read_contact_model(file: Path | str) -> ContactModel:
         for part, kind in _PARTS.items():
             names = {field.name: f"{part}.{field.name}" for field in fields(kind)}
             if all(name in stored for name in names.values()):
-                content[part] = kind(**{name: stored[key] if stored[key].ndim else stored[key].item() for name, key in names.items()})
+                content[part] = kind(
+                    **{name: stored[key] if stored[key].ndim else stored[key].item() for name, key in names.items()}
+                )
         return ContactModel(**content)

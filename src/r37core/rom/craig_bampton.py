@@ -4,7 +4,7 @@ Sources: R. R. Craig and M. C. C. Bampton, AIAA Journal 6 (1968) 1313; A. Sternc
 of quasi-cyclic disks with variable rotation speeds" (2006), for the combination of bases computed at several speeds.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np

@@ -67,7 +67,9 @@ class LinearBlade:
         The term is fitted through the stiffness reduced at three speeds, `static` among them; the linear theory makes it zero.
         """
         (stiffness, per_square), highest = self._terms, max(self._choice.speeds)
-        middle, top = (projected(sp.csr_array(stiffness + (share * highest) ** 2 * per_square), vectors) for share in (0.5, 1.0))
+        middle, top = (
+            projected(sp.csr_array(stiffness + (share * highest) ** 2 * per_square), vectors) for share in (0.5, 1.0)
+        )
         # with s = (Omega / highest)^2: K(1/4), K(1) give K2 = (16 K(1/4) - 4 K(1) - 12 K(0)) / -3
         quadratic = (16.0 * middle - 4.0 * top - 12.0 * static) / -3.0
         return float(np.max(np.abs(quadratic)) / np.max(np.abs(static)))

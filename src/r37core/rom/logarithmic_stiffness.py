@@ -1,12 +1,13 @@
-r"""Stiffness of a blade about its equilibrium under rotation, at any speed, from that at three. Light: simulation jobs import it.
+r"""Stiffness of a blade about its equilibrium under rotation, at any speed, from that at three. Light: simulations import it.
 
 Large displacements couple bending to what stretches the blade, which is stiffer by a factor of 10^5. A polynomial between the
 stiffnesses at some speeds misses that by little, and the bending frequencies by a tenth. Their logarithms differ by little:
 
     log K(\Omega) = log K(0) + t A + t^2 B,    t = log(1 + \kappa \Omega^2),
 
-in coordinates in which the mass is the identity, is exact at three speeds, always positive, and exact for the mode whose squared
-frequency is that of t. Source: Arsigny, Fillard, Pennec and Ayache, SIAM J. Matrix Anal. Appl. 29 (2007) 328-347.
+in coordinates in which the mass is the identity, is exact at three speeds, always positive, and exact for a mode whose squared
+frequency grows with 1 + \kappa \Omega^2, as the first one's nearly does. Source: Arsigny, Fillard, Pennec and Ayache, SIAM J.
+Matrix Anal. Appl. 29 (2007) 328-347.
 """
 
 from __future__ import annotations
@@ -18,11 +19,15 @@ import numpy as np
 
 @dataclass(frozen=True)
 class LogarithmicStiffness:
-    """Change of the logarithm of the stiffness: `linear` A, `quadratic` B, shape (modes, modes), `rate` kappa (s2/rad2)."""
+    """Change of the logarithm of the stiffness: `linear` A, `quadratic` B, shape (modes, modes), `rate` kappa (s2/rad2).
+
+    `speeds` (rad/s), shape (2,): beside rest those at which it is exact.
+    """
 
     linear: np.ndarray
     quadratic: np.ndarray
     rate: float
+    speeds: np.ndarray
 
     @classmethod
     def through(cls, squares: np.ndarray, stiffness: np.ndarray, speeds: np.ndarray) -> LogarithmicStiffness:
@@ -33,10 +38,10 @@ class LogarithmicStiffness:
         values, vectors = np.linalg.eigh(stiffness)
         logarithms = (vectors * np.log(values)[:, None]) @ vectors.swapaxes(1, 2) - np.diag(np.log(squares))
         rate = max(float(values[1, 0] / squares[0] - 1.0), _SMALLEST_GROWTH) / float(speeds[1]) ** 2
-        changes = cls(logarithms[0], logarithms[1], rate)
+        changes = cls(logarithms[0], logarithms[1], rate, speeds)
         lower, upper = (changes.abscissa(speed) for speed in speeds)
         linear, quadratic = np.tensordot(np.linalg.inv([[lower, lower**2], [upper, upper**2]]), logarithms, axes=1)
-        return cls(linear, quadratic, rate)
+        return cls(linear, quadratic, rate, speeds)
 
     def abscissa(self, speed: float) -> float:
         """t at a `speed` (rad/s)."""

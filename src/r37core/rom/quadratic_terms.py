@@ -35,9 +35,7 @@ class QuadraticTerms:
     cubic: np.ndarray
 
     @classmethod
-    def through(
-        cls, places: np.ndarray, coordinates: np.ndarray, derivatives: np.ndarray, cubic: np.ndarray
-    ) -> QuadraticTerms:
+    def through(cls, places: np.ndarray, coordinates: np.ndarray, derivatives: np.ndarray, cubic: np.ndarray) -> QuadraticTerms:
         """Terms with these `derivatives` and `cubic` at three places of the abscissa, the first axis of each."""
         coefficients = np.linalg.inv(np.vander(places, increasing=True))
         return cls(coordinates, *(np.tensordot(coefficients, values, axes=1) for values in (derivatives, cubic)))

@@ -68,6 +68,11 @@ def write_reduced_model(model: ReducedModel, file: Path | str, provenance: Mappi
         for name, text in _LOGARITHMIC.items():
             content = getattr(model.logarithmic_stiffness, name)
             data[f"logarithmic_{name}"] = (_SQUARE, content, about("kg", text))
+        data["logarithmic_speeds"] = (
+            "exact_speed",
+            model.logarithmic_stiffness.speeds,
+            about("rad s-1", "speeds it is exact at"),
+        )
         data["logarithmic_rate"] = ((), model.logarithmic_stiffness.rate, about("s2 rad-2", "rate of that logarithm"))
     if model.quadratic is not None:
         for name, (axes, units, text) in _QUADRATIC_TERMS.items():
@@ -107,7 +112,9 @@ def read_reduced_model(file: Path | str) -> ReducedModel:
 
 def _logarithmic_stiffness(dataset: xr.Dataset) -> LogarithmicStiffness:
     matrices = {name: dataset[f"logarithmic_{name}"].values for name in _LOGARITHMIC}
-    return LogarithmicStiffness(**matrices, rate=float(dataset["logarithmic_rate"]))
+    return LogarithmicStiffness(
+        **matrices, rate=float(dataset["logarithmic_rate"]), speeds=dataset["logarithmic_speeds"].values
+    )
 
 
 def _quadratic_terms(dataset: xr.Dataset) -> QuadraticTerms:

@@ -67,7 +67,7 @@ class RotatingBlade:
         """Displacement at a speed from that at a lower one, which has stiffened the blade."""
         square = self._choice.speeds[1] ** 2
         displacement, linear = self._equilibria[1], self._slope * square
-        stiffened = max(np.linalg.norm(linear) / np.linalg.norm(displacement) - 1.0, 0.0)
+        stiffened = max(float(np.linalg.norm(linear) / np.linalg.norm(displacement)) - 1.0, 0.0)
         faster = speed**2 / square
         share = faster * (1.0 + stiffened) / (1.0 + faster * stiffened)
         return faster * (linear + share * (displacement - linear))
@@ -137,7 +137,10 @@ class RotatingBlade:
             followed = modes @ followed_modes(coordinates @ modes).T
             fields = [self._rotation.whole(field) for field in (vectors @ followed).T]
             pushes = np.array(
-                [self._pushed(vectors, self._solid.second_derivative(displacement, fields[a], fields[b])) for a, b in pairs_of(count)]
+                [
+                    self._pushed(vectors, self._solid.second_derivative(displacement, fields[a], fields[b]))
+                    for a, b in pairs_of(count)
+                ]
             )
             third = np.zeros((count,) * 4)
             for a, b, c in combinations_with_replacement(range(count), 3):

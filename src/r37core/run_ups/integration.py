@@ -115,7 +115,8 @@ class RunUpIntegration:
                 reached = np.count_nonzero(lasted)
                 self.velocity = increments.velocity(indices[reached - 1], state.displacement, state.increment)
                 begun, ended = (
-                    constants.recursion[indices[:reached]].energy(*call.ends[:reached, end].swapaxes(0, 1)) for end in range(2)
+                    constants.recursion[indices[:reached]].energy(*motion) + problem.contact.second_order_energy(motion[0])
+                    for motion in (call.ends[:reached, end].swapaxes(0, 1) for end in range(2))
                 )
                 self.stiffness_work += float(begun[0] - self.energy + np.sum(begun[1:] - ended[:-1]))
                 self.energy = float(ended[-1])

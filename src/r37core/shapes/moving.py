@@ -76,7 +76,7 @@ def write_worst_shapes(
     write_stress(mesh, model, material, instants, Target(folder))
     (nodes, triangles), entries = _skin(mesh), []
     for speed, instant in instants.items():
-        stress = von_mises(stress_of(mesh, model, material, instant)[1])
+        stress = von_mises(stress_of(mesh, model, material, instant, speed)[1])
         motion = displacement_of(model, instant.revolution)[:, nodes]
         magnified = _round_down(LARGEST_SHOWN * _height(mesh) / np.linalg.norm(motion, axis=2).max())
         targets, weights = _few_targets(magnified * motion)

@@ -1,7 +1,9 @@
 """Stress in a region from reduced coordinates. Light: the simulation jobs import it."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -10,6 +12,8 @@ import numpy as np
 
 from r37core.base.io import atomic_write, readable
 from r37core.rom.deviatoric import deviatoric
+from r37core.rom.quadratic_terms import pairs_of
+from r37core.rom.rotation import rotation_amplitudes
 
 
 def von_mises(stress: np.ndarray) -> np.ndarray:
@@ -28,6 +32,10 @@ class StressOperator:
     coordinates): amplitudes of the modes that count, per coordinate; None where the numbers are the coordinates. `region`: in
     words; `is_complete`: whether its nodes are all of the region's; `places`, shape (nodes, 3): their chord, span, thickness,
     where known.
+
+    Of a blade about its equilibrium under rotation: `per_rotation`, shape (shapes, 6, nodes, coordinates): what each amplitude
+    of rotation's shapes adds to the operator, see `at`, and their `rotation_stiffening`; `large_coordinates`, shape (modes,
+    coordinates): amplitudes of the modes whose products, of second order, follow the coordinates among the numbers.
     """
 
     operator: np.ndarray
@@ -36,6 +44,22 @@ class StressOperator:
     band: np.ndarray | None = None
     is_complete: bool = True
     places: np.ndarray | None = None
+    per_rotation: np.ndarray | None = None
+    rotation_stiffening: np.ndarray | None = None
+    large_coordinates: np.ndarray | None = None
+
+    def at(self, speed: float) -> StressOperator:
+        """The operator at a `speed` (rad/s): about the equilibrium there."""
+        if self.per_rotation is None or self.rotation_stiffening is None:
+            return self
+        operator, amplitudes = self.operator.copy(), rotation_amplitudes(self.rotation_stiffening, speed)
+        operator[:, :, : self.coordinates] += np.tensordot(amplitudes, self.per_rotation, axes=1)
+        return replace(self, operator=operator, per_rotation=None)
+
+    def _products(self, amplitudes: np.ndarray) -> np.ndarray:
+        """Products of second order, shape (instants, products), of amplitudes of modes, shape (instants, modes)."""
+        first, second = np.array(pairs_of(amplitudes.shape[1]), dtype=int).reshape(-1, 2).T
+        return amplitudes[:, first] * amplitudes[:, second]
 
     @cached_property
     def deviatoric(self) -> np.ndarray:
@@ -60,6 +84,12 @@ class StressOperator:
 
         `shapes`, shape (coordinates, numbers): reduced coordinates per number; those given back are of the operator's numbers.
         """
+        if self.large_coordinates is not None and len(self.large_coordinates):
+            products = self._products(states @ (self.large_coordinates @ shapes).T)
+            extended = np.zeros((len(shapes) + products.shape[1], shapes.shape[1] + products.shape[1]))
+            extended[: len(shapes), : shapes.shape[1]] = shapes
+            extended[len(shapes) :, shapes.shape[1] :] = np.eye(products.shape[1])
+            return np.concatenate([states, products], axis=1), extended
         if self.band is None:
             return states, shapes
         return states @ (self.band @ shapes).T, np.eye(len(self.band))
@@ -74,15 +104,23 @@ class StressOperator:
 
     def von_mises(self, coordinates: np.ndarray) -> np.ndarray:
         """Von Mises stress (Pa), shape (instants, nodes), for coordinates as above."""
+        vibration, rotation = np.split(coordinates, [self.coordinates], axis=1)
         if self.band is not None:
-            vibration, rotation = np.split(coordinates, [self.coordinates], axis=1)
             coordinates = np.concatenate([vibration @ self.band.T, rotation], axis=1)
+        elif self.large_coordinates is not None:
+            products = self._products(vibration @ self.large_coordinates.T)
+            coordinates = np.concatenate([vibration, products, rotation], axis=1)
         operator = self.operator[:, :, : coordinates.shape[1]]
         return von_mises(np.einsum("cnj,tj->ctn", operator, coordinates, optimize=True))
 
 
 StressOperators = Mapping[str, StressOperator]
 """Operators of a blade's regions by name; the first one decides."""
+
+
+def operators_at(operators: StressOperators, speed: float) -> dict[str, StressOperator]:
+    """The operators at a `speed` (rad/s)."""
+    return {name: operator.at(speed) for name, operator in operators.items()}
 
 
 def judged_operator(operators: StressOperators) -> StressOperator:

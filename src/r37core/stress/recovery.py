@@ -1,10 +1,16 @@
 """The stress operators of a reduced model."""
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 import numpy as np
+import scipy.linalg as la
 
 from r37core.fem.material import Material
-from r37core.fem.stress import nodal_stress
+from r37core.fem.stress import nodal_second_order_stress, nodal_stress
+from r37core.rom.quadratic_terms import pairs_of
 from r37core.rom.reduced_model import ReducedModel
+from r37core.rom.rotation import rotation_amplitudes
 from r37core.rom.stress_region import StressRegion
 
 from .operator import StressOperator, judged_operator
@@ -34,15 +40,74 @@ def stress_operator(model: ReducedModel, material: Material) -> StressOperator:
 def _operator(model: ReducedModel, region: StressRegion, material: Material) -> StressOperator:
     nodes, band = region.nodes, _band(model, region)
     basis = nodes.basis if band is None else nodes.basis @ band[1]
-    fields = np.concatenate([basis, nodes.rotation_shapes], axis=2)
+    evaluated = region.evaluated
+
+    def stress(fields: np.ndarray) -> np.ndarray:
+        return nodal_stress(region.elements, nodes.points, fields, material)[:, evaluated]
+
+    def second_order(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+        return nodal_second_order_stress(region.elements, nodes.points, first, second, material)[:, evaluated]
+
+    rotation, large = nodes.rotation_shapes, None
+    columns = [stress(basis), stress(rotation)]
+    if model.logarithmic_stiffness is not None:
+        columns[1] = _rotation_stress(model, model.logarithmic_stiffness.speeds, rotation, columns[1], second_order)
+        # modes at rest below a frequency bend, and stretch nothing
+        if band is None:
+            large = _large_motion(model, basis, rotation, second_order)
+    if large is not None:
+        columns.insert(1, large.products)
     return StressOperator(
-        operator=nodal_stress(region.elements, nodes.points, fields, material)[:, region.evaluated],
+        operator=np.concatenate(columns, axis=2),
         coordinates=model.size,
         region=region.description,
         band=None if band is None else band[0],
         is_complete=region.is_complete,
         places=region.places,
+        per_rotation=None if large is None else large.per_rotation,
+        rotation_stiffening=None if large is None else model.rotation_stiffening,
+        large_coordinates=None if large is None else large.coordinates,
     )
+
+
+SecondOrder = Callable[[np.ndarray, np.ndarray], np.ndarray]
+"""Stress of second order of two sets of fields, shape (6, nodes, fields)."""
+
+
+def _rotation_stress(
+    model: ReducedModel, speeds: np.ndarray, shapes: np.ndarray, first_order: np.ndarray, second_order: SecondOrder
+) -> np.ndarray:
+    """Stress per amplitude of rotation's shapes, of which `first_order` is linear: together that of large displacements.
+
+    It is exact at rest and at the two `speeds` (rad/s).
+    """
+    amplitudes = rotation_amplitudes(model.rotation_stiffening, speeds)
+    displaced = shapes @ amplitudes.T
+    stresses = first_order @ amplitudes.T + 0.5 * second_order(displaced, displaced)
+    per_square = [first_order.sum(axis=2), *(stresses[..., place] / speed**2 for place, speed in enumerate(speeds))]
+    squares = np.concatenate([[0.0], np.square(speeds)])
+    shares = np.linalg.inv(1.0 / (1.0 + np.outer(squares, model.rotation_stiffening)))
+    return np.tensordot(np.stack(per_square, axis=-1), shares, axes=([-1], [1]))
+
+
+@dataclass(frozen=True)
+class _LargeMotion:
+    """What large displacements add to a stress operator, see there; `products`: columns of the products of second order."""
+
+    per_rotation: np.ndarray
+    coordinates: np.ndarray
+    products: np.ndarray
+
+
+def _large_motion(model: ReducedModel, basis: np.ndarray, rotation: np.ndarray, second_order: SecondOrder) -> _LargeMotion:
+    per_rotation = np.stack(
+        [second_order(np.broadcast_to(shape[..., None], basis.shape), basis) for shape in np.moveaxis(rotation, 2, 0)]
+    )
+    coordinates = np.empty((0, model.size)) if model.quadratic is None else model.quadratic.coordinates
+    first, second = np.array(pairs_of(len(coordinates)), dtype=int).reshape(-1, 2).T
+    fields = basis @ la.solve(model.mass, coordinates.T)
+    weights = np.where(first == second, 0.5, 1.0)
+    return _LargeMotion(per_rotation, coordinates, weights * second_order(fields[..., first], fields[..., second]))
 
 
 def _band(model: ReducedModel, region: StressRegion) -> tuple[np.ndarray, np.ndarray] | None:

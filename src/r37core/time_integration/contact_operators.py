@@ -119,7 +119,7 @@ class ContactOperators:
 
     @cached_property
     def product_shapes(self) -> np.ndarray:
-        """Displacement per product of second order, shape (modes at rest, products); no column without: see quadratic_motion."""
+        """Displacement per product of second order, shape (modes at rest, products), see quadratic_motion; else no column."""
         return np.empty((len(self.blade.modes), 0)) if self.quadratic is None else self.quadratic.shapes
 
     @property
@@ -132,6 +132,12 @@ class ContactOperators:
         """Displacements of second order; None for a model without."""
         terms = self.blade.model.quadratic
         return None if terms is None else QuadraticMotion(self.blade, terms)
+
+    def second_order_energy(self, displacement: np.ndarray) -> np.ndarray:
+        """Elastic energy (J) beyond that of linear modes; 0 without displacements of second order."""
+        if self.quadratic is None:
+            return np.zeros(displacement.shape[:-1])
+        return self.quadratic.energy(displacement[..., : len(self.blade.frequencies)])
 
     def static_energy(self, forces: np.ndarray) -> float:
         """Elastic energy (J) of the static modes under `forces` (N) on the nodes, shape (3, nodes).

@@ -63,20 +63,20 @@ class QuadraticMotion:
         return self._modal.cubic[first[:, None], second[:, None], first, second] / 6.0 * self.weights
 
     def products(self, displacement: np.ndarray) -> np.ndarray:
-        """Products q_a q_b of a displacement u of the stepped modes."""
-        amplitudes = self.rows[: len(self.terms.coordinates)] @ displacement
-        return amplitudes[self.pairs[:, 0]] * amplitudes[self.pairs[:, 1]]
+        """Products q_a q_b, shape (..., products), of displacements u of the stepped modes, shape (..., modes)."""
+        amplitudes = displacement @ self.rows[: len(self.terms.coordinates)].T
+        return amplitudes[..., self.pairs[:, 0]] * amplitudes[..., self.pairs[:, 1]]
 
-    def energy(self, displacement: np.ndarray) -> float:
-        """V (J) of a displacement u of the stepped modes."""
+    def energy(self, displacement: np.ndarray) -> np.ndarray:
+        """V (J), shape (...,), of displacements u of the stepped modes, shape (..., modes)."""
         products = self.products(displacement)
-        changes = 0.5 * self.rows[len(self.terms.coordinates) :] @ displacement + 0.25 * self.cubic @ products
-        return float(self.weights * products @ changes)
+        stiffness = displacement @ self.rows[len(self.terms.coordinates) :].T
+        return (products * (0.5 * stiffness + 0.25 * products @ self.cubic.T)) @ self.weights
 
 
 @dataclass(frozen=True)
 class _ModalTerms:
-    """The terms in all modes of a speed: `amplitudes` Q, `pushes` G_ab, `derivatives` theta_ab, shape (..., modes), `cubic` b."""
+    """Terms in all modes of a speed: `amplitudes` Q, `pushes` G_ab, `derivatives` theta_ab, shape (..., modes), and `cubic` b."""
 
     amplitudes: np.ndarray
     pushes: np.ndarray
@@ -86,7 +86,7 @@ class _ModalTerms:
     @classmethod
     def of(cls, terms: QuadraticTerms, blade: SteppedBlade) -> Self:
         """Those of a blade, of which only the stepped modes have inertia."""
-        frequencies, modes = (np.concatenate(parts, axis=-1) for parts in zip(blade.stepped_modes, blade.static_modes, strict=True))
+        frequencies, modes = blade.model.modes_at(blade.grid.speed)
         logarithmic, stepped = blade.model.logarithmic_stiffness, len(blade.frequencies)
         assert logarithmic is not None
         derivatives, cubic = terms.at(logarithmic.abscissa(blade.grid.speed))

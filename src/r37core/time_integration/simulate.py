@@ -157,8 +157,7 @@ class Simulation:
         """Energy (J) of the vibration, that of the static modes in it; see Recursion."""
         contact = self.problem.contact
         stepped = float(contact.recursion.energy(state.displacement, state.increment))
-        if contact.quadratic is not None:
-            stepped += contact.quadratic.energy(state.displacement[: len(self.problem.blade.frequencies)])
+        stepped += float(contact.second_order_energy(state.displacement))
         return stepped + contact.static_energy(state.contact_force)
 
     def work(self, state: SimulationState) -> float:

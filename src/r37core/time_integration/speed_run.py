@@ -6,7 +6,7 @@ import numpy as np
 
 from r37core.contact.scene import Scene
 from r37core.rom.contact_model import ContactModel
-from r37core.stress.operator import StressOperators
+from r37core.stress.operator import StressOperators, operators_at
 
 from . import kept_numbers
 from .fatigue_numbers import fatigue_numbers
@@ -85,6 +85,7 @@ def numbers_of_run(
     """Numbers of a run that is done: see run_speed."""
     problem, scene, ended = run.problem, run.problem.scene, run.first_diverged
     choice, model = problem.choice, problem.model
+    stress = None if stress is None else operators_at(stress, problem.speed)
     edge_is_known = len(model.edge.theta) > len(model.theta)
     totals = np.array([state.totals for state in run.states])
     per_revolution, revolutions = choice.samples_per_revolution, run.ending.revolutions

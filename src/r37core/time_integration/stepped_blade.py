@@ -117,11 +117,6 @@ class SteppedBlade:
         frequencies, modes = self._modes_of_speed
         return frequencies[self._stepped :], modes[:, self._stepped :]
 
-    @property
-    def stepped_modes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Frequencies (rad/s) and shapes of the modes that are stepped."""
-        return self.frequencies, self.modes
-
     @cached_property
     def stiffening(self) -> np.ndarray:
         """Relative change of the modes' squared frequencies per squared speed (s2), shape (modes,)."""

@@ -242,7 +242,6 @@ class LaidOutProblem:
         padded_forces = aligned_copy(force_outputs, self._node_lanes).reshape(1, len(force_outputs), -1)
         self.put(flexibility=problem.contact.contact_flexibility, force_outputs=padded_forces)
 
-
     def _lay_out_quadratic(self, quadratic: QuadraticMotion, problem: Problem) -> None:
         m, columns, (functionals, modes) = self.record[0], self.product_columns, quadratic.rows.shape
         products = columns.stop - columns.start

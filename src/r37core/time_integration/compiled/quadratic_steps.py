@@ -47,7 +47,6 @@ def set_products(m):
 @inlined
 def push_quadratic(m):
     """Add the elastic forces of second order at t_n to the pushes, and what pushes the products as it pushes the modes."""
-    modes = m.functionals - m.products
     for g in range(0, m.functional_lanes, LANES):
         store(m.functional_push, g, -load(m.functional_pull, g))
     for p in range(m.products):

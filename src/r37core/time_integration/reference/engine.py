@@ -15,6 +15,7 @@ from r37core.contact.casing import casing_axes
 from r37core.contact.scene import Lining
 
 from ..casing_of_run import CasingOfRun
+from ..contact_operators import ContactOperators
 from ..problem import Problem
 from ..segments import Segments
 from ..state import Schedule, SimulationRecord, SimulationState
@@ -35,10 +36,7 @@ class ReferenceEngine:
 
     def __init__(self, problem: Problem, segments: Segments, before: Self | None = None, beside: Self | None = None):
         self.problem, self._segments = problem, segments
-        self._blade_rows, self._edge_rows = (
-            np.concatenate([each.operator_at_rest @ problem.blade.modes @ problem.blade.modes.T, each.product_operator], axis=-1)
-            for each in (problem.contact, problem.edge.motion)
-        )
+        self._blade_rows, self._edge_rows = (_rows(each, problem) for each in (problem.contact, problem.edge.motion))
         self._turn(0)
         self.flexibility = problem.contact.contact_flexibility
         self.take(0)
@@ -308,6 +306,12 @@ class ReferenceEngine:
         # of each node's unit multiplier, along the last axis
         forces = directions[:, :, None] * np.eye(len(gap))
         return complementary(-self.normal @ self.motion.response @ self._modal(forces).T, gap)
+
+
+def _rows(operators: ContactOperators, problem: Problem) -> np.ndarray:
+    """Displacement of nodes per displacement of the modes at rest, as far as they are stepped, and per product."""
+    stepped = problem.blade.modes @ problem.blade.modes.T
+    return np.concatenate([operators.operator_at_rest @ stepped, operators.product_operator], axis=-1)
 
 
 def bar_of(theta: float, node: int, wear: np.ndarray) -> tuple[int, int]:
