@@ -181,6 +181,14 @@ def whole(mesh, matrices, choice, steel):
 
 
 @pytest.fixture(scope="session")
+def displaced(mesh, matrices, choice, steel):
+    """The reduced model with displacements of second order, of every node."""
+    from r37core.rom.reduce import reduce_blade
+
+    return reduce_blade(mesh, matrices, replace(choice, kinematics="quadratic", recover_whole_blade=True), steel)
+
+
+@pytest.fixture(scope="session")
 def turning(mesh, matrices, choice, steel):
     """The reduced model with the Coriolis force."""
     from r37core.rom.reduce import reduce_blade

@@ -103,6 +103,9 @@ class RunUpIntegration:
             assert increments is not None
             if modes is not None:
                 self._project(problem.blade.modes.T @ modes)
+                if problem.contact.quadratic is not None:
+                    blade = slice(len(problem.blade.frequencies))
+                    problem.contact.quadratic.follow(state.displacement[blade], self.velocity[blade])
             modes = problem.blade.modes
             simulation.engine.take(segment_indices[0])
             state.increment[:] = increments.increment(segment_indices[0], state.displacement, self.velocity)
@@ -115,7 +118,7 @@ class RunUpIntegration:
                 reached = np.count_nonzero(lasted)
                 self.velocity = increments.velocity(indices[reached - 1], state.displacement, state.increment)
                 begun, ended = (
-                    constants.recursion[indices[:reached]].energy(*motion) + problem.contact.second_order_energy(motion[0])
+                    constants.recursion[indices[:reached]].energy(*motion) + problem.contact.second_order_energy(*motion)
                     for motion in (call.ends[:reached, end].swapaxes(0, 1) for end in range(2))
                 )
                 self.stiffness_work += float(begun[0] - self.energy + np.sum(begun[1:] - ended[:-1]))

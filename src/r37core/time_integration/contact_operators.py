@@ -29,7 +29,7 @@ class ContactOperators:
     def highest_frequency(self) -> float:
         """Highest frequency of all modes that are stepped (rad/s), the casing's among them."""
         ring_part = self.casing.ring.frequencies.max() if self.casing.ring is not None else 0.0
-        return float(max(self.blade.frequencies[-1], ring_part))
+        return float(max(self.blade.frequencies.max(), ring_part))
 
     @cached_property
     def recursion(self) -> Recursion:
@@ -133,11 +133,17 @@ class ContactOperators:
         terms = self.blade.model.quadratic
         return None if terms is None else QuadraticMotion(self.blade, terms)
 
-    def second_order_energy(self, displacement: np.ndarray) -> np.ndarray:
-        """Elastic energy (J) beyond that of linear modes; 0 without displacements of second order."""
+    def second_order_energy(self, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
+        """Elastic energy (J), shape (...,), beyond that of linear modes; 0 without displacements of second order.
+
+        Of displacements u_n and increments of all modes, shape (..., modes). It is the mean of those of u_n and u_{n-1}, as the
+        energy of a recursion is one between the two.
+        """
         if self.quadratic is None:
             return np.zeros(displacement.shape[:-1])
-        return self.quadratic.energy(displacement[..., : len(self.blade.frequencies)])
+        stepped = slice(len(self.blade.frequencies))
+        both = (self.quadratic.energy(each[..., stepped]) for each in (displacement, displacement - increment))
+        return 0.5 * sum(both, np.zeros(displacement.shape[:-1]))
 
     def static_energy(self, forces: np.ndarray) -> float:
         """Elastic energy (J) of the static modes under `forces` (N) on the nodes, shape (3, nodes).

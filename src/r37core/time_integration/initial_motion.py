@@ -97,7 +97,13 @@ class InitialMotion:
             u, d = coupled.begun(own, displacement, velocity, ratio, step)
         else:
             factors = increments(problem.choice.integrator, own, problem.scene.damping(own), step)
+            if problem.contact.quadratic is not None:
+                problem.contact.quadratic.follow(displacement, velocity)
             u, d = displacement, factors.displacement_factor * displacement + factors.velocity_factor * velocity
+            if problem.contact.quadratic is not None:
+                # forces kick at an instant, and the velocity is that in the middle of the kick
+                stepping = problem.blade.recursion
+                d = d - stepping.inverse * problem.contact.quadratic.force(displacement) / (1.0 + stepping.keep)
         state.displacement[blade], state.increment[blade] = u, d
 
 

@@ -6,7 +6,7 @@ The elastic energy beyond that of linear modes is, with the amplitudes q = Q u o
 
 see r37core.rom.quadratic_terms. The forces f act on the stepped modes u. Those that are not stepped follow q_a q_b G_ab/2 at
 once, by minus that over their squared frequencies: the nodes move by the products q_a q_b, b becomes smaller, and a force on a
-node pushes q_a by what the products move it.
+node pushes q_a by what the products move it. Their inertia is that of followers, which are stepped: see SteppedBlade.
 """
 
 from __future__ import annotations
@@ -43,18 +43,26 @@ class QuadraticMotion:
     def _modal(self) -> _ModalTerms:
         return _ModalTerms.of(self.terms, self.blade)
 
-    @cached_property
+    @property
     def rows(self) -> np.ndarray:
         """Q and, below it, G_ab of the stepped modes, shape (lowest modes + products, modes)."""
-        stepped = len(self.blade.frequencies)
-        return np.concatenate([self._modal.amplitudes, self._modal.pushes])[:, :stepped]
+        return self._modal.rows
 
     @cached_property
     def shapes(self) -> np.ndarray:
         """Displacement in the modes at rest per product, shape (modes at rest, products)."""
-        _, modes = self.blade.static_modes
-        derivatives = self._modal.derivatives[:, len(self.blade.frequencies) :]
-        return 0.5 * modes @ (derivatives.T * self.weights)
+        frequencies, modes = self.blade.static_modes
+        static = self.blade.derivatives[:, self.blade.derivatives.shape[1] - len(frequencies) :]
+        return 0.5 * modes @ (static.T * self.weights)
+
+    def follow(self, displacement: np.ndarray, velocity: np.ndarray) -> None:
+        """Put the followers where they are pulled to, in place, in a displacement and a velocity of the stepped modes."""
+        followers = self.blade.followers
+        first = len(displacement) - followers.shape[1]
+        q, rate = (self.rows[: len(self.terms.coordinates), :first] @ part[:first] for part in (displacement, velocity))
+        a, b = self.pairs.T
+        displacement[first:] = 0.5 * (self.weights * q[a] * q[b]) @ followers
+        velocity[first:] = 0.5 * (self.weights * (q[a] * rate[b] + rate[a] * q[b])) @ followers
 
     @cached_property
     def cubic(self) -> np.ndarray:
@@ -73,28 +81,34 @@ class QuadraticMotion:
         stiffness = displacement @ self.rows[len(self.terms.coordinates) :].T
         return (products * (0.5 * stiffness + 0.25 * products @ self.cubic.T)) @ self.weights
 
+    def force(self, displacement: np.ndarray) -> np.ndarray:
+        """The force f (N) on the stepped modes at a displacement u of them, shape (modes,): minus the gradient of V."""
+        count, weights, products = len(self.terms.coordinates), self.weights, self.products(displacement)
+        lowest, stiffened = self.rows[:count], self.rows[count:]
+        amplitudes = lowest @ displacement
+        first, second = self.pairs.T
+        changes = amplitudes[first, None] * lowest[second] + amplitudes[second, None] * lowest[first]
+        stiffness = stiffened @ displacement + self.cubic @ products
+        return -0.5 * ((weights * stiffness) @ changes + (weights * products) @ stiffened)
+
 
 @dataclass(frozen=True)
 class _ModalTerms:
-    """Terms in all modes of a speed: `amplitudes` Q, `pushes` G_ab, `derivatives` theta_ab, shape (..., modes), and `cubic` b."""
+    """Terms in the stepped modes of a speed: `rows`, see above, and `cubic` b, less what follows at once."""
 
-    amplitudes: np.ndarray
-    pushes: np.ndarray
-    derivatives: np.ndarray
+    rows: np.ndarray
     cubic: np.ndarray
 
     @classmethod
     def of(cls, terms: QuadraticTerms, blade: SteppedBlade) -> Self:
-        """Those of a blade, of which only the stepped modes have inertia."""
-        frequencies, modes = blade.model.modes_at(blade.grid.speed)
-        logarithmic, stepped = blade.model.logarithmic_stiffness, len(blade.frequencies)
+        """Those of a blade, its followers among the stepped modes."""
+        logarithmic, followers = blade.model.logarithmic_stiffness, blade.followers.shape[1]
         assert logarithmic is not None
-        derivatives, cubic = terms.at(logarithmic.abscissa(blade.grid.speed))
-        derivatives = derivatives @ modes
-        amplitudes = followed_modes((terms.coordinates @ modes)[:, :stepped])
-        amplitudes = np.pad(amplitudes, ((0, 0), (0, len(frequencies) - stepped)))
-        pushes = -derivatives * frequencies**2
-        # those that are stepped do not follow at once
-        follow = pairings(-pushes[:, :stepped] @ derivatives[:, :stepped].T, len(amplitudes))
+        _, cubic = terms.at(logarithmic.abscissa(blade.grid.speed))
+        own = len(blade.frequencies) - followers
+        derivatives = np.hstack([blade.derivatives[:, :own], blade.followers])
+        amplitudes = np.pad(followed_modes(terms.coordinates @ blade.modes[:, :own]), ((0, 0), (0, followers)))
+        pushes = -derivatives * blade.frequencies**2
+        follow = pairings(-pushes @ derivatives.T, len(amplitudes))
         pushes = pushes - 2.0 / 3.0 * pushes @ amplitudes.T @ amplitudes
-        return cls(amplitudes, pushes, derivatives, cubic + follow)
+        return cls(np.concatenate([amplitudes, pushes]), cubic + follow)

@@ -157,7 +157,7 @@ class Simulation:
         """Energy (J) of the vibration, that of the static modes in it; see Recursion."""
         contact = self.problem.contact
         stepped = float(contact.recursion.energy(state.displacement, state.increment))
-        stepped += float(contact.second_order_energy(state.displacement))
+        stepped += float(contact.second_order_energy(state.displacement, state.increment))
         return stepped + contact.static_energy(state.contact_force)
 
     def work(self, state: SimulationState) -> float:

@@ -15,6 +15,12 @@ from .static_modes import residual_flexibility, settles_at_once, stepped_modes
 from .step_limit import largest_pressed_ratio, ratio_of_pressed_nodes
 from .time_grid import TimeGrid
 
+_TURN_OF_FOLLOWERS = 0.5
+"""Turn of a follower in a step (rad): ten times that of the first mode in usual steps, and far from the limit of stability."""
+
+_SMALLEST_FOLLOWER = 1e-9
+"""Smallest mass of a follower, as a share of the largest."""
+
 
 @dataclass(frozen=True, eq=False)
 class SteppedBlade:
@@ -22,7 +28,8 @@ class SteppedBlade:
 
     With the integrator exact_modal modes faster than `grid.choice.static_above` per step follow the forces statically: they
     are none of `frequencies` and `modes`; see r37core.time_integration.static_modes. With central differences all modes are
-    stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`).
+    stepped. A model with a Coriolis matrix has its stepped modes coupled by it (`complex_modes`). Of one with displacements of
+    second order followers are stepped behind the modes, see `followers`.
     """
 
     model: ContactModel
@@ -32,13 +39,38 @@ class SteppedBlade:
 
     @property
     def frequencies(self) -> np.ndarray:
-        """Frequencies of the blade's modes that are stepped (rad/s), ascending, without the Coriolis force."""
-        return self._modes_of_speed[0][: self._stepped]
+        """Frequencies of the modes that are stepped (rad/s), ascending, without the Coriolis force; then those of followers."""
+        own = self._modes_of_speed[0][: self._stepped]
+        followers = self.followers.shape[1]
+        return np.append(own, np.full(followers, _TURN_OF_FOLLOWERS / self.grid.time_step)) if followers else own
 
     @cached_property
     def modes(self) -> np.ndarray:
-        """Modes of this speed that are stepped, shape (modes at rest, modes)."""
-        return np.ascontiguousarray(self._modes_of_speed[1][:, : self._stepped])
+        """Modes of this speed that are stepped, shape (modes at rest, modes); followers have no part of those at rest."""
+        own = np.ascontiguousarray(self._modes_of_speed[1][:, : self._stepped])
+        followers = self.followers.shape[1]
+        return np.pad(own, ((0, 0), (0, followers))) if followers else own
+
+    @cached_property
+    def derivatives(self) -> np.ndarray:
+        """Static derivatives of the lowest modes in all modes of the speed, shape (products, modes); none of a linear model."""
+        terms, logarithmic = self.model.quadratic, self.model.logarithmic_stiffness
+        if terms is None or logarithmic is None:
+            return np.empty((0, len(self._modes_of_speed[0])))
+        return terms.at(logarithmic.abscissa(self.grid.speed))[0] @ self._modes_of_speed[1]
+
+    @cached_property
+    def followers(self) -> np.ndarray:
+        """Inertia of the static modes that follow products of second order, shape (products, followers).
+
+        A follower is a mode without displacement that is pulled to where the static modes are, and has their mass: static
+        derivatives of the followers whose products with each other are those of the static modes. Without it the stiffness of
+        second order would lack the inertia that nearly cancels it.
+        """
+        static = self.derivatives[:, self._stepped :]
+        squares, shapes = np.linalg.eigh(static @ static.T)
+        kept = squares > _SMALLEST_FOLLOWER * max(squares.max(initial=0.0), np.finfo(float).tiny)
+        return shapes[:, kept] * np.sqrt(squares[kept])
 
     @cached_property
     def gyroscopic_coupling(self) -> np.ndarray | None:
@@ -121,5 +153,6 @@ class SteppedBlade:
     def stiffening(self) -> np.ndarray:
         """Relative change of the modes' squared frequencies per squared speed (s2), shape (modes,)."""
         if self.model.logarithmic_stiffness is not None:
+            # followers keep theirs
             return self.model.logarithmic_stiffness.relative_change(self.modes, self.grid.speed)
         return np.sum(self.modes * (self.model.stiffness_per_square @ self.modes), axis=0) / self.frequencies**2

@@ -67,36 +67,49 @@ class RealMotion:
 
 
 class QuadraticMotionOfModes(RealMotion):
-    """Modes with displacements of second order, as r37core.time_integration.quadratic_motion has them, written out."""
+    """Modes with displacements of second order, as r37core.time_integration.quadratic_motion has them, written out.
+
+    Followers come behind the modes at rest in a motion; displacements and forces have the products there.
+    """
 
     def __init__(self, problem: Problem, recursion: Recursion):
         super().__init__(problem, recursion)
         assert problem.contact.quadratic is not None
-        self._quadratic, self._stepped = problem.contact.quadratic, problem.blade.modes
-        self.products = len(self._quadratic.pairs)
-        pairs, rest = self._quadratic.pairs, len(self._stepped)
-        rows = self._quadratic.rows @ self._stepped.T
-        self._coordinates, self._changes = rows[: len(rows) - len(pairs)], rows[len(rows) - len(pairs) :]
-        whole = np.zeros((rest + self.products,) * 2)
-        whole[:rest, :rest] = self.response
-        self.response = whole
+        self._quadratic, self._rest = problem.contact.quadratic, len(problem.blade.modes)
+        self.products, followers = len(self._quadratic.pairs), problem.blade.followers.shape[1]
+        own = len(problem.blade.frequencies) - followers
+        self._modes = np.zeros((self._rest + followers, own + followers))
+        self._modes[: self._rest, :own], self._modes[self._rest :, own:] = problem.blade.modes[:, :own], np.eye(followers)
+        recursion = recursion[: own + followers]
+        self._keep, self._pull, self._inverse, self._loss = (
+            self._modes @ np.diag(diagonal) @ self._modes.T
+            for diagonal in (recursion.keep, recursion.pull, recursion.inverse, recursion.loss)
+        )
+        self.response = np.zeros((self._rest + self.products,) * 2)
+        self.response[: self._rest, : self._rest] = self._inverse[: self._rest, : self._rest]
+        rows = self._quadratic.rows @ self._modes.T
+        self._coordinates, self._changes = np.split(rows, [len(rows) - self.products])
 
     def _gradient(self, u: np.ndarray) -> np.ndarray:
-        """Change of the products per displacement of the modes at rest, shape (products, modes at rest)."""
+        """Change of the products per displacement of the modes at rest and followers, shape (products, both)."""
         q, (a, b) = self._coordinates @ u, self._quadratic.pairs.T
         return q[a, None] * self._coordinates[b] + q[b, None] * self._coordinates[a]
 
     def _elastic_force(self, u: np.ndarray) -> np.ndarray:
         """Minus the gradient of the energy of second order."""
         quadratic = self._quadratic
-        products, changes = quadratic.products(u @ self._stepped), self._changes @ u
+        products, changes = self._products(u), self._changes @ u
         # of w r (s/2 + c r/4) with symmetric w c
         stiffness = quadratic.weights * (0.5 * changes + 0.5 * quadratic.cubic @ products)
         return -self._gradient(u).T @ stiffness - 0.5 * self._changes.T @ (quadratic.weights * products)
 
+    def _products(self, u: np.ndarray) -> np.ndarray:
+        q, (a, b) = self._coordinates @ u, self._quadratic.pairs.T
+        return q[a] * q[b]
+
     def numbers(self, motion: np.ndarray) -> np.ndarray:
         """Numbers of a snapshot."""
-        return np.append(super().numbers(motion), self._quadratic.products(motion[0] @ self._stepped))
+        return np.append(super().numbers(motion), self._products(motion[0]))
 
     def pushed(self, motion: np.ndarray, force: np.ndarray) -> np.ndarray:
         """Motion with what a force on the modes at rest and products adds at the end of a step, and the elastic forces.
@@ -104,27 +117,26 @@ class QuadraticMotionOfModes(RealMotion):
         Those act from its begin on.
         """
         before = motion[0] - motion[1]
-        own = self.effective(before, force)
-        own[: len(before)] += self._elastic_force(before)
-        return motion + self.response[: len(before)] @ own
+        return motion + self._inverse @ (self._on_modes(before, force) + self._elastic_force(before))
 
-    def effective(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
-        """A force in which those on the products, at a displacement u, are on the modes."""
-        on_modes = force[: len(u)] + self._gradient(u).T @ force[len(u) :]
-        return np.append(on_modes, np.zeros(self.products))
+    def _on_modes(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
+        """A force on modes at rest and products as one on modes at rest and followers, at a displacement u."""
+        on_modes = self._gradient(u).T @ force[self._rest :]
+        on_modes[: self._rest] += force[: self._rest]
+        return on_modes
 
     def displacement(self, motion: np.ndarray) -> np.ndarray:
         """Displacement of the modes at rest, and the products."""
-        return np.append(motion[0], self._quadratic.products(motion[0] @ self._stepped))
+        return np.append(motion[0][: self._rest], self._products(motion[0]))
 
     def slid(self, motion: np.ndarray) -> np.ndarray:
         """Displacement in the last step, and the change of the products."""
-        before = np.array([motion[0] - motion[1], motion[1]])
-        return np.append(motion[1], (self.displacement(motion) - self.displacement(before))[len(motion[0]) :])
+        changed = self._products(motion[0]) - self._products(motion[0] - motion[1])
+        return np.append(motion[1][: self._rest], changed)
 
     def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
         """Work of a force, without that of the elastic forces of second order, and loss of a step."""
-        return super().work_and_loss(before, after, self.effective(before[0], force)[: len(before[0])])
+        return super().work_and_loss(before, after, self._on_modes(before[0], force))
 
 
 class CoupledMotion:
