@@ -1,0 +1,208 @@
+"""A blade about its equilibrium under rotation: frequencies, statics in CalculiX, stress, files, and refusals."""
+
+import shutil
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from box_mesh import box_mesh
+from quadratic_cases import CHOICE, FAR, beam_model, held
+from test_calculix import printed, run_calculix
+
+from r37core.config import ConfigError, command_line_document
+from r37core.exchange.fields import WorstInstant, stress_of
+from r37core.fem.equilibrium import NoEquilibriumError, Rotation
+from r37core.fem.large_displacement import LargeDisplacement
+from r37core.fem.material import Material
+from r37core.fem.matrices import assemble
+from r37core.fem.solver import lowest_modes
+from r37core.fem.stress import nodal_second_order_stress, nodal_stress
+from r37core.product.reading import read_settings
+from r37core.rom.contact_model import read_contact_model, write_contact_model
+from r37core.rom.reduced_model import contact_model
+from r37core.rom.rom_file import read_reduced_model, write_reduced_model
+from r37core.rom.rotation import rotation_amplitudes
+from r37core.stress.recovery import stress_operators
+from r37core.time_integration.simulate import Simulation
+
+SPEED = 1700.0
+
+
+@pytest.fixture(scope="module")
+def rotation(mesh, matrices, steel):
+    return Rotation(LargeDisplacement(mesh.blocks, mesh.points, steel), matrices, follows=False)
+
+
+@pytest.fixture(scope="module")
+def equilibrium(rotation, displaced):
+    """Displacement at a speed at which the reduced model has none of its own."""
+    guess = displaced.whole_blade.rotation_shapes @ rotation_amplitudes(displaced.rotation_stiffening, SPEED)
+    return rotation.equilibrium(SPEED, guess).displacement
+
+
+def test_forces_balance_at_the_equilibrium(rotation, equilibrium, matrices):
+    load = SPEED**2 * np.linalg.norm(matrices.centrifugal_load)
+    assert np.linalg.norm(rotation.residual(equilibrium, SPEED)) < 1e-8 * load
+
+
+def test_frequencies_between_the_speeds_of_the_basis(rotation, equilibrium, displaced, matrices):
+    """Of the full model's tangent, within 0.1% of the first, 0.5% of the others: as far as the basis has them at its speeds."""
+    squares, _ = lowest_modes(rotation.tangent(equilibrium, SPEED), matrices.mass(), 4)
+    frequencies, _ = displaced.modes(SPEED, 4)
+    np.testing.assert_allclose(frequencies, np.sqrt(squares), rtol=5e-3)
+    assert frequencies[0] == pytest.approx(np.sqrt(squares[0]), rel=1e-3)
+
+
+def test_displacement_between_the_speeds_of_the_basis(displaced, equilibrium):
+    ours = displaced.whole_blade.rotation_shapes @ rotation_amplitudes(displaced.rotation_stiffening, SPEED)
+    assert np.abs(ours - equilibrium).max() < 5e-3 * np.abs(equilibrium).max()
+
+
+def test_frequencies_of_a_rotating_beam():
+    """Flapping of a cantilever whose root is on the axis: w L^2 sqrt(m/EI) over W L^2 sqrt(m/EI).
+
+    Wright, Smith, Thresher and Wang, J. Appl. Mech. 49 (1982) 197-202, table 1.
+    """
+    published = {0: 3.5160, 1: 3.6816, 2: 4.1373, 3: 4.7973, 4: 5.5850, 5: 6.4495, 6: 7.3604}
+    # of a solid: bending stiffness and mass per length of the section
+    unit = np.sqrt(200e9 * 0.01 * 0.002**3 / 12.0 / (8000.0 * 0.01 * 0.002)) / 0.2**2
+    model = beam_model(along_axis=True, maximum=6.0 * unit, kinematics="rotating")
+    for speed, frequency in published.items():
+        assert model.modes(speed * unit, 1)[0][0] / unit == pytest.approx(frequency, rel=5e-3)
+
+
+def test_a_blade_without_a_stable_position_is_refused():
+    """A thin rod whose root is ahead of the axis is bent by its load, and with softening no stiffness holds it."""
+    mesh = box_mesh(0.2, 0.002, 0.01, (8, 1, 1), origin=(0.2, -0.001, -0.005), element="hexahedron20")
+    rubber = Material(5e4, 8000.0, 0.3)
+    rotation = Rotation(LargeDisplacement(mesh.blocks, mesh.points, rubber), assemble(mesh, rubber), follows=True)
+    with pytest.raises(NoEquilibriumError, match="maximum_speed_rad_s"):
+        rotation.equilibrium(1000.0, np.zeros_like(mesh.points))
+
+
+@pytest.fixture(scope="module")
+def loads(displaced, matrices, mesh, rotation, equilibrium):
+    """Nodal forces that move the leading edge by a millimetre along the first mode, in linear theory."""
+    squares, modes = lowest_modes(rotation.tangent(equilibrium, SPEED), matrices.mass(), 1)
+    mode, edge = rotation.whole(modes[:, 0]), mesh.node_set("tip_pressure_edge")[0]
+    size = 1e-3 * np.sign(mode[edge, 1]) / np.linalg.norm(mode[edge])
+    return rotation.whole(size * squares[0] * (matrices.mass() @ modes[:, 0]))
+
+
+def outwards(mesh, displacement, before):
+    """How far the leading edge has moved from the axis, beyond where it was before."""
+    edge = mesh.node_set("tip_pressure_edge")[0]
+    radii = [np.hypot(*(mesh.points + field)[edge, :2]) for field in (displacement, before)]
+    return radii[0] - radii[1]
+
+
+def moved_by_the_model(displaced, mesh, loads, motion):
+    """Radial motion (m) of the leading edge in the reduced model, under a load along the first mode."""
+    simulation = Simulation(contact_model(displaced, "pressure_edge"), SPEED, FAR, CHOICE)
+    free = displaced.whole_blade.basis
+    modes = simulation.problem.model.to_reduced @ simulation.problem.blade.modes
+    force = motion * np.einsum("nxm,nx->m", free @ modes, loads)
+    shape = displaced.whole_blade.basis @ (simulation.problem.model.to_reduced @ held(simulation, force)[1])
+    rotated = displaced.whole_blade.rotation_shapes @ rotation_amplitudes(displaced.rotation_stiffening, SPEED)
+    return outwards(mesh, rotated + shape, rotated)
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (apt-get install calculix-ccx)")
+@pytest.mark.parametrize("motion", [-7.0, 7.0])
+def test_motion_of_the_tip_in_calculix(displaced, mesh, matrices, steel, loads, tmp_path, motion):
+    """Within 2% of the millimetres that it moves."""
+    fields = []
+    for name, share in (("still", 0.0), ("moved", motion)):
+        (tmp_path / name).mkdir()
+        forces = SPEED**2 * matrices.centrifugal_load + share * loads
+        lines = [f"{node + 1}, {axis + 1}, {float(force)!r}" for (node, axis), force in np.ndenumerate(forces) if force]
+        step = ["0.2, 1.0, 1e-4, 0.25", "*CLOAD", *lines, "*NODE PRINT, NSET=ALL_NODES, FREQUENCY=100", "U"]
+        fields.append(
+            printed(run_calculix(tmp_path / name, mesh, steel, step, "*STEP, NLGEOM, INC=200"), 4)[-len(mesh.points) :, 1:]
+        )
+    theirs = outwards(mesh, fields[1], fields[0])
+    assert moved_by_the_model(displaced, mesh, loads, motion) == pytest.approx(theirs, abs=2e-5)
+
+
+def test_motion_of_the_tip_in_the_full_model(displaced, mesh, rotation, equilibrium, loads):
+    """Three millimetres there and back, by Newton's method from the reduced model's answer on."""
+    for motion in (-3.0, 3.0):
+        field = newton(rotation, equilibrium, motion * rotation.free(loads))
+        full = outwards(mesh, field, equilibrium)
+        assert moved_by_the_model(displaced, mesh, loads, motion) == pytest.approx(full, abs=5e-6)
+        # what linear theory has is symmetric
+        assert abs(full - motion * 7.4e-5) > 3e-5
+
+
+def newton(rotation, start, force):
+    """The position near another one under more forces, in ten steps."""
+    from r37core.fem.solver import factorise
+
+    field = start
+    for share in np.linspace(0.0, 1.0, 11)[1:]:
+        solve = factorise(rotation.tangent(field, SPEED))
+        for _ in range(30):
+            correction = solve(rotation.residual(field, SPEED) + share * force)
+            field = field + rotation.whole(correction)
+            if np.linalg.norm(correction) < 1e-9 * np.linalg.norm(field):
+                break
+    return field
+
+
+def test_a_turned_body_has_no_stress(mesh, steel):
+    turn = np.array([[np.cos(0.3), -np.sin(0.3), 0.0], [np.sin(0.3), np.cos(0.3), 0.0], [0.0, 0.0, 1.0]])
+    field = (mesh.points @ turn.T - mesh.points)[:, :, None]
+    first = nodal_stress(mesh.blocks, mesh.points, field, steel)
+    second = nodal_second_order_stress(mesh.blocks, mesh.points, field, field, steel)
+    assert np.abs(first).max() > 1e9
+    assert np.abs(first + 0.5 * second).max() < 1.0
+
+
+def test_stress_is_that_of_the_whole_displacement(displaced, mesh, steel):
+    """Of the operators, at nodes of the box whose elements all belong to it, as of the field on the whole blade."""
+    box = stress_operators(displaced, steel)["box"].at(SPEED)
+    modes = displaced.modes(SPEED, 3)[1]
+    coordinates = modes @ [3e-4, -5e-5, 2e-5]
+    ours = box.von_mises(coordinates[None])[0]
+    _, field = stress_of(mesh, displaced, steel, WorstInstant(0.0, coordinates[None], 0), SPEED)
+    s = field[:, displaced.stress_regions["box"].nodes.nodes[displaced.stress_regions["box"].evaluated]]
+    theirs = np.sqrt(0.5 * ((s[0] - s[1]) ** 2 + (s[1] - s[2]) ** 2 + (s[2] - s[0]) ** 2) + 3.0 * np.sum(s[3:] ** 2, axis=0))
+    region = displaced.stress_regions["box"].nodes.nodes
+    outside = np.concatenate([nodes[~np.isin(nodes, region).all(axis=1)].ravel() for nodes in mesh.blocks.values()])
+    inner = ~np.isin(region[displaced.stress_regions["box"].evaluated], outside)
+    np.testing.assert_allclose(ours[inner], theirs[inner], rtol=0, atol=0.02 * theirs.max())
+
+
+def test_files_hold_the_model(displaced, tmp_path):
+    write_reduced_model(displaced, tmp_path / "rom.nc")
+    again = read_reduced_model(tmp_path / "rom.nc")
+    write_contact_model(contact_model(again, "pressure_edge"), tmp_path / "contact.npz")
+    model, contact = read_contact_model(tmp_path / "contact.npz"), contact_model(displaced, "pressure_edge")
+    for part in ("logarithmic_stiffness", "quadratic"):
+        for name, value in vars(getattr(contact, part)).items():
+            assert np.array_equal(getattr(getattr(model, part), name), value), name
+    np.testing.assert_array_equal(model.modes_at(SPEED)[0], contact.modes_at(SPEED)[0])
+    assert model.modes_at(SPEED)[0][0] == pytest.approx(displaced.modes(SPEED, 1)[0][0], rel=1e-10)
+
+
+def test_rotating_has_the_modes_alone(mesh, matrices, choice, steel, displaced):
+    from r37core.rom.reduce import reduce_blade
+
+    model = reduce_blade(mesh, matrices, replace(choice, kinematics="rotating"), steel)
+    assert model.quadratic is None
+    np.testing.assert_allclose(model.modes(SPEED, 3)[0], displaced.modes(SPEED, 3)[0], rtol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"structure": {"kinematics": "quadratic", "coriolis": True}}, "coriolis: false"),
+        ({"structure": {"kinematics": "quadratic"}, "fidelity": "paper"}, "a level of exact_modal"),
+        ({"structure": {"kinematics": "rotating"}, "exports": {"full_matrices": True}}, "kinematics: linear"),
+        ({"structure": {"kinematics": "large"}}, "quadratic"),
+        ({"structure": {"kinematics": "quadratic", "quadratic_modes": 7}}, "quadratic_modes"),
+    ],
+)
+def test_what_cannot_be_had_is_refused(root, changes, said):
+    with pytest.raises(ConfigError, match=said):
+        read_settings(root, command_line_document(changes))
