@@ -115,7 +115,7 @@ def test_motion_of_the_tip_in_calculix(displaced, mesh, matrices, steel, loads, 
     for name, share in (("still", 0.0), ("moved", motion)):
         (tmp_path / name).mkdir()
         forces = SPEED**2 * matrices.centrifugal_load + share * loads
-        lines = [f"{node + 1}, {axis + 1}, {float(force)!r}" for (node, axis), force in np.ndenumerate(forces) if force]
+        lines = [f"{node + 1}, {axis + 1}, {force:.12g}" for (node, axis), force in np.ndenumerate(forces) if force]
         step = ["0.2, 1.0, 1e-4, 0.25", "*CLOAD", *lines, "*NODE PRINT, NSET=ALL_NODES, FREQUENCY=100", "U"]
         fields.append(
             printed(run_calculix(tmp_path / name, mesh, steel, step, "*STEP, NLGEOM, INC=200"), 4)[-len(mesh.points) :, 1:]
