@@ -1,0 +1,52 @@
+# What large displacements change (docs/large_motion.md), beside the linear run of which_blade.smk.
+def displaced(kinematics):
+    """Configuration of a run at the speeds, scenes and level of the run `regions`."""
+    return run(
+        kinematics,
+        scenes=["material_abradable", "direct"],
+        fidelity="draft",
+        structure={"boundary": {"contact": "patches"}, "kinematics": kinematics},
+        speeds=[{"start": 760, "stop": 2000, "step": 20}],
+    )
+
+
+module rotating:
+    snakefile:
+        "../../Snakefile"
+    config:
+        displaced("rotating")
+
+
+use rule * from rotating as rotating_*
+
+
+module quadratic:
+    snakefile:
+        "../../Snakefile"
+    config:
+        displaced("quadratic")
+
+
+use rule * from quadratic as quadratic_*
+
+
+KINEMATICS = {"linear": "regions", "rotating": "rotating", "quadratic": "quadratic"}
+
+
+use rule evidence as large_motion with:
+    input:
+        unpack(
+            behind_engine(
+                **{
+                    kind: responses(f"results/runs/{folder}", "material_abradable", "direct")
+                    for kind, folder in KINEMATICS.items()
+                },
+            )
+        ),
+    output:
+        table=f"{TABLES}/large_motion.csv",
+        picture="docs/large_motion.png",
+    log:
+        "logs/validation/large_motion.log",
+    params:
+        **evidence("large_motion.changes"),
