@@ -35,13 +35,14 @@ def multi_speed_basis(
 
     `boundary`, shape (boundary coordinates, dofs): each row gives one of them from the displacements, by a 1 or by weights.
     The first state's constraint modes stay as they are, so that static responses to boundary loads are exact there. `further`:
-    more columns of a state, shape (dofs, columns).
+    more columns of a state, shape (dofs, columns), or none.
     """
     columns: list[np.ndarray] = []
     for state in states:
         columns += constraint_and_fixed_modes(state.stiffness, mass, boundary, choice.fixed_interface_modes, state.solve)
-        if further is not None:
-            columns.append(further(state))
+        # an empty array would change the order in memory of the others, and with it rounding
+        if further is not None and (more := further(state)).shape[1]:
+            columns.append(more)
     return combine_columns(columns[0], np.hstack(columns), mass, boundary, choice.basis_tolerance)
 
 
