@@ -32,12 +32,12 @@ class LargeDisplacement:
     @cached_property
     def _gradients(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Gradients of the shape functions, shape (elements, points, n, 3), and volumes of the points, by element type."""
-        found = {}
+        by_type = {}
         for name, element, coordinates in typed_blocks(self.blocks, self.points):
             rule_points, rule_weights = element.stiffness_rule
             gradients, determinant = element.physical_gradients(coordinates, rule_points)
-            found[name] = gradients, determinant * rule_weights
-        return found
+            by_type[name] = gradients, determinant * rule_weights
+        return by_type
 
     def forces(self, displacement: np.ndarray) -> np.ndarray:
         """Elastic forces of a displacement."""
@@ -55,8 +55,8 @@ class LargeDisplacement:
             along = [self._slope(name, field) for field in (first, second)]
             deformation = np.eye(3) + self._slope(name, displacement)
             total = deformation @ self._stress(_symmetric(_product(*along)))
-            for one, other in (along, along[::-1]):
-                total = total + one @ self._stress(_symmetric(_product(deformation, other)))
+            for slope, other in (along, along[::-1]):
+                total = total + slope @ self._stress(_symmetric(_product(deformation, other)))
             return total
 
         return self._nodal(first_piola)
@@ -67,7 +67,7 @@ class LargeDisplacement:
         def first_piola(name: str) -> np.ndarray:
             a, b, c = (self._slope(name, field) for field in (first, second, third))
             pairs = ((a, b, c), (b, c, a), (c, a, b))
-            return sum((one @ self._stress(_symmetric(_product(two, three))) for one, two, three in pairs), np.zeros_like(a))
+            return sum((slope @ self._stress(_symmetric(_product(*others))) for slope, *others in pairs), np.zeros_like(a))
 
         return self._nodal(first_piola)
 

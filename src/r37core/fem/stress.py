@@ -54,8 +54,8 @@ def nodal_second_order_stress(
     """
 
     def stress(name: str, gradients: np.ndarray, field: int) -> np.ndarray:
-        one, other = (_slope(gradients, each[blocks[name], :, field]) for each in (first, second))
-        product = one.transpose(0, 1, 3, 2) @ other
+        left, right = (_slope(gradients, each[blocks[name], :, field]) for each in (first, second))
+        product = left.transpose(0, 1, 3, 2) @ right
         return _stress(0.5 * (product + product.transpose(0, 1, 3, 2)), material)
 
     return _averaged(blocks, points, first.shape[2], stress)

@@ -57,10 +57,10 @@ class RotatingBlade:
         yield StateAtSpeed(0.0, self._matrices.stiffness(), self._matrices.solve_at_rest)
         guess = self._slope * self._choice.speeds[1] ** 2
         for speed in self._choice.speeds[1:]:
-            found = self._rotation.equilibrium(speed, guess)
-            self._equilibria.append(found.displacement)
+            equilibrium = self._rotation.equilibrium(speed, guess)
+            self._equilibria.append(equilibrium.displacement)
             # the factors are of a tangent near this one, which a basis may be of
-            yield StateAtSpeed(speed, self._rotation.tangent(found.displacement, speed), found.solve)
+            yield StateAtSpeed(speed, self._rotation.tangent(equilibrium.displacement, speed), equilibrium.solve)
             guess = self._extrapolated(max(self._choice.speeds))
 
     def _extrapolated(self, speed: float) -> np.ndarray:
