@@ -116,7 +116,7 @@ def box_model(*fields):
     nodes = RecoveryNodes(np.arange(len(mesh.points)), mesh.points, basis, np.zeros((len(mesh.points), 3, 1)))
     every = np.arange(len(mesh.points))
     region = StressRegion("box", np.inf, nodes, dict(mesh.blocks), every, mesh.parameters)
-    return SimpleNamespace(stress_regions={"box": region}, size=len(fields))
+    return SimpleNamespace(stress_regions={"box": region}, size=len(fields), logarithmic_stiffness=None)
 
 
 def test_stress_of_simple_states():

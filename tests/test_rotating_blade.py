@@ -160,7 +160,7 @@ def test_a_turned_body_has_no_stress(mesh, steel):
 
 def test_stress_is_that_of_the_whole_displacement(displaced, mesh, steel):
     """Of the operators, at nodes of the box whose elements all belong to it, as of the field on the whole blade."""
-    box = stress_operators(displaced, steel)["box"].at(SPEED)
+    box = stress_operators(displaced, steel)["box"].displaced(SPEED)
     modes = displaced.modes(SPEED, 3)[1]
     coordinates = modes @ [3e-4, -5e-5, 2e-5]
     ours = box.von_mises(coordinates[None])[0]

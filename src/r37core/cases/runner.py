@@ -149,7 +149,7 @@ def _response(case: Case, model: ContactModel, recovery: StressOperators | None,
         for speed, row, file in zip(case.speeds, stress, files, strict=True):
             # a run that diverged has none
             if len(snapshots := read_speed(file)["snapshots"]):
-                row[:] = judged_operator(recovery).at(speed).max_von_mises(snapshots)
+                row[:] = judged_operator(recovery).displaced(speed).max_von_mises(snapshots)
         meaning = "largest von Mises stress at each instant of the last revolution"
         response["max_von_mises_of_instant"] = ("speed", "instant"), stress, about("Pa", meaning)
     return response.assign_attrs({"reduction_cpu_s": reduction_cpu, "peak_memory_bytes": peak_memory()})

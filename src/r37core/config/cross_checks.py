@@ -145,8 +145,8 @@ def kinematics_can_be_had(settings: Settings) -> None:
     structure, key, document = settings.structure, ("structure", "kinematics"), settings.documents.config
     matrices = [name for name, blade in settings.blades.items() if blade.is_matrices]
     if structure.kinematics != LINEAR and matrices:
-        of_matrices = f"the blade '{matrices[0]}', given by matrices, which say nothing of large displacements"
-        value = f"{structure.kinematics} with {of_matrices}"
+        origin = f"the blade '{matrices[0]}', given by matrices, which say nothing of large displacements"
+        value = f"{structure.kinematics} with {origin}"
         raise document.refusal(key, value, f"{LINEAR}, or the blade's mesh")
     if structure.kinematics != QUADRATIC:
         return

@@ -99,7 +99,7 @@ def worst_instants(
         if run["status"] or not len(run["snapshots"]):
             continue
         revolution = run["snapshots"]
-        largest = stress.at(speed).max_von_mises(revolution)
+        largest = stress.displaced(speed).max_von_mises(revolution)
         instant = int(np.argmax(largest))
         instants[speed] = WorstInstant(float(largest[instant]), revolution, instant)
     worst = max(instants, key=lambda speed: instants[speed].largest, default=None)

@@ -32,12 +32,12 @@ class LargeDisplacement:
     @cached_property
     def _gradients(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Gradients of the shape functions, shape (elements, points, n, 3), and volumes of the points, by element type."""
-        by_type = {}
+        elements = {}
         for name, element, coordinates in typed_blocks(self.blocks, self.points):
             rule_points, rule_weights = element.stiffness_rule
             gradients, determinant = element.physical_gradients(coordinates, rule_points)
-            by_type[name] = gradients, determinant * rule_weights
-        return by_type
+            elements[name] = gradients, determinant * rule_weights
+        return elements
 
     def forces(self, displacement: np.ndarray) -> np.ndarray:
         """Elastic forces of a displacement."""

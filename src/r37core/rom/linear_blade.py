@@ -37,10 +37,10 @@ class LinearBlade:
         """The blade at the speeds one after another."""
         stiffness, per_square = self._terms
         for speed in self._choice.speeds:
-            at_speed = sp.csr_array(stiffness + speed**2 * per_square)
-            solve = factorise(at_speed) if speed else self._matrices.solve_at_rest
+            total = sp.csr_array(stiffness + speed**2 * per_square)
+            solve = factorise(total) if speed else self._matrices.solve_at_rest
             self._displaced.append(solve(self._load))
-            yield StateAtSpeed(speed, at_speed, solve)
+            yield StateAtSpeed(speed, total, solve)
 
     def derivatives(self, state: StateAtSpeed) -> np.ndarray:
         """No columns of a basis: modes of small displacements do not change."""

@@ -31,7 +31,7 @@ class LogarithmicStiffness:
 
     @classmethod
     def through(cls, squares: np.ndarray, stiffness: np.ndarray, speeds: np.ndarray) -> LogarithmicStiffness:
-        """That of a blade with these `squares` of frequencies at rest (rad2/s2) and, in its modes at rest, this `stiffness`.
+        """Change of a blade with these `squares` of frequencies at rest (rad2/s2) and, in its modes at rest, this `stiffness`.
 
         `stiffness` (rad2/s2), shape (2, modes, modes), at two higher `speeds` (rad/s), shape (2,).
         """
@@ -58,7 +58,7 @@ class LogarithmicStiffness:
         change = self.linear + 2.0 * self.abscissa(speed) * self.quadratic
         return np.sum(modes * (change @ modes), axis=0) * self.rate / (1.0 + self.rate * speed**2)
 
-    def in_modes(self, shapes: np.ndarray) -> LogarithmicStiffness:
+    def projected(self, shapes: np.ndarray) -> LogarithmicStiffness:
         """The change in other coordinates, from matrices that these `shapes`, shape (coordinates, new coordinates), project."""
         linear, quadratic = (shapes.T @ matrix @ shapes for matrix in (self.linear, self.quadratic))
         return replace(self, linear=0.5 * (linear + linear.T), quadratic=0.5 * (quadratic + quadratic.T))

@@ -40,16 +40,16 @@ class QuadraticTerms:
         coefficients = np.linalg.inv(np.vander(places, increasing=True))
         return cls(coordinates, *(np.tensordot(coefficients, values, axes=1) for values in (derivatives, cubic)))
 
-    def at(self, place: float) -> tuple[np.ndarray, np.ndarray]:
+    def interpolated(self, place: float) -> tuple[np.ndarray, np.ndarray]:
         """`derivatives` and `cubic` at a place of the abscissa."""
         powers = place ** np.arange(3)
         return np.tensordot(powers, self.derivatives, axes=1), np.tensordot(powers, self.cubic, axes=1)
 
     def stiffened(self, factor: float) -> QuadraticTerms:
-        """Those of a blade whose elastic modulus is larger by a factor."""
+        """Terms of a blade whose elastic modulus is larger by a factor."""
         return replace(self, cubic=self.cubic * factor)
 
-    def in_modes(self, modes: np.ndarray) -> QuadraticTerms:
+    def projected(self, modes: np.ndarray) -> QuadraticTerms:
         """The terms in coordinates y with x = modes y; `modes`, shape (coordinates, new coordinates)."""
         return replace(self, coordinates=self.coordinates @ modes, derivatives=self.derivatives @ modes)
 

@@ -72,8 +72,8 @@ class ReducedModel:
         """Stiffness (N/m) at `speed` (rad/s): K0 + Omega^2 K1, or that about the equilibrium there."""
         if self.logarithmic_stiffness is None:
             return self.stiffness + speed**2 * self.stiffness_per_square
-        at_rest, modes_at_rest = la.eigh(self.stiffness, self.mass)
-        squares, modes = self.logarithmic_stiffness.in_modes(modes_at_rest).spectrum(at_rest, speed)
+        squares, modes_at_rest = la.eigh(self.stiffness, self.mass)
+        squares, modes = self.logarithmic_stiffness.projected(modes_at_rest).spectrum(squares, speed)
         shapes = self.mass @ (modes_at_rest @ modes)
         return symmetric((shapes * squares) @ shapes.T)
 
@@ -123,8 +123,8 @@ def contact_model(model: ReducedModel, tip_line: str) -> ContactModel:
     return ContactModel(
         squared_frequencies=frequencies**2,
         stiffness_per_square=symmetric(modes.T @ model.stiffness_per_square @ modes),
-        logarithmic_stiffness=None if logarithmic is None else logarithmic.in_modes(modes),
-        quadratic=None if quadratic is None else quadratic.in_modes(modes),
+        logarithmic_stiffness=None if logarithmic is None else logarithmic.projected(modes),
+        quadratic=None if quadratic is None else quadratic.projected(modes),
         **_node_fields(nodes, modes),
         tip_lengths=model.contact_tip_lengths,
         tip_cone_angle=line.cone_angle,

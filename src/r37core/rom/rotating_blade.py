@@ -103,12 +103,12 @@ class RotatingBlade:
         mass, speeds = projected(self._matrices.mass(), vectors), self._choice.speeds
         stiffness = np.array([projected(tangent, vectors) for tangent in self._tangents()])
         squares, modes = la.eigh(stiffness[0], mass)
-        in_modes = np.array([symmetric(modes.T @ matrix @ modes) for matrix in stiffness[1:]])
-        logarithmic = LogarithmicStiffness.through(squares, in_modes, np.array(speeds[1:]))
+        modal_stiffness = np.array([symmetric(modes.T @ matrix @ modes) for matrix in stiffness[1:]])
+        logarithmic = LogarithmicStiffness.through(squares, modal_stiffness, np.array(speeds[1:]))
         terms = {
             "stiffness": stiffness[0],
             "geometric_stiffness": (stiffness[1] - stiffness[0]) / speeds[1] ** 2,
-            "logarithmic_stiffness": logarithmic.in_modes(modes.T @ mass),
+            "logarithmic_stiffness": logarithmic.projected(modes.T @ mass),
             "quadratic_residual": 0.0,
         }
         if self._choice.kinematics == QUADRATIC:

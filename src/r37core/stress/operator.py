@@ -33,8 +33,8 @@ class StressOperator:
     words; `is_complete`: whether its nodes are all of the region's; `places`, shape (nodes, 3): their chord, span, thickness,
     where known.
 
-    Of a blade about its equilibrium under rotation: `per_rotation`, shape (shapes, 6, nodes, coordinates): what each amplitude
-    of rotation's shapes adds to the operator, see `at`, and their `rotation_stiffening`; `large_coordinates`, shape (modes,
+    Of a blade about its equilibrium under rotation: `per_rotation`, shape (shapes, 6, nodes, coordinates): what an amplitude of
+    rotation's shapes adds to the operator, see `displaced`, and their `rotation_stiffening`; `large_coordinates`, shape (modes,
     coordinates): amplitudes of the modes whose products, of second order, follow the coordinates among the numbers.
     """
 
@@ -48,7 +48,7 @@ class StressOperator:
     rotation_stiffening: np.ndarray | None = None
     large_coordinates: np.ndarray | None = None
 
-    def at(self, speed: float) -> StressOperator:
+    def displaced(self, speed: float) -> StressOperator:
         """The operator at a `speed` (rad/s): about the equilibrium there."""
         if self.per_rotation is None or self.rotation_stiffening is None:
             return self
@@ -120,7 +120,7 @@ StressOperators = Mapping[str, StressOperator]
 
 def operators_at(operators: StressOperators, speed: float) -> dict[str, StressOperator]:
     """The operators at a `speed` (rad/s)."""
-    return {name: operator.at(speed) for name, operator in operators.items()}
+    return {name: operator.displaced(speed) for name, operator in operators.items()}
 
 
 def judged_operator(operators: StressOperators) -> StressOperator:

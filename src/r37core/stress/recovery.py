@@ -92,7 +92,7 @@ def _rotation_stress(
 
 @dataclass(frozen=True)
 class _LargeMotion:
-    """What large displacements add to a stress operator, see there; `products`: columns of the products of second order."""
+    """Parts that large displacements add to a stress operator, see there; `products`: columns of those of second order."""
 
     per_rotation: np.ndarray
     coordinates: np.ndarray

@@ -41,7 +41,7 @@ class QuadraticMotion:
 
     @cached_property
     def _modal(self) -> _ModalTerms:
-        return _ModalTerms.of(self.terms, self.blade)
+        return _ModalTerms.build(self.terms, self.blade)
 
     @property
     def rows(self) -> np.ndarray:
@@ -100,11 +100,11 @@ class _ModalTerms:
     cubic: np.ndarray
 
     @classmethod
-    def of(cls, terms: QuadraticTerms, blade: SteppedBlade) -> Self:
-        """Those of a blade, its followers among the stepped modes."""
+    def build(cls, terms: QuadraticTerms, blade: SteppedBlade) -> Self:
+        """Terms of a blade, its followers among the stepped modes."""
         logarithmic, followers = blade.model.logarithmic_stiffness, blade.followers.shape[1]
         assert logarithmic is not None
-        _, cubic = terms.at(logarithmic.abscissa(blade.grid.speed))
+        _, cubic = terms.interpolated(logarithmic.abscissa(blade.grid.speed))
         own = len(blade.frequencies) - followers
         derivatives = np.hstack([blade.derivatives[:, :own], blade.followers])
         amplitudes = np.pad(followed_modes(terms.coordinates @ blade.modes[:, :own]), ((0, 0), (0, followers)))

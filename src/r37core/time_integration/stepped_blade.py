@@ -57,7 +57,7 @@ class SteppedBlade:
         terms, logarithmic = self.model.quadratic, self.model.logarithmic_stiffness
         if terms is None or logarithmic is None:
             return np.empty((0, len(self._modes_of_speed[0])))
-        return terms.at(logarithmic.abscissa(self.grid.speed))[0] @ self._modes_of_speed[1]
+        return terms.interpolated(logarithmic.abscissa(self.grid.speed))[0] @ self._modes_of_speed[1]
 
     @cached_property
     def followers(self) -> np.ndarray:

@@ -117,13 +117,13 @@ class QuadraticMotionOfModes(RealMotion):
         Those act from its begin on.
         """
         before = motion[0] - motion[1]
-        return motion + self._inverse @ (self._on_modes(before, force) + self._elastic_force(before))
+        return motion + self._inverse @ (self._modal_force(before, force) + self._elastic_force(before))
 
-    def _on_modes(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
+    def _modal_force(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
         """A force on modes at rest and products as one on modes at rest and followers, at a displacement u."""
-        on_modes = self._gradient(u).T @ force[self._rest :]
-        on_modes[: self._rest] += force[: self._rest]
-        return on_modes
+        pushed_modes = self._gradient(u).T @ force[self._rest :]
+        pushed_modes[: self._rest] += force[: self._rest]
+        return pushed_modes
 
     def displacement(self, motion: np.ndarray) -> np.ndarray:
         """Displacement of the modes at rest, and the products."""
@@ -136,7 +136,7 @@ class QuadraticMotionOfModes(RealMotion):
 
     def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
         """Work of a force, without that of the elastic forces of second order, and loss of a step."""
-        return super().work_and_loss(before, after, self._on_modes(before[0], force))
+        return super().work_and_loss(before, after, self._modal_force(before[0], force))
 
 
 class CoupledMotion:
