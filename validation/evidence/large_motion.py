@@ -62,5 +62,5 @@ def _draw(runs: dict[tuple[str, str], dict[str, xr.Dataset]], file: str) -> None
         row[0].set_ylabel("motion, rms (mm)")
     for panel in axes[-1]:
         panel.set_xlabel("speed (rad/s)")
-    axes[0, 0].legend(frameon=False)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=len(KINEMATICS), frameon=False)
     save(figure, file)
