@@ -52,3 +52,11 @@ def test_a_turned_solid_has_turned_forces(solid, fields):
     displaced = solid.points + fields[0]
     turned = solid.forces(displaced @ rotation.T - solid.points)
     assert error(turned, solid.forces(fields[0]) @ rotation.T) < 1e-12
+
+
+def test_strain_energies_are_those_of_the_third_derivative(solid, fields):
+    a, b, c, d = fields
+    pairs = {"da": (d, a), "bc": (b, c), "db": (d, b), "ca": (c, a), "dc": (d, c), "ab": (a, b)}
+    energies = solid.strain_energies(list(pairs.values()))
+    total = sum(energies[2 * number, 2 * number + 1] for number in range(3))
+    assert total == pytest.approx(np.sum(d * solid.third_derivative(a, b, c)), rel=1e-10)

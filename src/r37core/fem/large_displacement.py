@@ -8,7 +8,7 @@ Source: Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysi
 tangent is the stiffness of r37core.fem.assembly: the quadrature is the same.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -70,6 +70,19 @@ class LargeDisplacement:
             return sum((slope @ self._stress(_symmetric(_product(*others))) for slope, *others in pairs), np.zeros_like(a))
 
         return self._nodal(first_piola)
+
+    def strain_energies(self, pairs: Sequence[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+        """Integrals (J) of E_p : C : E_q over the solid, shape (pairs, pairs), of the strains of second order of some pairs.
+
+        E = (A^T B + B^T A)/2, with the slopes A and B of a pair of displacements (m). The third derivative of the forces along
+        a, b and c, times d, is the sum of those of da and bc, db and ca, dc and ab.
+        """
+        energies = np.zeros((len(pairs),) * 2)
+        for name, (_, volumes) in self._gradients.items():
+            strains = [_symmetric(_product(*(self._slope(name, field) for field in pair))) for pair in pairs]
+            stresses = [self._stress(strain) * volumes[:, :, None, None] for strain in strains]
+            energies += np.array([[np.vdot(strain, stress) for stress in stresses] for strain in strains])
+        return 0.5 * (energies + energies.T)
 
     def tangent(self, displacement: np.ndarray, pattern: NodePattern) -> np.ndarray:
         """Tangent stiffness (N/m) at a displacement as blocks of the pattern's node pairs, shape (pairs, 3, 3).

@@ -9,7 +9,7 @@ displacement to second order with its inertia is that of these columns.
 
 from collections.abc import Iterator
 from functools import cached_property
-from itertools import combinations_with_replacement, permutations
+from itertools import combinations_with_replacement
 from typing import Any
 
 import numpy as np
@@ -136,17 +136,9 @@ class RotatingBlade:
             squares, modes = la.eigh(matrix, mass)
             followed = modes @ followed_modes(coordinates @ modes).T
             fields = [self._rotation.whole(field) for field in (vectors @ followed).T]
-            pushes = np.array(
-                [
-                    self._pushed(vectors, self._solid.second_derivative(displacement, fields[a], fields[b]))
-                    for a, b in pairs_of(count)
-                ]
-            )
-            third = np.zeros((count,) * 4)
-            for a, b, c in combinations_with_replacement(range(count), 3):
-                along = followed.T @ self._pushed(vectors, self._solid.third_derivative(fields[a], fields[b], fields[c]))
-                for order in permutations((a, b, c)):
-                    third[order] = along
+            pairs = [(fields[a], fields[b]) for a, b in pairs_of(count)]
+            pushes = np.array([self._pushed(vectors, self._solid.second_derivative(displacement, *pair)) for pair in pairs])
+            third = pairings(self._solid.strain_energies(pairs), count)
             modal = pushes @ modes
             derivatives.append(-(modal / squares) @ modes.T @ mass)
             cubic.append(third - pairings((modal / squares) @ modal.T, count))
