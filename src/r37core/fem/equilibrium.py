@@ -1,5 +1,6 @@
 """Where a blade rests under its rotation: the equilibrium of large displacements."""
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,10 +14,11 @@ from .solver import Solve, factorise
 _CONVERGED = 1e-9
 """Size of the last correction of an equilibrium, as a share of its displacement."""
 
-_MOST_FACTORS, _MOST_CUTS = 6, 5
+_ORDER, _LEFT_OUT = 16, 3e-2
+"""Order of the series between equilibria, and its last term where it ends, as a share of its first."""
 
-_FAST = 0.25
-"""Size of a correction over that of the one before, below which factors are kept."""
+_MOST_CORRECTIONS, _SHORTEST = 20, 0.01
+"""Corrections by one tangent, and shortest step of the load, as a share of that which is looked for."""
 
 
 class NoEquilibriumError(ValueError):
@@ -79,46 +81,60 @@ class Rotation:
             load = load - speed**2 * (self._softening @ self.free(displacement))
         return load - self.free(self.solid.forces(displacement))
 
-    def equilibrium(self, speed: float, guess: np.ndarray) -> Equilibrium:
-        """The equilibrium at a speed (rad/s), from a `guess` of its displacement (m), shape (nodes, 3).
+    def equilibria(self, speeds: Iterable[float]) -> Iterator[Equilibrium]:
+        """The equilibria at ascending speeds (rad/s) above rest. Raises NoEquilibriumError.
 
-        Newton's method in steps of the load, which are halved where it does not converge; the guess grows with the load.
-        Raises NoEquilibriumError.
+        From one to the next by the series of the displacement in the squared speed, whose terms all have the tangent there: the
+        asymptotic numerical method (Cochelin, Computers & Structures 53 (1994) 1181-1192). Where it ends Newton's method with
+        the tangent there corrects what it leaves out.
         """
-        reached, step, displacement = 0.0, 1.0, guess
-        while True:
-            share = min(reached + step, 1.0)
-            start = displacement * (share / reached if reached else share)
-            there = self._newton(start, speed * np.sqrt(share))
-            if there is not None:
-                displacement, reached = there.displacement, share
-                if reached == 1.0:
-                    return there
-                continue
-            step *= 0.5
-            if step < 2.0**-_MOST_CUTS:
-                raise NoEquilibriumError(speed, speed * np.sqrt(reached))
+        here = Equilibrium(np.zeros_like(self.solid.points), self._matrices.solve_at_rest)
+        square = 0.0
+        for speed in speeds:
+            shortest = _SHORTEST * (speed**2 - square)
+            while square < speed**2:
+                terms = self._series(here, square)
+                sizes = [float(np.linalg.norm(term)) for term in terms]
+                longest = float((_LEFT_OUT * sizes[0] / sizes[-1]) ** (1.0 / (_ORDER - 1))) if sizes[-1] else np.inf
+                step, there = min(longest, speed**2 - square), None
+                while there is None:
+                    if step < shortest:
+                        raise NoEquilibriumError(speed, float(np.sqrt(square)))
+                    reached = speed**2 if step == speed**2 - square else square + step
+                    displacement = here.displacement + sum(term * step ** (n + 1) for n, term in enumerate(terms))
+                    there = self._corrected(displacement, reached)
+                    step *= 0.5
+                here, square = there, reached
+            yield here
 
-    def _newton(self, displacement: np.ndarray, speed: float) -> Equilibrium | None:
-        """The equilibrium near a displacement; None where it is not found, or is not stable.
+    def _series(self, here: Equilibrium, square: float) -> list[np.ndarray]:
+        """Terms of the displacement (m) in what is added to a squared speed, from the equilibrium there on."""
+        load = self.free(self._matrices.centrifugal_load)
 
-        Factors are kept while the corrections become smaller fast: making them costs as much as fifty corrections.
-        """
-        residual, last_size = self.residual(displacement, speed), np.inf
-        for _ in range(_MOST_FACTORS):
-            solve, is_new = factorise(self.tangent(displacement, speed)), True
-            while True:
-                correction = solve(residual)
-                size = float(np.linalg.norm(correction))
-                is_last = size <= _CONVERGED * np.linalg.norm(displacement)
-                if not (is_new or is_last or size < _FAST * last_size):
-                    break
-                if is_new:
-                    # of a stable position the tangent is positive
-                    is_stable = correction @ residual > 0.0
-                displacement = displacement + self.whole(correction)
-                if is_last:
-                    return Equilibrium(displacement, solve) if is_stable else None
-                is_new, last_size = False, size
-                residual = self.residual(displacement, speed)
+        def next_term(n: int, forces: np.ndarray) -> np.ndarray:
+            force = (load if n == 1 else 0.0) - self.free(forces)
+            if self._softening is not None:
+                force = force - self._softening @ self.free(here.displacement if n == 1 else terms[-1])
+            terms.append(self.whole(here.solve(force)))
+            return terms[-1]
+
+        terms: list[np.ndarray] = []
+        return self.solid.series(here.displacement, _ORDER, next_term)
+
+    def _corrected(self, displacement: np.ndarray, square: float) -> Equilibrium | None:
+        """The equilibrium at a squared speed near a displacement; None where one tangent finds none, or it is not stable."""
+        speed = float(np.sqrt(square))
+        solve, last = factorise(self.tangent(displacement, speed)), np.inf
+        load = self.free(self._matrices.centrifugal_load)
+        # of a stable position the tangent is positive
+        if not solve(load) @ load > 0.0:
+            return None
+        for _ in range(_MOST_CORRECTIONS):
+            correction = solve(self.residual(displacement, speed))
+            size = float(np.linalg.norm(correction))
+            if not size < last:
+                return None
+            displacement, last = displacement + self.whole(correction), size
+            if size <= _CONVERGED * np.linalg.norm(displacement):
+                return Equilibrium(displacement, solve)
         return None

@@ -71,6 +71,37 @@ class LargeDisplacement:
 
         return self._nodal(first_piola)
 
+    def series(
+        self, displacement: np.ndarray, order: int, next_term: Callable[[int, np.ndarray], np.ndarray]
+    ) -> list[np.ndarray]:
+        """Terms u_1 to u_order of displacements u_0 + a u_1 + a^2 u_2 + ..., from a `displacement` u_0 on.
+
+        `next_term` gives u_n from n and the forces with a^n but for those of u_n itself, the tangent at u_0 times u_n.
+        """
+        slopes, stresses = {}, {}
+        for name in self._gradients:
+            slope = self._slope(name, displacement)
+            slopes[name] = [np.eye(3) + slope]
+            stresses[name] = [self._stress(_symmetric(slope) + 0.5 * _product(slope, slope))]
+        terms: list[np.ndarray] = []
+        for n in range(1, order + 1):
+            known = {}
+            for name, along in slopes.items():
+                pairs = range(1, n)
+                strain = 0.5 * sum((_product(along[i], along[n - i]) for i in pairs), np.zeros_like(along[0]))
+                known[name] = self._stress(strain)
+
+            def first_piola(name: str, n: int = n, known: dict[str, np.ndarray] = known) -> np.ndarray:
+                along, stress = slopes[name], stresses[name]
+                return along[0] @ known[name] + sum((along[i] @ stress[n - i] for i in range(1, n)), np.zeros_like(along[0]))
+
+            terms.append(next_term(n, self._nodal(first_piola)))
+            for name, along in slopes.items():
+                slope = self._slope(name, terms[-1])
+                stresses[name].append(known[name] + self._stress(_symmetric(_product(along[0], slope))))
+                along.append(slope)
+        return terms
+
     def strain_energies(self, pairs: Sequence[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
         """Integrals (J) of E_p : C : E_q over the solid, shape (pairs, pairs), of the strains of second order of some pairs.
 

@@ -41,11 +41,6 @@ class RotatingBlade:
         self._matrices, self._choice = matrices, choice
         self._equilibria = [np.zeros_like(mesh.points)]
 
-    @property
-    def _squares(self) -> np.ndarray:
-        """Squares of the speeds beyond rest."""
-        return np.square(self._choice.speeds[1:])
-
     @cached_property
     def _slope(self) -> np.ndarray:
         """Displacement per squared speed from rest on, shape (nodes, 3)."""
@@ -55,22 +50,11 @@ class RotatingBlade:
     def states(self) -> Iterator[StateAtSpeed]:
         """The blade at the speeds one after another. Raises NoEquilibriumError."""
         yield StateAtSpeed(0.0, self._matrices.stiffness(), self._matrices.solve_at_rest)
-        guess = self._slope * self._choice.speeds[1] ** 2
-        for speed in self._choice.speeds[1:]:
-            equilibrium = self._rotation.equilibrium(speed, guess)
+        speeds = self._choice.speeds[1:]
+        for speed, equilibrium in zip(speeds, self._rotation.equilibria(speeds), strict=True):
             self._equilibria.append(equilibrium.displacement)
             # the factors are of a tangent near this one, which a basis may be of
             yield StateAtSpeed(speed, self._rotation.tangent(equilibrium.displacement, speed), equilibrium.solve)
-            guess = self._extrapolated(max(self._choice.speeds))
-
-    def _extrapolated(self, speed: float) -> np.ndarray:
-        """Displacement at a speed from that at a lower one, which has stiffened the blade."""
-        square = self._choice.speeds[1] ** 2
-        displacement, linear = self._equilibria[1], self._slope * square
-        stiffened = max(float(np.linalg.norm(linear) / np.linalg.norm(displacement)) - 1.0, 0.0)
-        faster = speed**2 / square
-        share = faster * (1.0 + stiffened) / (1.0 + faster * stiffened)
-        return faster * (linear + share * (displacement - linear))
 
     def derivatives(self, state: StateAtSpeed) -> np.ndarray:
         """Static derivatives of the lowest modes of a state that has been reached, shape (dofs, pairs); none without QUADRATIC.
@@ -93,8 +77,8 @@ class RotatingBlade:
         They give that of every speed of the basis, and from rest on the linear one.
         """
         stiffening = _RELATIVE_STIFFENING / max(self._choice.speeds) ** 2
-        squares = np.concatenate([[0.0], self._squares])
-        per_square = [self._slope, *(field / square for field, square in zip(self._equilibria[1:], self._squares, strict=True))]
+        squares = np.square(self._choice.speeds)
+        per_square = [self._slope, *(field / square for field, square in zip(self._equilibria[1:], squares[1:], strict=True))]
         fields = np.array([self._rotation.free(field) for field in per_square])
         return la.solve(1.0 / (1.0 + np.outer(squares, stiffening)), fields).T, stiffening
 

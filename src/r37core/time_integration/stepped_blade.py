@@ -15,8 +15,14 @@ from .static_modes import residual_flexibility, settles_at_once, stepped_modes
 from .step_limit import largest_pressed_ratio, ratio_of_pressed_nodes
 from .time_grid import TimeGrid
 
-_TURN_OF_FOLLOWERS = 0.5
-"""Turn of a follower in a step (rad): ten times that of the first mode in usual steps, and far from the limit of stability."""
+_TURN_OF_FOLLOWERS, _FASTER = 0.5, 16.0
+"""Largest turn of a follower in a step (rad), far from the limit of stability, and its frequency over that of the first mode.
+
+It lags behind what it follows, at twice the frequency of the first mode, by the square of 2/16.
+"""
+
+_STRETCHING = 0.05
+"""Share of the first mode's inertia of second order from which a mode stretches: stepped, it would stiffen a step too much."""
 
 _SMALLEST_FOLLOWER = 1e-9
 """Smallest mass of a follower, as a share of the largest."""
@@ -42,7 +48,8 @@ class SteppedBlade:
         """Frequencies of the modes that are stepped (rad/s), ascending, without the Coriolis force; then those of followers."""
         own = self._modes_of_speed[0][: self._stepped]
         followers = self.followers.shape[1]
-        return np.append(own, np.full(followers, _TURN_OF_FOLLOWERS / self.grid.time_step)) if followers else own
+        fastest = min(_TURN_OF_FOLLOWERS / self.grid.time_step, _FASTER * float(own[0]))
+        return np.append(own, np.full(followers, fastest)) if followers else own
 
     @cached_property
     def modes(self) -> np.ndarray:
@@ -100,6 +107,9 @@ class SteppedBlade:
             )
         if not self.grid.choice.second_order:
             return below
+        if self.model.quadratic is not None:
+            inertia, lowest = self.derivatives[0] ** 2, len(self.model.quadratic.coordinates)
+            below = min(below, lowest + int(np.argmax(inertia[lowest:] > _STRETCHING * inertia.sum())))
         frequencies, rows = self._rest_modes
         choice = self.grid.choice
 
