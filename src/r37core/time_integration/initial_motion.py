@@ -131,6 +131,8 @@ def _check_room(problem: Problem, displacement: np.ndarray, state: SimulationSta
     The contact forces of the first instant would be missing.
     """
     nodes = np.array([rows @ (problem.blade.modes @ displacement) for rows in problem.contact.operator_at_rest])
+    if problem.contact.quadratic is not None:
+        nodes += problem.contact.product_operator @ problem.contact.quadratic.products(displacement)
     room, _ = problem.casing.gaps(problem.casing.clearance, nodes, 0, 0.0)
     if state.wear is not None:
         room = room + state.wear[:, 0]
