@@ -249,17 +249,13 @@ class LaidOutProblem:
         first = self.numbers_of_mode * self._modes
         outputs = problem.contact.output_operator[:, first : first + products]
         m["outputs"][0, : len(outputs), columns] = outputs
-        m["functional_rows"][0, :functionals, :modes] = quadratic.rows
-        self.put(
-            product_weight=quadratic.weights,
-            cubic=quadratic.cubic,
-            pair_first=quadratic.pairs[:, 0],
-            pair_second=quadratic.pairs[:, 1],
-            functionals=functionals,
-            functional_lanes=padded(functionals),
-            products=products,
-            first_product=columns.start,
-        )
+        second = m["second"]
+        second["rows"][0, :functionals, :modes] = quadratic.rows
+        second["weight"][:products], second["cubic"][:products, :products] = quadratic.weights, quadratic.cubic
+        second["first"][:products], second["second"][:products] = quadratic.pairs.T
+        numbers = {"functionals": functionals, "lanes": padded(functionals), "products": products, "lane": columns.start}
+        for name, number in numbers.items():
+            second[name] = number
 
 
 class _CasingTables:

@@ -160,6 +160,22 @@ def _flight_record(modes: int, nodes: int) -> np.dtype:
     )
 
 
+def second_order_record(modes: int) -> np.dtype:
+    """Record of displacements of second order, of whole vectors of modes: see time_integration.quadratic_motion."""
+    return aligned_record(
+        # the amplitudes of the lowest modes and, behind them, what stiffens each product, at t_n and t_{n-1}; what pulls at
+        # each, and what pushes; their rows
+        _fields("functional last pull push", MOST_FUNCTIONALS),
+        _fields("rows", 1, MOST_FUNCTIONALS, modes),
+        # how often each product counts; b/6; its two modes
+        _fields("weight", MOST_PRODUCTS),
+        _fields("cubic", MOST_PRODUCTS, MOST_PRODUCTS),
+        _fields("first second", MOST_PRODUCTS, kind=np.int64),
+        # functionals, whole vectors of them, products, and the lane of the first product
+        _fields("functionals lanes products lane", kind=np.int64),
+    )
+
+
 EDGE = aligned_record(
     _fields("position shape meridional", LANES),  # of eight nodes
     # groups of eight nodes: the few, and these with all of them; columns of a row of a group
@@ -215,15 +231,7 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("static_force", 3 * nodes),
         _fields("force_outputs", 1, modes, 3 * nodes),
         _fields("contact", kind=contact_record(nodes)),
-        # of second order: the amplitudes of the lowest modes and, behind them, what stiffens each product, at t_n and t_{n-1},
-        # what pulls at each, and what pushes; their rows; modes of each product, and how often it counts; b/6
-        _fields("functional last_functional functional_pull functional_push", MOST_FUNCTIONALS),
-        _fields("functional_rows", 1, MOST_FUNCTIONALS, modes),
-        _fields("product_weight", MOST_PRODUCTS),
-        _fields("cubic", MOST_PRODUCTS, MOST_PRODUCTS),
-        _fields("pair_first pair_second", MOST_PRODUCTS, kind=np.int64),
-        # how many of them, whole vectors of them, and how many products; the first product's lane
-        _fields("functionals functional_lanes products first_product", kind=np.int64),
+        _fields("second", kind=second_order_record(modes)),
         _fields("rotation", nodes),  # signed sliding in a step by the rotation (m)
         # angle at step 0, in bars; surface (m2) of the casing under a bar; penetration (m) and, with the
         # exact gap, angle in bars at t_n

@@ -13,63 +13,66 @@ from .steps import along, mode_lanes
 @inlined
 def begin_quadratic(m):
     """Find products and forces at t_n from displacement and increment: where the record does not have them."""
-    for g in range(0, m.functional_lanes, LANES):
-        store(m.functional, g, along(m.functional_rows, 0, m.u, g, mode_lanes(m)))
-        moved = along(m.functional_rows, 0, m.increment, g, mode_lanes(m))
-        store(m.last_functional, g, load(m.functional, g) - moved)
-    for p in range(m.products):
-        a, b = m.pair_first[p], m.pair_second[p]
-        m.u[m.first_product + p] = m.last_functional[a] * m.last_functional[b]
+    second = m.second
+    for g in range(0, second.lanes, LANES):
+        store(second.functional, g, along(second.rows, 0, m.u, g, mode_lanes(m)))
+        moved = along(second.rows, 0, m.increment, g, mode_lanes(m))
+        store(second.last, g, load(second.functional, g) - moved)
+    for p in range(second.products):
+        m.u[second.lane + p] = second.last[second.first[p]] * second.last[second.second[p]]
     set_products(m)
 
 
 @inlined
 def set_products(m):
     """Set the products at t_n, how they have changed in the step, and the pull of each functional, from the functionals."""
-    modes = m.functionals - m.products
+    second = m.second
+    modes = second.functionals - second.products
     for a in range(modes):
-        m.functional_pull[a] = 0.0
-    for p in range(m.products):
-        a, b = m.pair_first[p], m.pair_second[p]
-        product, i = m.functional[a] * m.functional[b], m.first_product + p
+        second.pull[a] = 0.0
+    for p in range(second.products):
+        a, b, i = second.first[p], second.second[p], second.lane + p
+        product = second.functional[a] * second.functional[b]
         m.increment[i] = product - m.u[i]
         m.u[i] = product
-    for p in range(m.products):
-        a, b, stiffness = m.pair_first[p], m.pair_second[p], m.functional[modes + p]
-        for r in range(m.products):
-            stiffness += m.cubic[p, r] * m.u[m.first_product + r]
-        m.functional_pull[a] += stiffness * m.functional[b]
+    for p in range(second.products):
+        a, b, stiffness = second.first[p], second.second[p], second.functional[modes + p]
+        for r in range(second.products):
+            stiffness += second.cubic[p, r] * m.u[second.lane + r]
+        second.pull[a] += stiffness * second.functional[b]
         if a != b:
-            m.functional_pull[b] += stiffness * m.functional[a]
-        m.functional_pull[modes + p] = 0.5 * m.product_weight[p] * m.u[m.first_product + p]
+            second.pull[b] += stiffness * second.functional[a]
+        second.pull[modes + p] = 0.5 * second.weight[p] * m.u[second.lane + p]
 
 
 @inlined
 def push_quadratic(m):
     """Add the elastic forces of second order at t_n to the pushes, and what pushes the products as it pushes the modes."""
-    for g in range(0, m.functional_lanes, LANES):
-        store(m.functional_push, g, -load(m.functional_pull, g))
-    for p in range(m.products):
-        a, b, i = m.pair_first[p], m.pair_second[p], m.first_product + p
+    second = m.second
+    for g in range(0, second.lanes, LANES):
+        store(second.push, g, -load(second.pull, g))
+    for p in range(second.products):
+        a, b, i = second.first[p], second.second[p], second.lane + p
         push = m.push[i]
-        m.functional_push[a] += push * m.functional[b]
-        m.functional_push[b] += push * m.functional[a]
+        second.push[a] += push * second.functional[b]
+        second.push[b] += push * second.functional[a]
         m.push[i] = 0.0
     for i in range(0, mode_lanes(m), LANES):
         push = load(m.push, i)
-        for r in range(m.functionals):
-            push += load(m.functional_rows, (0, r, i)) * m.functional_push[r]
+        for r in range(second.functionals):
+            push += load(second.rows, (0, r, i)) * second.push[r]
         store(m.push, i, push)
 
 
 @inlined
 def follow_quadratic(m, work):
     """Take the functionals at the end of a step; adds to the work, doubled, what is not that of contact."""
-    for g in range(0, m.functional_lanes, LANES):
-        before = load(m.last_functional, g)
-        here = along(m.functional_rows, 0, m.u, g, mode_lanes(m))
-        store(m.last_functional, g, load(m.functional, g))
-        store(m.functional, g, here)
-        work += load(m.functional_pull, g) * (here - before)
+    second = m.second
+    for g in range(0, second.lanes, LANES):
+        before = load(second.last, g)
+        here = along(second.rows, 0, m.u, g, mode_lanes(m))
+        store(second.last, g, load(second.functional, g))
+        store(second.functional, g, here)
+        work += load(second.pull, g) * (here - before)
     set_products(m)
     return work
