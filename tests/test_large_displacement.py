@@ -24,6 +24,11 @@ def fields(solid):
     return 1e-3 * np.random.default_rng(0).standard_normal((4, *solid.points.shape))
 
 
+def third_derivative(solid, first, second, third):
+    """Of forces that are a cubic it is the change of the second derivative, wherever that begins."""
+    return solid.second_derivative(third, first, second) - solid.second_derivative(np.zeros_like(third), first, second)
+
+
 def error(found, wanted):
     return np.abs(found - wanted).max() / np.abs(wanted).max()
 
@@ -40,10 +45,10 @@ def test_the_forces_are_a_cubic_with_these_derivatives(solid, fields):
     pattern = NodePattern.build(solid.blocks, len(solid.points))
     tangent = block_matrix(pattern.indptr, pattern.indices, solid.tangent(displacement, pattern))
     series = solid.forces(displacement) + (tangent @ first.ravel()).reshape(first.shape)
-    series += solid.second_derivative(displacement, first, first) / 2.0 + solid.third_derivative(first, first, first) / 6.0
+    series += solid.second_derivative(displacement, first, first) / 2.0 + third_derivative(solid, first, first, first) / 6.0
     assert error(series, solid.forces(displacement + first)) < 1e-12
     change = solid.second_derivative(displacement + third, first, second) - solid.second_derivative(displacement, first, second)
-    assert error(solid.third_derivative(first, second, third), change) < 1e-12
+    assert error(third_derivative(solid, first, second, third), change) < 1e-12
 
 
 def test_a_turned_solid_has_turned_forces(solid, fields):
@@ -59,4 +64,4 @@ def test_strain_energies_are_those_of_the_third_derivative(solid, fields):
     pairs = {"da": (d, a), "bc": (b, c), "db": (d, b), "ca": (c, a), "dc": (d, c), "ab": (a, b)}
     energies = solid.strain_energies(list(pairs.values()))
     total = sum(energies[2 * number, 2 * number + 1] for number in range(3))
-    assert total == pytest.approx(np.sum(d * solid.third_derivative(a, b, c)), rel=1e-10)
+    assert total == pytest.approx(np.sum(d * third_derivative(solid, a, b, c)), rel=1e-10)

@@ -47,7 +47,7 @@ class Rotation:
     """
 
     def __init__(self, solid: LargeDisplacement, matrices: StructuralMatrices, *, follows: bool):
-        self.solid, self._matrices, self._follows = solid, matrices, follows
+        self._solid, self._matrices = solid, matrices
         self._pattern = NodePattern.build(solid.blocks, len(solid.points))
         self._freedoms = (3 * matrices.free_nodes[:, None] + np.arange(3)).ravel()
         # spin softening is minus the mass of the motion normal to the axis
@@ -55,7 +55,7 @@ class Rotation:
 
     def whole(self, free: np.ndarray) -> np.ndarray:
         """Displacement of all nodes, shape (nodes, 3), from that of the unclamped degrees of freedom, shape (dofs,)."""
-        displacement = np.zeros_like(self.solid.points)
+        displacement = np.zeros_like(self._solid.points)
         displacement[self._matrices.free_nodes] = free.reshape(-1, 3)
         return displacement
 
@@ -63,15 +63,14 @@ class Rotation:
         """The unclamped degrees of freedom, shape (dofs,), of a field of all nodes, shape (nodes, 3)."""
         return field[self._matrices.free_nodes].ravel()
 
-    def elastic_tangent(self, displacement: np.ndarray) -> sp.csr_array:
-        """Tangent (N/m) of the elastic forces at a displacement (m), shape (nodes, 3), between unclamped degrees of freedom."""
-        blocks = self.solid.tangent(displacement, self._pattern)
-        whole = block_matrix(self._pattern.indptr, self._pattern.indices, blocks)
-        return sp.csr_array(whole[self._freedoms][:, self._freedoms])
-
     def tangent(self, displacement: np.ndarray, speed: float) -> sp.csr_array:
-        """Tangent stiffness (N/m) of elastic and centrifugal forces at a displacement, at a speed (rad/s)."""
-        tangent = self.elastic_tangent(displacement)
+        """Tangent stiffness (N/m) of elastic and centrifugal forces between the unclamped degrees of freedom.
+
+        At a `displacement` (m), shape (nodes, 3), and a `speed` (rad/s).
+        """
+        blocks = self._solid.tangent(displacement, self._pattern)
+        whole = block_matrix(self._pattern.indptr, self._pattern.indices, blocks)
+        tangent = sp.csr_array(whole[self._freedoms][:, self._freedoms])
         return tangent if self._softening is None else sp.csr_array(tangent + speed**2 * self._softening)
 
     def residual(self, displacement: np.ndarray, speed: float) -> np.ndarray:
@@ -79,7 +78,7 @@ class Rotation:
         load = speed**2 * self.free(self._matrices.centrifugal_load)
         if self._softening is not None:
             load = load - speed**2 * (self._softening @ self.free(displacement))
-        return load - self.free(self.solid.forces(displacement))
+        return load - self.free(self._solid.forces(displacement))
 
     def equilibria(self, speeds: Iterable[float]) -> Iterator[Equilibrium]:
         """The equilibria at ascending speeds (rad/s) above rest. Raises NoEquilibriumError.
@@ -88,7 +87,7 @@ class Rotation:
         asymptotic numerical method (Cochelin, Computers & Structures 53 (1994) 1181-1192). Where it ends Newton's method with
         the tangent there corrects what it leaves out.
         """
-        here = Equilibrium(np.zeros_like(self.solid.points), self._matrices.solve_at_rest)
+        here = Equilibrium(np.zeros_like(self._solid.points), self._matrices.solve_at_rest)
         square = 0.0
         for speed in speeds:
             shortest = _SHORTEST * (speed**2 - square)
@@ -119,7 +118,7 @@ class Rotation:
             return terms[-1]
 
         terms: list[np.ndarray] = []
-        return self.solid.series(here.displacement, _ORDER, next_term)
+        return self._solid.series(here.displacement, _ORDER, next_term)
 
     def _corrected(self, displacement: np.ndarray, square: float) -> Equilibrium | None:
         """The equilibrium at a squared speed near a displacement; None where one tangent finds none, or it is not stable."""

@@ -16,6 +16,7 @@ import numpy as np
 
 from .assembly import Blocks, NodePattern, typed_blocks
 from .material import Material
+from .strain import displacement_gradient, green_strain, second_order_strain
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +45,7 @@ class LargeDisplacement:
 
         def first_piola(name: str) -> np.ndarray:
             slope = self._slope(name, displacement)
-            return (np.eye(3) + slope) @ self._stress(_symmetric(slope) + 0.5 * _product(slope, slope))
+            return (np.eye(3) + slope) @ self.material.stress(green_strain(slope))
 
         return self._nodal(first_piola)
 
@@ -54,20 +55,10 @@ class LargeDisplacement:
         def first_piola(name: str) -> np.ndarray:
             along = [self._slope(name, field) for field in (first, second)]
             deformation = np.eye(3) + self._slope(name, displacement)
-            total = deformation @ self._stress(_symmetric(_product(*along)))
+            total = deformation @ self.material.stress(second_order_strain(*along))
             for slope, other in (along, along[::-1]):
-                total = total + slope @ self._stress(_symmetric(_product(deformation, other)))
+                total = total + slope @ self.material.stress(second_order_strain(deformation, other))
             return total
-
-        return self._nodal(first_piola)
-
-    def third_derivative(self, first: np.ndarray, second: np.ndarray, third: np.ndarray) -> np.ndarray:
-        """Third derivative of the forces along three displacements: the same everywhere."""
-
-        def first_piola(name: str) -> np.ndarray:
-            a, b, c = (self._slope(name, field) for field in (first, second, third))
-            pairs = ((a, b, c), (b, c, a), (c, a, b))
-            return sum((slope @ self._stress(_symmetric(_product(*others))) for slope, *others in pairs), np.zeros_like(a))
 
         return self._nodal(first_piola)
 
@@ -82,14 +73,14 @@ class LargeDisplacement:
         for name in self._gradients:
             slope = self._slope(name, displacement)
             slopes[name] = [np.eye(3) + slope]
-            stresses[name] = [self._stress(_symmetric(slope) + 0.5 * _product(slope, slope))]
+            stresses[name] = [self.material.stress(green_strain(slope))]
         terms: list[np.ndarray] = []
         for n in range(1, order + 1):
             known = {}
             for name, along in slopes.items():
                 pairs = range(1, n)
-                strain = 0.5 * sum((_product(along[i], along[n - i]) for i in pairs), np.zeros_like(along[0]))
-                known[name] = self._stress(strain)
+                strain = 0.5 * sum((along[i].swapaxes(-1, -2) @ along[n - i] for i in pairs), np.zeros_like(along[0]))
+                known[name] = self.material.stress(strain)
 
             def first_piola(name: str, n: int = n, known: dict[str, np.ndarray] = known) -> np.ndarray:
                 along, stress = slopes[name], stresses[name]
@@ -98,7 +89,7 @@ class LargeDisplacement:
             terms.append(next_term(n, self._nodal(first_piola)))
             for name, along in slopes.items():
                 slope = self._slope(name, terms[-1])
-                stresses[name].append(known[name] + self._stress(_symmetric(_product(along[0], slope))))
+                stresses[name].append(known[name] + self.material.stress(second_order_strain(along[0], slope)))
                 along.append(slope)
         return terms
 
@@ -110,8 +101,8 @@ class LargeDisplacement:
         """
         energies = np.zeros((len(pairs),) * 2)
         for name, (_, volumes) in self._gradients.items():
-            strains = [_symmetric(_product(*(self._slope(name, field) for field in pair))) for pair in pairs]
-            stresses = [self._stress(strain) * volumes[:, :, None, None] for strain in strains]
+            strains = [second_order_strain(*(self._slope(name, field) for field in pair)) for pair in pairs]
+            stresses = [self.material.stress(strain) * volumes[:, :, None, None] for strain in strains]
             energies += np.array([[np.vdot(strain, stress) for stress in stresses] for strain in strains])
         return 0.5 * (energies + energies.T)
 
@@ -126,7 +117,7 @@ class LargeDisplacement:
         for name, (gradients, volumes) in self._gradients.items():
             slope = self._slope(name, displacement)
             deformation = np.eye(3) + slope
-            stress = self._stress(_symmetric(slope) + 0.5 * _product(slope, slope))
+            stress = self.material.stress(green_strain(slope))
             # (elements, n, points, 3), so that sums over points and one axis are products of matrices
             still, pushed = gradients, gradients @ deformation.swapaxes(-1, -2)
             size = gradients.shape[2]
@@ -149,12 +140,7 @@ class LargeDisplacement:
 
     def _slope(self, name: str, displacement: np.ndarray) -> np.ndarray:
         """Derivatives H_ij of a displacement at the points of a type's elements, shape (elements, points, 3, 3)."""
-        return displacement[self.blocks[name]].swapaxes(1, 2)[:, None] @ self._gradients[name][0]
-
-    def _stress(self, strain: np.ndarray) -> np.ndarray:
-        """Hooke's law, shape (..., 3, 3)."""
-        lame, shear = self.material.lame_constants
-        return 2.0 * shear * strain + lame * np.trace(strain, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
+        return displacement_gradient(self._gradients[name][0], displacement[self.blocks[name]])
 
     def _nodal(self, first_piola: Callable[[str], np.ndarray]) -> np.ndarray:
         """Nodal forces of a stress, as first_piola(name of a type) gives it at the points of its elements."""
@@ -165,12 +151,3 @@ class LargeDisplacement:
             for i in range(3):
                 forces[:, i] += np.bincount(self.blocks[name].ravel(), weights=nodal[:, :, i].ravel(), minlength=len(forces))
         return forces
-
-
-def _symmetric(matrix: np.ndarray) -> np.ndarray:
-    return 0.5 * (matrix + matrix.swapaxes(-1, -2))
-
-
-def _product(left: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """left^T right at every point."""
-    return left.swapaxes(-1, -2) @ right

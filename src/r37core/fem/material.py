@@ -38,6 +38,11 @@ class Material:
         shear = self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
         return 2.0 * shear * self.poissons_ratio / (1.0 - 2.0 * self.poissons_ratio), shear
 
+    def stress(self, strain: np.ndarray) -> np.ndarray:
+        """Stress (Pa) of a strain, both of shape (..., 3, 3): Hooke's law."""
+        lame, shear = self.lame_constants
+        return 2.0 * shear * strain + lame * np.trace(strain, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
+
     @property
     def unusual(self) -> dict[str, tuple[float, tuple[float, float]]]:
         """Key -> value and usual range, in the key's unit, of what lies outside that of alloys and composites."""

@@ -6,6 +6,7 @@ import numpy as np
 
 from .assembly import Blocks, typed_blocks
 from .material import Material
+from .strain import displacement_gradient, linear_strain, second_order_strain
 
 COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
 """Order of the components of a stress: xx yy zz xy yz zx."""
@@ -17,19 +18,7 @@ def stress_at(gradients: np.ndarray, displacement: np.ndarray, material: Materia
     `gradients`: shape-function gradients, shape (elements, points, n, 3); `displacement` of each element's nodes (m),
     shape (elements, n, 3).
     """
-    slope = _slope(gradients, displacement)
-    return _stress(0.5 * (slope + slope.transpose(0, 1, 3, 2)), material)
-
-
-def _slope(gradients: np.ndarray, displacement: np.ndarray) -> np.ndarray:
-    return displacement.transpose(0, 2, 1)[:, None] @ gradients
-
-
-def _stress(strain: np.ndarray, material: Material) -> np.ndarray:
-    """Hooke's law."""
-    lame, shear = material.lame_constants
-    trace = np.trace(strain, axis1=2, axis2=3)
-    return 2.0 * shear * strain + lame * trace[:, :, None, None] * np.eye(3)
+    return material.stress(linear_strain(displacement_gradient(gradients, displacement)))
 
 
 def nodal_stress(blocks: Blocks, points: np.ndarray, displacement: np.ndarray, material: Material) -> np.ndarray:
@@ -48,15 +37,11 @@ def nodal_stress(blocks: Blocks, points: np.ndarray, displacement: np.ndarray, m
 def nodal_second_order_stress(
     blocks: Blocks, points: np.ndarray, first: np.ndarray, second: np.ndarray, material: Material
 ) -> np.ndarray:
-    """Stress by the strain (A^T B + B^T A)/2, as nodal_stress has it; A and B: gradients of the displacements, field by field.
-
-    Green's strain of u is that of first order and half of this with A = B (r37core.fem.large_displacement).
-    """
+    """Stress by the strain of second order of two displacements, field by field, as nodal_stress has it: see strain.py."""
 
     def stress(name: str, gradients: np.ndarray, field: int) -> np.ndarray:
-        left, right = (_slope(gradients, each[blocks[name], :, field]) for each in (first, second))
-        product = left.transpose(0, 1, 3, 2) @ right
-        return _stress(0.5 * (product + product.transpose(0, 1, 3, 2)), material)
+        pair = (displacement_gradient(gradients, each[blocks[name], :, field]) for each in (first, second))
+        return material.stress(second_order_strain(*pair))
 
     return _averaged(blocks, points, first.shape[2], stress)
 

@@ -42,9 +42,8 @@ class LinearBlade:
             self._displaced.append(solve(self._load))
             yield StateAtSpeed(speed, total, solve)
 
-    def derivatives(self, state: StateAtSpeed) -> np.ndarray:
+    def derivatives(self, state: StateAtSpeed) -> None:
         """No columns of a basis: modes of small displacements do not change."""
-        return np.empty((state.stiffness.shape[0], 0))
 
     def shapes_of_rotation(self) -> tuple[np.ndarray, np.ndarray]:
         """Shapes and stiffening of rotation: see r37core.rom.rotation."""

@@ -13,7 +13,6 @@ b_abcd - (\theta_ab K \theta_cd + \theta_ac K \theta_bd + \theta_ad K \theta_bc)
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import combinations_with_replacement
 
 import numpy as np
 
@@ -54,9 +53,15 @@ class QuadraticTerms:
         return replace(self, coordinates=self.coordinates @ modes, derivatives=self.derivatives @ modes)
 
 
-def pairs_of(modes: int) -> list[tuple[int, int]]:
-    """Pairs a <= b of so many modes, in the order of their products."""
-    return list(combinations_with_replacement(range(modes), 2))
+def mode_pairs(modes: int) -> tuple[np.ndarray, np.ndarray]:
+    """First and second modes a <= b of the products of so many modes, each of shape (products,), in the products' order."""
+    return np.triu_indices(modes)
+
+
+def products_of(amplitudes: np.ndarray) -> np.ndarray:
+    """Products q_a q_b, shape (..., products), of amplitudes of modes, shape (..., modes)."""
+    first, second = mode_pairs(amplitudes.shape[-1])
+    return amplitudes[..., first] * amplitudes[..., second]
 
 
 def followed_modes(overlap: np.ndarray) -> np.ndarray:
@@ -74,8 +79,8 @@ def followed_modes(overlap: np.ndarray) -> np.ndarray:
 
 def pairings(products: np.ndarray, modes: int) -> np.ndarray:
     """X_ab,cd + X_ac,bd + X_ad,bc of symmetric `products` X of pairs, shape (pairs, pairs); shape (modes,) * 4."""
+    first, second = mode_pairs(modes)
     number = np.empty((modes, modes), dtype=int)
-    for place, (a, b) in enumerate(pairs_of(modes)):
-        number[a, b] = number[b, a] = place
+    number[first, second] = number[second, first] = np.arange(len(first))
     whole = products[number[:, :, None, None], number]
     return whole + whole.transpose(0, 2, 1, 3) + whole.transpose(0, 2, 3, 1)

@@ -9,7 +9,6 @@ displacement to second order with its inertia is that of these columns.
 
 from collections.abc import Iterator
 from functools import cached_property
-from itertools import combinations_with_replacement
 from typing import Any
 
 import numpy as np
@@ -25,7 +24,7 @@ from r37core.mesh.blade_mesh import BladeMesh
 
 from .craig_bampton import StateAtSpeed, projected, symmetric
 from .logarithmic_stiffness import LogarithmicStiffness
-from .quadratic_terms import QuadraticTerms, followed_modes, pairings, pairs_of
+from .quadratic_terms import QuadraticTerms, followed_modes, mode_pairs, pairings
 from .reduction_choice import QUADRATIC, ReductionChoice
 
 _RELATIVE_STIFFENING = np.array([0.0, 1.0, 4.0])
@@ -56,18 +55,17 @@ class RotatingBlade:
             # the factors are of a tangent near this one, which a basis may be of
             yield StateAtSpeed(speed, self._rotation.tangent(equilibrium.displacement, speed), equilibrium.solve)
 
-    def derivatives(self, state: StateAtSpeed) -> np.ndarray:
-        """Static derivatives of the lowest modes of a state that has been reached, shape (dofs, pairs); none without QUADRATIC.
+    def derivatives(self, state: StateAtSpeed) -> np.ndarray | None:
+        """Static derivatives of the lowest modes of a state that has been reached, shape (dofs, pairs); None without QUADRATIC.
 
         Columns of a basis: their scale counts for nothing.
         """
         if self._choice.kinematics != QUADRATIC:
-            return np.empty((state.stiffness.shape[0], 0))
+            return None
         _, modes = lowest_modes(state.stiffness, self._matrices.mass(), self._choice.quadratic_modes, state.solve)
         fields = [self._rotation.whole(mode) for mode in modes.T]
         pushes = [
-            self._rotation.free(self._solid.second_derivative(self._equilibria[-1], *pair))
-            for pair in combinations_with_replacement(fields, 2)
+            self._rotation.free(self._solid.second_derivative(self._equilibria[-1], *pair)) for pair in self._paired(fields)
         ]
         return state.solve(np.array(pushes).T)
 
@@ -120,13 +118,17 @@ class RotatingBlade:
             squares, modes = la.eigh(matrix, mass)
             followed = modes @ followed_modes(coordinates @ modes).T
             fields = [self._rotation.whole(field) for field in (vectors @ followed).T]
-            pairs = [(fields[a], fields[b]) for a, b in pairs_of(count)]
+            pairs = self._paired(fields)
             pushes = np.array([self._pushed(vectors, self._solid.second_derivative(displacement, *pair)) for pair in pairs])
             third = pairings(self._solid.strain_energies(pairs), count)
             modal = pushes @ modes
             derivatives.append(-(modal / squares) @ modes.T @ mass)
             cubic.append(third - pairings((modal / squares) @ modal.T, count))
         return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic))
+
+    @staticmethod
+    def _paired(fields: list[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
+        return [(fields[a], fields[b]) for a, b in zip(*mode_pairs(len(fields)), strict=True)]
 
     def _pushed(self, vectors: np.ndarray, forces: np.ndarray) -> np.ndarray:
         """Forces on the coordinates of a basis from those on all nodes."""

@@ -103,9 +103,7 @@ class RunUpIntegration:
             assert increments is not None
             if modes is not None:
                 self._project(problem.blade.modes.T @ modes)
-                if problem.contact.quadratic is not None:
-                    blade = slice(len(problem.blade.frequencies))
-                    problem.contact.quadratic.follow(state.displacement[blade], self.velocity[blade])
+                problem.contact.put_followers(state.displacement, self.velocity)
             modes = problem.blade.modes
             simulation.engine.take(segment_indices[0])
             state.increment[:] = increments.increment(segment_indices[0], state.displacement, self.velocity)

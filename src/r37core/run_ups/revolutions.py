@@ -38,7 +38,7 @@ def record_run_up(
     """
     orders, run_up, choice = highest_order if "spectrum" in results else None, integration.run_up, integration.choice
     diverged = False
-    # of a blade about its equilibrium that at the mean speed
+    # a blade of large displacements has an operator for each speed: here that of the mean speed
     stress = None if stress is None else stress.displaced(0.5 * (run_up.start + run_up.stop))
     for repeats in range(1 + run_up.worn):
         if repeats:

@@ -12,7 +12,7 @@ import numpy as np
 
 from r37core.base.io import atomic_write, readable
 from r37core.rom.deviatoric import deviatoric
-from r37core.rom.quadratic_terms import pairs_of
+from r37core.rom.quadratic_terms import products_of
 from r37core.rom.rotation import rotation_amplitudes
 
 
@@ -56,11 +56,6 @@ class StressOperator:
         operator[:, :, : self.coordinates] += np.tensordot(amplitudes, self.per_rotation, axes=1)
         return replace(self, operator=operator, per_rotation=None)
 
-    def _products(self, amplitudes: np.ndarray) -> np.ndarray:
-        """Products of second order, shape (instants, products), of amplitudes of modes, shape (instants, modes)."""
-        first, second = np.array(pairs_of(amplitudes.shape[1]), dtype=int).reshape(-1, 2).T
-        return amplitudes[:, first] * amplitudes[:, second]
-
     @cached_property
     def deviatoric(self) -> np.ndarray:
         """Parts per number whose length is the von Mises stress: shape (5, nodes, numbers + shapes), float32."""
@@ -85,7 +80,7 @@ class StressOperator:
         `shapes`, shape (coordinates, numbers): reduced coordinates per number; those given back are of the operator's numbers.
         """
         if self.large_coordinates is not None and len(self.large_coordinates):
-            products = self._products(states @ (self.large_coordinates @ shapes).T)
+            products = products_of(states @ (self.large_coordinates @ shapes).T)
             extended = np.zeros((len(shapes) + products.shape[1], shapes.shape[1] + products.shape[1]))
             extended[: len(shapes), : shapes.shape[1]] = shapes
             extended[len(shapes) :, shapes.shape[1] :] = np.eye(products.shape[1])
@@ -108,7 +103,7 @@ class StressOperator:
         if self.band is not None:
             coordinates = np.concatenate([vibration @ self.band.T, rotation], axis=1)
         elif self.large_coordinates is not None:
-            products = self._products(vibration @ self.large_coordinates.T)
+            products = products_of(vibration @ self.large_coordinates.T)
             coordinates = np.concatenate([vibration, products, rotation], axis=1)
         operator = self.operator[:, :, : coordinates.shape[1]]
         return von_mises(np.einsum("cnj,tj->ctn", operator, coordinates, optimize=True))

@@ -8,7 +8,7 @@ import scipy.linalg as la
 
 from r37core.fem.material import Material
 from r37core.fem.stress import nodal_second_order_stress, nodal_stress
-from r37core.rom.quadratic_terms import pairs_of
+from r37core.rom.quadratic_terms import mode_pairs
 from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.rom.stress_region import StressRegion
@@ -104,7 +104,7 @@ def _large_motion(model: ReducedModel, basis: np.ndarray, rotation: np.ndarray, 
         [second_order(np.broadcast_to(shape[..., None], basis.shape), basis) for shape in np.moveaxis(rotation, 2, 0)]
     )
     coordinates = np.empty((0, model.size)) if model.quadratic is None else model.quadratic.coordinates
-    first, second = np.array(pairs_of(len(coordinates)), dtype=int).reshape(-1, 2).T
+    first, second = mode_pairs(len(coordinates))
     fields = basis @ la.solve(model.mass, coordinates.T)
     weights = np.where(first == second, 0.5, 1.0)
     return _LargeMotion(per_rotation, coordinates, weights * second_order(fields[..., first], fields[..., second]))

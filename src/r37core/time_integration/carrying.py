@@ -55,9 +55,7 @@ class CarriedMotion:
             np.concatenate([problem.blade.modes.T @ part[:blade_modes], part[blade_modes:]])
             for part in (self.displacement, self.velocity)
         )
-        if problem.contact.quadratic is not None:
-            blade = slice(len(problem.blade.frequencies))
-            problem.contact.quadratic.follow(displacement[blade], velocity[blade])
+        problem.contact.put_followers(displacement, velocity)
         state.displacement, state.increment = displacement, factors.increment(0, displacement, velocity)
         for name in _KEPT:
             getattr(state, name)[...] = getattr(self, name)

@@ -133,6 +133,12 @@ class ContactOperators:
         terms = self.blade.model.quadratic
         return None if terms is None else QuadraticMotion(self.blade, terms)
 
+    def put_followers(self, displacement: np.ndarray, velocity: np.ndarray) -> None:
+        """Put the blade's followers where they are pulled to, in place, in a displacement and a velocity of all modes."""
+        if self.quadratic is not None:
+            stepped = slice(len(self.blade.frequencies))
+            self.quadratic.follow(displacement[stepped], velocity[stepped])
+
     def second_order_energy(self, displacement: np.ndarray, increment: np.ndarray) -> np.ndarray:
         """Elastic energy (J), shape (...,), beyond that of linear modes; 0 without displacements of second order.
 

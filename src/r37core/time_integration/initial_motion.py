@@ -97,8 +97,7 @@ class InitialMotion:
             u, d = coupled.begun(own, displacement, velocity, ratio, step)
         else:
             factors = increments(problem.choice.integrator, own, problem.scene.damping(own), step)
-            if problem.contact.quadratic is not None:
-                problem.contact.quadratic.follow(displacement, velocity)
+            problem.contact.put_followers(displacement, velocity)
             u, d = displacement, factors.displacement_factor * displacement + factors.velocity_factor * velocity
             if problem.contact.quadratic is not None:
                 # forces kick at an instant, and the velocity is that in the middle of the kick

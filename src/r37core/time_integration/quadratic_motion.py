@@ -13,11 +13,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Self
 
 import numpy as np
 
-from r37core.rom.quadratic_terms import QuadraticTerms, followed_modes, pairings, pairs_of
+from r37core.rom.quadratic_terms import QuadraticTerms, followed_modes, mode_pairs, pairings, products_of
 
 from .stepped_blade import SteppedBlade
 
@@ -30,23 +29,31 @@ class QuadraticMotion:
     terms: QuadraticTerms
 
     @cached_property
-    def pairs(self) -> np.ndarray:
-        """Modes of each product, shape (products, 2)."""
-        return np.array(pairs_of(len(self.terms.coordinates)))
-
-    @property
-    def weights(self) -> np.ndarray:
-        """How often each product is in a sum over all modes, shape (products,)."""
-        return np.where(self.pairs[:, 0] == self.pairs[:, 1], 1.0, 2.0)
+    def pairs(self) -> tuple[np.ndarray, np.ndarray]:
+        """First and second mode of each product, shape (products,)."""
+        return mode_pairs(len(self.terms.coordinates))
 
     @cached_property
-    def _modal(self) -> _ModalTerms:
-        return _ModalTerms.build(self.terms, self.blade)
+    def weights(self) -> np.ndarray:
+        """How often each product is in a sum over all modes, shape (products,)."""
+        first, second = self.pairs
+        return np.where(first == second, 1.0, 2.0)
 
-    @property
+    @cached_property
+    def _derivatives(self) -> np.ndarray:
+        """Static derivatives of the lowest modes in the stepped modes, the followers among them, shape (products, modes)."""
+        own = len(self.blade.frequencies) - self.blade.followers.shape[1]
+        return np.hstack([self.blade.derivatives[:, :own], self.blade.followers])
+
+    @cached_property
     def rows(self) -> np.ndarray:
         """Q and, below it, G_ab of the stepped modes, shape (lowest modes + products, modes)."""
-        return self._modal.rows
+        followers = self.blade.followers.shape[1]
+        own = len(self.blade.frequencies) - followers
+        amplitudes = np.pad(followed_modes(self.terms.coordinates @ self.blade.modes[:, :own]), ((0, 0), (0, followers)))
+        pushes = -self._derivatives * self.blade.frequencies**2
+        # of their part in the lowest modes themselves a third is left: a_abc (1/2 - 1/3) of V in r37core.rom.quadratic_terms
+        return np.concatenate([amplitudes, pushes - 2.0 / 3.0 * pushes @ amplitudes.T @ amplitudes])
 
     @cached_property
     def shapes(self) -> np.ndarray:
@@ -60,20 +67,24 @@ class QuadraticMotion:
         followers = self.blade.followers
         first = len(displacement) - followers.shape[1]
         q, rate = (self.rows[: len(self.terms.coordinates), :first] @ part[:first] for part in (displacement, velocity))
-        a, b = self.pairs.T
-        displacement[first:] = 0.5 * (self.weights * q[a] * q[b]) @ followers
+        a, b = self.pairs
+        displacement[first:] = 0.5 * (self.weights * products_of(q)) @ followers
         velocity[first:] = 0.5 * (self.weights * (q[a] * rate[b] + rate[a] * q[b])) @ followers
 
     @cached_property
     def cubic(self) -> np.ndarray:
         """b/6 per mode of a pair and product, shape (products, products): its sum with the products adds to s_ab."""
-        first, second = self.pairs.T
-        return self._modal.cubic[first[:, None], second[:, None], first, second] / 6.0 * self.weights
+        logarithmic, (first, second) = self.blade.model.logarithmic_stiffness, self.pairs
+        assert logarithmic is not None
+        _, left = self.terms.interpolated(logarithmic.abscissa(self.blade.grid.speed))
+        # of the stepped modes, which do not follow at once
+        stepped = self._derivatives * self.blade.frequencies**2 @ self._derivatives.T
+        cubic = left + pairings(stepped, len(self.terms.coordinates))
+        return cubic[first[:, None], second[:, None], first, second] / 6.0 * self.weights
 
     def products(self, displacement: np.ndarray) -> np.ndarray:
         """Products q_a q_b, shape (..., products), of displacements u of the stepped modes, shape (..., modes)."""
-        amplitudes = displacement @ self.rows[: len(self.terms.coordinates)].T
-        return amplitudes[..., self.pairs[:, 0]] * amplitudes[..., self.pairs[:, 1]]
+        return products_of(displacement @ self.rows[: len(self.terms.coordinates)].T)
 
     def energy(self, displacement: np.ndarray) -> np.ndarray:
         """V (J), shape (...,), of displacements u of the stepped modes, shape (..., modes)."""
@@ -86,29 +97,7 @@ class QuadraticMotion:
         count, weights, products = len(self.terms.coordinates), self.weights, self.products(displacement)
         lowest, stiffened = self.rows[:count], self.rows[count:]
         amplitudes = lowest @ displacement
-        first, second = self.pairs.T
+        first, second = self.pairs
         changes = amplitudes[first, None] * lowest[second] + amplitudes[second, None] * lowest[first]
         stiffness = stiffened @ displacement + self.cubic @ products
         return -0.5 * ((weights * stiffness) @ changes + (weights * products) @ stiffened)
-
-
-@dataclass(frozen=True)
-class _ModalTerms:
-    """Terms in the stepped modes of a speed: `rows`, see above, and `cubic` b, less what follows at once."""
-
-    rows: np.ndarray
-    cubic: np.ndarray
-
-    @classmethod
-    def build(cls, terms: QuadraticTerms, blade: SteppedBlade) -> Self:
-        """Terms of a blade, its followers among the stepped modes."""
-        logarithmic, followers = blade.model.logarithmic_stiffness, blade.followers.shape[1]
-        assert logarithmic is not None
-        _, cubic = terms.interpolated(logarithmic.abscissa(blade.grid.speed))
-        own = len(blade.frequencies) - followers
-        derivatives = np.hstack([blade.derivatives[:, :own], blade.followers])
-        amplitudes = np.pad(followed_modes(terms.coordinates @ blade.modes[:, :own]), ((0, 0), (0, followers)))
-        pushes = -derivatives * blade.frequencies**2
-        follow = pairings(-pushes @ derivatives.T, len(amplitudes))
-        pushes = pushes - 2.0 / 3.0 * pushes @ amplitudes.T @ amplitudes
-        return cls(np.concatenate([amplitudes, pushes]), cubic + follow)

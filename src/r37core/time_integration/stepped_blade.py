@@ -43,7 +43,7 @@ class SteppedBlade:
     grid: TimeGrid
     cone_angle: float
 
-    @property
+    @cached_property
     def frequencies(self) -> np.ndarray:
         """Frequencies of the modes that are stepped (rad/s), ascending, without the Coriolis force; then those of followers."""
         own = self._modes_of_speed[0][: self._stepped]

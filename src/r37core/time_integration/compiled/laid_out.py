@@ -252,7 +252,7 @@ class LaidOutProblem:
         second = m["second"]
         second["rows"][0, :functionals, :modes] = quadratic.rows
         second["weight"][:products], second["cubic"][:products, :products] = quadratic.weights, quadratic.cubic
-        second["first"][:products], second["second"][:products] = quadratic.pairs.T
+        second["first"][:products], second["second"][:products] = quadratic.pairs
         numbers = {"functionals": functionals, "lanes": padded(functionals), "products": products, "lane": columns.start}
         for name, number in numbers.items():
             second[name] = number

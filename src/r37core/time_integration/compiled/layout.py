@@ -11,7 +11,7 @@ import numpy as np
 
 from r37core.contact.scene import Lining
 from r37core.machine_code.alignment import LANES, Field, aligned_record, padded
-from r37core.rom.quadratic_terms import MOST_QUADRATIC_MODES, pairs_of
+from r37core.rom.quadratic_terms import MOST_QUADRATIC_MODES, mode_pairs
 
 from ..jump_numbers import STRIDES
 from ..state import TOTALS
@@ -47,7 +47,7 @@ NORMAL, TANGENTIAL, MERIDIONAL = range(3)
 FEWEST_MODES, FEWEST_NODES = 96, 8
 """Smallest capacity. A program takes seconds to make, and a step costs what is used of its record, not its room."""
 
-MOST_PRODUCTS = len(pairs_of(MOST_QUADRATIC_MODES))
+MOST_PRODUCTS = len(mode_pairs(MOST_QUADRATIC_MODES)[0])
 """Largest number of products of second order."""
 
 MOST_FUNCTIONALS = padded(MOST_QUADRATIC_MODES + MOST_PRODUCTS)

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from r37core.rom.quadratic_terms import products_of
+
 from ..gyroscopic import ComplexRecursion, imaginary_part
 from ..integrators import Recursion
 from ..problem import Problem
@@ -22,11 +24,11 @@ class RealMotion:
 
     products = 0
 
-    def __init__(self, problem: Problem, recursion: Recursion):
-        self._modes, recursion = problem.blade.modes, recursion[: len(problem.blade.frequencies)]
+    def __init__(self, modes: np.ndarray, recursion: Recursion):
+        self._modes, recursion = modes, recursion[: modes.shape[1]]
         # -B, I - A - B, C and the loss per squared central difference, as matrices
         self._keep, self._pull, self.response, self._loss = (
-            self._modes @ np.diag(diagonal) @ self._modes.T
+            modes @ np.diag(diagonal) @ modes.T
             for diagonal in (recursion.keep, recursion.pull, recursion.inverse, recursion.loss)
         )
 
@@ -73,18 +75,13 @@ class QuadraticMotionOfModes(RealMotion):
     """
 
     def __init__(self, problem: Problem, recursion: Recursion):
-        super().__init__(problem, recursion)
         assert problem.contact.quadratic is not None
         self._quadratic, self._rest = problem.contact.quadratic, len(problem.blade.modes)
-        self.products, followers = len(self._quadratic.pairs), problem.blade.followers.shape[1]
-        own = len(problem.blade.frequencies) - followers
-        self._modes = np.zeros((self._rest + followers, own + followers))
-        self._modes[: self._rest, :own], self._modes[self._rest :, own:] = problem.blade.modes[:, :own], np.eye(followers)
-        recursion = recursion[: own + followers]
-        self._keep, self._pull, self._inverse, self._loss = (
-            self._modes @ np.diag(diagonal) @ self._modes.T
-            for diagonal in (recursion.keep, recursion.pull, recursion.inverse, recursion.loss)
-        )
+        followers = problem.blade.followers.shape[1]
+        modes = np.pad(problem.blade.modes, ((0, followers), (0, 0)))
+        modes[self._rest :, modes.shape[1] - followers :] = np.eye(followers)
+        super().__init__(modes, recursion)
+        self.products, self._inverse = len(self._quadratic.weights), self.response
         self.response = np.zeros((self._rest + self.products,) * 2)
         self.response[: self._rest, : self._rest] = self._inverse[: self._rest, : self._rest]
         rows = self._quadratic.rows @ self._modes.T
@@ -92,7 +89,7 @@ class QuadraticMotionOfModes(RealMotion):
 
     def _gradient(self, u: np.ndarray) -> np.ndarray:
         """Change of the products per displacement of the modes at rest and followers, shape (products, both)."""
-        q, (a, b) = self._coordinates @ u, self._quadratic.pairs.T
+        q, (a, b) = self._coordinates @ u, self._quadratic.pairs
         return q[a, None] * self._coordinates[b] + q[b, None] * self._coordinates[a]
 
     def _elastic_force(self, u: np.ndarray) -> np.ndarray:
@@ -104,8 +101,7 @@ class QuadraticMotionOfModes(RealMotion):
         return -self._gradient(u).T @ stiffness - 0.5 * self._changes.T @ (quadratic.weights * products)
 
     def _products(self, u: np.ndarray) -> np.ndarray:
-        q, (a, b) = self._coordinates @ u, self._quadratic.pairs.T
-        return q[a] * q[b]
+        return products_of(self._coordinates @ u)
 
     def numbers(self, motion: np.ndarray) -> np.ndarray:
         """Numbers of a snapshot."""
@@ -222,7 +218,9 @@ def blade_motion(problem: Problem, recursion: Recursion) -> RealMotion | Coupled
     """Motion of a problem's blade."""
     if problem.contact.quadratic is not None:
         return QuadraticMotionOfModes(problem, recursion)
-    return (RealMotion if problem.blade.complex_modes is None else CoupledMotion)(problem, recursion)
+    if problem.blade.complex_modes is not None:
+        return CoupledMotion(problem, recursion)
+    return RealMotion(problem.blade.modes, recursion)
 
 
 class MotionWithCasing:
