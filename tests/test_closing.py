@@ -99,6 +99,8 @@ def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     assert contact.startswith(
         "ranks are among blades of the same contact (8 points: S100, A, Ref; 12 patches: Mine); structure: {"
     )
+    (tmp_path / "ranking.csv").write_text(head + points + patches.replace("12 patches", '"12 patches, quadratic"'))
+    assert "structure: { kinematics: quadratic, boundary: {" in closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[-3]
 
 
 def test_lengths_of_time(tmp_path):

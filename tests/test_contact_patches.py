@@ -308,13 +308,15 @@ def settings_with(config_copy):
     return read
 
 
-def test_a_blade_has_the_contact_of_its_base(settings_with, config_copy):
+def test_a_blade_has_the_contact_and_kinematics_of_its_base(settings_with, config_copy):
     def chosen(settings):
         return {name: settings.reduction_choice(name).boundary.contact for name in settings.blades}
 
     settings, point_contact = settings_with(), settings_with({"contact": "points"})
     own = dict.fromkeys(("Mine", "Sweep_5", "Sweep_10", "Alone"), "patches") | {"Kept": "points", "Like": "points"}
     assert chosen(settings) == dict.fromkeys(("Ref", "L50", "L100", "S50", "S100", "CS50", "CS100"), "points") | own
+    kinematics = {name: settings.reduction_choice(name).kinematics for name in settings.blades}
+    assert kinematics == dict.fromkeys(settings.blades, "linear") | {"Alone": "quadratic"}
     assert set(chosen(settings_with({"contact": "area_patches"})).values()) == {"area_patches"}
     assert structure_hash(settings, "Mine") != structure_hash(point_contact, "Mine")
     for base in ("Mine", "Kept", "Like", "Alone"):
@@ -327,10 +329,14 @@ def test_unlike_contact_is_told_before_the_run(settings_with):
         return remarks_on_unlike_contact(settings_with(*boundary, **changes))
 
     (remark,) = told()
-    assert remark.startswith("contact differs (8 points: Ref, L50, L100, ...; 12 patches: Mine, Sweep_5, Sweep_10, ...): ")
-    assert remark.endswith("; structure: { boundary: { contact: patches } } gives all blades one order")
+    assert remark.startswith(
+        "contact differs (8 points: Ref, L50, L100, ...; 12 patches: Mine, Sweep_5, Sweep_10; 12 patches, qu"
+    )
+    assert remark.endswith("; structure: { kinematics: quadratic, boundary: { contact: patches } } gives all blades one order")
     assert remark in remarks_of_pipeline(settings_with())
-    assert told({"contact": "patches"}) == told(blades=["Ref", "Like"]) == []
+    (points,) = told(blades=["Ref", "Mine"])
+    assert points.endswith("; structure: { boundary: { contact: patches } } gives all blades one order")
+    assert told({"contact": "patches"}, blades=["Ref", "Mine"]) == told(blades=["Ref", "Like"]) == []
 
 
 def test_direct_contact_on_points_is_told_at_the_end(settings_with):

@@ -17,6 +17,12 @@ CONTACT_IN_WORDS = (
     "Contact acts on mesh nodes (points, as published), on patches of the tip line, or on area_patches of the whole tip face"
 )
 
+Kinematics = Literal["linear", "rotating", "quadratic"]
+KINEMATICS_IN_WORDS = (
+    "Displacements: linear, of the undeformed blade, as published; rotating, small ones about its equilibrium under rotation; "
+    "or quadratic, of second order about that"
+)
+
 
 @declared_by(Material, optional=True)
 class MaterialSection(Section):

@@ -20,12 +20,20 @@ from r37core.blade.sense import check_profile_sense
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
-from r37core.rom.reduction_choice import PATCHES
+from r37core.rom.reduction_choice import LINEAR, PATCHES, QUADRATIC
 from r37core.rom.region_choice import RegionChoice
 from r37core.stress.statistic import Strengths
 
 from .bases import chain_of_bases
-from .blade_sections import CONTACT_IN_WORDS, REQUIRED_OF_MATERIAL, Contact, MaterialSection, chosen_regions
+from .blade_sections import (
+    CONTACT_IN_WORDS,
+    KINEMATICS_IN_WORDS,
+    REQUIRED_OF_MATERIAL,
+    Contact,
+    Kinematics,
+    MaterialSection,
+    chosen_regions,
+)
 from .declaring import si_fields, si_form
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
@@ -57,7 +65,7 @@ class BladeEntry(Section):
     """
 
     profiles: FileName | LeftOut = left_out("Profile table (CSV)")
-    base: Name | LeftOut = left_out("Blade that gives profiles, sweep, lean, contact and material")
+    base: Name | LeftOut = left_out("Blade that gives profiles, sweep, lean, contact, kinematics and material")
     stacking_table: FileName | LeftOut = left_out("Table (CSV) of sweep and lean with a column `blade`")
     sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = left_out(
         "Sweep and lean in this file, one entry per row"
@@ -74,6 +82,7 @@ class BladeEntry(Section):
     chord_percent: Shares | LeftOut = left_out("Share of the chord that is kept, on the same cones")
     thickness_percent: Shares | LeftOut = left_out("Share of all thicknesses that is kept")
     contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}; by default that of the base, without one patches")
+    kinematics: Kinematics | LeftOut = left_out(f"{KINEMATICS_IN_WORDS}; by default that of the base, without one quadratic")
     sense_check: bool = Field(default=True, description="Whether a blade whose trailing edge leads is refused")
     material: MaterialSection = MaterialSection()
     vary: Vary = vary_field("sweep_percent or material.density_kg_m3")
@@ -115,11 +124,12 @@ class Blades(RootModel[ByName[Entry]]):
 
 @dataclass(frozen=True)
 class BladeSettings:
-    """One blade: what gives its shape, its material (none for matrices), what contact acts on, its own regions of stress."""
+    """One blade: what gives its shape, its material (none for matrices), contact, kinematics, own regions of stress."""
 
     definition: BladeDefinition | MeshSource | MatricesSource
     material: fem_material.Material | None
     contact: str
+    kinematics: str
     stress_regions: Mapping[str, RegionChoice] = field(default_factory=dict, hash=False)
 
     @property
@@ -180,8 +190,12 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     if isinstance(entry, MatricesEntry):
         if len(chain) > 1:
             raise document.refusal((chain[1], "base"), f"'{first}', a blade of matrices", "a blade with profiles or a mesh")
-        return BladeSettings(_source(entry, first, root, document), None, entry.contact)
-    material, contact = _material(chain, entries, document), entries[contact_given(chain, entries)].contact or PATCHES
+        return BladeSettings(_source(entry, first, root, document), None, entry.contact, LINEAR)
+    material = _material(chain, entries, document)
+    contact, kinematics = (
+        getattr(entries[link_with(key, chain, entries)], key) or otherwise
+        for key, otherwise in (("contact", PATCHES), ("kinematics", QUADRATIC))
+    )
     if isinstance(entry, MeshEntry):
         for link in chain[1:]:
             keys = [key for key in (*SHIFTS, *SHARES, *SECTION_KEYS) if getattr(entries[link], key) is not None]
@@ -194,7 +208,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
         regions = chosen_regions(entry.stress_regions or {})
-        return BladeSettings(_source(entry, first, root, document), material, contact, regions)
+        return BladeSettings(_source(entry, first, root, document), material, contact, kinematics, regions)
     shift: dict[str, Any] = {}
     place = name, "base"
     for link in chain:
@@ -213,12 +227,12 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         check_sweep(shift.get("stacking") or (), profiles)
     except BladeShapeError as error:
         raise document.error(place, f"blade {name}: {error}") from None
-    return BladeSettings(BladeDefinition(name, profiles, **shift), material, contact)
+    return BladeSettings(BladeDefinition(name, profiles, **shift), material, contact, kinematics)
 
 
-def contact_given(chain: Sequence[str], entries: Mapping[str, Any]) -> str:
-    """Link of a blade's chain of bases that gives its contact; the blade itself where none does."""
-    return next((link for link in reversed(chain) if entries[link].contact is not None), chain[-1])
+def link_with(key: str, chain: Sequence[str], entries: Mapping[str, Any]) -> str:
+    """Link of a blade's chain of bases that gives a key to it; the blade itself where none does."""
+    return next((link for link in reversed(chain) if getattr(entries[link], key) is not None), chain[-1])
 
 
 def _changed(

@@ -14,7 +14,7 @@ from r37core.results.interaction_choice import InteractionChoice
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice
 
-from .blade_sections import Contact, RegionSection, refuse_taken_names
+from .blade_sections import Contact, Kinematics, RegionSection, refuse_taken_names
 from .declaring import DECLARED, declared_by, si_form
 from .section import AllOrNames, ByName, ExtensionSection, FileName, LeftOut, Name, Section, Speed, left_out, refused
 from .speed_section import RpmList, SpeedList, SpeedRange, SpeedRule, refuse_both_units
@@ -44,7 +44,7 @@ class StructureSection(Section):
     edges: Literal["round", "blunt"] = Field(default="round", description="Shape of the leading and trailing edges")
     boundary: Boundary = Boundary()
     maximum_speed_rad_s: Speed = Field(default=2000.0, description="Highest speed of the basis and the Campbell diagram")
-    kinematics: Any = DECLARED
+    kinematics: Kinematics | LeftOut = left_out("Kinematics of all blades, in place of `kinematics` in blades.yaml")
     quadratic_modes: Any = DECLARED
     spin_softening: Any = DECLARED
     coriolis: Any = DECLARED

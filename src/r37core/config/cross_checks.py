@@ -143,19 +143,21 @@ def matrices_hold_their_terms(settings: Settings) -> None:
 def kinematics_can_be_had(settings: Settings) -> None:
     """Large displacements are wanted of blades with a mesh, and those of second order with what carries them."""
     structure, key, document = settings.structure, ("structure", "kinematics"), settings.documents.config
-    matrices = [name for name, blade in settings.blades.items() if blade.is_matrices]
-    if structure.kinematics != LINEAR and matrices:
+    wanted = {name: settings.kinematics_of(name) for name in settings.blades}
+    matrices = [name for name, blade in settings.blades.items() if blade.is_matrices and wanted[name] != LINEAR]
+    if matrices:
         origin = f"the blade '{matrices[0]}', given by matrices, which say nothing of large displacements"
-        value = f"{structure.kinematics} with {origin}"
-        raise document.refusal(key, value, f"{LINEAR}, or the blade's mesh")
-    if structure.kinematics != QUADRATIC:
+        raise document.refusal(key, f"{wanted[matrices[0]]} with {origin}", f"{LINEAR}, or the blade's mesh")
+    quadratic = [name for name, kinematics in wanted.items() if kinematics == QUADRATIC]
+    if not quadratic:
         return
+    value = QUADRATIC if structure.kinematics else f"{QUADRATIC}, by the entry of the blade '{quadratic[0]}',"
     if structure.coriolis:
-        raise document.refusal(key, f"{QUADRATIC} with structure.coriolis: true", f"{LINEAR} or {ROTATING}, or coriolis: false")
+        raise document.refusal(key, f"{value} with structure.coriolis: true", f"{LINEAR} or {ROTATING}, or coriolis: false")
     integrator = settings.fidelity.time_integration.integrator
     if integrator != EXACT_MODAL:
-        value = f"{QUADRATIC} at the level '{settings.fidelity_name}', whose integrator {integrator} does not carry it"
-        raise document.refusal(key, value, f"{LINEAR} or {ROTATING}, or {_exact_level(settings)}")
+        level = f"the level '{settings.fidelity_name}', whose integrator {integrator} does not carry it"
+        raise document.refusal(key, f"{value} at {level}", f"{LINEAR} or {ROTATING}, or {_exact_level(settings)}")
 
 
 def tips_have_room_for_patches(settings: Settings) -> None:

@@ -10,7 +10,15 @@ from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
 
-from .blade_sections import CONTACT_IN_WORDS, Contact, MaterialSection, RegionSection, refuse_taken_names
+from .blade_sections import (
+    CONTACT_IN_WORDS,
+    KINEMATICS_IN_WORDS,
+    Contact,
+    Kinematics,
+    MaterialSection,
+    RegionSection,
+    refuse_taken_names,
+)
 from .declaring import DECLARED, declared_by, si_form
 from .section import ByName, FileName, LeftOut, Section, left_out, refused
 
@@ -110,6 +118,7 @@ class MeshEntry(Oriented):
     minimum_scaled_jacobian: Any = DECLARED
     end_check: Any = DECLARED
     contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
+    kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
     stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
 
     @model_validator(mode="after")

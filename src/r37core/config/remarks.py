@@ -6,9 +6,9 @@ from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibili
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.source import MeshSource
-from r37core.rom.reduction_choice import MOST_USUAL_PATCHES, POINTS
+from r37core.rom.reduction_choice import MOST_USUAL_PATCHES, POINTS, QUADRATIC
 
-from .settings import Settings, contact_of_blades
+from .settings import Settings, contact_of_blades, direct_on_points
 from .speed_choice import fastest_of, length_of_run, most_runs, slowest_speeds
 from .spread import Spreads
 
@@ -24,7 +24,7 @@ def remarks_of_pipeline(settings: Settings) -> list[str]:
     lines = []
     measured = settings.fidelity.measured
     if settings.config.fidelity == "auto" and measured is not None:
-        error = measured.error_of(bool(settings.direct_on_points[0]))
+        error = measured.error_of(bool(direct_on_points(settings)[0]))
         if error is not None:
             share, cost = 100 * error, measured.cpu_s_per_run
             lines.append(f"fidelity auto: level {settings.fidelity_name}, measured error {share:g}%, {cost:g} CPU s per run")
@@ -141,7 +141,7 @@ def _spread_numbers(settings: Settings) -> set[str]:
 
 def remarks_on_points(settings: Settings) -> list[str]:
     """Remark at the end of a run on direct contact on points, which has no limit in the mesh."""
-    scenes, blades = settings.direct_on_points
+    scenes, blades = direct_on_points(settings)
     if not scenes:
         return []
     of = f"{len(blades)} blades" if len(blades) > 1 else blades[0]
@@ -161,10 +161,11 @@ def remarks_on_unlike_contact(settings: Settings) -> list[str]:
         return []
     different = "; ".join(f"{contact}: {_first_few(names)}" for contact, names in kinds.items())
     # a number that the mesh of another program decides is known where config.yaml gives it
+    kinematics = "" if len({settings.kinematics_of(name) for name in settings.blades}) == 1 else f"kinematics: {QUADRATIC}, "
     nodes = "" if all(contact[0].isdigit() for contact in kinds) else f", nodes: {MOST_USUAL_PATCHES}"
     return [
         f"contact differs ({different}): blades are ranked among those of the same contact; "
-        f"structure: {{ boundary: {{ contact: patches{nodes} }} }} gives all blades one order"
+        f"structure: {{ {kinematics}boundary: {{ contact: patches{nodes} }} }} gives all blades one order"
     ]
 
 

@@ -16,12 +16,12 @@ from r37core.base.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Scene
 from r37core.results.operating_range import OperatingRange
-from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice
+from r37core.rom.reduction_choice import LINEAR, POINTS, BoundaryChoice, ReductionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .bases import chain_of_bases
 from .blade_sections import chosen_regions
-from .blades import BladeSettings, all_blades, contact_given
+from .blades import BladeSettings, all_blades, link_with
 from .config_file import Config, StructureSection
 from .declaring import si_form
 from .document import ConfigRefusals, Document, Documents
@@ -133,15 +133,7 @@ class Settings:
         if self.config.fidelity != "auto":
             self.documents.known(("fidelity",), [self.config.fidelity], self.levels, self.documents.levels)
             return self.config.fidelity
-        return cheapest_level(self.levels, self.config.tolerance, bool(self.direct_on_points[0]), self.documents)
-
-    @property
-    def direct_on_points(self) -> tuple[list[str], list[str]]:
-        """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
-        scenes = [name for name in self.scene_names if self.scene_designs.entries[name].lining is None]
-        meshed = [name for name, blade in self.blades.items() if not blade.is_matrices]
-        blades = [name for name in meshed if self.contact_of(name) == POINTS]
-        return (scenes, blades) if scenes and blades else ([], [])
+        return cheapest_level(self.levels, self.config.tolerance, bool(direct_on_points(self)[0]), self.documents)
 
     @property
     def fidelity(self) -> Level:
@@ -195,8 +187,8 @@ class Settings:
         boundary = si_form(BoundaryChoice, section, tip_line=tip_line or section.tip_line, contact=self.contact_of(blade))
         speeds = (0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s)
         regions = chosen_regions(structure.stress_regions) | dict(self.blades[blade].stress_regions)
-        size = dict(self.fidelity.reduction)
-        return si_form(ReductionChoice, structure, boundary=boundary, speeds=speeds, stress_regions=regions, **size)
+        more = {"kinematics": self.kinematics_of(blade), **dict(self.fidelity.reduction)}
+        return si_form(ReductionChoice, structure, boundary=boundary, speeds=speeds, stress_regions=regions, **more)
 
     def contact_nodes(self, blade: str, tip_elements: int) -> int:
         """Number of a blade's contact nodes on a tip of so many elements; 0 where the mesh of another program decides it."""
@@ -208,6 +200,10 @@ class Settings:
     def contact_of(self, blade: str) -> str:
         """Contact nodes of a blade: as config.yaml says for all of them, else as its own entry does."""
         return self.structure.boundary.contact or self.blades[blade].contact
+
+    def kinematics_of(self, blade: str) -> str:
+        """Kinematics of a blade: as config.yaml says for all of them, else as its own entry does."""
+        return self.structure.kinematics or self.blades[blade].kinematics
 
     def results_of(self, blade: str, scene: str) -> tuple[str, ...]:
         """Results requested for a scene, as far as the blade has them: matrices have no stress, nor shapes.
@@ -274,10 +270,25 @@ def operating_range(settings: Settings) -> OperatingRange | None:
     return None if section is None else section.operating()
 
 
+def direct_on_points(settings: Settings) -> tuple[list[str], list[str]]:
+    """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
+    scenes = [name for name in settings.scene_names if settings.scene_designs.entries[name].lining is None]
+    meshed = [name for name, blade in settings.blades.items() if not blade.is_matrices]
+    blades = [name for name in meshed if settings.contact_of(name) == POINTS]
+    return (scenes, blades) if scenes and blades else ([], [])
+
+
 def contact_of_blades(settings: Settings) -> dict[str, str]:
-    """Blade -> what its contact acts on: 8 points, 12 patches; without a number where a mesh of another program decides."""
-    numbers = {name: settings.contact_nodes(name, settings.fidelity.mesh.tip_elements) for name in settings.blades}
-    return {name: f"{number or ''} {settings.contact_of(name)}".strip() for name, number in numbers.items()}
+    """Blade -> what its contact acts on, and its kinematics where these are not linear: 8 points; 12 patches, quadratic.
+
+    Without a number where a mesh of another program decides it.
+    """
+    kinds = {}
+    for name in settings.blades:
+        number, kinematics = settings.contact_nodes(name, settings.fidelity.mesh.tip_elements), settings.kinematics_of(name)
+        contact = f"{number or ''} {settings.contact_of(name)}".strip()
+        kinds[name] = contact if kinematics == LINEAR else f"{contact}, {kinematics}"
+    return kinds
 
 
 def location_of_contact(settings: Settings, blade: str) -> str:
@@ -285,7 +296,7 @@ def location_of_contact(settings: Settings, blade: str) -> str:
     if settings.structure.boundary.contact is None:
         entries, document = settings.designs.entries, settings.designs.document
         chain = chain_of_bases(blade, lambda link: getattr(entries[link], "base", None), entries, document, "blade")
-        link = contact_given(chain, entries)
+        link = link_with("contact", chain, entries)
         return f"{document.location((link, 'contact'))}: {link}.contact"
     path = ("structure", "boundary", "contact")
     return f"{settings.documents.config.location(path)}: {'.'.join(path)}"

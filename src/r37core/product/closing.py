@@ -9,6 +9,7 @@ import numpy as np
 
 from r37core.base.rounding import rounded_to
 from r37core.results.closing import interaction_title, lining_texts, remarks_on_contact
+from r37core.rom.reduction_choice import QUADRATIC
 from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
 
@@ -154,8 +155,11 @@ def _overall(rows: list[dict[str, str]]) -> list[str]:
 
 def _remarks_on_contact(blades: dict[str, list[str]]) -> list[str]:
     """Line on a ranking of unlike contact, or on points. `blades`: contact -> the blades that have it."""
-    key = "structure: { boundary: { contact: patches } }"
+    contact = "boundary: { contact: patches }"
+    key = f"structure: {{ {contact} }}"
     if len(blades) > 1:
+        if any(kind.endswith(QUADRATIC) for kind in blades):
+            key = f"structure: {{ kinematics: {QUADRATIC}, {contact} }}"
         kinds = "; ".join(f"{contact}: {', '.join(names[:3])}{', ...' * (len(names) > 3)}" for contact, names in blades.items())
         return [f"ranks are among blades of the same contact ({kinds}); {key} gives one order"]
     return [f"the ranking is of contact on points; a decision needs {key}" for contact in blades if "points" in contact]

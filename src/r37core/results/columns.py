@@ -274,7 +274,7 @@ OVER_SCENES = (
 
 RANKING = (
     Column("rank", "place in the scene: by length above yield in most, then in some revolutions, diverged runs, stress"),
-    Column("contact", "contact nodes; ranks and chances are among the same"),
+    Column("contact", "contact nodes, kinematics; ranks and chances are among equals"),
     *OVER_SCENES,
     *ROBUSTNESS,
     *WORST_MOTION,

@@ -137,7 +137,7 @@ def _resolves(choice: BoundaryChoice, count: int, chord: np.ndarray) -> bool:
     return len(chord) >= max(2 * count - 1, 2) and len(between) == count - 1
 
 
-LINEAR, ROTATING, QUADRATIC = KINEMATICS = ("linear", "rotating", "quadratic")
+LINEAR, ROTATING, QUADRATIC = ("linear", "rotating", "quadratic")
 """Displacements: small ones of the undeformed blade; small ones about the equilibrium of large displacements under rotation;
 and with terms of second order about that equilibrium."""
 
@@ -153,13 +153,7 @@ class ReductionChoice:
         int, Key("Number of modes at each of three speeds: rest, half the maximum and the maximum", ge=0, le=500)
     ]
     basis_tolerance: Annotated[float, Key("Relative singular value below which a column is removed", ge=0, lt=1)] = 1e-8
-    kinematics: Annotated[
-        str,
-        Key(
-            "Displacements: small, small about the blade's equilibrium under rotation, or there to second order",
-            one_of=KINEMATICS,
-        ),
-    ] = LINEAR
+    kinematics: str = LINEAR
     quadratic_modes: Annotated[
         int, Key("Number of modes with displacements of second order, from the lowest on", ge=1, le=MOST_QUADRATIC_MODES)
     ] = 4
