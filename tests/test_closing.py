@@ -129,6 +129,16 @@ def test_scenes_that_touch_nothing_are_named(tmp_path):
     assert len(said) == 4 and said[1].startswith("Ref in far: the tip touched nothing at any speed, ")
 
 
+def test_motions_beyond_the_second_order_are_told(tmp_path):
+    runs = _runs([0, 0, 0], [[[1.0, 1.0, 1.0]]], ["bare"])
+    for shares, said in (([np.nan, 0.1, 0.2], 3), ([0.1, 0.3, 0.25], 4)):
+        shared = runs.assign(peak_share_of_height=(("blade", "scene", "speed"), [[shares]]))
+        shared.to_netcdf(tmp_path / "rms.nc")
+        lines = closing_lines(written(tmp_path), 0.0, 1.0)
+        assert len(lines) == said
+    assert lines[1].startswith("in 2 runs the tip moves by more than 0.2 of the blade's height, by up to 0.3, where ")
+
+
 def test_linings_are_compared_with_the_tips_of_the_blades():
     names = ("lining_elastic_stiffness", "lining_plastic_stiffness", "tip_stiffness", "lined_tip_share")
     numbers = {"Ref": (5.07e6, 1.014e6, 7.48e6, 0.289), "S100": (5.07e6, 1.014e6, 6.2e6, 0.3)}

@@ -15,6 +15,7 @@ from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_run import run_speed
 
 SPEED = 1710.0
 
@@ -227,6 +228,13 @@ def test_small_motions_are_linear(displaced, contact):
         start_at_rest(simulation, state, unit)
         samples.append(simulation.advance(state, 3).samples)
     assert np.abs(samples[0] - samples[1]).max() < 1e-4 * np.abs(samples[1]).max()
+
+
+def test_how_far_a_run_goes_is_told(displaced, contact):
+    choice = replace(CHOICE, revolutions=2)
+    numbers = run_speed(contact, SPEED, LINED, choice, (), spectrum_highest_order=8, wear_angles=4)
+    assert numbers["peak_share_of_height"] == numbers["peak"].max() / displaced.quadratic.height
+    assert displaced.quadratic.height == pytest.approx(0.075, rel=0.05)
 
 
 def test_modes_that_come_near_to_each_other_are_followed():

@@ -205,3 +205,8 @@ def test_rotating_has_the_modes_alone(mesh, matrices, choice, steel, displaced):
 def test_what_cannot_be_had_is_refused(root, changes, said):
     with pytest.raises(ConfigError, match=said):
         read_settings(root, command_line_document(changes))
+
+
+def test_the_blade_whose_own_kinematics_cannot_be_had_is_named(with_blades):
+    with pytest.raises(ConfigError, match=r"quadratic, by the entry of the blade 'Own', with structure\.coriolis: true"):
+        with_blades("Own: { base: Ref, kinematics: quadratic }", blades=["Ref", "Own"], structure={"coriolis": True})

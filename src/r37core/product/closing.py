@@ -8,10 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.rounding import rounded_to
-from r37core.results.closing import interaction_title, lining_texts, remarks_on_contact
+from r37core.results.closing import interaction_title, lining_texts, remarks_on_contact, remarks_on_far_motions
 from r37core.rom.reduction_choice import QUADRATIC
 from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
+
+_FAR = "peak_share_of_height"
 
 MOST_SCENES = MOST_BLADES = 12
 """Scenes of which each has a line of its own, and blades that the line on all scenes names."""
@@ -174,6 +176,7 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
         with netCDF4.Dataset(file) as rms:
             status, names = rms["status"][:], [rms[name][:] for name in ("blade", "scene")]
             forces = np.ma.filled(rms["largest_normal_force"][:], np.nan)
+            reached = np.ma.filled(rms[_FAR][:], np.nan) if _FAR in rms.variables else np.empty(0)
             tip_numbers = {name: np.ma.filled(rms[name][:], np.nan).ravel() for name in LINING_AT_TIP if name in rms.variables}
     except OSError:
         # not there, or no dataset, which who reads it is told
@@ -186,7 +189,8 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
     if len(names[1]) > MOST_SCENES:
         lined = []
     linings = lining_texts({pairs[pair]: {name: values[pair] for name, values in tip_numbers.items()} for pair in lined})
-    return f"; {diverged} of {runs} runs diverged" if diverged else "", [*untouched, *linings]
+    far = remarks_on_far_motions(reached)
+    return f"; {diverged} of {runs} runs diverged" if diverged else "", [*untouched, *far, *linings]
 
 
 def _took(seconds: float) -> str:

@@ -7,8 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from r37core.rom.quadratic_terms import SHARE_OF_HEIGHT
+
 if TYPE_CHECKING:
     import pandas as pd
+
+
+def remarks_on_far_motions(shares: np.ndarray) -> list[str]:
+    """A line on runs whose tip goes farther than displacements of second order hold; `shares`: peak_share_of_height."""
+    far = shares[shares > SHARE_OF_HEIGHT]
+    remark = (
+        f"in {counted(len(far), 'run')} the tip moves by more than {SHARE_OF_HEIGHT:g} of the blade's height, by up to "
+        f"{far.max(initial=0.0):.2g}, where displacements of second order are 2% wrong and more (docs/large_motion.md#limits)"
+    )
+    return [remark] if far.size else []
 
 
 def counted(number: int, name: str) -> str:

@@ -16,6 +16,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+SHARE_OF_HEIGHT = 0.2
+"""Displacement, as a share of the blade's height, from which on displacements of second order are wrong by 2% and more."""
+
 MOST_QUADRATIC_MODES = 6
 """Largest number of modes with displacements of second order."""
 
@@ -26,18 +29,22 @@ class QuadraticTerms:
 
     `coordinates`, shape (modes, coordinates): mass products of the basis with the p_a of one speed, which those of the others
     follow (see followed_modes); `derivatives`, shape (3, pairs, coordinates): coefficients of the mass products with theta_ab
-    of the pairs a <= b; `cubic`, shape (3, modes, modes, modes, modes): of what is left of b.
+    of the pairs a <= b; `cubic`, shape (3, modes, modes, modes, modes): of what is left of b; `height` (m) of the blade.
     """
 
     coordinates: np.ndarray
     derivatives: np.ndarray
     cubic: np.ndarray
+    height: float
 
     @classmethod
-    def through(cls, places: np.ndarray, coordinates: np.ndarray, derivatives: np.ndarray, cubic: np.ndarray) -> QuadraticTerms:
+    def through(
+        cls, places: np.ndarray, coordinates: np.ndarray, derivatives: np.ndarray, cubic: np.ndarray, height: float
+    ) -> QuadraticTerms:
         """Terms with these `derivatives` and `cubic` at three places of the abscissa, the first axis of each."""
         coefficients = np.linalg.inv(np.vander(places, increasing=True))
-        return cls(coordinates, *(np.tensordot(coefficients, values, axes=1) for values in (derivatives, cubic)))
+        derivatives, cubic = (np.tensordot(coefficients, values, axes=1) for values in (derivatives, cubic))
+        return cls(coordinates, derivatives, cubic, height)
 
     def interpolated(self, place: float) -> tuple[np.ndarray, np.ndarray]:
         """`derivatives` and `cubic` at a place of the abscissa."""

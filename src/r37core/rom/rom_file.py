@@ -39,6 +39,7 @@ _QUADRATIC_TERMS: dict[str, tuple[tuple[str, ...], str, str]] = {
     "coordinates": (("large_mode_0", "column"), "kg1/2", "mass product with the modes that have displacements of second order"),
     "derivatives": (("power", "mode_pair", "column"), "1", "mass product with the static derivatives of these modes"),
     "cubic": (("power", *_LARGE), "s-2 m-2 kg-1", "stiffness of third order of these modes where all others follow at once"),
+    "height": ((), "m", "height of the blade"),
 }
 _OF_NODES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "nodes": ((), "1", "mesh node numbers"),
@@ -118,7 +119,8 @@ def _logarithmic_stiffness(dataset: xr.Dataset) -> LogarithmicStiffness:
 
 
 def _quadratic_terms(dataset: xr.Dataset) -> QuadraticTerms:
-    return QuadraticTerms(**{name: dataset[f"quadratic_{name}"].values for name in _QUADRATIC_TERMS})
+    values: dict[str, Any] = {name: dataset[f"quadratic_{name}"].values for name in _QUADRATIC_TERMS}
+    return QuadraticTerms(**values | {"height": float(values["height"])})
 
 
 def _region_variables(group: str, region: StressRegion) -> dict[str, tuple[Any, ...]]:

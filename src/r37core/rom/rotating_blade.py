@@ -39,6 +39,7 @@ class RotatingBlade:
         self._rotation = Rotation(self._solid, matrices, follows=choice.spin_softening)
         self._matrices, self._choice = matrices, choice
         self._equilibria = [np.zeros_like(mesh.points)]
+        self._height = float(np.ptp(np.hypot(*mesh.points[:, :2].T)))
 
     @cached_property
     def _slope(self) -> np.ndarray:
@@ -124,7 +125,7 @@ class RotatingBlade:
             modal = pushes @ modes
             derivatives.append(-(modal / squares) @ modes.T @ mass)
             cubic.append(third - pairings((modal / squares) @ modal.T, count))
-        return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic))
+        return QuadraticTerms.through(places, coordinates, np.array(derivatives), np.array(cubic), self._height)
 
     @staticmethod
     def _paired(fields: list[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
