@@ -69,7 +69,7 @@ PAGE_PICTURES = {
     "run_ups_Ref": "results/runs/run_ups/figures/run_ups_Ref__abradable.png",
     "search_slices": "results/runs/search_surrogate_2/figures/search_slices.png",
     "tolerances_Ref": "results/runs/members/figures/tolerances_Ref__material_abradable.png",
-    "which_blade": "results/runs/regions/figures/ranking.png",
+    "which_blade": "results/runs/quadratic/figures/ranking.png",
 }
 
 

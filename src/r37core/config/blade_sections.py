@@ -18,10 +18,7 @@ CONTACT_IN_WORDS = (
 )
 
 Kinematics = Literal["linear", "rotating", "quadratic"]
-KINEMATICS_IN_WORDS = (
-    "Displacements: linear, of the undeformed blade, as published; rotating, small ones about its equilibrium under rotation; "
-    "or quadratic, of second order about that"
-)
+KINEMATICS_IN_WORDS = "Displacements: linear, as published; rotating, about the rotating equilibrium; or quadratic, large ones"
 
 
 @declared_by(Material, optional=True)
