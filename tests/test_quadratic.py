@@ -124,6 +124,52 @@ def test_forces_are_those_of_the_energy(contact):
     assert change == pytest.approx(-2.0 * quadratic.force(u) @ step, rel=1e-6)
 
 
+@pytest.fixture(scope="module")
+def softening(contact):
+    """A blade whose modes soften so far that without a bound they would leave beyond 3 mm."""
+    terms = contact.quadratic
+    modes = len(terms.coordinates)
+    simulation = Simulation(contact, SPEED, FAR, CHOICE)
+    shapes = np.linalg.norm(simulation.problem.model.tip_displacement_operator[:, 0] @ simulation.problem.blade.modes, axis=0)
+    cubic = np.zeros_like(terms.cubic)
+    for mode in range(modes):
+        cubic[(0, *[mode] * 4)] = -6.0 * (simulation.problem.blade.frequencies[mode] * shapes[mode] / 0.003) ** 2
+    return replace(contact, quadratic=replace(terms, cubic=cubic))
+
+
+def test_an_energy_that_softens_has_a_bound(softening):
+    quadratic = Simulation(softening, SPEED, FAR, CHOICE).problem.contact.quadratic
+    random = np.random.default_rng(0)
+    seen = 0
+    for size in np.geomspace(1e-5, 1e-1, 41):
+        u = size * random.standard_normal(quadratic.rows.shape[1])
+        left = quadratic.energy_left(quadratic.products(u))
+        seen += left < -quadratic.bound
+        assert np.sum(quadratic.products(u) ** 2) > quadratic.surely_within or left >= -quadratic.bound
+        # all of the energy: that of the modes too
+        frequencies = quadratic.blade.frequencies
+        assert 0.5 * np.sum((frequencies * u) ** 2) + quadratic.energy(u) >= -2.0 * quadratic.bound
+        step = 1e-6 * size * random.standard_normal(u.shape)
+        change = quadratic.energy(u + step) - quadratic.energy(u - step)
+        assert change == pytest.approx(-2.0 * quadratic.force(u) @ step, rel=1e-5)
+    assert 5 < seen < 36
+
+
+def test_a_blade_that_softens_does_not_leave(softening):
+    """Both engines, in a flight that begins beyond the place from which it would never come back."""
+    samples = []
+    for engine in ("compiled", "reference"):
+        simulation = Simulation(softening, SPEED, FAR, replace(CHOICE, engine=engine))
+        state = simulation.start()
+        unit = np.zeros_like(simulation.problem.blade.frequencies)
+        shape = simulation.problem.model.tip_displacement_operator[1, 0] @ simulation.problem.blade.modes
+        unit[0] = 0.006 / shape[0]
+        start_at_rest(simulation, state, unit)
+        samples.append(simulation.advance(state, 4).samples)
+    assert np.abs(samples[0]).max() < 0.02
+    np.testing.assert_allclose(samples[0], samples[1], rtol=0, atol=1e-6 * np.abs(samples[1]).max())
+
+
 def test_free_flight_is_that_of_its_equations(contact):
     """From 10 mm at the leading edge, by SciPy's integration of the same modes, and without loss of energy."""
     simulation = Simulation(contact, SPEED, FAR, replace(CHOICE, time_step=1.6e-6))

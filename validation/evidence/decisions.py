@@ -32,6 +32,18 @@ def limits(input: Any, output: Any, params: Any) -> None:
     shutil.copyfile(input.picture, output.picture)
 
 
+def lengths(input: Any, output: Any, params: Any) -> None:
+    """Lengths above yield in operation over lining and clearance. Input: designs. Output: table."""
+    designs = read_table(input.designs)
+    column = "length_most_revolutions_operating_rad_s"
+    rows = []
+    for (blade, thickness), part in designs.groupby(["blade", THICKNESS], sort=False):
+        by_clearance = part.sort_values(CLEARANCE)
+        clearances = [f"{1e3 * clearance:.2f} mm" for clearance in by_clearance[CLEARANCE]]
+        rows.append([blade, f"{1e3 * thickness:g}", *(f"{length:.0f}" for length in by_clearance[column])])
+    write_table(["blade", "lining (mm)", *clearances], rows, output.table)
+
+
 def _judged(designs: pd.DataFrame, verdict: pd.DataFrame) -> pd.DataFrame:
     """Designs by ascending clearance, and whether they meet all requirements."""
     kept = verdict.assign(meets=verdict["verdict"].isin(["meets", "does not apply"]))

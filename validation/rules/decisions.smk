@@ -23,6 +23,23 @@ module decide_fine:
 use rule * from decide_fine as decide_fine_*
 
 
+# with large displacements the runs of the sweep alone: no blade fails clearly, so a verdict tries hundreds of runs of each
+module decide_large:
+    snakefile:
+        "../../Snakefile"
+    config:
+        run(
+            "decide_large",
+            "decide",
+            blades=DECIDED,
+            structure={"kinematics": "quadratic", "boundary": {"contact": "patches"}},
+            requirements=None,
+        )
+
+
+use rule * from decide_large as decide_large_*
+
+
 module fatigue_below_yield:
     snakefile:
         "../../Snakefile"
@@ -56,6 +73,17 @@ use rule evidence as clearance_and_lining with:
         "logs/validation/clearance_and_lining.log",
     params:
         **evidence("decisions.limits"),
+
+
+use rule evidence as clearance_and_lining_large with:
+    input:
+        unpack(behind_engine(designs="results/runs/decide_large/designs.csv")),
+    output:
+        table=f"{TABLES}/clearance_and_lining_large.csv",
+    log:
+        "logs/validation/clearance_and_lining_large.log",
+    params:
+        **evidence("decisions.lengths"),
 
 
 use rule evidence as fatigue_below_yield with:

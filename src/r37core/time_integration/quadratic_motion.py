@@ -7,6 +7,10 @@ The elastic energy beyond that of linear modes is, with the amplitudes q = Q u o
 see r37core.rom.quadratic_terms. The forces f act on the stepped modes u. Those that are not stepped follow q_a q_b G_ab/2 at
 once, by minus that over their squared frequencies: the nodes move by the products q_a q_b, b becomes smaller, and a force on a
 node pushes q_a by what the products move it. Their inertia is that of followers, which are stepped: see SteppedBlade.
+
+All of the energy but Q(q), what is left of b where the others follow, is a sum of squares. Q may be negative, of modes that
+soften: without a bound a run could leave for ever. So Q counts as it is down to -B, and below that as -2B - B^2/Q, which has
+the same value and slope at -B and is never below -2B. B is the energy of the lowest mode where second order ends to hold.
 """
 
 from __future__ import annotations
@@ -15,8 +19,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy.linalg as la
 
-from r37core.rom.quadratic_terms import QuadraticTerms, followed_modes, mode_pairs, pairings, products_of
+from r37core.rom.quadratic_terms import SHARE_OF_HEIGHT, QuadraticTerms, followed_modes, mode_pairs, pairings, products_of
 
 from .stepped_blade import SteppedBlade
 
@@ -74,13 +79,41 @@ class QuadraticMotion:
     @cached_property
     def cubic(self) -> np.ndarray:
         """b/6 per mode of a pair and product, shape (products, products): its sum with the products adds to s_ab."""
-        logarithmic, (first, second) = self.blade.model.logarithmic_stiffness, self.pairs
-        assert logarithmic is not None
-        _, left = self.terms.interpolated(logarithmic.abscissa(self.blade.grid.speed))
         # of the stepped modes, which do not follow at once
         stepped = self._derivatives * self.blade.frequencies**2 @ self._derivatives.T
-        cubic = left + pairings(stepped, len(self.terms.coordinates))
+        return self._per_product(self._left + pairings(stepped, len(self.terms.coordinates)))
+
+    @cached_property
+    def left(self) -> np.ndarray:
+        """The part of `cubic` that is left where all other modes follow at once, of Q."""
+        return self._per_product(self._left)
+
+    @cached_property
+    def _left(self) -> np.ndarray:
+        logarithmic = self.blade.model.logarithmic_stiffness
+        assert logarithmic is not None
+        return self.terms.interpolated(logarithmic.abscissa(self.blade.grid.speed))[1]
+
+    def _per_product(self, cubic: np.ndarray) -> np.ndarray:
+        first, second = self.pairs
         return cubic[first[:, None], second[:, None], first, second] / 6.0 * self.weights
+
+    @cached_property
+    def bound(self) -> float:
+        """B (J): energy of the lowest mode with a tip that moves by SHARE_OF_HEIGHT of the blade's height."""
+        shapes = self.blade.model.tip_displacement_operator @ self.blade.modes[:, 0]
+        amplitude = SHARE_OF_HEIGHT * self.terms.height / np.linalg.norm(shapes, axis=0).max()
+        return float(0.5 * (self.blade.frequencies[0] * amplitude) ** 2)
+
+    @cached_property
+    def surely_within(self) -> float:
+        """Sum of the squared products up to which Q is above -B whatever they are."""
+        lowest = la.eigvalsh(self.weights[:, None] * self.left)[0]
+        return -4.0 * self.bound / lowest if lowest < 0.0 else np.inf
+
+    def reduction(self, energy: np.ndarray) -> np.ndarray:
+        """Slope, less one, of what counts of energies Q."""
+        return np.where(energy < -self.bound, (self.bound / np.minimum(energy, -self.bound)) ** 2 - 1.0, 0.0)
 
     def products(self, displacement: np.ndarray) -> np.ndarray:
         """Products q_a q_b, shape (..., products), of displacements u of the stepped modes, shape (..., modes)."""
@@ -90,7 +123,14 @@ class QuadraticMotion:
         """V (J), shape (...,), of displacements u of the stepped modes, shape (..., modes)."""
         products = self.products(displacement)
         stiffness = displacement @ self.rows[len(self.terms.coordinates) :].T
-        return (products * (0.5 * stiffness + 0.25 * products @ self.cubic.T)) @ self.weights
+        whole = (products * (0.5 * stiffness + 0.25 * products @ self.cubic.T)) @ self.weights
+        left = self.energy_left(products)
+        below = np.minimum(left, -self.bound)
+        return whole + np.where(left < -self.bound, -2.0 * self.bound - self.bound**2 / below - left, 0.0)
+
+    def energy_left(self, products: np.ndarray) -> np.ndarray:
+        """Q (J), shape (...,), of products, shape (..., products)."""
+        return 0.25 * (products * (products @ self.left.T)) @ self.weights
 
     def force(self, displacement: np.ndarray) -> np.ndarray:
         """The force f (N) on the stepped modes at a displacement u of them, shape (modes,): minus the gradient of V."""
@@ -100,4 +140,5 @@ class QuadraticMotion:
         first, second = self.pairs
         changes = amplitudes[first, None] * lowest[second] + amplitudes[second, None] * lowest[first]
         stiffness = stiffened @ displacement + self.cubic @ products
+        stiffness += self.reduction(self.energy_left(products)) * (self.left @ products)
         return -0.5 * ((weights * stiffness) @ changes + (weights * products) @ stiffened)

@@ -252,6 +252,8 @@ class LaidOutProblem:
         second = m["second"]
         second["rows"][0, :functionals, :modes] = quadratic.rows
         second["weight"][:products], second["cubic"][:products, :products] = quadratic.weights, quadratic.cubic
+        second["left"][:products, :products] = quadratic.left
+        second["bound"], second["surely_within"] = quadratic.bound, quadratic.surely_within
         second["first"][:products], second["second"][:products] = quadratic.pairs
         numbers = {"functionals": functionals, "lanes": padded(functionals), "products": products, "lane": columns.start}
         for name, number in numbers.items():

@@ -167,10 +167,12 @@ def second_order_record(modes: int) -> np.dtype:
         # each, and what pushes; their rows
         _fields("functional last pull push", MOST_FUNCTIONALS),
         _fields("rows", 1, MOST_FUNCTIONALS, modes),
-        # how often each product counts; b/6; its two modes
-        _fields("weight", MOST_PRODUCTS),
-        _fields("cubic", MOST_PRODUCTS, MOST_PRODUCTS),
+        # how often each product counts, and what is left of b/6 pulls it with; b/6, and what is left of that; its two modes
+        _fields("weight pull_left", MOST_PRODUCTS),
+        _fields("cubic left", MOST_PRODUCTS, MOST_PRODUCTS),
         _fields("first second", MOST_PRODUCTS, kind=np.int64),
+        # B, and the sum of the squared products up to which it is surely not passed
+        _fields("bound surely_within"),
         # functionals, whole vectors of them, products, and the lane of the first product
         _fields("functionals lanes products lane", kind=np.int64),
     )

@@ -30,19 +30,41 @@ def set_products(m):
     modes = second.functionals - second.products
     for a in range(modes):
         second.pull[a] = 0.0
+    squares = 0.0
     for p in range(second.products):
         a, b, i = second.first[p], second.second[p], second.lane + p
         product = second.functional[a] * second.functional[b]
         m.increment[i] = product - m.u[i]
         m.u[i] = product
+        squares += product * product
+    reduction = 0.0
+    if squares > second.surely_within:
+        reduction = reduced(m)
     for p in range(second.products):
         a, b, stiffness = second.first[p], second.second[p], second.functional[modes + p]
         for r in range(second.products):
             stiffness += second.cubic[p, r] * m.u[second.lane + r]
+        if reduction != 0.0:
+            stiffness += reduction * second.pull_left[p]
         second.pull[a] += stiffness * second.functional[b]
         if a != b:
             second.pull[b] += stiffness * second.functional[a]
         second.pull[modes + p] = 0.5 * second.weight[p] * m.u[second.lane + p]
+
+
+@inlined
+def reduced(m):
+    """Slope, less one, of what counts of the energy Q; keeps what is left of b pulls each product with."""
+    second = m.second
+    energy = 0.0
+    for p in range(second.products):
+        second.pull_left[p] = 0.0
+        for r in range(second.products):
+            second.pull_left[p] += second.left[p, r] * m.u[second.lane + r]
+        energy += 0.25 * second.weight[p] * m.u[second.lane + p] * second.pull_left[p]
+    if energy < -second.bound:
+        return second.bound / energy * (second.bound / energy) - 1.0
+    return 0.0
 
 
 @inlined

@@ -97,7 +97,8 @@ class QuadraticMotionOfModes(RealMotion):
         quadratic = self._quadratic
         products, changes = self._products(u), self._changes @ u
         # of w r (s/2 + c r/4) with symmetric w c
-        stiffness = quadratic.weights * (0.5 * changes + 0.5 * quadratic.cubic @ products)
+        counted = quadratic.reduction(quadratic.energy_left(products))
+        stiffness = quadratic.weights * 0.5 * (changes + quadratic.cubic @ products + counted * (quadratic.left @ products))
         return -self._gradient(u).T @ stiffness - 0.5 * self._changes.T @ (quadratic.weights * products)
 
     def _products(self, u: np.ndarray) -> np.ndarray:
