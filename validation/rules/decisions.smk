@@ -30,10 +30,12 @@ module decide_large:
     config:
         run(
             "decide_large",
-            "decide",
             blades=DECIDED,
+            scenes=["Room"],
+            scenes_file="config/decide_scenes.yaml",
             structure={"kinematics": "quadratic", "boundary": {"contact": "patches"}},
-            requirements=None,
+            speeds=[{"start": 1080, "stop": 1860, "step": 20}],
+            operating={"idle_rpm": 10400, "redline_rpm": 17700},
         )
 
 
