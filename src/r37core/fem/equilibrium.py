@@ -17,7 +17,7 @@ _CONVERGED = 1e-9
 _ORDER, _LEFT_OUT = 16, 3e-2
 """Order of the series between equilibria, and its last term where it ends, as a share of its first."""
 
-_MOST_CORRECTIONS, _SHORTEST = 20, 0.01
+_MOST_CORRECTIONS, _SHORTEST = 20, 1e-6
 """Corrections by one tangent, and shortest step of the load, as a share of that which is looked for."""
 
 
