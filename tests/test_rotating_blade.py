@@ -208,5 +208,5 @@ def test_what_cannot_be_had_is_refused(root, changes, said):
 
 
 def test_the_blade_whose_own_kinematics_cannot_be_had_is_named(with_blades):
-    with pytest.raises(ConfigError, match=r"quadratic, by the entry of the blade 'Own', with structure\.coriolis: true"):
+    with pytest.raises(ConfigError, match=r"blades\.yaml:\d+: Own\.kinematics: found quadratic with str.*: true"):
         with_blades("Own: { base: Ref, kinematics: quadratic }", blades=["Ref", "Own"], structure={"coriolis": True})

@@ -20,7 +20,7 @@ from r37core.blade.sense import check_profile_sense
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.refusal import ImportRefused
 from r37core.fem import material as fem_material
-from r37core.rom.reduction_choice import LINEAR, PATCHES, QUADRATIC
+from r37core.rom.reduction_choice import PATCHES, QUADRATIC
 from r37core.rom.region_choice import RegionChoice
 from r37core.stress.statistic import Strengths
 
@@ -190,7 +190,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
     if isinstance(entry, MatricesEntry):
         if len(chain) > 1:
             raise document.refusal((chain[1], "base"), f"'{first}', a blade of matrices", "a blade with profiles or a mesh")
-        return BladeSettings(_source(entry, first, root, document), None, entry.contact, LINEAR)
+        return BladeSettings(_source(entry, first, root, document), None, entry.contact, entry.kinematics)
     material = _material(chain, entries, document)
     contact, kinematics = (
         getattr(entries[link_with(key, chain, entries)], key) or otherwise

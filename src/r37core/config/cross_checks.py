@@ -151,7 +151,10 @@ def kinematics_can_be_had(settings: Settings) -> None:
     quadratic = [name for name, kinematics in wanted.items() if kinematics == QUADRATIC]
     if not quadratic:
         return
-    value = QUADRATIC if structure.kinematics else f"{QUADRATIC}, by the entry of the blade '{quadratic[0]}',"
+    value = QUADRATIC
+    if structure.kinematics is None:
+        # the entry that says so, or that leaves it out
+        document, key = settings.designs.document, (quadratic[0], "kinematics")
     if structure.coriolis:
         raise document.refusal(key, f"{value} with structure.coriolis: true", f"{LINEAR} or {ROTATING}, or coriolis: false")
     integrator = settings.fidelity.time_integration.integrator

@@ -143,6 +143,7 @@ class MatricesEntry(Oriented):
         default="points",
         description="Contact acts on the nodes of boundary.csv (points) or on patches of its complete tip line",
     )
+    kinematics: Literal["linear"] = Field(default="linear", description="Always: matrices say nothing of large displacements")
 
     def source(self, root: Path) -> MatricesSource:
         """Matrices to import, from the folder `root`; ImportRefused where files are missing."""

@@ -27,8 +27,8 @@ class NoEquilibriumError(ValueError):
     def __init__(self, speed: float, reached: float):
         super().__init__(
             f"the blade has no stable position at {speed:g} rad/s with large displacements: the last one was found at "
-            f"{reached:.5g} rad/s; choose a lower structure.maximum_speed_rad_s, a stiffer or lighter material, less sweep and "
-            "lean, or structure.kinematics: linear"
+            f"{reached:.5g} rad/s; choose a lower structure.maximum_speed_rad_s, a stiffer or lighter blade, or "
+            "kinematics: linear"
         )
 
 

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from r37core.base.plain import to_plain
+from r37core.rom.reduction_choice import LINEAR
 
 from .samples import Pair, Sample, Samples, folder_and_name, member_of
 
@@ -56,8 +57,9 @@ class Provenance:
 
     def _structure_of(self, member: str, blade: str) -> Attributes:
         level, contact = self._settings.fidelity_name, self._settings.contact_of(blade)
-        made_of = structure_hash(self._settings, blade)
-        return Attributes(blade=blade, fidelity=level, contact=contact, input_hash=made_of, **_member(member))
+        made_of, kinematics = structure_hash(self._settings, blade), self._settings.kinematics_of(blade)
+        moved = {} if kinematics == LINEAR else {"kinematics": kinematics}
+        return Attributes(blade=blade, fidelity=level, contact=contact, **moved, input_hash=made_of, **_member(member))
 
     def _sweep_of(self, member: str, blade: str, scene: str) -> Attributes:
         chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration

@@ -21,15 +21,16 @@ def write_sweep_dataset(
     """Join one kind of result (a key of DATASETS) of the responses, keyed by (blade, scene), into (blade, scene, speed, ...).
 
     Speeds are the union; where a blade and scene was not run at one, floats are NaN and `status` says not_run. One
-    response's slab is in memory at a time. The attribute `contact` says what contact of which blade acts on. Raises
-    InputFileError for a response that cannot be read, and for two of different `numerics` (attribute of a response): mesh,
-    integrator and step of a fidelity level.
+    response's slab is in memory at a time. The attribute `contact` says what contact of which blade acts on, and its kinematics
+    unless they are linear. Raises InputFileError for a response that cannot be read, and for two of different `numerics`
+    (attribute of a response): mesh, integrator and step of a fidelity level.
     """
     attributes = attributes_of(responses.values())
     contacts: dict[str, dict[str, None]] = {}
     first_with: dict[str, Path | str] = {}
     for ((blade, _), response), response_attributes in zip(responses.items(), attributes, strict=True):
-        contacts.setdefault(response_attributes.get("contact", "unknown"), {})[blade] = None
+        kinds = (response_attributes.get("contact", "unknown"), response_attributes.get("kinematics"))
+        contacts.setdefault(", ".join(kind for kind in kinds if kind), {})[blade] = None
         first_with.setdefault(response_attributes.get("numerics", "unknown numerics"), response)
     if len(first_with) > 1:
         (first, earlier), (other, later), *_ = first_with.items()
