@@ -55,7 +55,7 @@ def read_ansys(file: Path) -> RawMesh:
         import meshlane
     except ImportError:
         raise ImportRefused(
-            "Ansys archives need the extra package meshlane: pip install '.[ansys]' in the project's folder"
+            "Ansys archives need the extra package meshlane: pip install -e '.[ansys]' in the project's folder"
         ) from None
     return _raw(quietly(meshlane.read, file))
 
