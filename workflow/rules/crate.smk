@@ -7,7 +7,7 @@ use rule step as crate with:
             *rules.campbell_of_all.output,
             *rules.configuration.output,
             *rules.summary.output,
-            *tables(sweep),
+            *(table for table in tables(sweep) if table.count("/") == 1),
         ],
     output:
         crate="<results>/ro-crate-metadata.json",
