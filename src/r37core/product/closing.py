@@ -196,9 +196,7 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
     if len(names[1]) > MOST_SCENES:
         lined = []
     linings = lining_texts({pairs[pair]: {name: values[pair] for name, values in tip_numbers.items()} for pair in lined})
-    fed = [
-        f"{blade} in {scene}" for (blade, scene), told in zip(pairs, (failed.any(axis=-1) & linear).flat, strict=True) if told
-    ]
+    fed = [" in ".join(pairs[number]) for number in np.flatnonzero(failed.any(axis=-1) & linear)]
     far = remarks_on_diverged(fed) + remarks_on_far_motions(reached)
     return f"; {diverged} of {runs} runs diverged" if diverged else "", [*untouched, *far, *linings]
 

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 def remarks_on_diverged(linear: Sequence[str]) -> list[str]:
     """A line on runs of linear blades that diverged. `linear`: their blades and scenes in words."""
     remark = (
-        f"{', '.join(linear)}: runs diverged, as friction can feed a linear motion without bound: structure.kinematics: quadratic "
-        "bounds it (docs/large_motion.md); a smaller friction.coefficient shows whether that is the cause"
+        f"{', '.join(linear)}: runs diverged, as friction can feed a linear motion without bound: structure.kinematics: "
+        "quadratic bounds it (docs/large_motion.md); a smaller friction.coefficient shows whether that is the cause"
     )
     return [remark] if linear else []
 
