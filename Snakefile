@@ -26,6 +26,7 @@ include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/cases.smk"
 include: "workflow/rules/extensions.smk"
+include: "workflow/rules/crate.smk"
 
 
 # what r37.run makes
@@ -44,4 +45,5 @@ rule all_blades:
         rules.configuration.output,
         rules.summary.output,
         rules.explorer.output,
+        rules.crate.output,
         paths.filled(targets(sweep)),

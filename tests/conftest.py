@@ -24,6 +24,9 @@ settings.load_profile("no_deadline")
 for library in ("OPENBLAS", "OMP", "MKL"):
     os.environ[f"{library}_NUM_THREADS"] = "1"
 
+# two runs have the same bytes when they have the same date
+os.environ["SOURCE_DATE_EPOCH"] = "1000000000"
+
 CHECKOUT = Path(__file__).parent.parent
 CONFIGURATION = Path(__file__).parent / "config"
 DELIVERED = ("cluster", "docs", "envs", "examples", "profiles", "workflow", "pyproject.toml", "CITATION.cff")

@@ -111,8 +111,14 @@ def test_lengths_of_time(tmp_path):
 def test_runs_that_diverged_are_counted(tmp_path):
     """No interaction is found where none was completed."""
     for status, said in (([0, 0, 2], ""), ([1, 1, 2], "; 2 of 2 runs diverged"), ([0, 1, 0], "; 1 of 3 runs diverged")):
-        _runs(status, [[[1.0, np.nan, np.nan]]], ["direct"]).to_netcdf(tmp_path / "rms.nc")
-        assert closing_lines(written(tmp_path), 0.0, 1.0)[0] == f"found no interaction{said}"
+        runs = _runs(status, [[[1.0, np.nan, np.nan]]], ["direct"])
+        runs.to_netcdf(tmp_path / "rms.nc")
+        first, *remarks = closing_lines(written(tmp_path), 0.0, 1.0)
+        assert first == f"found no interaction{said}"
+        # the cause of a linear blade's, and what bounds it
+        assert said == "" or remarks[0].startswith("Ref in direct: runs diverged, as friction can feed a linear motion")
+        runs.assign(peak_share_of_height=(("blade", "scene", "speed"), [[[0.1, 0.1, 0.1]]])).to_netcdf(tmp_path / "rms.nc")
+        assert not any("friction" in line for line in closing_lines(written(tmp_path), 0.0, 1.0))
 
 
 def _runs(status, force, scenes):

@@ -109,3 +109,10 @@ def test_remeshed_blades_are_within_their_bounds(root):
     rows = [[cell.strip(" %") for cell in line.strip("|").split("|")] for line in table.splitlines()[2:]]
     assert max(float(row[3]) for row in rows) < 0.3
     assert max(abs(float(row[5])) for row in rows) < 0.5
+
+
+def test_commands_keep_the_copy_installed_as_it_is(root):
+    """An installation that is not editable would replace the copy that `make setup` has installed by what it is now."""
+    texts = [root / "README.md", *root.glob("docs/*.md"), *(root / "src").rglob("*.py")]
+    commands = [command for text in texts for command in re.findall(r"pip install [^`\n]*\.[`'\[\n]", text.read_text())]
+    assert len(commands) > 3 and all("-e" in command for command in commands), commands

@@ -111,7 +111,7 @@ def test_archives_of_ansys(element, tmp_path):
 def test_archives_of_ansys_need_the_extra_package(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "meshlane", None)
     (tmp_path / "mesh.cdb").write_text("NBLOCK")
-    with pytest.raises(ImportRefused, match=r"mesh\.cdb: Ansys archives need .* pip install '\.\[ansys\]'"):
+    with pytest.raises(ImportRefused, match=r"mesh\.cdb: Ansys archives need .* pip install -e '\.\[ansys\]'"):
         import_mesh(source("mesh.cdb"), tmp_path)
 
 

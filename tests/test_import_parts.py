@@ -355,3 +355,16 @@ def test_the_picture_of_a_blade_names_the_side_in_view(mesh, tmp_path, monkeypat
         write_vtu(shown, file, np.ones(sum(map(len, mesh.blocks.values()))))
     draw_blade_shapes(files, tmp_path / "blades.png")
     assert named == [["LE", "TE", "pressure side", "rotation"], ["LE", "TE", "suction side", "rotation"]]
+
+
+@pytest.mark.parametrize(("limit", "taken"), [(("x", "at_most", 0.2), True), (("r", "at_most", 0.203), False)])
+def test_a_rule_that_cuts_a_smooth_face_is_refused(limit, taken):
+    """The root is a plane and on no cone: a rule by the radius catches a strip in its middle."""
+    mesh = box_mesh(0.08, 0.09, 0.004, (4, 9, 1), origin=(0.2, -0.045, 0.0), element="hexahedron20")
+    surface, where = outer_faces(mesh.blocks), Where(limits=(limit,), tolerance=1e-6)
+    end = ends.find_end("root", mesh.points, surface)
+    assert end is None or not end.straight
+    caught = ends.caught_by(where, "root", raw(mesh), surface)
+    message = r"root: .* caught [1-8] of the 9 faces that look towards the axis: widen it, or take .* with end_check: false"
+    with nullcontext() if taken else pytest.raises(ImportRefused, match=message):
+        ends.check_end("root", where, caught, end, mesh.points, surface)

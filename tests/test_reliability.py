@@ -17,6 +17,7 @@ import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
+from box_mesh import box_mesh
 from defaults import Casing, IntegrationChoice, Scene
 from snakemake.exceptions import InputFunctionException, WorkflowError, format_exception_to_string
 from stubbed_runs import copy_stubbed
@@ -28,7 +29,9 @@ from r37core.base.io import InputFileError, OutputFileError, atomic_write, scrat
 from r37core.base.speeds import plan_speeds
 from r37core.config import ConfigError, command_line_document
 from r37core.console import failures, lock, snakemake_run
+from r37core.exchange.write_mesh import write_mesh
 from r37core.machine_code import kept
+from r37core.mesh.mesh_files import save_grid, vtk_grid
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.leftovers import leftovers
@@ -101,19 +104,49 @@ def test_runs_side_by_side_keep_their_failures_apart_and_many_are_not_all_repeat
     assert failures.taken(3) == ["rule 0", "rule 1", "rule 2", "... and 4 more, see the logs"]
 
 
+MESH = box_mesh(0.075, 0.01, 0.05, (40, 3, 10), origin=(0.2, 0.0, 0.0), element="hexahedron20")
+
+
+def save_mesh(file):
+    with atomic_write(file) as partial:
+        save_grid(vtk_grid(MESH), partial)
+
+
 DATASET = xr.Dataset({"a": (("x",), np.arange(20_000.0), about("m", "a"))}, {"x": ("x", np.arange(20_000.0))})
 
 
-@pytest.mark.parametrize("write", [lambda file: write_dataset(DATASET, file), lambda file: write_json([1.0] * 20_000, file)])
+@pytest.mark.parametrize(
+    "write",
+    [
+        lambda file: write_dataset(DATASET, file),
+        lambda file: write_json([1.0] * 20_000, file),
+        lambda file: save_mesh(file),
+        lambda file: write_mesh(MESH, file.with_suffix(".bdf")),
+        lambda file: write_mesh(MESH, file.with_suffix(".med")),
+    ],
+)
 def test_a_file_that_may_not_be_as_large_is_one_line(tmp_path, write):
     """Whatever netCDF calls it."""
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, hard))
     try:
-        with pytest.raises(OutputFileError, match=r"a\.nc: cannot be written: files may not be as large here; raise the limit"):
+        with pytest.raises(
+            OutputFileError, match=r"a\.(nc|bdf|med): cannot be written: files may not be as large here; raise the limit"
+        ):
             write(tmp_path / "a.nc")
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_that_a_full_disk_has_cut_is_none(tmp_path, monkeypatch):
+    """As gmsh leaves it, without an error."""
+    monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10, 0))
+    with (
+        pytest.raises(OutputFileError, match=r"a\.msh: cannot be written: the disk is full"),
+        atomic_write(tmp_path / "a.msh") as file,
+    ):
+        file.write_text("half of it")
     assert list(tmp_path.iterdir()) == []
 
 

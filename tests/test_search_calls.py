@@ -120,4 +120,6 @@ def test_the_missing_package_is_named_in_one_line(config, monkeypatch):
     monkeypatch.setitem(sys.modules, "sklearn.gaussian_process", None)
     with pytest.raises(r37.ConfigError) as refused:
         r37.search("Ref", "abradable", SPEEDS, **SEARCH, config=config)
-    assert re.fullmatch(r"r37.search: search: .* extra package scikit-learn: pip install '\.\[search\]' .*", str(refused.value))
+    assert re.fullmatch(
+        r"r37.search: search: .* extra package scikit-learn: pip install -e '\.\[search\]' .*", str(refused.value)
+    )

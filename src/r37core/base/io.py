@@ -24,6 +24,9 @@ JOB_LOG = logging.getLogger("r37core")
 FULL_DISK = 2**20
 """Bytes left on a disk that counts as full."""
 
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""Numbers of the errors of a file that there is no room for."""
+
 
 class InputFileError(RuntimeError):
     """Error of a file that is missing, corrupt or written by another program; the message names the file and the remedy."""
@@ -53,6 +56,9 @@ def atomic_write(file: Path | str) -> Iterator[Path]:
         partial = file.with_name(f".{file.stem}.partial{file.suffix}")
         try:
             yield partial
+            if shutil.disk_usage(file.parent).free < FULL_DISK:
+                # gmsh cuts a file there without a word
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
             os.replace(partial, file)
         finally:
             partial.unlink(missing_ok=True)

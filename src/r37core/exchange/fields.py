@@ -14,7 +14,7 @@ from r37core.exchange.orientation import OURS, Orientation
 from r37core.fem.material import Material
 from r37core.fem.stress import nodal_second_order_stress, nodal_stress
 from r37core.mesh.blade_mesh import BladeMesh
-from r37core.mesh.mesh_files import vtk_grid
+from r37core.mesh.mesh_files import save_grid, vtk_grid
 from r37core.results.campbell import name_modes
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.rom.reduced_model import ReducedModel
@@ -181,7 +181,7 @@ def _write_fields(
                 grid.point_data.update(dict(fields))
                 for about, value in notes.items():
                     grid.field_data[about] = [value]
-                grid.save(partial)
+                save_grid(grid, partial)
             else:
                 content = meshio.Mesh(mesh.points, dict(mesh.blocks), point_data=dict(fields))
                 quietly(content.write, partial)

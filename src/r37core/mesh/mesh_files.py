@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pyvista
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from r37core.base.io import atomic_write, readable
 
@@ -25,6 +26,16 @@ def vtk_grid(mesh: BladeMesh) -> pyvista.UnstructuredGrid:
     return pyvista.UnstructuredGrid({_CELL_TYPES[name]: nodes for name, nodes in mesh.blocks.items()}, mesh.points)
 
 
+def save_grid(grid: pyvista.UnstructuredGrid, file: Path) -> None:
+    """Write a grid as .vtu. Not by VTK itself, which a full disk ends, and Python with it."""
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetDataModeToBinary()
+    writer.WriteToOutputStringOn()
+    writer.Write()
+    file.write_text(writer.GetOutputString(), encoding="ascii")
+
+
 def write_vtu(mesh: BladeMesh, file: Path | str, scaled_jacobian: np.ndarray) -> None:
     """Write the mesh with each node's parameters and normal, its node sets as 0/1 marks, and each element's quality.
 
@@ -40,7 +51,7 @@ def write_vtu(mesh: BladeMesh, file: Path | str, scaled_jacobian: np.ndarray) ->
     grid.field_data["scaled_jacobian_minimum"] = [np.min(scaled_jacobian)]
     grid.field_data["scaled_jacobian_one_percent_quantile"] = [np.quantile(scaled_jacobian, 0.01)]
     with atomic_write(file) as partial:
-        grid.save(partial)
+        save_grid(grid, partial)
 
 
 def read_vtu(file: Path | str) -> BladeMesh:

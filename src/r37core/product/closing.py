@@ -8,7 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.rounding import rounded_to
-from r37core.results.closing import interaction_title, lining_texts, remarks_on_contact, remarks_on_far_motions
+from r37core.results.closing import (
+    interaction_title,
+    lining_texts,
+    remarks_on_contact,
+    remarks_on_diverged,
+    remarks_on_far_motions,
+)
 from r37core.rom.reduction_choice import QUADRATIC
 from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
@@ -176,12 +182,13 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
         with netCDF4.Dataset(file) as rms:
             status, names = rms["status"][:], [rms[name][:] for name in ("blade", "scene")]
             forces = np.ma.filled(rms["largest_normal_force"][:], np.nan)
-            reached = np.ma.filled(rms[_FAR][:], np.nan) if _FAR in rms.variables else np.empty(0)
+            reached = np.ma.filled(rms[_FAR][:], np.nan) if _FAR in rms.variables else np.full(status.shape, np.nan)
             tip_numbers = {name: np.ma.filled(rms[name][:], np.nan).ravel() for name in LINING_AT_TIP if name in rms.variables}
     except OSError:
         # not there, or no dataset, which who reads it is told
         return "", []
-    diverged, runs = (status == RunStatus.DIVERGED).sum(), (status != RunStatus.NOT_RUN).sum()
+    failed, runs = status == RunStatus.DIVERGED, (status != RunStatus.NOT_RUN).sum()
+    diverged, linear = failed.sum(), ~np.isfinite(reached).any(axis=-1)
     pairs = list(product(*names))
     touching = zip(pairs, forces.reshape(-1, forces.shape[-1]), strict=True)
     untouched = remarks_on_contact([(f"{blade} in {scene}", force) for (blade, scene), force in touching])
@@ -189,7 +196,8 @@ def _run_counts(file: Path) -> tuple[str, list[str]]:
     if len(names[1]) > MOST_SCENES:
         lined = []
     linings = lining_texts({pairs[pair]: {name: values[pair] for name, values in tip_numbers.items()} for pair in lined})
-    far = remarks_on_far_motions(reached)
+    fed = [" in ".join(pairs[number]) for number in np.flatnonzero(failed.any(axis=-1) & linear)]
+    far = remarks_on_diverged(fed) + remarks_on_far_motions(reached)
     return f"; {diverged} of {runs} runs diverged" if diverged else "", [*untouched, *far, *linings]
 
 

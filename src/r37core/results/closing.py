@@ -13,6 +13,15 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+def remarks_on_diverged(linear: Sequence[str]) -> list[str]:
+    """A line on runs of linear blades that diverged. `linear`: their blades and scenes in words."""
+    remark = (
+        f"{', '.join(linear)}: runs diverged, as friction can feed a linear motion without bound: structure.kinematics: "
+        "quadratic bounds it (docs/large_motion.md); a smaller friction.coefficient shows whether that is the cause"
+    )
+    return [remark] if linear else []
+
+
 def remarks_on_far_motions(shares: np.ndarray) -> list[str]:
     """A line on runs whose tip goes farther than displacements of second order hold; `shares`: peak_share_of_height."""
     far = shares[shares > SHARE_OF_HEIGHT]

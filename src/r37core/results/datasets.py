@@ -40,7 +40,8 @@ def write_sweep_dataset(
         )
     contact = "; ".join(f"{contact}: {', '.join(blades)}" for contact, blades in contacts.items())
     made = {**provenance, "input_hash": joined_hash(attributes), "contact": contact}
-    join(responses, Along(names=("tip_point", *DATASETS[kind], *FLAGS)), file, made)
+    title = f"{kind} of rubbing blades, over blade, scene and speed"
+    join(responses, Along(names=("tip_point", *DATASETS[kind], *FLAGS)), file, title, made)
 
 
 def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str, region: str = "") -> xr.Dataset:

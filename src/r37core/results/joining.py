@@ -12,6 +12,7 @@ import pandas as pd
 import xarray as xr
 
 from r37core.base.dataset_file import about, attributes_of, joined_hash, new_netcdf, open_dataset
+from r37core.base.origin import origin
 
 from .netcdf import add_variable, create_axis
 
@@ -36,10 +37,13 @@ def join(
     sources: Mapping[Any, Any],
     along: Along,
     file: Path | str,
+    title: str,
     provenance: Mapping[str, object],
     read: Callable[[Any], AbstractContextManager[xr.Dataset]] = open_dataset,
 ) -> None:
-    """Join the datasets of the `sources`, by their labels; they are files unless `read` opens something else.
+    """Join the datasets of the `sources`, by their labels, in a file with this `title`.
+
+    They are files unless `read` opens something else.
 
     Axes are the unions of theirs. What no dataset has is NaN, and of states the last one, which is not run or unknown; other
     whole numbers have no gaps. Raises InputFileError for a file that cannot be read.
@@ -63,7 +67,7 @@ def join(
     states = {name: max(variables[name].attrs["flag_values"]) for name in names if "flag_values" in variables[name].attrs}
     columns = {label: [key[number] for key in sources] for number, label in enumerate(along.labels)}
     with new_netcdf(file, {}) as target:
-        target.setncatts(provenance)
+        target.setncatts(origin(title) | dict(provenance))
         dims, places = _rows(target, along, columns, rows) if along.rows else _cells(target, columns)
         used = {str(dim) for name in names for dim in variables[name].dims} | {*wanted}
         for name in (name for name in axes if name in used):
@@ -90,13 +94,15 @@ def join(
                     target[name][place] = values.values[()]
 
 
-def join_runs(files: Sequence[str], runs: Iterable[Sequence[str]], along: Along, file: Path | str, fidelity: str) -> None:
+def join_runs(
+    files: Sequence[str], runs: Iterable[Sequence[str]], along: Along, file: Path | str, title: str, fidelity: str
+) -> None:
     """Join the files of the `runs` (blade, scene); global attributes are those that all share, level and hash of the inputs."""
     attributes = attributes_of(files)
     first = attributes[0] if attributes else {}
     shared = {name: value for name, value in first.items() if all(several.get(name) == value for several in attributes)}
     made = shared | {"fidelity": fidelity, "input_hash": joined_hash(attributes)}
-    join(dict(zip(map(tuple, runs), files, strict=True)), along, file, made)
+    join(dict(zip(map(tuple, runs), files, strict=True)), along, file, title, made)
 
 
 def _rows(

@@ -1,11 +1,13 @@
 """Steps of the workflow (docs/architecture.md): Campbell diagrams, responses, the datasets and tables of all blades."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import as_list, write_json
+from r37core.base.origin import origin
 from r37core.base.plain import from_plain
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.rom.rom_file import read_reduced_model
@@ -14,6 +16,7 @@ from r37core.stress.statistic import Strengths
 from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
 from .columns import IN_REGION
+from .crate import crate
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
 from .operating_range import OperatingRange
@@ -30,6 +33,11 @@ def configuration(input: Any, output: Any, params: Any) -> None:
     write_json(params.merged, output.configuration)
 
 
+def describe(input: Any, output: Any, params: Any) -> None:
+    """Say what lies in the folder of the results and what made it. Inputs: files. Output: crate (json)."""
+    write_json(crate(as_list(input.files), Path(output.crate).parent), output.crate)
+
+
 def campbell_of_blade(input: Any, output: Any, params: Any) -> None:
     """Campbell diagram of a blade. Input: rom. Params: campbell, maximum_speed, tip_line, provenance. Output: campbell (nc)."""
     choice = dict(params.campbell)
@@ -41,7 +49,9 @@ def campbell_of_blade(input: Any, output: Any, params: Any) -> None:
 def campbell_of_all(input: Any, output: Any, params: Any) -> None:
     """Gather the Campbell diagrams. Inputs: campbells, of each blade. Params: blades, fidelity. Output: campbell (nc)."""
     files = as_list(input.campbells)
-    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files))}
+    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files))} | origin(
+        "Campbell diagrams of blades"
+    )
     write_dataset(gather_blades(params.blades, files), output.campbell, made)
 
 

@@ -19,5 +19,5 @@ def rotor_of_run(input: Any, output: Any, params: Any) -> None:
 def join(input: Any, output: Any, params: Any) -> None:
     """Join all rotors in one dataset and table. Inputs: rotors. Params: runs, fidelity. Outputs: dataset (nc), table (csv)."""
     files = as_list(input.rotors)
-    join_runs(files, params.runs, RUNS, output.dataset, params.fidelity)
+    join_runs(files, params.runs, RUNS, output.dataset, "Every blade of rubbing rotors", params.fidelity)
     write_table(rotor_table(dict(zip(map(tuple, params.runs), files, strict=True))), output.table, digits=6)

@@ -59,7 +59,7 @@ def write_run_ups(files: Mapping[tuple[str, ...], Path | str], file: Path | str,
 
     Shorter runs have NaN after their last revolution. Raises InputFileError for a file that cannot be read.
     """
-    join(files, Along(_LABELS, rows="run", coordinates=_LABELS), file, provenance, _opened)
+    join(files, Along(_LABELS, rows="run", coordinates=_LABELS), file, "Run-ups of rubbing blades", provenance, _opened)
 
 
 @contextmanager

@@ -33,7 +33,7 @@ def library() -> ModuleType:
         import sklearn.gaussian_process
     except ImportError:
         raise SearchPackageMissing(
-            "a search needs the extra package scikit-learn: pip install '.[search]' in the folder of the copy of r37"
+            "a search needs the extra package scikit-learn: pip install -e '.[search]' in the folder of the copy of r37"
         ) from None
     return sklearn.gaussian_process
 

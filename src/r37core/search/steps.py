@@ -9,6 +9,7 @@ import numpy as np
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list, read_json, write_json
+from r37core.base.origin import origin
 from r37core.base.plain import from_plain
 from r37core.base.varied_number import BLADE, VariedNumber
 from r37core.blade.definition import BladeDefinition
@@ -108,7 +109,7 @@ def measure(input: Any, output: Any, params: Any) -> None:
 
 def join(input: Any, output: Any, params: Any) -> None:
     """Join all designs. Input: round, the last. Params: choice, fidelity. Outputs: dataset (nc), table (csv)."""
-    made = {"fidelity": params.fidelity, "input_hash": content_digest(input.round)[:32]}
+    made = {"fidelity": params.fidelity, "input_hash": content_digest(input.round)[:32]} | origin("Designs of a search")
     dataset = search_dataset(read_round(input.round), from_plain(SearchChoice, params.choice))
     write_dataset(dataset, output.dataset, made)
     write_table(search_table(dataset), output.table, digits=6)

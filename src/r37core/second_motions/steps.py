@@ -7,6 +7,7 @@ from typing import Any
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list
+from r37core.base.origin import origin
 from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
 from r37core.results.joining import Along, join_runs
@@ -79,13 +80,13 @@ def join(input: Any, output: Any, params: Any) -> None:
     keys = [(run["blade"], run["scene"], run["motion"]) for run in params.runs]
     responses, states = (dict(zip(keys, as_list(files), strict=True)) for files in (input.responses, input.states))
     dataset = second_motions_dataset(responses, states, params.blades, params.scenes)
-    write_dataset(dataset, output.dataset, {"fidelity": params.fidelity})
+    write_dataset(dataset, output.dataset, origin("Second motions of rubbing blades") | {"fidelity": params.fidelity})
 
 
 def join_parts(input: Any, output: Any, params: Any) -> None:
     """Join dwells, or orbits, of all blades and scenes. Inputs: parts. Output: dataset (nc). Params: pairs, along, fidelity."""
-    along = Along(rows=params.along, dim=params.along)
-    join_runs(as_list(input.parts), params.pairs, along, output.dataset, params.fidelity)
+    along, title = Along(rows=params.along, dim=params.along), f"Second motions of rubbing blades: {params.along}s"
+    join_runs(as_list(input.parts), params.pairs, along, output.dataset, title, params.fidelity)
 
 
 def tabulate(input: Any, output: Any, params: Any) -> None:

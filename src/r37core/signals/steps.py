@@ -46,4 +46,4 @@ def record(input: Any, output: Any, params: Any) -> None:
 
 def gather(input: Any, output: Any, params: Any) -> None:
     """Join signals. Inputs: signals, of each blade and scene. Params: runs, fidelity. Output: dataset (nc)."""
-    join_runs(as_list(input.signals), params.runs, RUNS, output.dataset, params.fidelity)
+    join_runs(as_list(input.signals), params.runs, RUNS, output.dataset, "Signals of rubbing blades over time", params.fidelity)

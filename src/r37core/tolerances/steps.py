@@ -5,6 +5,7 @@ from typing import Any
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import as_list
+from r37core.base.origin import origin
 from r37core.base.plain import from_plain
 from r37core.results.interactions import InteractionChoice, find_interactions
 from r37core.results.regions import read_judged
@@ -21,7 +22,7 @@ def join(input: Any, output: Any, params: Any) -> None:
         MemberRun(**member, values=tuple(math.nan if value is None else value for value in values), file=file)
         for member, values, file in zip(params.members, params.values, files, strict=True)
     )
-    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files))}
+    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files))} | origin("Members under tolerances")
     write_dataset(tolerances_dataset(runs, params.numbers), output.dataset, made)
 
 

@@ -3,6 +3,7 @@
 from typing import Any
 
 from r37core.base.dataset_file import write_dataset
+from r37core.base.origin import origin
 from r37core.cases.table import read_cases
 from r37core.results.table_file import write_table
 
@@ -18,7 +19,7 @@ def report(input: Any, output: Any, params: Any) -> None:
     values = params.values
     together = gather_cases(read_cases(input, output), values["places"], values["references"])
     table = parameter_table(together, values["references"])
-    attributes = {name: values[name] for name in ("blade", "base_level", "left_out")}
+    attributes = origin("Accuracy over cost") | {name: values[name] for name in ("blade", "base_level", "left_out")}
     write_dataset(together, output.dataset, attributes)
     write_table(table, output.table, digits=6)
     write_table(level_table(table, values["tolerance"]), output.levels, digits=6)

@@ -45,28 +45,32 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     It is the smooth patch of faces that look along the radius, the outermost or innermost large one. None where no cone
     catches all of it and nothing else.
     """
-    vectors = area_vectors(surface, points)
-    sizes = np.linalg.norm(vectors, axis=1)
-    centres = np.concatenate([points[part.nodes[:, : part.corners]].mean(axis=1) for part in surface])
-    radius = np.hypot(centres[:, 0], centres[:, 1])
-    outward = np.sum(vectors[:, :2] * centres[:, :2], axis=1) / np.maximum(radius * sizes, 1e-300)
-    sign = 1.0 if what == "tip" else -1.0
-    patch = smooth_patches(surface, vectors, _CREASE)
-    # a fillet is smooth all the way to the blade's sides
-    patch = np.where(sign * outward >= _RADIAL, patch, -1)
+    patch, sizes, radius = _radial_patches(what, points, surface)
     numbers = np.unique(patch[patch >= 0])
     if not len(numbers):
         return None
     areas = np.array([sizes[patch == number].sum() for number in numbers])
     heights = np.array([np.average(radius[patch == number], weights=sizes[patch == number]) for number in numbers])
     large = areas >= _LARGE * areas.max()
-    mask = patch == numbers[large][np.argmax(sign * heights[large])]
+    mask = patch == numbers[large][np.argmax(heights[large] if what == "tip" else -heights[large])]
     faces = chosen(surface, mask)
     nodes = nodes_of(faces)
     rule = _cone(points[nodes])
     straight = rule.tolerance <= max(_STRAIGHT * np.ptp(radius), _TOLERANCES[0])
     is_exact = np.array_equal(mask_within(surface, rule.within(points)), mask)
     return End(nodes, faces, mask, rule, straight) if is_exact else None
+
+
+def _radial_patches(what: str, points: np.ndarray, surface: list[Faces]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Smooth patch of each outer face that looks as the end `what` does, else -1; areas (m2) and radii (m) of the faces."""
+    vectors = area_vectors(surface, points)
+    sizes = np.linalg.norm(vectors, axis=1)
+    centres = np.concatenate([points[part.nodes[:, : part.corners]].mean(axis=1) for part in surface])
+    radius = np.hypot(centres[:, 0], centres[:, 1])
+    outward = np.sum(vectors[:, :2] * centres[:, :2], axis=1) / np.maximum(radius * sizes, 1e-300)
+    patch = smooth_patches(surface, vectors, _CREASE)
+    # a fillet is smooth all the way to the blade's sides
+    return np.where((outward if what == "tip" else -outward) >= _RADIAL, patch, -1), sizes, radius
 
 
 def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> Caught:
@@ -88,16 +92,23 @@ def caught_by(where: Where, what: str, mesh: RawMesh, surface: list[Faces]) -> C
     return Caught(nodes_of(faces), faces, mask)
 
 
-def check_end(what: str, where: Where, caught: Caught, end: End | None) -> None:
+def check_end(what: str, where: Where, caught: Caught, end: End | None, points: np.ndarray, surface: list[Faces]) -> None:
     """Refuse faces, `caught` by `where`, that are not all of the `end` and nothing else.
 
-    Without an end that the shape tells for certain there is nothing to compare with. A set as the root says what it means:
-    any nodes may be clamped.
+    Without an end that lies on a cone they may be any, but a rule does not cut a smooth patch of the `surface`, of nodes at
+    `points`. A set as the root says what it means: any nodes may be clamped.
     """
-    any_nodes = what == "root" and where.set_name is not None
-    if end is None or not end.straight or any_nodes or np.array_equal(caught.mask, end.mask):
+    straight = end is not None and end.straight
+    if where.set_name is not None and (what == "root" or not straight):
         return
-    whole, within, beside = end.mask.sum(), (caught.mask & end.mask).sum(), (caught.mask & ~end.mask).sum()
+    if end is not None and straight:
+        expected, beside = end.mask, (caught.mask & ~end.mask).sum()
+    else:
+        patch, _, _ = _radial_patches(what, points, surface)
+        expected, beside = np.isin(patch, patch[caught.mask & (patch >= 0)]), 0
+    whole, within = expected.sum(), (caught.mask & expected).sum()
+    if within == whole and not beside:
+        return
     also = f"; it also caught {beside} side faces: narrow it" if beside else ": widen it"
     raise ImportRefused(
         f"{what}: {where.describe()} caught {within} of the {whole} faces that look {_LOOKS[what]}{also}, or take what "

@@ -86,7 +86,7 @@ def _catches(what: str, source: MeshSource, mesh: RawMesh, surface: list[Faces],
     """True if the set or rule of the entry catches this end, or may well be meant otherwise."""
     with suppress(ImportRefused):
         if what == "root":
-            check_end(what, source.root, caught_by(source.root, what, mesh, surface), end)
+            check_end(what, source.root, caught_by(source.root, what, mesh, surface), end, mesh.points, surface)
             return True
         return np.array_equal(caught_by(source.tip, what, mesh, surface).mask, end.mask)
     return False

@@ -100,7 +100,7 @@ def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, Tip
     if source.end_check:
         for what, part in caught.items():
             with refusals.of(what):
-                check_end(what, rules[what], part, ends[what])
+                check_end(what, rules[what], part, ends[what], raw.points, surface)
         # where the rule for the tip is refused, the sense is still judged by the faces that it should have caught
         casing = ends["tip"]
         tip = casing if casing is not None and casing.straight else tip

@@ -12,6 +12,7 @@ import meshio
 import numpy as np
 from meshio._mesh import topological_dimension
 
+from r37core.base.io import NO_ROOM
 from r37core.exchange.refusal import ImportRefused
 
 from .raw_mesh import RawMesh, solid_blocks
@@ -55,18 +56,23 @@ def read_ansys(file: Path) -> RawMesh:
         import meshlane
     except ImportError:
         raise ImportRefused(
-            "Ansys archives need the extra package meshlane: pip install '.[ansys]' in the project's folder"
+            "Ansys archives need the extra package meshlane: pip install -e '.[ansys]' in the project's folder"
         ) from None
     return _raw(quietly(meshlane.read, file))
 
 
 def quietly(read: Callable[[Path], Any], file: Path) -> Any:
-    """Result of `read` for the file, its prints kept back; ImportRefused for any error, and for an attempt to exit."""
+    """Result of `read` for the file, its prints kept back; ImportRefused for any error, and for an attempt to exit.
+
+    That there is no room for a file is said by who writes it: see r37core.base.io.room_for.
+    """
     printed = io.StringIO()
     try:
         with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
             return read(file)
     except (Exception, SystemExit) as error:
+        if getattr(error, "errno", None) in NO_ROOM:
+            raise
         lacking = f"something names {error}, which the file lacks; are there elements without their mid-nodes?"
         cause = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
         reason = " ".join(printed.getvalue().split()) or cause

@@ -1,0 +1,51 @@
+"""What made a result file that joins others: attributes after the conventions CF and ACDD."""
+
+import hashlib
+import os
+import platform
+import time
+from datetime import UTC, datetime
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+
+import r37core
+
+LIBRARIES = ("numpy", "scipy", "numba", "gmsh")
+"""Libraries whose versions can change a digit of a result."""
+
+REFERENCES = "https://doi.org/10.1016/j.jsv.2019.114878"
+LICENSE = "results belong to who made them; r37 itself: MIT"
+
+
+def origin(title: str) -> dict[str, str]:
+    """Attributes of a file with this `title`: what made it, with which versions, and when.
+
+    The time is that of the environment's SOURCE_DATE_EPOCH (s since 1970) where it is set, so that equal inputs can give equal
+    bytes: https://reproducible-builds.org/specs/source-date-epoch.
+    """
+    seconds = float(os.environ.get("SOURCE_DATE_EPOCH") or time.time())
+    made = datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")
+    return {
+        "title": title,
+        "history": f"{made}: joined by r37 {r37core.__version__}",
+        "source": source(),
+        "references": REFERENCES,
+        "license": LICENSE,
+        "date_created": made,
+    }
+
+
+@cache
+def source() -> str:
+    """Version of r37, hash of its code, and versions of what it computes with."""
+    libraries = ", ".join(f"{name} {version(name)}" for name in LIBRARIES)
+    return f"r37 {r37core.__version__}, code {code_hash()}; Python {platform.python_version()}, {libraries}"
+
+
+def code_hash() -> str:
+    """Short hash of the installed code of r37core: names and texts of its modules."""
+    root, digest = Path(r37core.__file__).parent, hashlib.sha256()
+    for file in sorted(root.rglob("*.py")):
+        digest.update(file.relative_to(root).as_posix().encode() + b"\0" + file.read_bytes())
+    return digest.hexdigest()[:16]
