@@ -1,4 +1,4 @@
-"""What made a result file that joins others: attributes after the conventions CF and ACDD."""
+"""Attributes of a result file that joins others: what made it, after the conventions of CF and ACDD."""
 
 import hashlib
 import os
