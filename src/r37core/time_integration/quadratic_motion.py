@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy.linalg as la
 
 from r37core.rom.quadratic_terms import SHARE_OF_HEIGHT, QuadraticTerms, followed_modes, mode_pairs, pairings, products_of
 
@@ -108,7 +107,7 @@ class QuadraticMotion:
     @cached_property
     def surely_within(self) -> float:
         """Sum of the squared products up to which Q is above -B whatever they are."""
-        lowest = la.eigvalsh(self.weights[:, None] * self.left)[0]
+        lowest = np.linalg.eigvalsh(self.weights[:, None] * self.left)[0]
         return -4.0 * self.bound / lowest if lowest < 0.0 else np.inf
 
     def reduction(self, energy: np.ndarray) -> np.ndarray:
