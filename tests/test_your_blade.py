@@ -144,10 +144,10 @@ class TestWhatRunsAgain:
 def test_matrices_run_to_the_same_response(root, drawn, tmp_path):
     """The reduced matrices that `snakemake exports` writes, given back as a blade of their own, beside the mesh.
 
-    On points, whose first is the leading edge that rms is of. The first patch is a mean.
+    On points, whose first is the leading edge that rms is of: the first patch is a mean. Matrices are linear.
     """
     project = with_example(root, drawn, tmp_path, copy_project)
-    overlay(project, "blades.yaml", "Fan: { contact: points }")
+    overlay(project, "blades.yaml", "Fan: { contact: points, kinematics: linear }")
     snakemake(project, "results/exports/Fan/matrices", "--cores", "1")
     shutil.copytree(project / "results/exports/Fan/matrices", project / "meshes/elsewhere")
     (given,) = yaml.safe_load(blocks(root, "yaml")[1]).values()
