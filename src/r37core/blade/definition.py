@@ -1,11 +1,16 @@
-"""A blade's definition: profiles plus sweep and lean, and the blade built from it."""
+"""A blade's definition: profiles plus sweep and lean, or sections, and the blade built from it."""
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .blade_surface import Blade
 from .profile import BladeShapeError, Profile, ProfileParameters
+from .section_changes import SpanLaw, changed_profiles
+from .sections_definition import SectionsDefinition
 from .stacking import chordwise_sweep, plane_section_stacking, sweep_and_lean
 
 SMALLER_CHANGES = (
@@ -27,6 +32,15 @@ class BladeDefinition:
     stacking: tuple[tuple[float, float, float], ...] | None = None
     chordwise_sweep_angle: float | None = None
 
+    @property
+    def height(self) -> float:
+        """Height of the leading edge (m)."""
+        return self.profiles[-1].inlet_radius - self.profiles[0].inlet_radius
+
+    def changed(self, laws: Mapping[str, SpanLaw]) -> BladeDefinition:
+        """The definition with profiles changed by laws, by the names of SectionChange's fields. Raises SectionChangeError."""
+        return replace(self, profiles=changed_profiles(self.profiles, laws))
+
     def build(self, round_edges: bool) -> Blade:
         """Build the blade; BladeShapeError, with the blade's name, where the shape is impossible."""
         try:
@@ -39,3 +53,7 @@ class BladeDefinition:
             return Blade(profiles, placement, round_edges)
         except BladeShapeError as error:
             raise BladeShapeError(f"blade {self.name}: {error}{SMALLER_CHANGES}") from None
+
+
+Shape = BladeDefinition | SectionsDefinition
+"""Definitions whose blade this program meshes."""

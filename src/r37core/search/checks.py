@@ -2,7 +2,7 @@
 
 from r37core.base.varied_number import SCENE, VariedNumber
 from r37core.base.yaml_file import KeyPath
-from r37core.blade.definition import BladeDefinition
+from r37core.blade.definition import Shape
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
 from r37core.config import ConfigError, Settings, operating_range
@@ -39,7 +39,7 @@ def search_can_be_run(settings: Settings) -> None:
     _has_values(designs, document, ("search", "variables"), {key: lowest for key, (lowest, _) in entry.variables.items()})
     table = settings.blades[entry.blade].definition
     for key in SHARES:
-        if key in entry.variables and isinstance(table, BladeDefinition) and table.stacking is None:
+        if key in entry.variables and isinstance(table, Shape) and table.stacking is None:
             without = f"{key} of '{entry.blade}', which has no table of sweep and lean"
             raise document.refusal(("search", "variables", key), without, "a blade with one, or other variables")
     _operation_is_known(settings)
@@ -74,8 +74,8 @@ def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, value
     try:
         design = designs.varied_entry("of the search", values)
         start = designs.blade("of the search", None).definition
-        if design.sweep_lean and isinstance(start, BladeDefinition):
-            check_sweep(stacking_rows([row.model_dump() for row in design.sweep_lean]), start.profiles)
+        if design.sweep_lean and isinstance(start, Shape):
+            check_sweep(stacking_rows([row.model_dump() for row in design.sweep_lean]), start.height)
     except (ConfigError, BladeShapeError) as error:
         raise document.error(path, str(error)) from None
 

@@ -1,0 +1,116 @@
+"""A blade's definition by section curves, and the blade built from it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from .meridian import Meridian
+from .profile import BladeShapeError
+from .section_blade import SectionBlade
+from .section_changes import SectionChangeError, SpanLaw
+from .section_curve import Point, SectionCurve
+from .stacking import Placement, chordwise_sweep, sweep_and_lean
+
+FEWEST_SECTIONS = 2
+"""Smallest number of sections."""
+
+
+@dataclass(frozen=True)
+class SectionsDefinition:
+    """Definition by a user: closed curves of points from hub to tip, in m, in the blade's frame, with sweep and lean on top.
+
+    `hub` and `tip`: points (z, r) of the meridians that cut the blade, one of a cylinder; without them its first and last
+    section do. `stacking`, `chordwise_sweep_angle`: as in BladeDefinition.
+    """
+
+    name: str
+    sections: tuple[tuple[Point, ...], ...]
+    hub: tuple[tuple[float, float], ...] | None = None
+    tip: tuple[tuple[float, float], ...] | None = None
+    pressure_forward: bool = True
+    stacking: tuple[tuple[float, float, float], ...] | None = None
+    chordwise_sweep_angle: float | None = None
+
+    @cached_property
+    def curves(self) -> tuple[SectionCurve, ...]:
+        """Sections with their sides. Raises BladeShapeError for a curve that is none of a section."""
+        labels = [f"section {number + 1} of {len(self.sections)} from the hub" for number in range(len(self.sections))]
+        return tuple(
+            section_curve(points, label, self.pressure_forward) for points, label in zip(self.sections, labels, strict=True)
+        )
+
+    @property
+    def height(self) -> float:
+        """Distance of the first section from the last (m)."""
+        return self.curves[-1].radius - self.curves[0].radius
+
+    def places(self) -> np.ndarray:
+        """Fraction of the height from hub to tip at which each section lies; BladeShapeError unless these rise."""
+        curves = self.curves
+        if len(curves) < FEWEST_SECTIONS:
+            raise BladeShapeError(f"found {len(curves)} section; allowed: at least {FEWEST_SECTIONS}, from hub to tip")
+        for below, above in pairwise(curves):
+            shares = np.array([0.0, 0.5, 1.0])
+            higher = [side[0] for side in (above.pressure.point(shares) - below.pressure.point(shares),)]
+            if not np.all(np.array(higher) > 0.0):
+                raise BladeShapeError(
+                    f"{above.label}: it does not lie wholly above the one before it (mean radius {above.radius:.5g} m after "
+                    f"{below.radius:.5g} m); allowed: sections in their order from hub to tip, or from tip to hub"
+                )
+        radii = np.array([curve.radius for curve in curves])
+        first = radii[0] if self.hub is None else float(Meridian(self.hub).radius(np.array(curves[0].z)))
+        last = radii[-1] if self.tip is None else float(Meridian(self.tip).radius(np.array(curves[-1].z)))
+        if not last > first:
+            raise BladeShapeError(f"the tip, at a radius of {last:.5g} m, does not lie above the hub, at {first:.5g} m")
+        return (radii - first) / (last - first)
+
+    def changed(self, laws: Mapping[str, SpanLaw]) -> SectionsDefinition:
+        """The definition with another stagger, by a law over the span. Raises SectionChangeError for any other change."""
+        others = sorted(set(laws) - {"stagger"})
+        if others:
+            raise SectionChangeError(
+                "a blade given by sections has no arcs to change so; allowed: stagger_deg, sweep and lean, or other sections", others
+            )
+        if "stagger" not in laws:
+            return self
+        angles = laws["stagger"].evaluate(np.clip(self.places(), 0.0, 1.0))
+        turned = tuple(
+            points if angle == 0.0 else curve.rotated(float(angle))
+            for points, curve, angle in zip(self.sections, self.curves, angles, strict=True)
+        )
+        return replace(self, sections=turned)
+
+    def build(self, round_edges: bool) -> SectionBlade:
+        """Build the blade; BladeShapeError, with the blade's name, where the shape is impossible."""
+        try:
+            places = self.places()
+            return SectionBlade(
+                self.curves,
+                places,
+                self._placement(places),
+                self.hub and Meridian(self.hub),
+                self.tip and Meridian(self.tip),
+                round_edges,
+                self.pressure_forward,
+            )
+        except BladeShapeError as error:
+            raise BladeShapeError(f"blade {self.name}: {error}") from None
+
+    def _placement(self, places: np.ndarray) -> Placement:
+        if self.stacking is not None:
+            return sweep_and_lean(places, np.array(self.stacking))
+        if self.chordwise_sweep_angle is not None:
+            return chordwise_sweep(self.curves, self.chordwise_sweep_angle)
+        return Placement(np.zeros(len(places)), np.zeros(len(places)))
+
+
+# designs of a family have the same sections, and a call reads them several times
+@lru_cache(maxsize=2**10)
+def section_curve(points: tuple[Point, ...], label: str, pressure_forward: bool) -> SectionCurve:
+    """A section with its sides, made once. Raises as SectionCurve."""
+    return SectionCurve(points, label, pressure_forward)
