@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from .blade_surface import Blade
 from .profile import BladeShapeError, Profile, ProfileParameters
-from .section_changes import SpanLaw, changed_profiles
+from .section_changes import SectionChange, SpanLaw, changed_profiles
 from .sections_definition import SectionsDefinition
 from .stacking import chordwise_sweep, plane_section_stacking, sweep_and_lean
 
@@ -31,6 +31,11 @@ class BladeDefinition:
     profiles: tuple[ProfileParameters, ...]
     stacking: tuple[tuple[float, float, float], ...] | None = None
     chordwise_sweep_angle: float | None = None
+
+    @property
+    def changes(self) -> tuple[str, ...]:
+        """Names of the changes that its profiles can have."""
+        return tuple(field.name for field in fields(SectionChange))
 
     @property
     def height(self) -> float:

@@ -11,7 +11,7 @@ from .profile import BladeShapeError
 from .section_curve import SectionCurve, SectionEdge
 from .stacking import Placement
 
-_BEYOND = 0.05
+BEYOND = 0.05
 """Share of the height by which hub and tip may lie beyond the first and the last section."""
 _TOLERANCE = 1e-12
 
@@ -83,12 +83,12 @@ class SectionBlade(BladeMap):
             if np.max(np.abs(step)) < _TOLERANCE:
                 break
         outside = np.maximum(self.places[0] - place, place - self.places[-1])
-        if not np.max(outside) <= _BEYOND:
+        if not np.max(outside) <= BEYOND:
             height = self.sections[-1].radius - self.sections[0].radius
             raise BladeShapeError(
                 f"{what}: its surface lies up to {1e3 * height * np.max(outside):.3g} mm outside the sections, which reach from "
-                f"{self.sections[0].radius:.5g} to {self.sections[-1].radius:.5g} m; allowed: {100 * _BEYOND:g}% of the height, "
-                f"{1e3 * height * _BEYOND:.3g} mm; give sections that reach it, or another {what}"
+                f"{self.sections[0].radius:.5g} to {self.sections[-1].radius:.5g} m; allowed: {100 * BEYOND:g}% of the height, "
+                f"{1e3 * height * BEYOND:.3g} mm; give sections that reach it, or another {what}"
             )
         return place
 

@@ -11,13 +11,15 @@ import numpy as np
 
 from .meridian import Meridian
 from .profile import BladeShapeError
-from .section_blade import SectionBlade
+from .section_blade import BEYOND, SectionBlade
 from .section_changes import SectionChangeError, SpanLaw
 from .section_curve import Point, SectionCurve
 from .stacking import Placement, chordwise_sweep, sweep_and_lean
 
 FEWEST_SECTIONS = 2
 """Smallest number of sections."""
+_ALONG = np.array([0.0, 0.5, 1.0])
+"""Shares of a side at which neighbouring sections are compared."""
 
 
 @dataclass(frozen=True)
@@ -36,13 +38,20 @@ class SectionsDefinition:
     stacking: tuple[tuple[float, float, float], ...] | None = None
     chordwise_sweep_angle: float | None = None
 
+    def curve(self, number: int) -> SectionCurve:
+        """Section by its number from 0 at the hub, with its sides. Raises BladeShapeError for a curve that is none of a section."""
+        label = f"section {number + 1} of {len(self.sections)} from the hub"
+        return section_curve(self.sections[number], label, self.pressure_forward)
+
     @cached_property
     def curves(self) -> tuple[SectionCurve, ...]:
-        """Sections with their sides. Raises BladeShapeError for a curve that is none of a section."""
-        labels = [f"section {number + 1} of {len(self.sections)} from the hub" for number in range(len(self.sections))]
-        return tuple(
-            section_curve(points, label, self.pressure_forward) for points, label in zip(self.sections, labels, strict=True)
-        )
+        """All sections with their sides. Raises BladeShapeError."""
+        return tuple(map(self.curve, range(len(self.sections))))
+
+    @property
+    def changes(self) -> tuple[str, ...]:
+        """Names of the changes that its sections can have."""
+        return ("stagger",)
 
     @property
     def height(self) -> float:
@@ -55,9 +64,8 @@ class SectionsDefinition:
         if len(curves) < FEWEST_SECTIONS:
             raise BladeShapeError(f"found {len(curves)} section; allowed: at least {FEWEST_SECTIONS}, from hub to tip")
         for below, above in pairwise(curves):
-            shares = np.array([0.0, 0.5, 1.0])
-            higher = [side[0] for side in (above.pressure.point(shares) - below.pressure.point(shares),)]
-            if not np.all(np.array(higher) > 0.0):
+            rise = above.pressure.point(_ALONG)[0] - below.pressure.point(_ALONG)[0]
+            if not np.all(rise > 0.0):
                 raise BladeShapeError(
                     f"{above.label}: it does not lie wholly above the one before it (mean radius {above.radius:.5g} m after "
                     f"{below.radius:.5g} m); allowed: sections in their order from hub to tip, or from tip to hub"
@@ -67,11 +75,19 @@ class SectionsDefinition:
         last = radii[-1] if self.tip is None else float(Meridian(self.tip).radius(np.array(curves[-1].z)))
         if not last > first:
             raise BladeShapeError(f"the tip, at a radius of {last:.5g} m, does not lie above the hub, at {first:.5g} m")
-        return (radii - first) / (last - first)
+        places = (radii - first) / (last - first)
+        for what, radius, beyond in (("hub", first, places[0]), ("tip", last, 1.0 - places[-1])):
+            if beyond > BEYOND:
+                raise BladeShapeError(
+                    f"{what}: its radius of {radius:.5g} m lies outside the sections, of mean radii {radii[0]:.5g} to "
+                    f"{radii[-1]:.5g} m, by {100 * beyond:.3g}% of the height; allowed: {100 * BEYOND:g}%; give sections that "
+                    f"reach it, or another {what}"
+                )
+        return places
 
     def changed(self, laws: Mapping[str, SpanLaw]) -> SectionsDefinition:
         """The definition with another stagger, by a law over the span. Raises SectionChangeError for any other change."""
-        others = sorted(set(laws) - {"stagger"})
+        others = sorted(set(laws) - set(self.changes))
         if others:
             raise SectionChangeError(
                 "a blade given by sections has no arcs to change so; allowed: stagger_deg, sweep and lean, or other sections", others

@@ -12,8 +12,8 @@ from typing import Annotated, Any
 from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
 from r37core.base.io import TextFileError
-from r37core.blade.definition import BladeDefinition
-from r37core.blade.profile import BladeShapeError, ProfileParameters
+from r37core.blade.definition import BladeDefinition, Shape
+from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, read_profile_table, stacking_rows, stacking_table_rows
 from r37core.blade.section_changes import SectionChangeError
 from r37core.blade.sense import check_profile_sense
@@ -38,7 +38,8 @@ from .declaring import si_fields, si_form
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
-from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, profiles_by_laws, section_laws
+from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, section_laws, shape_by_laws
+from .sections_entry import SectionsEntry
 from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, is_family, vary_field
 
 SHIFTS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
@@ -98,22 +99,23 @@ class BladeEntry(Section):
         if self.profiles is not None and self.base is not None:
             raise refused((), "both profiles and base", "one of them")
         if self.profiles is None and self.base is None:
-            raise refused((), "neither profiles nor base", "one of them, or a mesh or matrices of another program")
+            raise refused((), "neither profiles nor base", "one of them, or sections, or a mesh or matrices of another program")
         return self
 
 
 def _kind(value: Any) -> str:
     """Which model an entry is for: what it is given by decides."""
-    if isinstance(value, BladeEntry | MeshEntry | MatricesEntry):
+    if isinstance(value, BladeEntry | MeshEntry | MatricesEntry | SectionsEntry):
         return type(value).__name__
-    entry = value if isinstance(value, dict) else {}
-    return "MeshEntry" if "mesh" in entry else "MatricesEntry" if "matrices" in entry else "BladeEntry"
+    kinds = {"mesh": "MeshEntry", "matrices": "MatricesEntry", "sections": "SectionsEntry"}
+    return next((kind for key, kind in kinds.items() if isinstance(value, dict) and key in value), "BladeEntry")
 
 
 Entry = Annotated[
     Annotated[BladeEntry, Tag("BladeEntry")]
     | Annotated[MeshEntry, Tag("MeshEntry")]
-    | Annotated[MatricesEntry, Tag("MatricesEntry")],
+    | Annotated[MatricesEntry, Tag("MatricesEntry")]
+    | Annotated[SectionsEntry, Tag("SectionsEntry")],
     Discriminator(_kind),
 ]
 
@@ -126,7 +128,7 @@ class Blades(RootModel[ByName[Entry]]):
 class BladeSettings:
     """One blade: what gives its shape, its material (none for matrices), contact, kinematics, own regions of stress."""
 
-    definition: BladeDefinition | MeshSource | MatricesSource
+    definition: Shape | MeshSource | MatricesSource
     material: fem_material.Material | None
     contact: str
     kinematics: str
@@ -134,8 +136,8 @@ class BladeSettings:
 
     @property
     def has_profiles(self) -> bool:
-        """True if it is given by profiles, so that it can have another mesh."""
-        return isinstance(self.definition, BladeDefinition)
+        """True if it is given by profiles or sections, so that it can have another mesh."""
+        return isinstance(self.definition, Shape)
 
     @property
     def is_matrices(self) -> bool:
@@ -211,23 +213,37 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         return BladeSettings(_source(entry, first, root, document), material, contact, kinematics, regions)
     shift: dict[str, Any] = {}
     place = name, "base"
-    for link in chain:
+    for link in chain[isinstance(entry, SectionsEntry) :]:
         for key in SHIFTS:
             if getattr(entries[link], key) is not None:
                 place = link, key
                 shift = _shift(link, key, getattr(entries[link], key), root, document)
         shift = _scaled(link, entries[link], shift, document)
-    with readable_table(entry.profiles, (first, "profiles"), document):
-        profiles = tuple(read_profile_table(root / entry.profiles))
-        if all(entries[link].sense_check for link in chain):
-            check_profile_sense(profiles[-1])
-    for link in chain:
-        profiles = _changed(link, entries[link], profiles, document)
+    shape = replace(_shape(chain, entries, root, document), name=name, **shift)
+    for link in chain[isinstance(entry, SectionsEntry) :]:
+        shape = _changed(link, entries[link], shape, document)
     try:
-        check_sweep(shift.get("stacking") or (), profiles)
+        check_sweep(shift.get("stacking") or (), shape.height)
     except BladeShapeError as error:
         raise document.error(place, f"blade {name}: {error}") from None
-    return BladeSettings(BladeDefinition(name, profiles, **shift), material, contact, kinematics)
+    return BladeSettings(shape, material, contact, kinematics)
+
+
+def _shape(chain: Sequence[str], entries: Mapping[str, Any], root: Path, document: Document) -> Shape:
+    """Profiles or sections of the first entry of a chain of bases, whose sense each of them may leave unchecked."""
+    first, check_sense = chain[0], all(entries[link].sense_check for link in chain)
+    entry = entries[first]
+    if isinstance(entry, SectionsEntry):
+        with readable_table(entry.sections, (first, "sections"), document):
+            try:
+                return entry.definition(first, root, check_sense)
+            except ImportRefused as error:
+                raise document.error((first, error.key or "sections"), str(error)) from None
+    with readable_table(entry.profiles, (first, "profiles"), document):
+        profiles = tuple(read_profile_table(root / entry.profiles))
+        if check_sense:
+            check_profile_sense(profiles[-1])
+    return BladeDefinition(first, profiles)
 
 
 def link_with(key: str, chain: Sequence[str], entries: Mapping[str, Any]) -> str:
@@ -235,12 +251,10 @@ def link_with(key: str, chain: Sequence[str], entries: Mapping[str, Any]) -> str
     return next((link for link in reversed(chain) if getattr(entries[link], key) is not None), chain[-1])
 
 
-def _changed(
-    blade: str, entry: BladeEntry, profiles: tuple[ProfileParameters, ...], document: Document
-) -> tuple[ProfileParameters, ...]:
-    """The profiles, which have the changes of the base, with those that the entry of a blade makes on top."""
+def _changed(blade: str, entry: BladeEntry, shape: Shape, document: Document) -> Shape:
+    """The shape, which has the changes of the base, with those that the entry of a blade makes on top."""
     try:
-        return profiles_by_laws(profiles, section_laws(entry))
+        return shape_by_laws(shape, section_laws(entry))
     except SectionChangeError as error:
         keys = changed_keys(error)
         raise document.error((blade, keys[0]), f"blade {blade}: {' and '.join(keys)}: {error}") from None

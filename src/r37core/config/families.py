@@ -24,9 +24,10 @@ from .messages import did_you_mean, single_line
 from .scenes import SceneEntry
 from .section import check_name, check_names, plain
 from .section_laws import END_KEYS, SECTION_KEYS
+from .sections_entry import SectionsEntry
 from .varied import FAMILY_KEYS, LARGEST_FAMILY, Variation, is_family
 
-AnyEntry = BladeEntry | MeshEntry | MatricesEntry | SceneEntry
+AnyEntry = BladeEntry | MeshEntry | MatricesEntry | SectionsEntry | SceneEntry
 """One blade or scene, or one family."""
 
 E = TypeVar("E", bound=AnyEntry)
