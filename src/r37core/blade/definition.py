@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
+
+from r37core.base.plain import from_plain
 
 from .blade_surface import Blade
 from .profile import BladeShapeError, Profile, ProfileParameters
@@ -62,3 +65,8 @@ class BladeDefinition:
 
 Shape = BladeDefinition | SectionsDefinition
 """Definitions whose blade this program meshes."""
+
+
+def shape_from_plain(data: Mapping[str, Any]) -> Shape:
+    """The definition of which `to_plain` made `data`. Raises PlainError as `from_plain`."""
+    return from_plain(SectionsDefinition, data) if "sections" in data else from_plain(BladeDefinition, data)

@@ -23,9 +23,11 @@ class Meridian:
             raise BladeShapeError(
                 f"the meridian runs back in z near z = {z[int(np.argmin(np.diff(z)))]:.5g} m; allowed: one radius at every z"
             )
+        if len(z) == 1:
+            z, r = z + np.array([0.0, 1.0]), r[[0, 0]]
         self._ends = z[[0, -1]]
-        self._curve = scipy.interpolate.PchipInterpolator(z, r) if len(z) > 1 else np.polynomial.Polynomial(r)
-        self._slope = self._curve.derivative() if len(z) > 1 else np.polynomial.Polynomial([0.0])
+        self._curve = scipy.interpolate.PchipInterpolator(z, r)
+        self._slope = self._curve.derivative()
 
     def radius(self, z: np.ndarray) -> np.ndarray:
         """Radius (m) at axial places (m)."""

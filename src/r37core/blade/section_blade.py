@@ -19,7 +19,7 @@ _TOLERANCE = 1e-12
 class SectionBlade(BladeMap):
     """A blade: sections from hub to tip, each shifted by its placement, joined by a cubic spline along the span.
 
-    `places`: fractions of the height at which the sections lie; `hub` and `tip`: the surfaces that cut the blade, else its first
+    `places`: fractions of the height at which the sections lie; `hub` and `tip`: surfaces that cut the blade, else its first
     and last section do. Raises BladeShapeError where sections cross, or hub or tip lies outside them.
     """
 
@@ -84,10 +84,11 @@ class SectionBlade(BladeMap):
                 break
         outside = np.maximum(self.places[0] - place, place - self.places[-1])
         if not np.max(outside) <= BEYOND:
-            height = self.sections[-1].radius - self.sections[0].radius
+            first, last = self.sections[0].radius, self.sections[-1].radius
+            height = last - first
             raise BladeShapeError(
-                f"{what}: its surface lies up to {1e3 * height * np.max(outside):.3g} mm outside the sections, which reach from "
-                f"{self.sections[0].radius:.5g} to {self.sections[-1].radius:.5g} m; allowed: {100 * BEYOND:g}% of the height, "
+                f"{what}: its surface lies up to {1e3 * height * np.max(outside):.3g} mm outside the sections, which reach "
+                f"from {first:.5g} to {last:.5g} m; allowed: {100 * BEYOND:g}% of the height, "
                 f"{1e3 * height * BEYOND:.3g} mm; give sections that reach it, or another {what}"
             )
         return place

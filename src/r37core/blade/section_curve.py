@@ -1,6 +1,6 @@
 """A section of a blade as a closed curve through points: its edges, its two sides and the arcs that close them.
 
-An edge begins where the section is as thick as twice the depth below its nose: for a round edge at the points of tangency, as of
+An edge begins where the section is as thick as twice the depth below its nose: of a circle at the points of tangency, as in
 `profile.py`. A straight edge between two corners stays straight. A sharp one is cut where it has 5% of the largest thickness,
 because elements need a face there.
 """
@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 import scipy
@@ -116,8 +117,8 @@ class SectionCurve:
         if limits is None:
             which = "leading" if self._dense[end, 2] <= self._dense[other, 2] else "trailing"
             raise BladeShapeError(
-                f"{self.label}: found no {which} edge: the curve is as thick there as it is deep; allowed: a closed curve round "
-                "a blade's section"
+                f"{self.label}: found no {which} edge: the curve is as thick there as it is deep; allowed: a closed curve "
+                "round a blade's section"
             )
         return limits
 
@@ -134,10 +135,8 @@ class SectionCurve:
         arcs = [self._part(edge.before, _beyond(edge.after, edge.before, count)) for edge in (leading, trailing)]
         # at the leading edge the curve comes from the side that it goes back on
         arcs = [arcs[0][::-1], arcs[1]] if ahead_is_pressure else [arcs[0], arcs[1][::-1]]
-        self.leading_edge, self.trailing_edge = (
-            _edge(arc, edge.round) for arc, edge in zip(arcs, limits, strict=True)
-        )
-        self._noses = [self._at(edge.nose) for edge in limits]
+        self.leading_edge, self.trailing_edge = (_edge(arc, edge.round) for arc, edge in zip(arcs, limits, strict=True))
+        self._noses = np.array([self._at(edge.nose) for edge in limits])
 
     def _at(self, place: float) -> np.ndarray:
         """(r, theta, z) at a place of the dense samples, linear between them."""
@@ -172,7 +171,11 @@ class SectionCurve:
     @property
     def stagger(self) -> float:
         """Angle (rad) to the axis of the line through the noses of both edges, seen from the centre of area."""
-        (r_first, theta_first, z_first), (r_last, theta_last, z_last) = self._noses
+        return self._direction(self._noses)
+
+    def _direction(self, ends: np.ndarray) -> float:
+        """Angle (rad) to the axis of the line between two points (r, theta, z), shape (2, 3), as `Profile.stagger`."""
+        (r_first, theta_first, z_first), (r_last, theta_last, z_last) = ends
         middle = self.centroid[1]
         rise = r_last * np.sin(theta_last - middle) - r_first * np.sin(theta_first - middle)
         return float(np.arctan2(rise, z_last - z_first))
@@ -183,14 +186,24 @@ class SectionCurve:
         return np.stack([r * np.cos(theta), r * np.sin(theta), z], axis=1)
 
     def rotated(self, angle: float) -> tuple[Point, ...]:
-        """Points of the section turned on its cone by `angle` (rad) about its centre of area; what lies off the cone stays so."""
-        r, theta, z = self.points.T
+        """Points of the section turned on its cone about its centre of area, so that `angle` (rad) is added to its stagger.
+
+        What lies off the cone stays so.
+        """
+        turn = angle
+        for _ in range(5):
+            # on the unrolled cone angles are nearly those that the stagger is measured by
+            turn += angle - (self._direction(self._turned(self._noses, turn)) - self.stagger)
+        return tuple(map(tuple, _cartesian(self._turned(self.points, turn)).tolist()))
+
+    def _turned(self, points: np.ndarray, angle: float) -> np.ndarray:
+        """Points (r, theta, z), shape (n, 3), turned on the unrolled cone by `angle` (rad) about the centre of area."""
+        r, theta, z = points.T
         m, (m_centre, theta_centre) = self._meridional(z), self.centroid
         along, across = self.cone.unroll(m_centre, theta_centre, m, theta)
         m_new, theta_new = self.cone.offset(m_centre, theta_centre, np.arctan2(across, along) + angle, np.hypot(along, across))
         r_new = self.cone.radius(m_new) + r - self.cone.radius(m)
-        turned = np.stack([r_new * np.cos(theta_new), r_new * np.sin(theta_new), self._inlet_z + self.cone.axial(m_new)], axis=1)
-        return tuple((float(x), float(y), float(z)) for x, y, z in turned)
+        return np.stack([r_new, theta_new, self._inlet_z + self.cone.axial(m_new)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -290,7 +303,8 @@ def _corners(plane: np.ndarray) -> np.ndarray:
     paired = [
         corner
         for first, second in zip(candidates, np.roll(candidates, -1), strict=True)
-        if first != second and turns[first] + turns[second] > _TWO_CORNERS
+        if first != second
+        and turns[first] + turns[second] > _TWO_CORNERS
         # between them the edge is straight
         and np.all(turns[np.arange(first + 1, first + (second - first) % count) % count] < 0.1)
         and (second - first) % count < count // 4
@@ -319,7 +333,7 @@ def _sampled(points: np.ndarray, plane: np.ndarray) -> tuple[np.ndarray, np.ndar
     wanted = (rolled[:-1, None] + rolled_lengths[:, None] * shares).ravel()
     breaks = [*(corners - corners[0]), count]
     samples = np.empty((len(wanted), 3))
-    for first, last in zip(breaks[:-1], breaks[1:], strict=True):
+    for first, last in pairwise(breaks):
         spline = scipy.interpolate.make_interp_spline(
             rolled[first : last + 1], points[order[first : last + 1]], k=min(3, last - first)
         )

@@ -39,7 +39,7 @@ class SectionsDefinition:
     chordwise_sweep_angle: float | None = None
 
     def curve(self, number: int) -> SectionCurve:
-        """Section by its number from 0 at the hub, with its sides. Raises BladeShapeError for a curve that is none of a section."""
+        """Section with its sides, by its number from 0 at the hub. Raises BladeShapeError for a curve that is no section."""
         label = f"section {number + 1} of {len(self.sections)} from the hub"
         return section_curve(self.sections[number], label, self.pressure_forward)
 
@@ -89,9 +89,8 @@ class SectionsDefinition:
         """The definition with another stagger, by a law over the span. Raises SectionChangeError for any other change."""
         others = sorted(set(laws) - set(self.changes))
         if others:
-            raise SectionChangeError(
-                "a blade given by sections has no arcs to change so; allowed: stagger_deg, sweep and lean, or other sections", others
-            )
+            allowed = "stagger_deg, sweep and lean, or other sections"
+            raise SectionChangeError(f"a blade given by sections has no arcs to change so; allowed: {allowed}", others)
         if "stagger" not in laws:
             return self
         angles = laws["stagger"].evaluate(np.clip(self.places(), 0.0, 1.0))
@@ -109,8 +108,8 @@ class SectionsDefinition:
                 self.curves,
                 places,
                 self._placement(places),
-                self.hub and Meridian(self.hub),
-                self.tip and Meridian(self.tip),
+                None if self.hub is None else Meridian(self.hub),
+                None if self.tip is None else Meridian(self.tip),
                 round_edges,
                 self.pressure_forward,
             )

@@ -78,7 +78,7 @@ def span_law(key: str, law: Any) -> SpanLaw:
 
 
 def shape_by_laws(shape: Shape, laws: Mapping[str, SpanLaw]) -> Shape:
-    """The shape, changed by laws of SECTION_KEYS. Raises SectionChangeError for impossible profiles and for those that cross."""
+    """The shape, changed by laws of SECTION_KEYS. Raises SectionChangeError for impossible profiles and those that cross."""
     return shape.changed({si_name(key)[0]: law for key, law in laws.items()})
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from r37core.base.io import TextFileError
-from r37core.blade.profile import BladeShapeError
 from r37core.blade.sections_definition import SectionsDefinition
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused
@@ -57,9 +57,10 @@ class EndSurface(Section):
 
     def meridian(self) -> Meridians:
         """Points (z, r) of the surface (m)."""
-        if self.cone_zr_m is None:
-            return ((0.0, self.radius_m),)
-        return tuple((z, r) for z, r in self.cone_zr_m)
+        if self.cone_zr_m is not None:
+            return tuple((z, r) for z, r in self.cone_zr_m)
+        assert self.radius_m is not None
+        return ((0.0, self.radius_m),)
 
 
 End = Annotated[
@@ -70,8 +71,8 @@ End = Annotated[
 
 def _end(what: str, which: str, other: str) -> Any:
     return left_out(
-        f"Surface that cuts the blade at the {what}: radius_m, cone_zr_m, a file as {other}.curve, or sections, which ends it with "
-        f"its {which} section; by default {other}.curve next to profile.curve, or the {other} of a .geomTurbo"
+        f"Surface that cuts the blade at the {what}: radius_m, cone_zr_m, a file as {other}.curve, or sections for the {which} "
+        f"section; by default {other}.curve next to profile.curve or the {other} in a .geomTurbo, else sections"
     )
 
 
@@ -105,13 +106,12 @@ class SectionsEntry(Oriented):
         placed = placed_sections(content, orientation)
         definition = SectionsDefinition(name, placed.sections, pressure_forward=self.pressure_side == "forward")
         check_curves(definition, placed.lines)
-        asked = {
-            key: f"{key}: {fitting_surface(curve)}, or left out, which ends the blade with this section"
+        answers = {
+            key: f"{key}: {fitting_surface(curve)}, or {OWN}, which ends the blade with its section"
             for key, curve in (("hub", definition.curves[0]), ("tip", definition.curves[-1]))
             if getattr(self, key) == ASKED
         }
-        for key, answer in asked.items():
-            raise ImportRefused(f"found '{ASKED}'; what fits: {' and '.join(asked.values()) if len(asked) > 1 else answer}", key)
+        _refuse_asked(answers)
         ends = (self._meridian(key, own, orientation, root) for key, own in (("hub", placed.hub), ("tip", placed.tip)))
         hub, tip = (meridian_along(end, definition.curves) for end in ends)
         definition = SectionsDefinition(name, placed.sections, hub, tip, definition.pressure_forward)
@@ -123,7 +123,7 @@ class SectionsEntry(Oriented):
 
     def _orientation(self, content: SectionFile) -> Orientation:
         """Unit and axes. Raises ImportRefused where one is asked for, with what fits, or where directions are parallel."""
-        answers = {}
+        answers: dict[str, str] = {}
         known = si_form(
             Orientation,
             self,
@@ -135,8 +135,7 @@ class SectionsEntry(Oriented):
             answers["length_unit"] = fitting_unit(content, known)
         if self.rotation == ASKED:
             answers["rotation"] = fitting_rotation(content.sections, known)
-        for key in answers:
-            raise ImportRefused(f"found '{ASKED}'; what fits: {'; '.join(answers.values())}", key)
+        _refuse_asked(answers)
         return known
 
     def _meridian(self, key: str, own: Meridians, orientation: Orientation, root: Path) -> Meridians:
@@ -151,6 +150,11 @@ class SectionsEntry(Oriented):
         except TextFileError as error:
             raise ImportRefused(f"{end}:{error.line}: {error.reason}", key) from None
         except OSError as error:
-            raise ImportRefused(f"{end} cannot be read: {error.strerror}; allowed: radius_m, cone_zr_m, a file, sections", key) from None
-        except BladeShapeError as error:
-            raise ImportRefused(f"{end}: {error}", key) from None
+            allowed = f"radius_m, cone_zr_m, a file as hub.curve, {OWN}, or {ASKED}"
+            raise ImportRefused(f"{end} cannot be read: {error.strerror}; allowed: {allowed}", key) from None
+
+
+def _refuse_asked(answers: Mapping[str, str]) -> None:
+    """ImportRefused with what fits for keys that ask, if there are any."""
+    if answers:
+        raise ImportRefused(f"found '{ASKED}'; what fits: {'; '.join(answers.values())}", next(iter(answers)))

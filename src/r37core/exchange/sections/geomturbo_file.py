@@ -1,4 +1,4 @@
-"""Files .geomTurbo of NUMECA: suction and pressure side of each section of the first blade, and the channel's hub and shroud."""
+"""Files .geomTurbo of NUMECA: suction and pressure side of each section of the first blade, hub and shroud of the channel."""
 
 from collections.abc import Iterator
 
@@ -22,7 +22,8 @@ def read_geomturbo(text: str) -> SectionFile:
     counts = [len(sides[side]) for side in _SIDES]
     if counts[0] != counts[1]:
         line = sides["pressure"][0][0]
-        raise TextFileError(line, f"found {counts[0]} sections of the suction and {counts[1]} of the pressure side; needed: as many")
+        counted = f"found {counts[0]} sections of the suction and {counts[1]} of the pressure side"
+        raise TextFileError(line, f"{counted}; needed: as many of both")
     sections = [
         FileSection(joined_sides(one, other), line)
         for (line, one), (_, other) in zip(sides["suction"], sides["pressure"], strict=True)
@@ -74,8 +75,8 @@ def _channel(lines: list[Line], name: str) -> np.ndarray | None:
         if words[0] == "name" and len(words) > 1 and not inside:
             current = text.split(None, 1)[1]
         elif words[0] == "zr":
-            points = [point_in(_next(rest, number)[1], number, 2) for _ in range(_count(rest, number))]
-            curves[current] = np.array([(r, 0.0, z) for z, r in points])
+            pairs = [point_in(_next(rest, number)[1], number, 2) for _ in range(_count(rest, number))]
+            curves[current] = np.array([(r, 0.0, z) for z, r in pairs])
         elif words[:2] == ["ni_begin", "channel_curve"]:
             inside = words[-1] == name
         elif words[:2] == ["ni_end", "channel_curve"]:

@@ -10,7 +10,7 @@ import numpy as np
 from r37core.base.io import TextFileError
 from r37core.base.units import LENGTH_UNITS
 from r37core.blade.profile import BladeShapeError
-from r37core.blade.section_curve import SectionCurve
+from r37core.blade.section_curve import CurvePart, SectionCurve
 from r37core.blade.sections_definition import SectionsDefinition
 from r37core.blade.sense import sense_of_line
 from r37core.exchange.orientation import Orientation, fitting_units
@@ -60,11 +60,13 @@ def meridian_along(points: Meridians, curves: Sequence[SectionCurve]) -> Meridia
         return points
     z = np.concatenate([curve.points[:, 2] for curve in curves])
     reach = 0.25 * np.ptp(z)
-    near = [z.min() - reach <= place <= z.max() + reach for place, _ in points]
-    # one more at either end
-    wanted = np.convolve(near, [1, 1, 1], mode="same") > 0
-    kept = [point for point, is_near in zip(points, wanted, strict=True) if is_near]
-    return tuple(point for number, point in enumerate(kept) if number == 0 or point[0] != kept[number - 1][0]) or points
+    places = np.array([place for place, _ in points])
+    inside = (places >= z.min() - reach) & (places <= z.max() + reach)
+    # pieces that end or pass next to the sections, too
+    passing = inside[1:] | inside[:-1] | (np.diff(np.sign(places - z.mean())) != 0.0)
+    near = np.flatnonzero(passing)
+    kept = points[near[0] : near[-1] + 2] if len(near) else points
+    return tuple(point for number, point in enumerate(kept) if number == 0 or point[0] != kept[number - 1][0])
 
 
 def check_curves(definition: SectionsDefinition, lines: Sequence[int]) -> None:
@@ -114,9 +116,11 @@ def check_sections_sense(definition: SectionsDefinition) -> None:
 
 def fitting_unit(file: SectionFile, orientation: Orientation) -> str:
     """Line that answers for length_unit, with the sizes that follow from it; `orientation` has any unit."""
-    placed = replace(orientation, length_unit=1.0).points_to_blade(np.concatenate([section.points for section in file.sections]))
+    points = np.concatenate([section.points for section in file.sections])
+    placed = replace(orientation, length_unit=1.0).points_to_blade(points)
     radius = np.hypot(placed[:, 0], placed[:, 1])
-    units = fitting_units(float(np.ptp(radius)))
+    # no program writes these
+    units = sorted(fitting_units(float(np.ptp(radius))), key=lambda unit: unit in ("ft", "um"))
     if not units:
         return f"no unit fits sections from {radius.min():.5g} to {radius.max():.5g} from the axis; give metres per unit"
     sizes = [f"{unit} ({radius.min() * LENGTH_UNITS[unit]:.4g} to {radius.max() * LENGTH_UNITS[unit]:.4g} m)" for unit in units]
@@ -142,7 +146,7 @@ def fitting_surface(curve: SectionCurve) -> str:
     return f"{{ cone_zr_m: [{ends}] }}"
 
 
-def _sides(curve: SectionCurve):
+def _sides(curve: SectionCurve) -> tuple[CurvePart, CurvePart]:
     return curve.pressure, curve.suction
 
 

@@ -66,9 +66,7 @@ def closed(points: np.ndarray) -> np.ndarray:
 
 def joined_sides(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Closed curve along one side and back along the other, which may run either way."""
-    forward, backward = (
-        np.linalg.norm(one[-1] - side[0]) + np.linalg.norm(one[0] - side[-1]) for side in (other, other[::-1])
-    )
+    forward, backward = (np.linalg.norm(one[-1] - side[0]) + np.linalg.norm(one[0] - side[-1]) for side in (other, other[::-1]))
     return closed(np.concatenate([one, other if forward <= backward else other[::-1]]))
 
 
