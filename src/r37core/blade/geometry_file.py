@@ -81,10 +81,14 @@ def _sections(blade: SectionBlade) -> tuple[dict, dict]:
     data: dict = {
         "section_point": (
             ("section_point_number", "axis"),
-            np.concatenate([curve.given for curve in curves]),
+            np.concatenate([curve.file_points for curve in curves]),
             about("m", "points of the section curves"),
         ),
-        "section_size": ("section", [len(curve.given) for curve in curves], about("1", "number of points of the section")),
+        "section_size": (
+            "section",
+            [len(curve.file_points) for curve in curves],
+            about("1", "number of points of the section"),
+        ),
         "place": ("section", blade.places, about("1", "fraction of the height at which the section lies")),
         "axial_placement": ("section", blade.placement.axial, about("m", "axial shift of the section")),
         "rotation": ("section", blade.placement.rotation, about("rad", "rotation of the section about the axis")),

@@ -86,10 +86,10 @@ class SectionCurve:
 
     def __init__(self, points: Sequence[Point] | np.ndarray, label: str, pressure_forward: bool = True):
         self.label = label
-        self.given = np.asarray(points, dtype=float)
-        if len(self.given) < FEWEST_POINTS:
-            raise BladeShapeError(f"{label}: found {len(self.given)} points; allowed: at least {FEWEST_POINTS}")
-        self.points = _cylindrical(self.given)
+        self.file_points = np.asarray(points, dtype=float)
+        if len(self.file_points) < FEWEST_POINTS:
+            raise BladeShapeError(f"{label}: found {len(self.file_points)} points; allowed: at least {FEWEST_POINTS}")
+        self.points = _cylindrical(self.file_points)
         self.cone, self._inlet_z = _cone_through(self.points)
         plane = self._unrolled(self.points)
         _check_simple(plane, label)
@@ -270,13 +270,13 @@ def _check_simple(plane: np.ndarray, label: str) -> None:
         # pieces that follow each other share a point, and each pair counts once
         apart = np.arange(count)[None] - block[:, None]
         crossed = (from_first <= 0.0) & (from_other <= 0.0) & (apart > 1) & (apart < count - 1)
-        for one, other in np.argwhere(crossed) + np.array([block[0], 0]):
-            along = end[one] - start[one]
-            shares = [(part[other] - start[one]) @ along / (along @ along) for part in (start, end)]
+        for piece, other in np.argwhere(crossed) + np.array([block[0], 0]):
+            along = end[piece] - start[piece]
+            shares = [(part[other] - start[piece]) @ along / (along @ along) for part in (start, end)]
             # pieces on one straight line cross where they overlap
             if max(shares) >= 0.0 and min(shares) <= 1.0:
                 raise BladeShapeError(
-                    f"{label}: the curve crosses itself, between points {one + 1} and {one + 2} and points {other + 1} and "
+                    f"{label}: the curve crosses itself, between points {piece + 1} and {piece + 2} and points {other + 1} and "
                     f"{other + 2}; allowed: points in their order, once round"
                 )
 

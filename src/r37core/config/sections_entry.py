@@ -69,26 +69,23 @@ End = Annotated[
 ]
 
 
-def _end(what: str, which: str, other: str) -> Any:
+def _end(which: str, other: str) -> Any:
     return left_out(
-        f"Surface that cuts the blade at the {what}: radius_m, cone_zr_m, a file as {other}.curve, or sections for the {which} "
-        f"section; by default {other}.curve next to profile.curve or the {other} in a .geomTurbo, else sections"
+        f"Surface that cuts it, a file as {other}.curve, sections (the {which}), or ?; by default the file's {other}, else sections"
     )
 
 
 class SectionsEntry(Oriented):
     """A blade given by section curves, meshed as one with profiles is."""
 
-    sections: FileName = Field(description="Sections from hub to tip: .curve, .geomTurbo, or .csv with section, x, y, z")
+    sections: FileName = Field(description=".curve, .geomTurbo, or .csv with section, x, y, z")
     length_unit: Annotated[
         Annotated[LengthUnit, Tag("unit")] | Annotated[Literal["?"], Tag("asked")],
         Discriminator(lambda value: "asked" if value == ASKED else "unit"),
-    ] = Field(description="As for meshes, or ? to ask")
-    rotation: Literal["positive", "negative", "?"] = Field(
-        description="Sense of the rotation about rotor_axis, by the right-hand rule, or ? to ask"
-    )
-    hub: End | LeftOut = _end("hub", "first", "hub")
-    tip: End | LeftOut = _end("tip", "last", "shroud")
+    ] = Field(description="Unit, or ? to ask")
+    rotation: Literal["positive", "negative", "?"] = Field(description="Sense about rotor_axis, or ? to ask")
+    hub: End | LeftOut = _end("first", "hub")
+    tip: End | LeftOut = _end("last", "shroud")
     pressure_side: Literal["forward", "backward"] = Field(
         default="forward", description="forward: the pressure side faces the rotation, as in a compressor"
     )

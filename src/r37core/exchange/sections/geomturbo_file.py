@@ -25,8 +25,8 @@ def read_geomturbo(text: str) -> SectionFile:
         counted = f"found {counts[0]} sections of the suction and {counts[1]} of the pressure side"
         raise TextFileError(line, f"{counted}; needed: as many of both")
     sections = [
-        FileSection(joined_sides(one, other), line)
-        for (line, one), (_, other) in zip(sides["suction"], sides["pressure"], strict=True)
+        FileSection(joined_sides(suction, pressure), line)
+        for (line, suction), (_, pressure) in zip(sides["suction"], sides["pressure"], strict=True)
     ]
     hub, shroud = (_channel(lines, name) for name in ("hub", "shroud"))
     return SectionFile(tuple(sections), hub, shroud)

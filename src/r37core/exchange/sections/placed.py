@@ -96,19 +96,19 @@ def check_tip(definition: SectionsDefinition) -> None:
 def check_sections_sense(definition: SectionsDefinition) -> None:
     """Refuse a rotation, rotor axis or pressure side that the last section contradicts, with ImportRefused."""
     sense = sense_of_line(definition.curves[-1].camber_line(_SHARES))
-    found = f"stagger {np.degrees(sense.stagger):.1f}, camber {np.degrees(sense.camber):.1f} degrees"
+    angles = f"stagger {np.degrees(sense.stagger):.1f}, camber {np.degrees(sense.camber):.1f} degrees"
     unless = "sense_check: false takes the blade as it is"
     fits = sense.fits(definition.pressure_forward)
     if sense.leads() is False:
         raise ImportRefused(
-            f"found the tip's trailing edge ahead in the rotation ({found}); allowed: a leading edge that is ahead, as in "
+            f"found the tip's trailing edge ahead in the rotation ({angles}); allowed: a leading edge that is ahead, as in "
             f"compressors and turbines; change rotation{'' if fits else ', or rotor_axis if that points upstream'}; {unless}",
             "rotation",
         )
     if fits is False:
         other = "backward" if definition.pressure_forward else "forward"
         raise ImportRefused(
-            f"found a convex pressure side ({found}); give pressure_side: {other}, or change both rotor_axis and rotation if "
+            f"found a convex pressure side ({angles}); give pressure_side: {other}, or change both rotor_axis and rotation if "
             f"rotor_axis points upstream; {unless}",
             "pressure_side",
         )

@@ -27,7 +27,7 @@ class FileSection:
 
 @dataclass(frozen=True)
 class SectionFile:
-    """What a file gives: sections in its order, and points of the meridians of hub and tip, shape (n, 3), where it has them."""
+    """Content of a file: sections in its order; points of the meridians of hub and tip, shape (n, 3), or None."""
 
     sections: tuple[FileSection, ...]
     hub: np.ndarray | None = None
@@ -64,10 +64,12 @@ def closed(points: np.ndarray) -> np.ndarray:
     return points[steps > _EQUAL * size]
 
 
-def joined_sides(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+def joined_sides(side: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Closed curve along one side and back along the other, which may run either way."""
-    forward, backward = (np.linalg.norm(one[-1] - side[0]) + np.linalg.norm(one[0] - side[-1]) for side in (other, other[::-1]))
-    return closed(np.concatenate([one, other if forward <= backward else other[::-1]]))
+    forward, backward = (
+        np.linalg.norm(side[-1] - back[0]) + np.linalg.norm(side[0] - back[-1]) for back in (other, other[::-1])
+    )
+    return closed(np.concatenate([side, other if forward <= backward else other[::-1]]))
 
 
 def closed_section(points: Sequence[Sequence[float]] | np.ndarray, line: int) -> FileSection:
