@@ -42,7 +42,7 @@ MeridianPoint = Annotated[list[Annotated[float, Field(ge=-100, le=100)]], Field(
 class EndSurface(Section):
     """Surface of revolution that cuts the blade: a cylinder or a cone."""
 
-    radius_m: Annotated[float, Field(gt=0, le=100)] | LeftOut = left_out("Radius of a cylinder")
+    radius_m: Annotated[float, Field(ge=1e-3, le=100)] | LeftOut = left_out("Radius of a cylinder")
     cone_zr_m: Annotated[list[MeridianPoint], Field(min_length=2, max_length=2)] | LeftOut = left_out(
         "Two points [z, r] of a cone's straight meridian"
     )

@@ -83,7 +83,8 @@ def _channel(lines: list[Line], name: str) -> np.ndarray | None:
             inside = False
         elif inside and words[0] == "vertex" and len(words) > 3:
             used.append(text.split(None, 2)[2].rsplit(None, 1)[0])
-    parts = [curves[curve] for curve in dict.fromkeys(used) if curve in curves]
+    # without channel curves the basic curves have their names
+    parts = [curves[curve] for curve in dict.fromkeys(used or [name]) if curve in curves]
     if not parts:
         return None
     points = np.concatenate(parts)

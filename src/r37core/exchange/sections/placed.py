@@ -23,6 +23,8 @@ ASKED = "?"
 
 _REVOLUTION = 1e-4
 """Distance (m) up to which the last section lies on a surface of revolution, as the tip of a mesh."""
+_MERIDIAN = 4
+"""Order of the polynomial through the meridian of the last section."""
 _SHARES = np.linspace(0.0, 1.0, 201)
 
 Meridians = tuple[tuple[float, float], ...] | None
@@ -85,7 +87,8 @@ def check_tip(definition: SectionsDefinition) -> None:
     if definition.tip is not None:
         return
     radius, _, z = np.concatenate([side.point(_SHARES) for side in _sides(definition.curves[-1])], axis=1)
-    off = np.abs(radius - np.polynomial.Polynomial.fit(z, radius, 2)(z)).max()
+    # both sides of a surface of revolution share a meridian, which may be curved
+    off = np.abs(radius - np.polynomial.Polynomial.fit(z, radius, _MERIDIAN)(z)).max()
     if off > _REVOLUTION:
         raise BladeShapeError(
             f"tip: the last section lies up to {1e3 * off:.3g} mm off every surface of revolution (allowed: "
