@@ -190,7 +190,9 @@ def test_stagger_sweep_and_lean_on_top(settings_with):
     family = {"base": "Fan", "vary": {"stagger_deg": [0, 3]}}
     others = {"Swept": {"base": "Fan", "sweep_lean": rows}, "Half": {"base": "Swept", "sweep_percent": 50, "lean_percent": 50}}
     others |= {"Family": family, "Chordwise": {"base": "Fan", "chordwise_sweep_deg": 10}}
+    others["Own"] = {"sections": "sections/fan.csv", **ENTRY, "vary": {"stagger_deg": [0, 3], "material.density_kg_m3": [4430]}}
     blades = settings_with(csv_text(fan()), others=others).blades
+    assert blades["Own_3_4430"].definition.sections == blades["Family_3"].definition.sections
     assert blades["Family_0"].definition.sections == blades["Fan"].definition.sections
     curves = [blades[name].definition.curves for name in ("Fan", "Family_3")]
     for before, after in zip(*curves, strict=True):
@@ -221,6 +223,9 @@ def test_calls_from_python_know_such_a_blade(project):
     diagram = r37.campbell("Fan", config=project / "config/config.yaml")
     first = float(diagram["frequency"].isel(speed=0, mode=0))
     assert 30.0 < first < 200.0 and diagram.attrs["contact"] == "patches"
+    turned = r37.blade("Fan", config=project / "config/config.yaml", stagger_deg=2).settings.definition
+    before = r37.blade("Fan", config=project / "config/config.yaml").settings.definition
+    assert turned.curve(0).stagger - before.curve(0).stagger == pytest.approx(np.radians(2.0), abs=1e-5)
 
 
 def section_without_trailing_edge():
@@ -310,7 +315,10 @@ def test_a_broken_file_is_one_line(settings_with, text, name, message):
         ({"tip": "sections/none.curve"}, r"Fan\.tip: sections/none\.curve cannot be read"),
         ({"hub": {}}, r"Fan\.hub: found none of radius_m and cone_zr_m"),
         ({"sections": "sections/none.csv"}, r"Fan\.sections: there is no file sections/none\.csv"),
-        ({"sweep_lean": []}, r"found unknown key sweep_lean"),
+        ({"sweep_lean": []}, r"Fan\.sweep_lean: found \[\]; allowed: "),
+        ({"chordwise_sweep_deg": 1.0, "stacking_table": "a.csv"}, r"at most one of stacking_table, sweep_lean, chordwise"),
+        ({"profiles": "a.csv"}, r"Fan: found unknown key profiles"),
+        ({"thickness_percent": 110}, r"Fan\.thickness_percent: .*given by sections has no arcs"),
     ],
 )
 def test_an_entry_is_refused_with_what_fits(settings_with, changes, message):

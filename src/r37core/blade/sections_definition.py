@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -43,7 +43,7 @@ class SectionsDefinition:
         label = f"section {number + 1} of {len(self.sections)} from the hub"
         return section_curve(self.sections[number], label, self.pressure_forward)
 
-    @cached_property
+    @property
     def curves(self) -> tuple[SectionCurve, ...]:
         """All sections with their sides. Raises BladeShapeError."""
         return tuple(map(self.curve, range(len(self.sections))))
@@ -56,7 +56,7 @@ class SectionsDefinition:
     @property
     def height(self) -> float:
         """Distance of the first section from the last (m)."""
-        return self.curves[-1].radius - self.curves[0].radius
+        return self.curve(len(self.sections) - 1).radius - self.curve(0).radius
 
     def places(self) -> np.ndarray:
         """Fraction of the height from hub to tip at which each section lies; BladeShapeError unless these rise."""
@@ -95,8 +95,8 @@ class SectionsDefinition:
             return self
         angles = laws["stagger"].evaluate(np.clip(self.places(), 0.0, 1.0))
         turned = tuple(
-            points if angle == 0.0 else curve.rotated(float(angle))
-            for points, curve, angle in zip(self.sections, self.curves, angles, strict=True)
+            points if angle == 0.0 else self.curve(number).rotated(float(angle))
+            for number, (points, angle) in enumerate(zip(self.sections, angles, strict=True))
         )
         return replace(self, sections=turned)
 
@@ -124,8 +124,8 @@ class SectionsDefinition:
         return Placement(np.zeros(len(places)), np.zeros(len(places)))
 
 
-# designs of a family have the same sections, and a call reads them several times
-@lru_cache(maxsize=2**10)
+# designs of a family start from the same sections, and a call reads them several times; one takes 0.3 MB
+@lru_cache(maxsize=2**7)
 def section_curve(points: tuple[Point, ...], label: str, pressure_forward: bool) -> SectionCurve:
     """A section with its sides, made once. Raises as SectionCurve."""
     return SectionCurve(points, label, pressure_forward)

@@ -17,13 +17,14 @@ from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
 
 from .blade_sections import MaterialSection
-from .blades import SHARES, BladeEntry, BladeSettings, SweepLean
+from .blades import BladeEntry, BladeSettings
 from .declaring import si_fields
 from .document import Document
 from .messages import did_you_mean, explain_all, single_line
 from .scenes import SceneEntry
 from .section import Section, plain
 from .section_laws import END_KEYS, SECTION_KEYS, changed_keys, neutral_value, section_laws, shape_by_laws
+from .shape_keys import SHARES, ShapeKeys, SweepLean
 from .varied import FAMILY_KEYS
 
 E = TypeVar("E", bound=Section)
@@ -138,7 +139,7 @@ def changed_pair(blade: BladeSettings, scene: SceneEntry, values: Mapping[Varied
     return changed_blade(blade, blade_values), entry_with(scene, scene_values).scene()
 
 
-def _changed_shape(shape: Shape, entries: Iterable[BladeEntry], keys: Iterable[str]) -> Shape:
+def _changed_shape(shape: Shape, entries: Iterable[ShapeKeys], keys: Iterable[str]) -> Shape:
     """The shape with changes of entries on top of each other, for which `keys` are to blame."""
     try:
         for entry in entries:
@@ -150,7 +151,7 @@ def _changed_shape(shape: Shape, entries: Iterable[BladeEntry], keys: Iterable[s
     return shape
 
 
-def _changed_stacking(stacking: Stacking, entry: BladeEntry, changes: Mapping[str, float]) -> Stacking:
+def _changed_stacking(stacking: Stacking, entry: ShapeKeys, changes: Mapping[str, float]) -> Stacking:
     """The table of sweep and lean with shares of it kept, and a straight line over the span added."""
     sweep_cm, lean_deg = (changes.get(key, 0.0) for key in _LINE)
     _checked(SweepLean, {"span_percent": 100.0, "sweep_cm": sweep_cm, "lean_deg": lean_deg}, BLADE)

@@ -32,6 +32,8 @@ from .blade_sections import CONTACT_IN_WORDS, KINEMATICS_IN_WORDS, Contact, Kine
 from .declaring import si_form
 from .imported_entry import LengthUnit, Oriented
 from .section import FileName, LeftOut, Section, left_out, refused
+from .shape_keys import ShapeKeys
+from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
 
 OWN = "sections"
 """Value of hub and tip that ends the blade with its first or last section, whatever lies next to the file."""
@@ -71,12 +73,13 @@ End = Annotated[
 
 def _end(which: str, other: str) -> Any:
     return left_out(
-        f"Surface that cuts it, a file as {other}.curve, sections (the {which}), or ?; by default the file's {other}, else sections"
+        f"Surface that cuts it, a file as {other}.curve, sections (the {which}), or ?; "
+        f"by default the file's {other}, else sections"
     )
 
 
-class SectionsEntry(Oriented):
-    """A blade given by section curves, meshed as one with profiles is."""
+class SectionsEntry(ShapeKeys, Oriented):
+    """A blade given by section curves, meshed as one with profiles is; with `vary` or `designs` a family."""
 
     sections: FileName = Field(description=".curve, .geomTurbo, or .csv with section, x, y, z")
     length_unit: Annotated[
@@ -92,6 +95,9 @@ class SectionsEntry(Oriented):
     material: MaterialSection
     contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
     kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
+    vary: Vary = vary_field("sweep_percent or material.density_kg_m3")
+    combine: Combine = COMBINE
+    designs: DesignTable = designs_field("blade")
 
     def definition(self, name: str, root: Path, check_sense: bool) -> SectionsDefinition:
         """The blade's definition, of files from the folder `root`.

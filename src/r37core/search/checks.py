@@ -6,11 +6,11 @@ from r37core.blade.definition import Shape
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
 from r37core.config import ConfigError, Settings, operating_range
-from r37core.config.blades import SHARES, BladeEntry
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, check_known, entry_with
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.document import Document
 from r37core.config.messages import did_you_mean, single_line
+from r37core.config.shape_keys import SHARES, ShapeKeys
 from r37core.rom.naming import mode_names
 
 from .designs import SearchDesigns, choice_of, designs_of, is_asked
@@ -27,7 +27,7 @@ def search_can_be_run(settings: Settings) -> None:
     if entry.blade not in settings.blade_names:
         raise document.refusal(("search", "blade"), f"'{entry.blade}'", f"one that is run ({', '.join(settings.blade_names)})")
     designs = designs_of(settings)
-    if not isinstance(settings.designs.entries[entry.blade], BladeEntry):
+    if not isinstance(settings.designs.entries[entry.blade], ShapeKeys):
         raise document.refusal(("search", "blade"), f"'{entry.blade}', an imported blade", "a blade with profiles")
     _scenes_are_run(settings)
     for key, bounds in entry.variables.items():
