@@ -172,6 +172,18 @@ def test_hub_and_tip_are_cut(settings_with, config_copy):
     np.testing.assert_allclose(radii("Whole", 1.0)[0], 0.45, rtol=1e-9)
 
 
+def test_a_meridian_has_one_radius_at_every_z(settings_with, config_copy):
+    """Next to the blade: ducts may run back."""
+    duct = [(0.5, 0.3), (0.2, 0.16), (0.0, 0.16), (-0.2, 0.16), (-0.15, 0.1)]
+    (config_copy / "sections/hub.curve").write_text("".join(f"{r} 0 {z}\n" for z, r in duct))
+    (config_copy / "sections/back.curve").write_text("".join(f"{0.16 + z} 0 {z}\n" for z in (-0.2, 0.01, 0.0, 0.2)))
+    shape = settings_with(FAN, hub="sections/hub.curve").blades["Fan"].definition.build(round_edges=True)
+    points = shape.position(SHARES, np.zeros(9), np.zeros(9))
+    np.testing.assert_allclose(np.hypot(points[:, 0], points[:, 1]), 0.16, rtol=1e-9)
+    with pytest.raises(ConfigError, match=r"blade Back: the meridian runs back in z near z = "):
+        settings_with(FAN, others={"Back": {"sections": "sections/fan.csv", **ENTRY, "hub": "sections/back.curve"}})
+
+
 def test_a_geometry_file_and_a_rule_give_the_same_blade(tmp_path):
     shape = definition_of(turbine(), hub=((0.0, 0.301),), tip=((-0.1, 0.358), (0.1, 0.356)), pressure_forward=False)
     assert shape_from_plain(to_plain(shape)) == shape
@@ -314,6 +326,8 @@ def test_a_broken_file_is_one_line(settings_with, text, name, message):
         ({"tip": {"radius_m": 0.1}}, r"the tip, at a radius of 0\.1 m, does not lie above the hub"),
         ({"tip": "sections/none.curve"}, r"Fan\.tip: sections/none\.curve cannot be read"),
         ({"hub": {}}, r"Fan\.hub: found none of radius_m and cone_zr_m"),
+        ({"hub": {"cone_zr_m": [[0, 0.15], [0, 0.16]]}}, r"Fan\.hub\.cone_zr_m: found the same z twice"),
+        ({"hub": "sections/fan.csv"}, r"Fan\.hub: sections/fan\.csv:1: value 1: 'section' is not a number"),
         ({"sections": "sections/none.csv"}, r"Fan\.sections: there is no file sections/none\.csv"),
         ({"sweep_lean": []}, r"Fan\.sweep_lean: found \[\]; allowed: "),
         ({"chordwise_sweep_deg": 1.0, "stacking_table": "a.csv"}, r"at most one of stacking_table, sweep_lean, chordwise"),
