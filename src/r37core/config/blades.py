@@ -45,7 +45,7 @@ from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_fie
 
 
 class GivenShape(Section):
-    """What gives a shape: profiles, or another blade."""
+    """Source of a shape: profiles, or another blade."""
 
     profiles: FileName | LeftOut = left_out("Profile table (CSV)")
     base: Name | LeftOut = left_out("Blade that gives profiles or sections, sweep, lean, contact, kinematics and material")
