@@ -12,13 +12,14 @@ from typing import Any, ClassVar, Self, TypeVar
 
 from r37core.base.varied_number import with_value
 from r37core.config import BladeSettings, ConfigError, Document, command_line_document, read_document
-from r37core.config.blades import SHARES, blade_settings
+from r37core.config.blades import blade_settings
 from r37core.config.families import expanded_families
 from r37core.config.messages import did_you_mean, single_line
 from r37core.config.reading import blades_of_file
 from r37core.config.scenes import SceneEntry, checked_scenes
 from r37core.config.section import Without
 from r37core.config.section_laws import SECTION_KEYS
+from r37core.config.shape_keys import SHARES
 
 from .arguments import plain_value
 from .call_configuration import Configuration, read_configuration

@@ -45,6 +45,7 @@ KINDS = {
     "BladeEntry": "A blade by its shape, or of a base",
     "MeshEntry": "A blade by a mesh",
     "MatricesEntry": "A blade by matrices",
+    "SectionsEntry": "A blade by sections",
 }
 """Model of an entry -> heading of its keys, where a file has several kinds of entries."""
 

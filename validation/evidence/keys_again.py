@@ -10,6 +10,9 @@ from .allowed_values import AllowedValues, Schema
 _FEWEST = 2
 """Common keys from which on a table refers to another one."""
 
+_FEWEST_MORE = 4
+"""Further common keys from which on it refers to one more."""
+
 
 @dataclass(frozen=True)
 class Shown:
@@ -51,12 +54,14 @@ class ShownModels:
         alike = next((shown for shown in of_file if _descriptions(shown.model) == _descriptions(model)), None)
         if alike:
             return Again(f"keys of {alike.place}", section=f"section of {_other_values(model, alike.model, values)}")
-        likest = max(of_file, key=lambda shown: len(_common(model, shown.model)), default=None)
-        common = _common(model, likest.model) if likest else []
-        if likest is None or len(common) < _FEWEST:
-            return Again(own=list(model["properties"]))
-        names = ", ".join(f"`{key}`" for key in common)
-        return Again(f"keys {names} of {likest.place}", [key for key in model["properties"] if key not in common])
+        own, texts, fewest = list(model["properties"]), [], _FEWEST
+        while True:
+            common = {shown.place: [key for key in _common(model, shown.model) if key in own] for shown in of_file}
+            likest = max(common, key=lambda place: len(common[place]), default="")
+            if not likest or len(common[likest]) < fewest:
+                return Again(", the ".join(texts), own)
+            texts.append(f"keys {', '.join(f'`{key}`' for key in common[likest])} of {likest}")
+            own, fewest = [key for key in own if key not in common[likest]], _FEWEST_MORE
 
 
 def _descriptions(model: Schema) -> Mapping[str, object]:

@@ -1,7 +1,7 @@
 # Blade shape -> mesh -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
 # a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there. A member of a sample whose blade
 # is another one has a model of its own, by the same rules.
-from r37core.blade.definition import BladeDefinition
+from r37core.blade.definition import Shape
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 
 # memory of a reduced model (MB): half more than was measured
@@ -14,7 +14,7 @@ use rule step as geometry with:
     log:
         "<logs>/{member}{blade}/geometry.log",
     wildcard_constraints:
-        blade=imported.pattern(BladeDefinition),
+        blade=imported.pattern(Shape),
     # an impossible shape should stop the run before any long work
     priority: 10
     params:
@@ -30,7 +30,7 @@ use rule step as mesh with:
     log:
         "<logs>/{member}{blade}/mesh.log",
     wildcard_constraints:
-        blade=imported.pattern(BladeDefinition),
+        blade=imported.pattern(Shape),
     # a mesh or model that fails should do so before the first simulation
     priority: 2
     params:
@@ -74,7 +74,7 @@ use rule step as reduced_model with:
     log:
         "<logs>/{member}{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
-        blade=imported.pattern(BladeDefinition, MeshSource),
+        blade=imported.pattern(Shape, MeshSource),
     priority: 2
     resources:
         mem_mb=memory_of_model,

@@ -113,9 +113,8 @@ def stacking_rows(rows: Sequence[dict]) -> tuple[tuple[float, float, float], ...
     return table
 
 
-def check_sweep(stacking: Sequence[tuple[float, float, float]], profiles: Sequence[ProfileParameters]) -> None:
-    """Raise BladeShapeError for rows of sweep and lean that shift a profile by more than the blade is high."""
-    height = profiles[-1].inlet_radius - profiles[0].inlet_radius
+def check_sweep(stacking: Sequence[tuple[float, float, float]], height: float) -> None:
+    """Raise BladeShapeError for rows of sweep and lean that shift a profile by more than the `height` of the blade (m)."""
     for span, sweep, _ in stacking:
         if abs(sweep) > height:
             raise BladeShapeError(

@@ -13,6 +13,7 @@ import numpy as np
 import scipy
 
 from .profile import BladeShapeError, Profile, area_and_centroid
+from .section_curve import SectionCurve
 
 _TOLERANCE = 1e-9  # m
 _POINTS_PER_SIDE = 400
@@ -140,8 +141,8 @@ def sweep_and_lean(spans: np.ndarray, table: np.ndarray) -> Placement:
     return Placement(sweep, -lean)
 
 
-def chordwise_sweep(profiles: Sequence[Profile], angle: float) -> Placement:
-    """Placement of the profiles (hub to tip) for a chordwise sweep by `angle` (rad), positive forward.
+def chordwise_sweep(profiles: Sequence[Profile] | Sequence[SectionCurve], angle: float) -> Placement:
+    """Placement of profiles or sections (hub to tip) for a chordwise sweep by `angle` (rad), positive forward.
 
     Source: section 2 of the benchmark: axial sweep -tan(angle) (r - r_hub) cos(stagger) and lean
     arcsin(tan(angle) (r - r_hub)/r sin(stagger)), r the radius of the profile's centre of area.

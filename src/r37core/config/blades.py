@@ -12,8 +12,8 @@ from typing import Annotated, Any
 from pydantic import Discriminator, Field, RootModel, Tag, model_validator
 
 from r37core.base.io import TextFileError
-from r37core.blade.definition import BladeDefinition
-from r37core.blade.profile import BladeShapeError, ProfileParameters
+from r37core.blade.definition import BladeDefinition, Shape
+from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, read_profile_table, stacking_rows, stacking_table_rows
 from r37core.blade.section_changes import SectionChangeError
 from r37core.blade.sense import check_profile_sense
@@ -38,49 +38,25 @@ from .declaring import si_fields, si_form
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
-from .section_laws import SECTION_KEYS, Angles, Shares, changed_keys, profiles_by_laws, section_laws
-from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, is_family, vary_field
-
-SHIFTS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
-"""Keys of the ways to give sweep and lean, of which a blade has at most one."""
-
-SHARES = ("sweep_percent", "lean_percent")
-"""Keys that keep a share of a table of sweep and lean."""
-
-TableShare = Annotated[float, Field(ge=-1000, le=1000)]
+from .section_laws import SECTION_KEYS, changed_keys, section_laws, shape_by_laws
+from .sections_entry import SectionsEntry
+from .shape_keys import SHARES, SHIFTS, ShapeKeys
+from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
 
 
-class SweepLean(Section):
-    """One row of sweep and lean."""
+class GivenShape(Section):
+    """Source of a shape: profiles, or another blade."""
 
-    span_percent: float = Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")
-    sweep_cm: float = Field(ge=-100, le=100, description="Sweep, positive downstream")
-    lean_deg: float = Field(gt=-90, lt=90, description="Lean, positive in the direction of rotation")
+    profiles: FileName | LeftOut = left_out("Profile table (CSV)")
+    base: Name | LeftOut = left_out("Blade that gives profiles or sections, sweep, lean, contact, kinematics and material")
 
 
-class BladeEntry(Section):
+class BladeEntry(ShapeKeys, GivenShape):
     """One blade: `profiles` with a material, or a `base` to start from, and at most one way to give sweep and lean.
 
     With `vary` or `designs` it is a family, many blades that differ in some numbers.
     """
 
-    profiles: FileName | LeftOut = left_out("Profile table (CSV)")
-    base: Name | LeftOut = left_out("Blade that gives profiles, sweep, lean, contact, kinematics and material")
-    stacking_table: FileName | LeftOut = left_out("Table (CSV) of sweep and lean with a column `blade`")
-    sweep_lean: Annotated[list[SweepLean], Field(min_length=2)] | LeftOut = left_out(
-        "Sweep and lean in this file, one entry per row"
-    )
-    chordwise_sweep_deg: Annotated[float, Field(gt=-60, lt=60)] | LeftOut = left_out(
-        "Constant chordwise sweep in place of a table, positive forward"
-    )
-    sweep_percent: TableShare | LeftOut = left_out("Share of the sweep in the table that is kept")
-    lean_percent: TableShare | LeftOut = left_out("Share of the lean in the table that is kept")
-    stagger_deg: Angles | LeftOut = left_out(
-        "Angle added to the stagger: a number, values at hub and tip, or a table over the span"
-    )
-    camber_deg: Angles | LeftOut = left_out("Angle added to the camber kappa_ic - kappa_oc")
-    chord_percent: Shares | LeftOut = left_out("Share of the chord that is kept, on the same cones")
-    thickness_percent: Shares | LeftOut = left_out("Share of all thicknesses that is kept")
     contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}; by default that of the base, without one patches")
     kinematics: Kinematics | LeftOut = left_out(f"{KINEMATICS_IN_WORDS}; by default that of the base, without one quadratic")
     sense_check: bool = Field(default=True, description="Whether a blade whose trailing edge leads is refused")
@@ -90,30 +66,27 @@ class BladeEntry(Section):
     designs: DesignTable = designs_field("blade")
 
     @model_validator(mode="after")
-    def _one_shift(self) -> BladeEntry:
-        is_family(self)
-        shifts = [key for key in SHIFTS if getattr(self, key) is not None]
-        if len(shifts) > 1:
-            raise refused((), " and ".join(shifts), f"at most one of {', '.join(SHIFTS)}")
+    def _has_one_shape(self) -> BladeEntry:
         if self.profiles is not None and self.base is not None:
             raise refused((), "both profiles and base", "one of them")
         if self.profiles is None and self.base is None:
-            raise refused((), "neither profiles nor base", "one of them, or a mesh or matrices of another program")
+            raise refused((), "neither profiles nor base", "one of them, or sections, or a mesh or matrices of another program")
         return self
 
 
 def _kind(value: Any) -> str:
     """Which model an entry is for: what it is given by decides."""
-    if isinstance(value, BladeEntry | MeshEntry | MatricesEntry):
+    if isinstance(value, BladeEntry | MeshEntry | MatricesEntry | SectionsEntry):
         return type(value).__name__
-    entry = value if isinstance(value, dict) else {}
-    return "MeshEntry" if "mesh" in entry else "MatricesEntry" if "matrices" in entry else "BladeEntry"
+    kinds = {"mesh": "MeshEntry", "matrices": "MatricesEntry", "sections": "SectionsEntry"}
+    return next((kind for key, kind in kinds.items() if isinstance(value, dict) and key in value), "BladeEntry")
 
 
 Entry = Annotated[
     Annotated[BladeEntry, Tag("BladeEntry")]
     | Annotated[MeshEntry, Tag("MeshEntry")]
-    | Annotated[MatricesEntry, Tag("MatricesEntry")],
+    | Annotated[MatricesEntry, Tag("MatricesEntry")]
+    | Annotated[SectionsEntry, Tag("SectionsEntry")],
     Discriminator(_kind),
 ]
 
@@ -126,7 +99,7 @@ class Blades(RootModel[ByName[Entry]]):
 class BladeSettings:
     """One blade: what gives its shape, its material (none for matrices), contact, kinematics, own regions of stress."""
 
-    definition: BladeDefinition | MeshSource | MatricesSource
+    definition: Shape | MeshSource | MatricesSource
     material: fem_material.Material | None
     contact: str
     kinematics: str
@@ -134,8 +107,8 @@ class BladeSettings:
 
     @property
     def has_profiles(self) -> bool:
-        """True if it is given by profiles, so that it can have another mesh."""
-        return isinstance(self.definition, BladeDefinition)
+        """True if it is given by profiles or sections, so that it can have another mesh."""
+        return isinstance(self.definition, Shape)
 
     @property
     def is_matrices(self) -> bool:
@@ -217,17 +190,31 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
                 place = link, key
                 shift = _shift(link, key, getattr(entries[link], key), root, document)
         shift = _scaled(link, entries[link], shift, document)
-    with readable_table(entry.profiles, (first, "profiles"), document):
-        profiles = tuple(read_profile_table(root / entry.profiles))
-        if all(entries[link].sense_check for link in chain):
-            check_profile_sense(profiles[-1])
+    shape = replace(_shape(chain, entries, root, document), name=name, **shift)
     for link in chain:
-        profiles = _changed(link, entries[link], profiles, document)
+        shape = _changed(link, entries[link], shape, document)
     try:
-        check_sweep(shift.get("stacking") or (), profiles)
+        check_sweep(shift.get("stacking") or (), shape.height)
     except BladeShapeError as error:
         raise document.error(place, f"blade {name}: {error}") from None
-    return BladeSettings(BladeDefinition(name, profiles, **shift), material, contact, kinematics)
+    return BladeSettings(shape, material, contact, kinematics)
+
+
+def _shape(chain: Sequence[str], entries: Mapping[str, Any], root: Path, document: Document) -> Shape:
+    """Profiles or sections of the first entry of a chain of bases, whose sense each of them may leave unchecked."""
+    first, check_sense = chain[0], all(entries[link].sense_check for link in chain)
+    entry = entries[first]
+    if isinstance(entry, SectionsEntry):
+        with readable_table(entry.sections, (first, "sections"), document):
+            try:
+                return entry.definition(first, root, check_sense)
+            except ImportRefused as error:
+                raise document.error((first, error.key or "sections"), str(error)) from None
+    with readable_table(entry.profiles, (first, "profiles"), document):
+        profiles = tuple(read_profile_table(root / entry.profiles))
+        if check_sense:
+            check_profile_sense(profiles[-1])
+    return BladeDefinition(first, profiles)
 
 
 def link_with(key: str, chain: Sequence[str], entries: Mapping[str, Any]) -> str:
@@ -235,12 +222,10 @@ def link_with(key: str, chain: Sequence[str], entries: Mapping[str, Any]) -> str
     return next((link for link in reversed(chain) if getattr(entries[link], key) is not None), chain[-1])
 
 
-def _changed(
-    blade: str, entry: BladeEntry, profiles: tuple[ProfileParameters, ...], document: Document
-) -> tuple[ProfileParameters, ...]:
-    """The profiles, which have the changes of the base, with those that the entry of a blade makes on top."""
+def _changed(blade: str, entry: ShapeKeys, shape: Shape, document: Document) -> Shape:
+    """The shape, which has the changes of the base, with those that the entry of a blade makes on top."""
     try:
-        return profiles_by_laws(profiles, section_laws(entry))
+        return shape_by_laws(shape, section_laws(entry))
     except SectionChangeError as error:
         keys = changed_keys(error)
         raise document.error((blade, keys[0]), f"blade {blade}: {' and '.join(keys)}: {error}") from None
@@ -288,7 +273,7 @@ def _shift(blade: str, key: str, value: Any, root: Path, document: Document) -> 
     return {"stacking": rows, "chordwise_sweep_angle": None}
 
 
-def _scaled(blade: str, entry: BladeEntry, shift: dict[str, Any], document: Document) -> dict[str, Any]:
+def _scaled(blade: str, entry: ShapeKeys, shift: dict[str, Any], document: Document) -> dict[str, Any]:
     """The shift with only a share of its table's sweep and lean."""
     if entry.sweep_percent is None and entry.lean_percent is None:
         return shift

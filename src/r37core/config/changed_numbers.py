@@ -10,24 +10,24 @@ from pydantic import BaseModel, ValidationError
 from r37core.base.units import si_name
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber, numbers_in, with_value
 from r37core.base.yaml_file import KeyPath
-from r37core.blade.definition import BladeDefinition
-from r37core.blade.profile import BladeShapeError, ProfileParameters
+from r37core.blade.definition import Shape
+from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep
 from r37core.blade.section_changes import SectionChangeError
 from r37core.contact.scene import Scene
 
 from .blade_sections import MaterialSection
-from .blades import SHARES, BladeEntry, BladeSettings, SweepLean
+from .blades import BladeEntry, BladeSettings
 from .declaring import si_fields
 from .document import Document
 from .messages import did_you_mean, explain_all, single_line
 from .scenes import SceneEntry
 from .section import Section, plain
-from .section_laws import END_KEYS, SECTION_KEYS, changed_keys, neutral_value, profiles_by_laws, section_laws
+from .section_laws import END_KEYS, SECTION_KEYS, changed_keys, neutral_value, section_laws, shape_by_laws
+from .shape_keys import SHARES, ShapeKeys, SweepLean
 from .varied import FAMILY_KEYS
 
 E = TypeVar("E", bound=Section)
-Profiles = tuple[ProfileParameters, ...]
 Stacking = tuple[tuple[float, float, float], ...] | None
 
 _MATERIAL = "material."
@@ -69,7 +69,9 @@ def blade_number(blade: BladeSettings, key: str) -> float | None:
         value = math.inf if blade.material is None else getattr(blade.material, si_name(key.removeprefix(_MATERIAL))[0])
         return value if math.isfinite(value) else None
     shape = blade.definition
-    if not isinstance(shape, BladeDefinition) or (key in SHARES and shape.stacking is None):
+    if not isinstance(shape, Shape) or (key in SHARES and shape.stacking is None):
+        return None
+    if key in (*SECTION_KEYS, *END_KEYS) and si_name(key.split(".")[0])[0] not in shape.changes:
         return None
     if key in ("sweep_cm", "lean_deg") and shape.chordwise_sweep_angle is not None:
         raise ValueError(f"{key} with {shape.name}, whose sweep is chordwise")
@@ -118,14 +120,14 @@ def changed_blade(blade: BladeSettings, changes: Mapping[str, float]) -> BladeSe
             other.check_strengths()
         except ValueError as error:
             raise ImpossibleValueError(BLADE, next(key for key in changes if key in MATERIAL_KEYS), str(error)) from None
-    if shape and isinstance(blade.definition, BladeDefinition):
-        profiles = _changed_profiles(blade.definition.profiles, (entry, entry_with(_ON_TOP, ends)), shape)
+    if shape and isinstance(blade.definition, Shape):
+        definition = _changed_shape(blade.definition, (entry, entry_with(_ON_TOP, ends)), shape)
         stacking = _changed_stacking(blade.definition.stacking, entry, changes)
         try:
-            check_sweep(stacking or (), profiles)
+            check_sweep(stacking or (), definition.height)
         except BladeShapeError as error:
             raise ImpossibleValueError(BLADE, next((key for key in shape if "sweep" in key), shape[0]), str(error)) from None
-        changed = replace(changed, definition=replace(blade.definition, profiles=profiles, stacking=stacking))
+        changed = replace(changed, definition=replace(definition, stacking=stacking))
     return changed
 
 
@@ -137,19 +139,19 @@ def changed_pair(blade: BladeSettings, scene: SceneEntry, values: Mapping[Varied
     return changed_blade(blade, blade_values), entry_with(scene, scene_values).scene()
 
 
-def _changed_profiles(profiles: Profiles, entries: Iterable[BladeEntry], keys: Iterable[str]) -> Profiles:
-    """The profiles with changes of entries on top of each other, for which `keys` are to blame."""
+def _changed_shape(shape: Shape, entries: Iterable[ShapeKeys], keys: Iterable[str]) -> Shape:
+    """The shape with changes of entries on top of each other, for which `keys` are to blame."""
     try:
         for entry in entries:
-            profiles = profiles_by_laws(profiles, section_laws(entry))
+            shape = shape_by_laws(shape, section_laws(entry))
     except SectionChangeError as error:
         blamed = [key for key in keys if key.split(".")[0] in changed_keys(error)]
         text = str(error) if len(blamed) == 1 else f"{' and '.join(blamed)}: {error}"
         raise ImpossibleValueError(BLADE, blamed[0], text) from None
-    return profiles
+    return shape
 
 
-def _changed_stacking(stacking: Stacking, entry: BladeEntry, changes: Mapping[str, float]) -> Stacking:
+def _changed_stacking(stacking: Stacking, entry: ShapeKeys, changes: Mapping[str, float]) -> Stacking:
     """The table of sweep and lean with shares of it kept, and a straight line over the span added."""
     sweep_cm, lean_deg = (changes.get(key, 0.0) for key in _LINE)
     _checked(SweepLean, {"span_percent": 100.0, "sweep_cm": sweep_cm, "lean_deg": lean_deg}, BLADE)

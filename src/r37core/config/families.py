@@ -16,7 +16,7 @@ from r37core.base.varied_number import BLADE, SCENE, numbers_in
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import read_designs
 
-from .blades import SHARES, BladeEntry, readable_table
+from .blades import BladeEntry, readable_table
 from .changed_numbers import MATERIAL_KEYS, ImpossibleValueError, entry_with
 from .document import ConfigError, Document
 from .imported_entry import MatricesEntry, MeshEntry
@@ -24,14 +24,16 @@ from .messages import did_you_mean, single_line
 from .scenes import SceneEntry
 from .section import check_name, check_names, plain
 from .section_laws import END_KEYS, SECTION_KEYS
+from .sections_entry import SectionsEntry
+from .shape_keys import SHARES
 from .varied import FAMILY_KEYS, LARGEST_FAMILY, Variation, is_family
 
-AnyEntry = BladeEntry | MeshEntry | MatricesEntry | SceneEntry
+AnyEntry = BladeEntry | MeshEntry | MatricesEntry | SectionsEntry | SceneEntry
 """One blade or scene, or one family."""
 
 E = TypeVar("E", bound=AnyEntry)
 
-_KINDS: dict[Any, str] = {BladeEntry: BLADE, SceneEntry: SCENE}
+_KINDS: dict[Any, str] = {BladeEntry: BLADE, SectionsEntry: BLADE, SceneEntry: SCENE}
 """Entries that may be a family, and what they are called."""
 
 VARIED = ("chordwise_sweep_deg", *SHARES, *SECTION_KEYS, *END_KEYS, *MATERIAL_KEYS)
@@ -184,10 +186,10 @@ def _check_varies(key: str, family: str, entry: Any, design: str, document: Docu
     first = key.split(".")[0]
     if first in type(entry).model_fields and first not in FAMILY_KEYS:
         return
-    known = VARIED if isinstance(entry, BladeEntry) else tuple(numbers_in(plain(entry)))
+    known = VARIED if isinstance(entry, BladeEntry | SectionsEntry) else tuple(numbers_in(plain(entry)))
     hint = did_you_mean(key, known)
     for model, kind in _KINDS.items():
-        if first in model.model_fields and not isinstance(entry, model):
+        if first in model.model_fields and kind != _kind(entry):
             search = f", in a search as scene.{key}" if model is SceneEntry else ""
             hint = f" (a number of a {kind} varies in {kind}s.yaml{search})"
     raise document.error(

@@ -1,14 +1,15 @@
 """Keys of blades.yaml that change the profiles: a number, its values at hub and tip, or a table over the span."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag, create_model
 
 from r37core.base.units import si_name
-from r37core.blade.profile import BladeShapeError, ProfileParameters
+from r37core.blade.definition import Shape
+from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_spans
-from r37core.blade.section_changes import SectionChangeError, SpanLaw, changed_profiles
+from r37core.blade.section_changes import SectionChangeError, SpanLaw
 
 from .section import Section
 
@@ -76,9 +77,9 @@ def span_law(key: str, law: Any) -> SpanLaw:
     return SpanLaw(spans, tuple(row.value * factor for row in law))
 
 
-def profiles_by_laws(profiles: Sequence[ProfileParameters], laws: Mapping[str, SpanLaw]) -> tuple[ProfileParameters, ...]:
-    """The profiles, changed by laws of SECTION_KEYS. Raises SectionChangeError for impossible ones and for those that cross."""
-    return changed_profiles(profiles, {si_name(key)[0]: law for key, law in laws.items()})
+def shape_by_laws(shape: Shape, laws: Mapping[str, SpanLaw]) -> Shape:
+    """The shape, changed by laws of SECTION_KEYS. Raises SectionChangeError for impossible profiles and those that cross."""
+    return shape.changed({si_name(key)[0]: law for key, law in laws.items()})
 
 
 def changed_keys(error: SectionChangeError) -> list[str]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber
-from r37core.blade.definition import BladeDefinition
+from r37core.blade.definition import Shape
 from r37core.config import Settings
 from r37core.config.families import Family
 from r37core.plans import paths
@@ -61,7 +61,7 @@ class Families:
         return {
             name: blade.material.density
             for name, blade in blades.items()
-            if blade.material is not None and isinstance(blade.definition, BladeDefinition)
+            if blade.material is not None and isinstance(blade.definition, Shape)
         }
 
     @cached_property

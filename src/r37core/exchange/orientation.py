@@ -80,7 +80,7 @@ class Orientation:
     def to_blade(self, mesh: RawMesh) -> RawMesh:
         """The mesh in metres and the blade's frame. Raises ImportRefused for a blade of no plausible size or place."""
         points = self.points_to_blade(mesh.points)
-        self._check(points)
+        self.check_place(points)
         return replace(mesh, points=points, blocks=self._mirrored(mesh.blocks))
 
     def contact_nodes_to_blade(self, points: np.ndarray) -> np.ndarray:
@@ -131,7 +131,8 @@ class Orientation:
             return blocks
         return {name: nodes[:, ELEMENTS[name].mirrored] for name, nodes in blocks.items()}
 
-    def _check(self, points: np.ndarray) -> None:
+    def check_place(self, points: np.ndarray) -> None:
+        """Raise ImportRefused where a blade at `points` (m), shape (n, 3), in its frame has no plausible size or place."""
         radius = np.hypot(points[:, 0], points[:, 1])
         span = float(np.ptp(radius))
         sizes = " x ".join(f"{size:.3g}" for size in np.ptp(points, axis=0))

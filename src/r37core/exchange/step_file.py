@@ -11,7 +11,7 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from r37core.base.io import atomic_write
-from r37core.blade.blade_surface import Blade
+from r37core.blade.blade_map import BladeMap
 from r37core.mesh.generate import quiet_gmsh
 
 _SPAN = np.linspace(0.0, 1.0, 33)
@@ -33,7 +33,7 @@ _SEWING = 1e-3  # mm
 _DEGREE = 3
 
 
-def write_step(blade: Blade, file: Path | str) -> None:
+def write_step(blade: BladeMap, file: Path | str) -> None:
     """Write the blade as one closed solid, in mm, in the blade's frame.
 
     Each face is the tensor-product cubic spline through points of the blade, with the same knots along common edges.
@@ -66,7 +66,7 @@ def _nothing_printed() -> Iterator[None]:
         os.close(nowhere)
 
 
-def _add_face(blade: Blade, axes: Sequence[np.ndarray]) -> None:
+def _add_face(blade: BladeMap, axes: Sequence[np.ndarray]) -> None:
     """Add the B-spline surface through the blade's points on a grid of chord, span and thickness."""
     chord, span, thickness = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
     u, v = (axis for axis in axes if len(axis) > 1)

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from r37core.base.plain import to_plain
 from r37core.base.speeds import exact_text
-from r37core.blade.definition import BladeDefinition
+from r37core.blade.definition import Shape
 from r37core.config import Settings, si_fields
 from r37core.config.section import ExtensionSection, LeftOut, Rpm, Section, Unique
 from r37core.config.speed_section import refuse_both_units, word_or_speeds
@@ -122,7 +122,7 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     return {
         EXPORTED_MESH: [{"blade": blade, "format": name} for blade in imported.meshed_blades for name in formats],
         EXPORTED_MODES: paths.of("blade", imported.meshed_blades),
-        EXPORTED_SURFACE: paths.of("blade", imported.given_by(BladeDefinition)),
+        EXPORTED_SURFACE: paths.of("blade", imported.given_by(Shape)),
         EXPORTED_MATRICES: paths.of("blade", settings.blades),
         EXPORTED_STRESS: paths.run_keys(sweep.runs_with("stress")),
     }

@@ -9,7 +9,7 @@ from pathlib import Path
 import gmsh
 import numpy as np
 
-from r37core.blade.blade_surface import Blade
+from r37core.blade.blade_map import BladeMap
 
 from .blade_mesh import BladeMesh, parametric_node_sets
 
@@ -19,7 +19,7 @@ _FROM_GMSH = [0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11]
 _COUNT_TOLERANCE = 0.02
 
 
-def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_file: Path | None = None) -> BladeMesh:
+def generate_mesh(blade: BladeMap, nodes: int, layers: int, tip_elements: int, msh_file: Path | None = None) -> BladeMesh:
     """Mesh a blade with about `nodes` nodes, `layers` wedges through the thickness and `tip_elements` along the tip.
 
     With `msh_file` the mapped mesh is also written in gmsh's own format, with a physical group for every node set.
@@ -37,6 +37,8 @@ def generate_mesh(blade: Blade, nodes: int, layers: int, tip_elements: int, msh_
         tags = tags[order]
         plane = coordinates.reshape(-1, 3)[order]
         parameters = _snapped(plane / np.array([chord_length, span_length, 1.0]) - np.array([0.0, 0.0, 1.0]))
+        # elements are the right way out where the third parameter runs with the angle about the axis
+        parameters[:, 2] *= blade.thickness_sign
         _, element_nodes = gmsh.model.mesh.getElementsByType(_PRISM15)
         elements = np.searchsorted(tags, element_nodes).reshape(-1, 15)[:, _FROM_GMSH]
         chord, span, thickness = parameters.T

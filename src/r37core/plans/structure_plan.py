@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from r37core.base.plain import to_plain
-from r37core.blade.definition import BladeDefinition
+from r37core.blade.definition import Shape
 from r37core.config import Settings
 from r37core.config.settings import location_of_contact
 from r37core.exchange.importing.source import MatricesSource, MeshSource, matrix_files, mesh_files
@@ -33,7 +33,7 @@ class Structure:
     def definition(self, wildcards: Any) -> Any:
         """Shape of a blade."""
         definition, (folder, name) = self._samples.blade(wildcards).definition, folder_and_name(wildcards)
-        if folder and isinstance(definition, BladeDefinition):
+        if folder and isinstance(definition, Shape):
             # the name is for messages
             definition = replace(definition, name=f"{wildcards.blade}, {f'member {name} of ' if name else ''}{folder}")
         return to_plain(definition)
@@ -81,21 +81,21 @@ class Imported:
 
     settings: Settings
 
-    def given_by(self, *kinds: type) -> list[str]:
+    def given_by(self, *kinds: Any) -> list[str]:
         """Names of the blades that are given in one of these ways."""
         return [name for name, blade in self.settings.blades.items() if isinstance(blade.definition, kinds)]
 
     @property
     def meshed_blades(self) -> list[str]:
         """Blades that have a mesh, ours or another program's."""
-        return self.given_by(BladeDefinition, MeshSource)
+        return self.given_by(Shape, MeshSource)
 
     @property
     def blades(self) -> list[str]:
         """Blades of other programs, by a mesh or by matrices."""
         return self.given_by(MeshSource, MatricesSource)
 
-    def pattern(self, *kinds: type) -> str:
+    def pattern(self, *kinds: Any) -> str:
         """Pattern of the blades that are given in one of these ways, for a rule's wildcard; it fits nothing without any."""
         return "|".join(map(re.escape, self.given_by(*kinds))) or "(?!)"
 

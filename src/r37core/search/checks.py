@@ -2,15 +2,15 @@
 
 from r37core.base.varied_number import SCENE, VariedNumber
 from r37core.base.yaml_file import KeyPath
-from r37core.blade.definition import BladeDefinition
+from r37core.blade.definition import Shape
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.profile_tables import check_sweep, stacking_rows
 from r37core.config import ConfigError, Settings, operating_range
-from r37core.config.blades import SHARES, BladeEntry
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, check_known, entry_with
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.document import Document
 from r37core.config.messages import did_you_mean, single_line
+from r37core.config.shape_keys import SHARES, ShapeKeys
 from r37core.rom.naming import mode_names
 
 from .designs import SearchDesigns, choice_of, designs_of, is_asked
@@ -27,7 +27,7 @@ def search_can_be_run(settings: Settings) -> None:
     if entry.blade not in settings.blade_names:
         raise document.refusal(("search", "blade"), f"'{entry.blade}'", f"one that is run ({', '.join(settings.blade_names)})")
     designs = designs_of(settings)
-    if not isinstance(settings.designs.entries[entry.blade], BladeEntry):
+    if not isinstance(settings.designs.entries[entry.blade], ShapeKeys):
         raise document.refusal(("search", "blade"), f"'{entry.blade}', an imported blade", "a blade with profiles")
     _scenes_are_run(settings)
     for key, bounds in entry.variables.items():
@@ -39,7 +39,7 @@ def search_can_be_run(settings: Settings) -> None:
     _has_values(designs, document, ("search", "variables"), {key: lowest for key, (lowest, _) in entry.variables.items()})
     table = settings.blades[entry.blade].definition
     for key in SHARES:
-        if key in entry.variables and isinstance(table, BladeDefinition) and table.stacking is None:
+        if key in entry.variables and isinstance(table, Shape) and table.stacking is None:
             without = f"{key} of '{entry.blade}', which has no table of sweep and lean"
             raise document.refusal(("search", "variables", key), without, "a blade with one, or other variables")
     _operation_is_known(settings)
@@ -74,8 +74,8 @@ def _has_values(designs: SearchDesigns, document: Document, path: KeyPath, value
     try:
         design = designs.varied_entry("of the search", values)
         start = designs.blade("of the search", None).definition
-        if design.sweep_lean and isinstance(start, BladeDefinition):
-            check_sweep(stacking_rows([row.model_dump() for row in design.sweep_lean]), start.profiles)
+        if design.sweep_lean and isinstance(start, Shape):
+            check_sweep(stacking_rows([row.model_dump() for row in design.sweep_lean]), start.height)
     except (ConfigError, BladeShapeError) as error:
         raise document.error(path, str(error)) from None
 

@@ -6,10 +6,12 @@ from functools import cached_property
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, values_of
 from r37core.config import BladeSettings, Settings, operating_range, plain
-from r37core.config.blades import SHARES, BladeEntry, blade_settings
+from r37core.config.blades import BladeEntry, blade_settings
 from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
 from r37core.config.families import design_entry
 from r37core.config.section_laws import SECTION_KEYS, neutral_value
+from r37core.config.sections_entry import SectionsEntry
+from r37core.config.shape_keys import SHARES, ShapeKeys
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
 from r37core.plans.samples import NOMINAL, Member, Pair, Sample, path_part
 
@@ -42,10 +44,10 @@ class SearchDesigns:
         return entry
 
     @property
-    def start(self) -> BladeEntry:
+    def start(self) -> BladeEntry | SectionsEntry:
         """The entry of blades.yaml that all designs have in common."""
         entry = self.settings.designs.entries[self.entry.blade]
-        assert isinstance(entry, BladeEntry)
+        assert isinstance(entry, BladeEntry | SectionsEntry)
         return entry
 
     @property
@@ -95,7 +97,7 @@ class SearchDesigns:
         """The part `member` of the paths of a design's model: the nominal one where its blade is the start's."""
         return NOMINAL if name == START or not self.blade_varies else member_part(name)
 
-    def varied_entry(self, name: str, values: Mapping[str, float]) -> BladeEntry:
+    def varied_entry(self, name: str, values: Mapping[str, float]) -> BladeEntry | SectionsEntry:
         """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
         return design_entry(self.entry.blade, self.start, values_of(BLADE, values), name, self.settings.designs.document)
 
@@ -151,7 +153,7 @@ class SearchDesigns:
         return members
 
 
-def start_value(entry: BladeEntry, key: str) -> float | None:
+def start_value(entry: ShapeKeys, key: str) -> float | None:
     """Value of a dotted key of an entry, for a share or law that is left out one that changes nothing; None without a value."""
     first = key.split(".")[0]
     if getattr(entry, first, None) is None and (first in SECTION_KEYS or key in SHARES):

@@ -12,7 +12,7 @@ from r37core.base.io import as_list, read_json, write_json
 from r37core.base.origin import origin
 from r37core.base.plain import from_plain
 from r37core.base.varied_number import BLADE, VariedNumber
-from r37core.blade.definition import BladeDefinition
+from r37core.blade.definition import shape_from_plain
 from r37core.blade.geometry_file import read_geometry
 from r37core.exchange.step_file import write_step
 from r37core.machine_code.kept import content_digest
@@ -57,7 +57,7 @@ def shape(input: Any, output: Any, params: Any) -> None:
     refused, level = params.shape["refused"], params.mesh
     if refused is None and params.shape["definition"] is not None:
         try:
-            blade = from_plain(BladeDefinition, params.shape["definition"]).build(round_edges=params.edges == "round")
+            blade = shape_from_plain(params.shape["definition"]).build(round_edges=params.edges == "round")
             mesh = generate_mesh(blade, level["nodes"], level["layers"], level["tip_elements"])
             check_quality(mesh, mesh_quality(mesh), level["minimum_scaled_jacobian"])
             region = from_plain(RegionChoice, params.stress_region)

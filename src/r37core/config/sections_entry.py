@@ -1,0 +1,163 @@
+"""Blades in blades.yaml that are given by a file of section curves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from r37core.base.io import TextFileError
+from r37core.blade.sections_definition import SectionsDefinition
+from r37core.exchange.orientation import Orientation
+from r37core.exchange.refusal import ImportRefused
+from r37core.exchange.sections.placed import (
+    ASKED,
+    Meridians,
+    check_curves,
+    check_sections_sense,
+    check_tip,
+    fitting_rotation,
+    fitting_surface,
+    fitting_unit,
+    meridian_along,
+    placed_meridian,
+    placed_sections,
+)
+from r37core.exchange.sections.section_file import read_meridian_file, read_section_file
+from r37core.exchange.sections.section_text import SectionFile
+
+from .blade_sections import CONTACT_IN_WORDS, KINEMATICS_IN_WORDS, Contact, Kinematics, MaterialSection
+from .declaring import si_form
+from .imported_entry import LengthUnit, Oriented
+from .section import FileName, LeftOut, Section, left_out, refused
+from .shape_keys import ShapeKeys
+from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
+
+OWN = "sections"
+"""Value of hub and tip that ends the blade with its first or last section, whatever lies next to the file."""
+
+MeridianPoint = Annotated[list[Annotated[float, Field(ge=-100, le=100)]], Field(min_length=2, max_length=2)]
+
+
+class EndSurface(Section):
+    """Surface of revolution that cuts the blade: a cylinder or a cone."""
+
+    radius_m: Annotated[float, Field(ge=1e-3, le=100)] | LeftOut = left_out("Radius of a cylinder")
+    cone_zr_m: Annotated[list[MeridianPoint], Field(min_length=2, max_length=2)] | LeftOut = left_out(
+        "Two points [z, r] of a cone's straight meridian"
+    )
+
+    @model_validator(mode="after")
+    def _is_one(self) -> EndSurface:
+        if (self.radius_m is None) == (self.cone_zr_m is None):
+            raise refused((), "none of radius_m and cone_zr_m, or both", "one of them")
+        if self.cone_zr_m is not None and self.cone_zr_m[0][0] == self.cone_zr_m[1][0]:
+            raise refused(("cone_zr_m",), "the same z twice", "two points [z, r] of different z")
+        return self
+
+    def meridian(self) -> Meridians:
+        """Points (z, r) of the surface (m)."""
+        if self.cone_zr_m is not None:
+            return tuple((z, r) for z, r in self.cone_zr_m)
+        assert self.radius_m is not None
+        return ((0.0, self.radius_m),)
+
+
+End = Annotated[
+    Annotated[FileName, Tag("name")] | Annotated[EndSurface, Tag("EndSurface")],
+    Discriminator(lambda value: "EndSurface" if isinstance(value, dict | EndSurface) else "name"),
+]
+
+
+def _end(which: str, other: str) -> Any:
+    return left_out(
+        f"Surface that cuts it, a file as {other}.curve, sections (the {which}), or ?; "
+        f"by default the file's {other}, else sections"
+    )
+
+
+class SectionsEntry(ShapeKeys, Oriented):
+    """A blade given by section curves, meshed as one with profiles is; with `vary` or `designs` a family."""
+
+    sections: FileName = Field(description=".curve, .geomTurbo, or .csv with section, x, y, z")
+    length_unit: Annotated[
+        Annotated[LengthUnit, Tag("unit")] | Annotated[Literal["?"], Tag("asked")],
+        Discriminator(lambda value: "asked" if value == ASKED else "unit"),
+    ] = Field(description="Unit, or ? to ask")
+    rotation: Literal["positive", "negative", "?"] = Field(description="Sense about rotor_axis, or ? to ask")
+    hub: End | LeftOut = _end("first", "hub")
+    tip: End | LeftOut = _end("last", "shroud")
+    pressure_side: Literal["forward", "backward"] = Field(
+        default="forward", description="forward: the pressure side faces the rotation, as in a compressor"
+    )
+    material: MaterialSection
+    contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
+    kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
+    vary: Vary = vary_field("sweep_percent or material.density_kg_m3")
+    combine: Combine = COMBINE
+    designs: DesignTable = designs_field("blade")
+
+    def definition(self, name: str, root: Path, check_sense: bool) -> SectionsDefinition:
+        """The blade's definition, of files from the folder `root`.
+
+        Raises ImportRefused with the key to blame, TextFileError and BladeShapeError of the file of sections, OSError.
+        """
+        content = read_section_file(root / self.sections)
+        orientation = self._orientation(content)
+        placed = placed_sections(content, orientation)
+        definition = SectionsDefinition(name, placed.sections, pressure_forward=self.pressure_side == "forward")
+        check_curves(definition, placed.lines)
+        answers = {
+            key: f"{key}: {fitting_surface(curve)}, or {OWN}, which ends the blade with its section"
+            for key, curve in (("hub", definition.curves[0]), ("tip", definition.curves[-1]))
+            if getattr(self, key) == ASKED
+        }
+        _refuse_asked(answers)
+        ends = (self._meridian(key, own, orientation, root) for key, own in (("hub", placed.hub), ("tip", placed.tip)))
+        hub, tip = (meridian_along(end, definition.curves) for end in ends)
+        definition = SectionsDefinition(name, placed.sections, hub, tip, definition.pressure_forward)
+        definition.places()
+        check_tip(definition)
+        if check_sense:
+            check_sections_sense(definition)
+        return definition
+
+    def _orientation(self, content: SectionFile) -> Orientation:
+        """Unit and axes. Raises ImportRefused where one is asked for, with what fits, or where directions are parallel."""
+        answers: dict[str, str] = {}
+        known = si_form(
+            Orientation,
+            self,
+            length_unit=1.0 if self.length_unit == ASKED else self.length_unit,
+            rotation="positive" if self.rotation == ASKED else self.rotation,
+        )
+        known.check()
+        if self.length_unit == ASKED:
+            answers["length_unit"] = fitting_unit(content, known)
+        if self.rotation == ASKED:
+            answers["rotation"] = fitting_rotation(content.sections, known)
+        _refuse_asked(answers)
+        return known
+
+    def _meridian(self, key: str, own: Meridians, orientation: Orientation, root: Path) -> Meridians:
+        """Meridian of hub or tip, `own` where the entry leaves it to the file; ImportRefused for a file that gives none."""
+        end = getattr(self, key)
+        if end is None or end == OWN:
+            return own if end is None else None
+        if isinstance(end, EndSurface):
+            return end.meridian()
+        try:
+            return placed_meridian(read_meridian_file(root / end), orientation)
+        except TextFileError as error:
+            raise ImportRefused(f"{end}:{error.line}: {error.reason}", key) from None
+        except OSError as error:
+            allowed = f"radius_m, cone_zr_m, a file as hub.curve, {OWN}, or {ASKED}"
+            raise ImportRefused(f"{end} cannot be read: {error.strerror}; allowed: {allowed}", key) from None
+
+
+def _refuse_asked(answers: Mapping[str, str]) -> None:
+    """ImportRefused with what fits for keys that ask, if there are any."""
+    if answers:
+        raise ImportRefused(f"found '{ASKED}'; what fits: {'; '.join(answers.values())}", next(iter(answers)))

@@ -1,0 +1,366 @@
+"""Blades given by section curves: files, edges and sides, cuts at hub and tip, and what is refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import yaml
+from section_files import CHANNEL, csv_text, curve_text, fan, geomturbo_text, sections_of, turbine
+from workflow_runs import overlay
+
+import r37
+from r37core.base.plain import to_plain
+from r37core.blade.definition import shape_from_plain
+from r37core.blade.geometry_file import read_geometry, write_geometry
+from r37core.blade.profile import BladeShapeError
+from r37core.blade.section_changes import SpanLaw
+from r37core.blade.sections_definition import SectionsDefinition
+from r37core.config import ConfigError
+from r37core.exchange.step_file import write_step
+from r37core.fem.matrices import assemble
+from r37core.fem.mesh_quality import mesh_quality
+from r37core.mesh.generate import generate_mesh
+from r37core.product.reading import read_settings
+from r37core.rom.reduce import reduce_blade
+
+MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
+ENTRY = {"length_unit": "m", "rotor_axis": [0, 0, 1], "radial": [1, 0, 0], "rotation": "negative", "material": MATERIAL}
+SHARES = np.linspace(0.0, 1.0, 9)
+
+
+def definition_of(curves, **changes):
+    return SectionsDefinition("Fan", tuple(tuple(map(tuple, curve.tolist())) for curve in curves), **changes)
+
+
+@pytest.fixture
+def settings_with(config_copy):
+    """Settings of a project with a blade Fan, given by a file of this text, and other entries."""
+    (config_copy / "sections").mkdir()
+
+    def read(text, name="fan.csv", others=(), **changes):
+        (config_copy / "sections" / name).write_text(text)
+        fan = {"sections": f"sections/{name}", **ENTRY, **changes}
+        with open(config_copy / "config/blades.yaml", "a") as stream:
+            stream.write(yaml.safe_dump({"Fan": fan} | dict(others), sort_keys=False))
+        return read_settings(config_copy)
+
+    return read
+
+
+def frequencies(blade, steel, choice):
+    mesh = generate_mesh(blade, nodes=2500, layers=1, tip_elements=14)
+    return reduce_blade(mesh, assemble(mesh, steel), choice, steel).modes(0.0, 6)[0]
+
+
+def test_the_reference_blade_returns_from_its_own_sections(blade, model):
+    again = definition_of(sections_of(blade)).build(round_edges=True)
+    assert again.volume() == pytest.approx(blade.volume(), rel=5e-5)
+    for profile, section in zip(blade.profiles, again.sections, strict=True):
+        assert section.stagger == pytest.approx(profile.stagger, abs=1e-3)
+        for edge, other in ((profile.leading_edge, section.leading_edge), (profile.trailing_edge, section.trailing_edge)):
+            assert other.arc is not None and other.radius == pytest.approx(edge.radius, rel=0.02)
+
+
+def test_its_frequencies_are_those_of_its_profiles(blade, model, steel, choice):
+    again = definition_of(sections_of(blade)).build(round_edges=True)
+    np.testing.assert_allclose(frequencies(again, steel, choice), model.modes(0.0, 6)[0], rtol=2e-3)
+
+
+@pytest.mark.parametrize("trailing", ["round", "blunt", "sharp"])
+@pytest.mark.parametrize("make", [fan, turbine])
+def test_a_fan_and_a_turbine_have_all_node_sets(make, trailing):
+    shape = definition_of(make(trailing=trailing), pressure_forward=make is fan).build(round_edges=True)
+    mesh = generate_mesh(shape, nodes=2500, layers=1, tip_elements=14)
+    assert mesh_quality(mesh).min() > 0.1
+    lines = {name: mesh.points[mesh.node_set(f"tip_{name}")] for name in ("pressure_edge", "camber_line", "suction_edge")}
+    assert [len(points) for points in lines.values()] == [29, 15, 29]
+    angle = {name: np.arctan2(points[:, 1], points[:, 0])[len(points) // 2] for name, points in lines.items()}
+    # the pressure side is towards smaller angles where it looks along the rotation
+    ahead = (angle["pressure_edge"], angle["camber_line"], angle["suction_edge"])
+    assert list(ahead) == sorted(ahead, reverse=make is turbine)
+    assert (shape.sections[-1].trailing_edge.arc is None) == (trailing != "round" or make is fan)
+    radius = np.hypot(*mesh.points[mesh.node_set("tip"), :2].T)
+    np.testing.assert_allclose(radius, 0.45 if make is fan else 0.36, rtol=1e-9)
+    for name in ("root", "leading_edge", "trailing_edge"):
+        assert len(mesh.node_set(name)) > 10
+    # the normals look from the pressure to the suction side
+    around = mesh.points[:, [1, 0, 2]] * [-1.0, 1.0, 0.0]
+    assert np.all(np.sum(mesh.normals * around, axis=1) * (1.0 if make is fan else -1.0) > 0.0)
+
+
+@pytest.mark.parametrize("turn", [lambda curve: curve[::-1], lambda curve: np.roll(curve, 37, axis=0)])
+def test_points_may_run_either_way_and_start_anywhere(turn):
+    for make in (fan, turbine):
+        curves = make()
+        shapes = [definition_of(several).build(round_edges=True) for several in (curves, [turn(curve) for curve in curves])]
+        places = [shape.position(SHARES, SHARES, np.linspace(-1.0, 1.0, 9)) for shape in shapes]
+        np.testing.assert_allclose(*places, atol=1e-6)
+
+
+def test_few_points_suffice():
+    dense, coarse = (definition_of(turbine(count=count)).build(round_edges=True) for count in (120, 16))
+    assert coarse.volume() == pytest.approx(dense.volume(), rel=2e-3)
+
+
+def test_a_blade_of_nine_sections_of_two_sides_of_112_points(settings_with):
+    """The form of an open set of variants of rotor 37: sides apart, 224 points a section."""
+    rows = ["section,side,x,y,z"]
+    for number, curve in enumerate(fan(count=113)):
+        half = len(curve) // 2
+        for side, points in ((0, curve[: half + 1]), (1, np.concatenate([curve[half:], curve[:1]])[::-1])):
+            for place in np.linspace(0, len(points) - 1, 112).round().astype(int):
+                rows.append(f"{number},{side}," + ",".join(f"{value:.9f}" for value in points[place]))
+    definition = settings_with("\n".join(rows)).blades["Fan"].definition
+    assert len(definition.sections) == 9 and {len(section) for section in definition.sections} == {222}
+    assert definition.build(round_edges=True).volume() == pytest.approx(
+        definition_of(fan(count=113)).build(round_edges=True).volume(), rel=1e-3
+    )
+
+
+def test_all_files_give_one_blade(settings_with, config_copy):
+    """From tip to hub, in millimetres, in other axes and mirrored, too."""
+    curves = fan()
+    turned = [curve[:, [2, 1, 0]] for curve in curves][::-1]
+    files = {
+        "fan.curve": (curve_text(curves), {}),
+        "fan.geomTurbo": (geomturbo_text(curves), {}),
+        "polar.geomTurbo": (geomturbo_text(curves, "ZRTH"), {}),
+        "turned.csv": (
+            csv_text(turned, 1e3, 6),
+            {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1], "rotation": "positive"},
+        ),
+    }
+    folder, others = config_copy / "sections", {}
+    for name, (text, changes) in files.items():
+        (folder / name).write_text(text)
+        others[name.replace(".", "-")] = {"sections": f"sections/{name}", **ENTRY, **changes}
+    blades = settings_with(csv_text(curves), others=others).blades
+    expected = blades["Fan"].definition.build(round_edges=True).position(SHARES, SHARES, np.zeros(9))
+    for name in others:
+        shape = blades[name].definition.build(round_edges=True)
+        np.testing.assert_allclose(shape.position(SHARES, SHARES, np.zeros(9)), expected, atol=1e-6, err_msg=name)
+
+
+def test_hub_and_tip_are_cut(settings_with, config_copy):
+    """By radii, by cones, by curves next to the file, by the channel of a file."""
+    meridian = "\n".join(f"0 {radius} {z}" for z, radius in ((-0.5, 0.445), (-0.3, 0.445), (0.3, 0.435), (0.5, 0.435)))
+    (config_copy / "sections/shroud.curve").write_text(f"# shroud\n{meridian}\n")
+    (config_copy / "sections/fan.geomTurbo").write_text(geomturbo_text(fan(), channel=CHANNEL))
+    (config_copy / "sections/fan.csv").write_text(csv_text(fan()))
+    cone = {"hub": {"radius_m": 0.16}, "tip": {"cone_zr_m": [[-0.1, 0.44], [0.1, 0.43]]}}
+    others = {
+        "Cone": {"sections": "sections/fan.csv", **ENTRY, **cone},
+        "Channel": {"sections": "sections/fan.geomTurbo", **ENTRY},
+        "Whole": {"sections": "sections/profile.curve", **ENTRY, "tip": "sections"},
+        "Named": {"sections": "sections/fan.csv", **ENTRY, "tip": "sections/shroud.curve"},
+    }
+    blades = settings_with(curve_text(fan()), "profile.curve", others).blades
+    shapes = {name: blades[name].definition.build(round_edges=True) for name in ("Fan", *others)}
+
+    def radii(name, span):
+        points = shapes[name].position(SHARES, np.full(9, span), np.linspace(-1.0, 1.0, 9))
+        return np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+
+    r, z = radii("Cone", 1.0)
+    np.testing.assert_allclose(r, 0.435 - 0.05 * z, rtol=1e-9)
+    np.testing.assert_allclose(radii("Cone", 0.0)[0], 0.16, rtol=1e-9)
+    r, z = radii("Channel", 1.0)
+    np.testing.assert_allclose(r, 0.445 - 0.01 * z, rtol=1e-9)
+    np.testing.assert_allclose(radii("Channel", 0.0)[0], 0.16, rtol=1e-9)
+    for name in ("Fan", "Named"):
+        r, z = radii(name, 1.0)
+        np.testing.assert_allclose(r, 0.44 - z / 60.0, rtol=1e-9)
+    np.testing.assert_allclose(radii("Whole", 1.0)[0], 0.45, rtol=1e-9)
+
+
+def test_a_meridian_has_one_radius_at_every_z(settings_with, config_copy):
+    """Next to the blade: ducts may run back."""
+    duct = [(0.5, 0.3), (0.2, 0.16), (0.0, 0.16), (-0.2, 0.16), (-0.15, 0.1)]
+    (config_copy / "sections/hub.curve").write_text("".join(f"{r} 0 {z}\n" for z, r in duct))
+    shape = settings_with(FAN, hub="sections/hub.curve").blades["Fan"].definition.build(round_edges=True)
+    points = shape.position(SHARES, np.zeros(9), np.zeros(9))
+    np.testing.assert_allclose(np.hypot(points[:, 0], points[:, 1]), 0.16, rtol=1e-9)
+    back = tuple((z, 0.16 + z) for z in (-0.2, 0.01, 0.0, 0.2))
+    with pytest.raises(BladeShapeError, match="blade Fan: the meridian runs back in z near z = "):
+        definition_of(fan(), hub=back).build(round_edges=True)
+
+
+def test_a_geometry_file_and_a_rule_give_the_same_blade(tmp_path):
+    shape = definition_of(turbine(), hub=((0.0, 0.301),), tip=((-0.1, 0.358), (0.1, 0.356)), pressure_forward=False)
+    assert shape_from_plain(to_plain(shape)) == shape
+    made = shape.build(round_edges=True)
+    write_geometry(made, tmp_path / "geometry.nc")
+    again = read_geometry(tmp_path / "geometry.nc")
+    for thickness in (-1.0, 0.3, 1.0):
+        parameters = SHARES, SHARES, np.full(9, thickness)
+        np.testing.assert_array_equal(made.position(*parameters), again.position(*parameters))
+    write_step(again, tmp_path / "surface.step")
+    assert (tmp_path / "surface.step").stat().st_size > 10_000
+
+
+def test_stagger_sweep_and_lean_on_top(settings_with):
+    rows = [{"span_percent": span, "sweep_cm": 0.01 * span, "lean_deg": 0.02 * span} for span in (0, 100)]
+    family = {"base": "Fan", "vary": {"stagger_deg": [0, 3]}}
+    others = {"Swept": {"base": "Fan", "sweep_lean": rows}, "Half": {"base": "Swept", "sweep_percent": 50, "lean_percent": 50}}
+    others |= {"Family": family, "Chordwise": {"base": "Fan", "chordwise_sweep_deg": 10}}
+    others["Own"] = {"sections": "sections/fan.csv", **ENTRY, "vary": {"stagger_deg": [0, 3], "material.density_kg_m3": [4430]}}
+    blades = settings_with(csv_text(fan()), others=others).blades
+    assert blades["Own_3_4430"].definition.sections == blades["Family_3"].definition.sections
+    assert blades["Family_0"].definition.sections == blades["Fan"].definition.sections
+    curves = [blades[name].definition.curves for name in ("Fan", "Family_3")]
+    for before, after in zip(*curves, strict=True):
+        assert after.stagger - before.stagger == pytest.approx(np.radians(3.0), abs=1e-5)
+        assert (after.radius, after.z, after.centroid[1]) == pytest.approx(
+            (before.radius, before.z, before.centroid[1]), abs=1e-5
+        )
+    tips = {}
+    for name in ("Fan", "Swept", "Half", "Chordwise"):
+        points = blades[name].definition.build(round_edges=True).position(SHARES, np.ones(9), np.zeros(9))
+        tips[name] = np.stack([np.arctan2(points[:, 1], points[:, 0]), points[:, 2]])
+    np.testing.assert_allclose(tips["Swept"] - tips["Fan"], np.outer([-np.radians(2.0), 0.01], np.ones(9)), atol=1e-9)
+    np.testing.assert_allclose(tips["Half"] - tips["Fan"], np.outer([-np.radians(1.0), 0.005], np.ones(9)), atol=1e-9)
+    assert np.all(tips["Chordwise"][1] < tips["Fan"][1])
+
+
+def test_a_law_over_the_span_turns_each_section_by_its_own_angle():
+    definition = definition_of(fan())
+    turned = definition.changed({"stagger": SpanLaw.linear(0.0, 0.1)})
+    angles = [after.stagger - before.stagger for before, after in zip(definition.curves, turned.curves, strict=True)]
+    np.testing.assert_allclose(angles, np.linspace(0.0, 0.1, 9), atol=1e-5)
+    assert turned.sections[0] == definition.sections[0]
+
+
+def test_calls_from_python_know_such_a_blade(project):
+    (project / "fan.csv").write_text(csv_text(fan()))
+    overlay(project, "blades.yaml", yaml.safe_dump({"Fan": {"sections": "fan.csv", "kinematics": "linear", **ENTRY}}))
+    diagram = r37.campbell("Fan", config=project / "config/config.yaml")
+    first = float(diagram["frequency"].isel(speed=0, mode=0))
+    assert 30.0 < first < 200.0 and diagram.attrs["contact"] == "patches"
+    turned = r37.blade("Fan", config=project / "config/config.yaml", stagger_deg=2).settings.definition
+    before = r37.blade("Fan", config=project / "config/config.yaml").settings.definition
+    assert turned.curve(0).stagger - before.curve(0).stagger == pytest.approx(np.radians(2.0), abs=1e-5)
+
+
+def section_without_trailing_edge():
+    angle = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)
+    return [np.stack([np.full(40, radius), 0.02 * np.sin(angle), 0.02 * np.cos(angle)], axis=1) for radius in (0.2, 0.25, 0.3)]
+
+
+def crossed(curves):
+    curve = curves[3].copy()
+    curve[[20, 40]] = curve[[40, 20]]
+    return [*curves[:3], curve, *curves[4:]]
+
+
+def twice(curves):
+    curve = curves[3].copy()
+    curve[40] = curve[60]
+    return [*curves[:3], curve, *curves[4:]]
+
+
+def without(text, number, change):
+    lines = text.splitlines()
+    lines[number] = change(lines[number])
+    return "\n".join(lines) + "\n"
+
+
+FAN = csv_text(fan())
+CURVE = curve_text(fan())
+TURBO = geomturbo_text(fan())
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "message"),
+    [
+        ("", "fan.csv", r"sections/fan\.csv:1: blade Fan: the table lacks the columns section, x, y, z"),
+        ("section,x,y,z\n", "fan.csv", r"fan\.csv:1: blade Fan: found no rows"),
+        ("# nothing\n", "fan.curve", r"fan\.curve:1: blade Fan: found no points"),
+        (FAN.replace("section,x", "part,x"), "fan.csv", r"fan\.csv:1: .*lacks the columns section"),
+        (without(FAN, 11, lambda line: line.replace("0.", "o.")), "fan.csv", r"fan\.csv:12: .*column x: 'o\.\d+' is not a num"),
+        (without(FAN, 11, lambda line: "0,nan,0,0"), "fan.csv", r"fan\.csv:12: .*column x: 'nan' is not finite"),
+        (without(FAN, 11, lambda line: line + ",1"), "fan.csv", r"fan\.csv:12: .*more or fewer cells"),
+        (without(CURVE, 11, lambda line: line[:15]), "fan.curve", r"fan\.curve:12: .*found 2 values; needed: 3"),
+        (without(CURVE, 11, lambda line: line + " 1"), "fan.curve", r"fan\.curve:12: .*found 4 numbers; needed: 3"),
+        (csv_text(fan()[:1]), "fan.csv", r"fan\.csv:2: .*found 1 section; allowed: at least 2, from hub to tip"),
+        (csv_text([curve[::20] for curve in fan()]), "fan.csv", r"fan\.csv:2: .*found a section of 6 points; allowed: at lea"),
+        (
+            csv_text(crossed(fan())),
+            "fan.csv",
+            r"fan\.csv:\d+: blade Fan: section 4 of 9 from the hub: the curve crosses itself",
+        ),
+        (csv_text(twice(fan())), "fan.csv", r"fan\.csv:\d+: .*section 4 of 9 .*crosses itself, between points 40 and 41"),
+        (csv_text(section_without_trailing_edge()), "fan.csv", r"fan\.csv:2: .*found no \w+ edge: the curve is as thick"),
+        (csv_text([*fan()[:3], *fan()[2:5]]), "fan.csv", r"fan\.csv: blade Fan: section 4 of 6 .*does not lie wholly above"),
+        (csv_text([*fan()[:3], fan()[1], *fan()[3:]]), "fan.csv", r"section 4 of 10 .*does not lie wholly above"),
+        (csv_text(fan(), 1e3), "fan.csv", r"Fan\.length_unit: the blade would be .*fitting units: mm"),
+        (FAN, "fan.dat", r"fan\.dat: blade Fan: found a file of kind '\.dat'; allowed: \.curve, \.geomTurbo, \.csv"),
+        (TURBO.replace("pressure", "none"), "fan.geomTurbo", r"fan\.geomTurbo:1: .*found no line 'pressure'"),
+        (TURBO.replace("SECTIONAL", "SURFACE"), "fan.geomTurbo", r"fan\.geomTurbo:7: .*found 'SURFACE' under suction"),
+        (TURBO.replace("XYZ", "UVW", 1), "fan.geomTurbo", r"fan\.geomTurbo:10: .*coordinates 'UVW'; allowed: XYZ, ZRTH"),
+        (TURBO[: len(TURBO) // 2], "fan.geomTurbo", r"fan\.geomTurbo:\d+: .*"),
+    ],
+)
+def test_a_broken_file_is_one_line(settings_with, text, name, message):
+    with pytest.raises(ConfigError, match=message) as refusal:
+        settings_with(text, name)
+    assert len(str(refusal.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"length_unit": "?"}, r"Fan\.length_unit: found '\?'; what fits: length_unit: m; .*: m \(0\.15 to 0\.45 m"),
+        ({"rotation": "?"}, r"Fan\.rotation: found '\?'; what fits: rotation: negative"),
+        ({"length_unit": "?", "rotation": "?"}, r"what fits: length_unit: m; .*; rotation: negative"),
+        ({"hub": "?"}, r"Fan\.hub: found '\?'; what fits: hub: \{ cone_zr_m: \[\[-0\.04\d+, 0\.1500000\]"),
+        ({"hub": "?", "tip": "?"}, r"Fan\.hub: .*hub: \{ cone.*; tip: \{ cone_zr_m"),
+        ({"rotation": "positive"}, r"Fan\.rotation: found the tip's trailing edge ahead .*stagger -6\d\.\d.*change rotation"),
+        ({"pressure_side": "backward"}, r"Fan\.pressure_side: found a convex pressure side .*give pressure_side: forward"),
+        (
+            {"rotor_axis": [0, 0, -1]},
+            r"Fan\.pressure_side: found a convex .* change both rotor_axis and rotation if rotor_axis",
+        ),
+        ({"radial": [0, 0, 1]}, r"Fan\.radial: rotor_axis .* must be two directions, not parallel"),
+        ({"radial": [0, 1, 0]}, r"Fan\.radial: the blade's middle lies at"),
+        ({"tip": {"radius_m": 0.5}}, r"fan\.csv: blade Fan: tip: its radius of 0\.5 m lies outside the sections"),
+        ({"hub": {"radius_m": 0.1}}, r"fan\.csv: blade Fan: hub: its radius of 0\.1 m lies outside the sections"),
+        ({"tip": {"radius_m": 0.1}}, r"the tip, at a radius of 0\.1 m, does not lie above the hub"),
+        ({"tip": "sections/none.curve"}, r"Fan\.tip: sections/none\.curve cannot be read"),
+        ({"hub": {}}, r"Fan\.hub: found none of radius_m and cone_zr_m"),
+        ({"hub": {"cone_zr_m": [[0, 0.15], [0, 0.16]]}}, r"Fan\.hub\.cone_zr_m: found the same z twice"),
+        ({"hub": "sections/fan.csv"}, r"Fan\.hub: sections/fan\.csv:1: value 1: 'section' is not a number"),
+        ({"sections": "sections/none.csv"}, r"Fan\.sections: there is no file sections/none\.csv"),
+        ({"sweep_lean": []}, r"Fan\.sweep_lean: found \[\]; allowed: "),
+        ({"chordwise_sweep_deg": 1.0, "stacking_table": "a.csv"}, r"at most one of stacking_table, sweep_lean, chordwise"),
+        ({"profiles": "a.csv"}, r"Fan: found unknown key profiles"),
+        ({"thickness_percent": 110}, r"Fan\.thickness_percent: .*given by sections has no arcs"),
+    ],
+)
+def test_an_entry_is_refused_with_what_fits(settings_with, changes, message):
+    with pytest.raises(ConfigError, match=message) as refusal:
+        settings_with(FAN, **changes)
+    assert len(str(refusal.value).splitlines()) == 1
+
+
+def test_a_flat_last_section_needs_a_tip(settings_with):
+    """Sections by planes: the casing cuts the blade."""
+    radii = np.linspace(0.15, 0.45, 9)
+    flat = [curve * [0.0, 1.0, 1.0] + [radius, 0.0, 0.0] for curve, radius in zip(fan(), radii, strict=True)]
+    with pytest.raises(ConfigError, match=r"tip: the last section lies up to .* mm off every surface.*with tip: \{ cone_zr_m"):
+        settings_with(csv_text(flat))
+
+
+def test_what_sections_cannot_do_is_refused(settings_with):
+    with pytest.raises(ConfigError, match=r"Other\.camber_deg: .*given by sections has no arcs.*allowed: stagger_deg, sweep"):
+        settings_with(FAN, others={"Other": {"base": "Fan", "camber_deg": 2}})
+
+
+def test_sense_check_false_takes_it_as_it_is(settings_with):
+    assert settings_with(FAN, rotation="positive", sense_check=False).blades["Fan"].has_profiles
+
+
+def test_blunt_edges_are_cut_between_the_corners():
+    definition = definition_of(fan())
+    volumes = [definition.build(round_edges=is_round).volume() for is_round in (True, False)]
+    assert 0.99 * volumes[0] < volumes[1] < volumes[0]
+    assert replace(definition, name="Other") != definition
