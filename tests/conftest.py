@@ -31,6 +31,7 @@ CHECKOUT = Path(__file__).parent.parent
 CONFIGURATION = Path(__file__).parent / "config"
 DELIVERED = ("cluster", "docs", "envs", "examples", "profiles", "workflow", "pyproject.toml", "CITATION.cff")
 DELIVERED += ("Makefile", "MANIFEST.in", "Snakefile", "CHANGELOG.md", "CONTRIBUTING.md", "README.md")
+DELIVERED += ("codemeta.json", ".zenodo.json", "CODE_OF_CONDUCT.md")
 
 
 def edited_configuration():

@@ -2,6 +2,7 @@
 
 import ast
 import contextlib
+import json
 import os
 import re
 import subprocess
@@ -87,6 +88,12 @@ def test_one_version(root):
     assert yaml.safe_load((root / "CITATION.cff").read_text())["version"] == __version__
     assert re.search(r"^## (.*)$", (root / "CHANGELOG.md").read_text(), re.MULTILINE)[1] == __version__
     assert FILE_ATTRIBUTES["r37core_version"] == __version__
+    # what archives and indexes of software read
+    described, archived = (json.loads((root / name).read_text()) for name in ("codemeta.json", ".zenodo.json"))
+    project = tomllib.loads(text)["project"]
+    assert described["version"] == __version__
+    assert described["keywords"] == archived["keywords"] == project["keywords"]
+    assert described["license"].endswith(project["license"]) and archived["license"] == project["license"]
 
 
 @pytest.mark.skipif(not os.environ.get("CI"), reason="CI=true, for what is submitted: users may edit config/")
