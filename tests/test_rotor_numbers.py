@@ -319,7 +319,7 @@ def test_the_figure_of_one_speed_or_without_stress_has_lines():
 
 
 def joined(files, file):
-    join_runs(list(files.values()), files, RUNS, file, "draft")
+    join_runs(list(files.values()), files, RUNS, file, "Rotors", "draft")
     return read_dataset(file)
 
 

@@ -293,7 +293,7 @@ def test_datasets_are_joined_by_run(dataset, tmp_path):
     for pair, one in {("Ref", "abradable"): dataset, ("Ref", "direct"): other, ("L50", "direct"): empty}.items():
         files[pair] = tmp_path / f"{'_'.join(pair)}.nc"
         write_dataset(one, files[pair], {})
-    join_runs(list(files.values()), files, RUNS, tmp_path / "signals.nc", "draft")
+    join_runs(list(files.values()), files, RUNS, tmp_path / "signals.nc", "Signals", "draft")
     joined = read_dataset(tmp_path / "signals.nc")
     assert joined.sizes["run"] == 3
     assert joined.attrs["fidelity"] == "draft"
@@ -308,11 +308,11 @@ def test_datasets_are_joined_by_run(dataset, tmp_path):
     assert np.isnan(short["strain"]).all()
     np.testing.assert_array_equal(joined["status"], [0, 0, 0])
     write_dataset(other.isel(speed=[]), tmp_path / "empty.nc", {})
-    join_runs([tmp_path / "empty.nc"], [("L50", "direct")], RUNS, tmp_path / "none.nc", "draft")
+    join_runs([tmp_path / "empty.nc"], [("L50", "direct")], RUNS, tmp_path / "none.nc", "Signals", "draft")
     assert read_dataset(tmp_path / "none.nc").sizes["run"] == 0
     files["Ref", "direct"].write_bytes(b"damaged")
     with pytest.raises(InputFileError, match=r"Ref_direct\.nc: cannot be read"):
-        join_runs(list(files.values()), files, RUNS, tmp_path / "signals.nc", "draft")
+        join_runs(list(files.values()), files, RUNS, tmp_path / "signals.nc", "Signals", "draft")
 
 
 def test_signals_are_drawn(dataset, tmp_path):
