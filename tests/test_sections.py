@@ -9,6 +9,8 @@ from section_files import CHANNEL, csv_text, curve_text, fan, geomturbo_text, se
 from workflow_runs import overlay
 
 import r37
+from r37.call_settings import call_of
+from r37.run_folder import write_run
 from r37core.base.plain import to_plain
 from r37core.blade.definition import shape_from_plain
 from r37core.blade.geometry_file import read_geometry, write_geometry
@@ -239,6 +241,21 @@ def test_calls_from_python_know_such_a_blade(project):
     turned = r37.blade("Fan", config=project / "config/config.yaml", stagger_deg=2).settings.definition
     before = r37.blade("Fan", config=project / "config/config.yaml").settings.definition
     assert turned.curve(0).stagger - before.curve(0).stagger == pytest.approx(np.radians(2.0), abs=1e-5)
+
+
+def test_the_folder_of_a_call_finds_sections_and_meridians(tmp_path):
+    """Which lie next to the blades.yaml, and not in the folder."""
+    own, folder = tmp_path / "own", tmp_path / "run"
+    own.mkdir()
+    (own / "fan.csv").write_text(csv_text(fan()))
+    (own / "shroud.curve").write_text("0.0 0.449 -0.1\n0.0 0.449 0.1\n")
+    ends = {"hub": "sections", "tip": "shroud.curve"}
+    (own / "blades.yaml").write_text(yaml.safe_dump({"Fan": {"sections": "fan.csv", **ENTRY, **ends}}))
+    call = call_of("r37.run", [r37.blade("Fan", file=own / "blades.yaml")], ["direct"], {"speeds": [500]}, {})
+    write_run(call, folder)
+    (entry,) = (entry for name, entry in yaml.safe_load((folder / "config/blades.yaml").read_text()).items() if name == "Fan")
+    assert (entry["sections"], entry["tip"]) == (str(own / "fan.csv"), str(own / "shroud.curve")) and entry["hub"] == "sections"
+    assert read_settings(folder).blades["Fan"].definition.tip is not None
 
 
 def section_without_trailing_edge():

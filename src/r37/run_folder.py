@@ -22,8 +22,8 @@ _CONFIG = "config/config.yaml"
 
 _HEADER = "# Written by a call of r37; `snakemake tables --cores 2` in this folder runs the same.\n"
 
-_TABLES, _IMPORTED = ("profiles", "stacking_table", "designs"), ("mesh", "matrices")
-"""Keys of blades.yaml with a table, which the folder gets a copy of, and with files that are too large for that."""
+_TABLES, _IMPORTED = ("profiles", "stacking_table", "designs"), ("mesh", "matrices", "sections")
+"""Keys of blades.yaml with a table, which the folder gets a copy of, and with files that are too large or belong to others."""
 
 
 def run_folder(folder: Path | str) -> Path:
@@ -70,10 +70,13 @@ def write_run(call: Call, folder: Path) -> None:
 def _local_entry(entry: Mapping[str, Any], root: Path, tables: dict[str, Path]) -> dict[str, Any]:
     """An entry of blades.yaml whose files are found from the folder of the run; `tables` gets those that are copied there."""
     changed = dict(entry)
-    for key in (*_TABLES, *_IMPORTED):
+    # hub and tip of sections may be files, those of a mesh are names of sets
+    ends = [key for key in ("hub", "tip") if "sections" in entry and isinstance(entry.get(key), str)]
+    ends = [key for key in ends if (root / entry[key]).is_file()]
+    for key in (*_TABLES, *_IMPORTED, *ends):
         if isinstance(entry.get(key), str):
             name, source = Path(entry[key]), (root / entry[key]).absolute()
-            if key in _IMPORTED or not source.is_file():
+            if key not in _TABLES or not source.is_file():
                 changed[key] = str(source)
             else:
                 if name.is_absolute() or ".." in name.parts:
