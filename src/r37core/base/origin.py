@@ -19,13 +19,8 @@ LICENSE = "results belong to who made them; r37 itself: MIT"
 
 
 def origin(title: str) -> dict[str, str]:
-    """Attributes of a file with this `title`: what made it, with which versions, and when.
-
-    The time is that of the environment's SOURCE_DATE_EPOCH (s since 1970) where it is set, so that equal inputs can give equal
-    bytes: https://reproducible-builds.org/specs/source-date-epoch.
-    """
-    seconds = float(os.environ.get("SOURCE_DATE_EPOCH") or time.time())
-    made = datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")
+    """Attributes of a file with this `title`: what made it, with which versions, and when."""
+    made = date_created()
     return {
         "title": title,
         "history": f"{made}: joined by r37 {r37core.__version__}",
@@ -34,6 +29,15 @@ def origin(title: str) -> dict[str, str]:
         "license": LICENSE,
         "date_created": made,
     }
+
+
+def date_created() -> str:
+    """Date and time now, or those of the environment's SOURCE_DATE_EPOCH (s since 1970), so that equal inputs give equal bytes.
+
+    See https://reproducible-builds.org/specs/source-date-epoch.
+    """
+    seconds = float(os.environ.get("SOURCE_DATE_EPOCH") or time.time())
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")
 
 
 @cache

@@ -6,7 +6,7 @@ import numpy as np
 
 from .profile import BladeShapeError
 
-BULGE_REACH = 4.0
+_BULGE_REACH = 4.0
 """Edge radii from a round edge within which the lines chord = const are bent."""
 
 
@@ -72,6 +72,11 @@ class BladeMap(ABC):
                 f"span {100 * span[position]:.1f}%: profiles or the two sides of the blade cross here "
                 f"(chord {100 * chord[position]:.0f}%); check thickness, radii, sweep and lean near this span"
             )
+
+
+def edge_share(distance: np.ndarray, radius: float) -> np.ndarray:
+    """How far lines chord = const at a `distance` (m) from a round edge of this `radius` (m) follow its arc, 1 to 0."""
+    return np.clip(1.0 - distance / (_BULGE_REACH * radius), 0.0, None) ** 2
 
 
 def _composite_gauss(edges: np.ndarray, order: int) -> tuple[np.ndarray, np.ndarray]:

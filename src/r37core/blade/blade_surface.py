@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .blade_map import BULGE_REACH, BladeMap
+from .blade_map import BladeMap, edge_share
 from .profile import PRESSURE, SUCTION, Profile
 from .stacking import Placement, span_weights
 
@@ -52,8 +52,7 @@ class Blade(BladeMap):
         point = (1.0 - share) * pressure + share * suction
         if self.round_edges:
             for edge, end in ((profile.leading_edge, 0.0), (profile.trailing_edge, 1.0)):
-                length = profile.surfaces[PRESSURE].length
-                fade = np.clip(1.0 - np.abs(chord - end) * length / (BULGE_REACH * edge.radius), 0.0, None) ** 2
+                fade = edge_share(np.abs(chord - end) * profile.surfaces[PRESSURE].length, edge.radius)
                 pressure_side, suction_side = (np.array(edge.point(side))[:, None] for side in (-1.0, 1.0))
                 straight = (1.0 - share) * pressure_side + share * suction_side
                 point = point + fade * (np.array(edge.point(thickness)) - straight)

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 import scipy
 
-from .blade_map import BULGE_REACH, BladeMap
+from .blade_map import BladeMap, edge_share
 from .meridian import Meridian
 from .profile import BladeShapeError
-from .section_curve import SectionCurve, SectionEdge
+from .section_curve import SectionCurve
 from .stacking import Placement
 
 BEYOND = 0.05
@@ -68,7 +68,7 @@ class SectionBlade(BladeMap):
         point = (1.0 - share) * pressure + share * suction
         if self.round_edges:
             for edge, end in ((section.leading_edge, 0.0), (section.trailing_edge, 1.0)):
-                point += _fade(edge, np.abs(chord - end) * section.pressure.length) * edge.bulge(thickness)
+                point += edge_share(np.abs(chord - end) * section.pressure.length, edge.radius) * edge.bulge(thickness)
         shift = self.placement.rotation[number], self.placement.axial[number]
         return point + np.array([0.0, *shift])[:, None]
 
@@ -92,8 +92,3 @@ class SectionBlade(BladeMap):
                 f"{1e3 * height * BEYOND:.3g} mm; give sections that reach it, or another {what}"
             )
         return place
-
-
-def _fade(edge: SectionEdge, distance: np.ndarray) -> np.ndarray:
-    """How far lines at a distance (m) from an edge follow its arc, 1 to 0."""
-    return np.clip(1.0 - distance / (BULGE_REACH * edge.radius), 0.0, None) ** 2

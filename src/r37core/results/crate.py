@@ -3,24 +3,23 @@
 The form is that of https://www.researchobject.org/ro-crate/specification/1.1.
 """
 
-import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import r37core
 from r37core.base.io import readable
-from r37core.base.origin import LICENSE, REFERENCES, origin, source
+from r37core.base.origin import LICENSE, REFERENCES, date_created, source
+from r37core.machine_code.kept import content_digest
 
 METADATA = "ro-crate-metadata.json"
 
-_FORMATS = {".nc": "application/x-netcdf", ".csv": "text/csv", ".json": "application/json", ".html": "text/html"}
+_FORMATS = {".nc": "application/x-netcdf", ".csv": "text/csv", ".json": "application/json"}
 
 
 def crate(files: Iterable[Path | str], folder: Path | str) -> dict[str, Any]:
     """Metadata of a crate of the `files` in a `folder`, each with its size and SHA-256. Raises InputFileError."""
-    made = origin("")["date_created"]
-    parts = [_part(Path(file), Path(folder)) for file in files]
+    made, parts = date_created(), [_part(Path(file), Path(folder)) for file in files]
     references: list[dict[str, str]] = [{"@id": part["@id"]} for part in parts]
     return {
         "@context": "https://w3id.org/ro/crate/1.1/context",
@@ -64,15 +63,13 @@ def crate(files: Iterable[Path | str], folder: Path | str) -> dict[str, Any]:
 
 
 def _part(file: Path, folder: Path) -> dict[str, Any]:
-    digest = hashlib.sha256()
-    with readable(file), open(file, "rb") as stream:
-        while block := stream.read(2**20):
-            digest.update(block)
+    with readable(file):
+        digest = content_digest(file)
     return {
         "@id": file.relative_to(folder).as_posix(),
         "@type": "File",
         "name": file.stem.replace("_", " "),
         "encodingFormat": _FORMATS.get(file.suffix, "application/octet-stream"),
         "contentSize": str(file.stat().st_size),
-        "sha256": digest.hexdigest(),
+        "sha256": digest,
     }
