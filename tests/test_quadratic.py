@@ -16,6 +16,7 @@ from r37core.time_integration.initial_motion import InitialMotion, InitialMotion
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.status import RunStatus
 
 SPEED = 1710.0
 
@@ -281,6 +282,10 @@ def test_how_far_a_run_goes_is_told(displaced, contact):
     numbers = run_speed(contact, SPEED, LINED, choice, (), spectrum_highest_order=8, wear_angles=4)
     assert numbers["peak_share_of_height"] == numbers["peak"].max() / displaced.quadratic.height
     assert displaced.quadratic.height == pytest.approx(0.075, rel=0.05)
+    # else the end of a run takes a blade whose runs all diverge for a linear one
+    scene = replace(LINED, divergence_limit=0.9 * numbers["peak"].max())
+    cut = run_speed(contact, SPEED, scene, choice, (), spectrum_highest_order=8, wear_angles=4)
+    assert cut["status"] == RunStatus.DIVERGED and 0.0 <= cut["peak_share_of_height"] < numbers["peak_share_of_height"]
 
 
 def test_modes_that_come_near_to_each_other_are_followed():

@@ -30,7 +30,7 @@ _MOTION = {
         for kind, measure in (("rms", "rms of the"), ("peak", "largest"))
         for direction, note in (("normal", " (along the casing's normal)"), ("radial", ""), ("tangential", ""))
     },
-    "peak_share_of_height": Variable((), "1", "largest peak over the blade's height: second order is 2% wrong at 0.2"),
+    "peak_share_of_height": Variable((), "1", "largest displacement over the blade's height: second order is 2% wrong at 0.2"),
     "motion_at_end": Variable((), "1", "state of the motion at the end of the run", "i1", MotionAtEnd),
     "settled_revolution": Variable((), "1", "revolution after which the run ended as it had settled, NaN where it did not"),
     "time_step": Variable((), "s", "step of the time integration that was taken"),

@@ -41,8 +41,8 @@ def run_speed(
     (rad), `lined`, 1 where there is a lining, and what lining_at_tip says of it, `rms` and `peak` (m) over the revolutions in
     the statistic, shape (2, 3): TIP_POINTS by DIRECTIONS, `revolution_maxima` (m), shape (revolutions, 2, 3), NaN after the end
     of a run that settled, `motion_at_end`, `settled_revolution` and others of ending_numbers, and contact statistics,
-    `largest_penetration` (m) of the tip's edge into the casing among them. `peak_share_of_height`: the largest peak, of a blade
-    with displacements of second order. `clearance` (m), shape (nodes,): where it changes
+    `largest_penetration` (m) of the tip's edge into the casing among them. `peak_share_of_height`: the largest of the maxima,
+    also of a diverged run, of a blade with displacements of second order. `clearance` (m), shape (nodes,): where it changes
     with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
     `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
     of rotation's shapes. With `stress` operators, by `region`: `max_von_mises` (Pa) in the last revolution,
@@ -109,7 +109,9 @@ def numbers_of_run(
         "worst_complementarity": np.array(totals["worst_complementarity"].max()),
     }
     if model.quadratic is not None:
-        numbers["peak_share_of_height"] = numbers["peak"].max() / model.quadratic.height
+        # as far as a run got that diverged
+        reached = numbers["revolution_maxima"]
+        numbers["peak_share_of_height"] = np.max(reached, where=np.isfinite(reached), initial=0.0) / model.quadratic.height
     numbers |= ending_numbers(run, samples)
     if scene.casing.changes_with_speed:
         numbers["clearance"] = np.min([each.casing.clearance for each in run.problems], axis=0)
