@@ -9,7 +9,7 @@ once, by minus that over their squared frequencies: the nodes move by the produc
 node pushes q_a by what the products move it. Their inertia is that of followers, which are stepped: see SteppedBlade.
 
 All of the energy but Q(q), what is left of b where the others follow, is a sum of squares. Q may be negative, of modes that
-soften: without a bound a run could leave for ever. So Q counts as it is down to -B, and below that as -2B - B^2/Q, which has
+soften: without a bound a run could grow for ever. So Q counts as it is down to -B, and below that as -2B - B^2/Q, which has
 the same value and slope at -B and is never below -2B. B is the energy of the lowest mode where second order ends to hold.
 """
 
@@ -111,7 +111,7 @@ class QuadraticMotion:
         return -4.0 * self.bound / lowest if lowest < 0.0 else np.inf
 
     def reduction(self, energy: np.ndarray) -> np.ndarray:
-        """Slope, less one, of what counts of energies Q."""
+        """Derivative by Q of the energy that counts in place of Q, less one, at values of Q (J)."""
         return np.where(energy < -self.bound, (self.bound / np.minimum(energy, -self.bound)) ** 2 - 1.0, 0.0)
 
     def products(self, displacement: np.ndarray) -> np.ndarray:

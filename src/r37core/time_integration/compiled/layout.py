@@ -167,7 +167,7 @@ def second_order_record(modes: int) -> np.dtype:
         # each, and what pushes; their rows
         _fields("functional last pull push", MOST_FUNCTIONALS),
         _fields("rows", 1, MOST_FUNCTIONALS, modes),
-        # how often each product counts, and what is left of b/6 pulls it with; b/6, and what is left of that; its two modes
+        # how often each product counts, and the stiffness that Q gives it; b/6, and the part of it that is of Q; its two modes
         _fields("weight pull_left", MOST_PRODUCTS),
         _fields("cubic left", MOST_PRODUCTS, MOST_PRODUCTS),
         _fields("first second", MOST_PRODUCTS, kind=np.int64),

@@ -54,7 +54,7 @@ def set_products(m):
 
 @inlined
 def reduced(m):
-    """Slope, less one, of what counts of the energy Q; keeps what is left of b pulls each product with."""
+    """Derivative by Q of the energy that counts in place of Q, less one; stores the stiffness that Q gives each product."""
     second = m.second
     energy = 0.0
     for p in range(second.products):
