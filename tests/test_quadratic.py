@@ -127,7 +127,7 @@ def test_forces_are_those_of_the_energy(contact):
 
 @pytest.fixture(scope="module")
 def softening(contact):
-    """A blade whose modes soften so far that without a bound they would leave beyond 3 mm."""
+    """A blade whose modes soften so far that without a bound a motion beyond 3 mm would grow for ever."""
     terms = contact.quadratic
     modes = len(terms.coordinates)
     simulation = Simulation(contact, SPEED, FAR, CHOICE)
@@ -156,8 +156,8 @@ def test_an_energy_that_softens_has_a_bound(softening):
     assert 5 < seen < 36
 
 
-def test_a_blade_that_softens_does_not_leave(softening):
-    """Both engines, in a flight that begins beyond the place from which it would never come back."""
+def test_the_motion_of_a_blade_that_softens_is_bounded(softening):
+    """In both engines, of a flight that begins farther out than the unbounded energy has its maximum."""
     samples = []
     for engine in ("compiled", "reference"):
         simulation = Simulation(softening, SPEED, FAR, replace(CHOICE, engine=engine))
