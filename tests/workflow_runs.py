@@ -14,6 +14,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+import netCDF4
+import numpy as np
 import warm_snakemake
 import yaml
 
@@ -65,6 +67,18 @@ def digests(project):
     """SHA-256 of all files in `results`, by their paths in the project."""
     files = [file for file in sorted((project / "results").rglob("*")) if file.is_file()]
     return {str(file.relative_to(project)): hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+
+
+def dataset_values(folder):
+    """Every array of every dataset, numbers as bytes."""
+    found = {}
+    for file in sorted((folder / "results").rglob("*.nc")):
+        with netCDF4.Dataset(file) as dataset:
+            dataset.set_auto_maskandscale(False)
+            for name, variable in dataset.variables.items():
+                stored = np.asarray(variable[:])
+                found[str(file.relative_to(folder)), name] = stored.tolist() if stored.dtype == object else stored.tobytes()
+    return found
 
 
 def lose_speed(file):

@@ -29,16 +29,17 @@ def parallel_results(calls: Sequence[Callable[[], Result]], cores: int, what: st
     """Results of the calls, in their order, on so many processes. Raises what one of them raises.
 
     Each has one thread of the linear algebra library, so that the numbers are the workflow's to the last bit. With a `unit`,
-    that they are counted by, a bar says how far they are.
+    that they are counted by, a bar says how far they are. The processes are those of the backend that the caller has chosen by
+    joblib's `parallel_config`, else of this machine.
     """
     # imported here: what computes nothing does not wait for them
-    from joblib import Parallel, delayed, parallel_config
+    from joblib import Parallel, delayed
 
     processes, shown = min(cores, len(calls)), bar(calls, what, unit) if unit else calls
     if processes <= 1:
         with _alone():
             return [call() for call in shown]
-    with _POOL, parallel_config(backend="loky", inner_max_num_threads=1):
+    with _POOL:
         results = Parallel(n_jobs=processes, return_as="generator")(delayed(_called)(call) for call in calls)
         return [result for _, result in zip(shown, results, strict=True)]
 

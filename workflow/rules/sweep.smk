@@ -56,6 +56,11 @@ use rule step as simulate with:
         **stage(stages["simulate"]),
 
 
+# a second, between the jobs of a cluster
+localrules:
+    refine,
+
+
 # adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none. All members of a
 # sample are run at the same speeds, where they are worth it on average
 checkpoint refine:
@@ -71,6 +76,8 @@ checkpoint refine:
     priority: 4
     conda:
         ENVIRONMENT
+    resources:
+        mem_mb=500,
     params:
         **stage(stages["refine"]),
     script:

@@ -46,9 +46,18 @@ class Executor(RealExecutor):
     """Executor of jobs on this machine. `scripts`: folder of the Python scripts that servers run, set by r37's Snakefile."""
 
     scripts: Path | None = None
+    local: type[RealExecutor] | None = None
+
+    @classmethod
+    def replace_local(cls) -> None:
+        """Take the place of Snakemake's own local executor, which a cluster's job asks for, whatever its user chose."""
+        registry = ExecutorPluginRegistry()
+        cls.local = registry.get_plugin("local").executor
+        registry.plugins["local"] = registry.get_plugin("warm")
 
     def __post_init__(self) -> None:
-        self._plain = ExecutorPluginRegistry().get_plugin("local").executor(self.workflow, self.logger)
+        local = self.local or ExecutorPluginRegistry().get_plugin("local").executor
+        self._plain = local(self.workflow, self.logger)
         self._servers: dict[bool, _Server] = {}
 
     @property

@@ -102,6 +102,8 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     # Snakemake puts it into the commands of its scripts as it stands: a blank or `$()` in a folder's name would count
     sys.executable = shlex.quote(sys.executable)
     Executor.scripts = root / "workflow/scripts"
+    if workflow.remote_exec:
+        Executor.replace_local()
     if "CONDA" in {method.name for method in workflow.deployment_settings.deployment_method}:
         raise refusal("--sdm conda: jobs need the Python that runs Snakemake, with r37 in it; leave the option out")
     # where our Snakefile is the main one, values are those of the command line, without lines and with texts for numbers
