@@ -1,6 +1,12 @@
 # r37: blade shape in; Campbell diagrams, vibration, stress and wear maps out. Reads like a table of contents.
 import os
 import sys
+from importlib.util import find_spec
+
+from snakemake.exceptions import WorkflowError
+
+if find_spec("r37core") is None:
+    raise WorkflowError(f"r37's package is missing in {sys.executable}: `pip install .` in a clone of r37, or `make setup`")
 
 from r37core.console import failures
 

@@ -31,17 +31,17 @@ CHECKOUT = Path(__file__).parent.parent
 CONFIGURATION = Path(__file__).parent / "config"
 DELIVERED = ("cluster", "docs", "envs", "examples", "profiles", "workflow", "pyproject.toml", "CITATION.cff")
 DELIVERED += ("Makefile", "MANIFEST.in", "Snakefile", "CHANGELOG.md", "CONTRIBUTING.md", "README.md")
-DELIVERED += ("codemeta.json", ".zenodo.json", "CODE_OF_CONDUCT.md")
+DELIVERED += ("codemeta.json", ".zenodo.json", "CODE_OF_CONDUCT.md", ".pre-commit-config.yaml")
 
 
 def edited_configuration():
     """Files of `config/` that differ from those of the tests, are missing or are new.
 
-    The schemas are generated, and files of one's own (.gitignore) count for nothing.
+    The schemas are generated; files of one's own (.gitignore) and README.md count for nothing.
     """
     folders = (CONFIGURATION, CHECKOUT / "config")
     files = {str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")}
-    files = {file for file in files if not file.startswith(("schemas", "my", "own/"))}
+    files = {file for file in files if not file.startswith(("schemas", "my", "own/", "README.md"))}
     return sorted(files.difference(filecmp.cmpfiles(*folders, files, shallow=False)[0]))
 
 

@@ -55,6 +55,8 @@ def test_the_lock_has_a_version_of_all_that_is_asked_for(root):
     installing = [line for line in commands.splitlines() if "pip install" in line]
     assert len(installing) == 1 and "--constraint $(LOCK)" in installing[0]
     assert "--constraint lock.txt" in commands
+    hooks = yaml.safe_load((root / ".pre-commit-config.yaml").read_text())["repos"]
+    assert [hook["rev"] for hook in hooks if "ruff" in hook["repo"]] == [f"v{locked['ruff']}"]
 
 
 def test_make_alone_lists_every_target(root):

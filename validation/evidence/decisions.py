@@ -44,6 +44,14 @@ def lengths(input: Any, output: Any, params: Any) -> None:
     write_table(["blade", "lining (mm)", *clearances], rows, output.table)
 
 
+def verdicts(input: Any, output: Any, params: Any) -> None:
+    """Verdicts on lengths above yield, and the shortest and longest of all that was tried. Input: verdict. Output: table."""
+    head = ["blade", "scene", "verdict", "shortest (rad/s)", "longest (rad/s)", "runs besides the sweep's", "note"]
+    columns = ["blade", "scene", "verdict", "value_lowest", "value_highest", "further_runs", "note"]
+    verdict = read_table(input.verdict)
+    write_table(head, verdict[columns].fillna("").astype(str).values.tolist(), output.table)
+
+
 def _judged(designs: pd.DataFrame, verdict: pd.DataFrame) -> pd.DataFrame:
     """Designs by ascending clearance, and whether they meet all requirements."""
     kept = verdict.assign(meets=verdict["verdict"].isin(["meets", "does not apply"]))

@@ -42,6 +42,26 @@ module decide_large:
 use rule * from decide_large as decide_large_*
 
 
+# a verdict on three of them
+module decide_rubbing:
+    snakefile:
+        "../../Snakefile"
+    config:
+        run(
+            "decide_rubbing",
+            blades=["S100"],
+            scenes=["Rubbing"],
+            scenes_file="validation/decisions.yaml",
+            structure={"kinematics": "quadratic", "boundary": {"contact": "patches"}},
+            speeds=[{"start": 1080, "stop": 1860, "step": 20}],
+            operating={"idle_rpm": 10400, "redline_rpm": 17700},
+            requirements={"above_yield_at_most_rad_s": 0},
+        )
+
+
+use rule * from decide_rubbing as decide_rubbing_*
+
+
 module fatigue_below_yield:
     snakefile:
         "../../Snakefile"
@@ -86,6 +106,17 @@ use rule evidence as clearance_and_lining_large with:
         "logs/validation/clearance_and_lining_large.log",
     params:
         **evidence("decisions.lengths"),
+
+
+use rule evidence as clearance_and_lining_verdict with:
+    input:
+        unpack(behind_engine(verdict="results/runs/decide_rubbing/verdict.csv")),
+    output:
+        table=f"{TABLES}/clearance_and_lining_verdict.csv",
+    log:
+        "logs/validation/clearance_and_lining_verdict.log",
+    params:
+        **evidence("decisions.verdicts"),
 
 
 use rule evidence as fatigue_below_yield with:
