@@ -264,6 +264,7 @@ def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):
     [
         ("fatigue_strength_pa: 4e+8", "fatigue_strength_pa alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both"),
         ("ultimate_strength_pa: 9e+8", "ultimate_strength_pa alone"),
+        ("fatigue_exponent: 5", "fatigue_exponent alone; allowed: with fatigue_strength_pa and ultimate_strength_pa"),
         ("fatigue_strength_pa: 3e+8, ultimate_strength_pa: 9e+8", r"yield_stress_pa: found 1\.38e\+09; allowed: 3e\+08 to 9"),
         ("fatigue_strength_pa: 9e+8, ultimate_strength_pa: 9e+8", r"fatigue_strength_pa: found 9e\+08; allowed: less than ult"),
     ],

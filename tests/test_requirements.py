@@ -372,7 +372,7 @@ def test_runs_over_others():
     assert above_all["share_of_revolutions_above_yield"].sum() == 1.0 and above_all.sizes["speed"] == len(SPEEDS)
 
 
-def test_clearance_and_mass():
+def test_clearance_mass_and_damage():
     """A scene next to one that grows has its own clearance."""
     judgement = one(Requirements(clearance=3e-4), clearance=2e-4)
     assert (judgement["margin"], judgement["verdict"]) == (pytest.approx(-0.1), FAILS)
@@ -381,6 +381,8 @@ def test_clearance_and_mass():
     judgement = one(Requirements(clearance=2.4e-4), response=growing)
     assert (judgement["value"], judgement["from_rad_s"], judgement["verdict"]) == (pytest.approx(0.25), 1250.0, MEETS)
     assert one(Requirements(mass=0.1), mass=0.101)["verdict"] == FAILS
+    damage = [one(Requirements(miner_sum=1e-4), miner_sum=value)["verdict"] for value in (5e-5, 2e-4, np.inf, np.nan)]
+    assert damage == [MEETS, FAILS, FAILS, UNKNOWN]
     runs = response(above(2000.0, 2000.0), clearance=(("speed", "contact_node"), np.full((len(SPEEDS), 2), np.nan)))
     assert one(Requirements(clearance=3e-4), response=runs, clearance=4e-4)["verdict"] == MEETS
 

@@ -45,6 +45,7 @@ imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
 simulations, rounds, joined = Simulations(sweep), Rounds(sweep), Datasets(sweep)
 more_motions = offered("motions", sweep)
+run_up_dataset = offered("run_ups", sweep)
 # speeds in operation, by which results are judged as well
 operating = to_plain(operating_range(settings))
 drawing = partial(drawing_of, code, operating)

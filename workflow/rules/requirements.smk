@@ -22,6 +22,7 @@ use rule step as verdict with:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue", "wear")},
         **({"members": sampling.dataset} if sampling else {}),
         **more_motions,
+        **run_up_dataset,
         campbell=rules.campbell_of_all.output[0],
         volumes=judged.volumes,
         looks=paths.filled({LOOKS: paths.run_keys(judged.looked)}),

@@ -124,7 +124,10 @@ class BladeSettings:
     def strengths(self) -> Strengths:
         """Strengths of the Goodman line (Pa); infinite where they are not known."""
         material = self.material
-        return Strengths() if material is None else Strengths(material.fatigue_strength, material.ultimate_strength)
+        if material is None:
+            return Strengths()
+        life = material.fatigue_cycles, material.fatigue_exponent
+        return Strengths(material.fatigue_strength, material.ultimate_strength, *life)
 
     @property
     def elastic(self) -> BladeSettings:

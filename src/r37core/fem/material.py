@@ -1,6 +1,6 @@
 """Material of the blade."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated, Self
 
 import numpy as np
@@ -26,11 +26,15 @@ class Material:
     ultimate_strength: Annotated[
         float, Key("Tensile strength, for the result fatigue", "_pa", ge=1, le=1e12, optional=True)
     ] = float("inf")
+    fatigue_cycles: Annotated[float, Key("Cycles that it endures the fatigue strength", ge=1e3, le=1e12, optional=True)] = 1e7
+    fatigue_exponent: Annotated[
+        float, Key("Exponent of its S-N line, for Miner's sum of run-ups", ge=1, le=100, optional=True)
+    ] = float("inf")
 
     @property
     def elastic(self) -> Self:
         """The material without its strengths: none of them changes what is computed of a linear blade."""
-        return replace(self, yield_stress=float("inf"), fatigue_strength=float("inf"), ultimate_strength=float("inf"))
+        return type(self)(self.youngs_modulus, self.density, self.poissons_ratio)
 
     @property
     def lame_constants(self) -> tuple[float, float]:
@@ -60,6 +64,8 @@ class Material:
         known = [f"{name}_pa" for name in ("fatigue_strength", "ultimate_strength") if np.isfinite(getattr(self, name))]
         if len(known) == 1:
             raise ValueError(f"{known[0]} alone; allowed: fatigue_strength_pa and ultimate_strength_pa, both or neither")
+        if not known and np.isfinite(self.fatigue_exponent):
+            raise ValueError("fatigue_exponent alone; allowed: with fatigue_strength_pa and ultimate_strength_pa")
         low, high = self.fatigue_strength, self.ultimate_strength
         if known and not low < high:
             raise ValueError(f"fatigue_strength_pa: found {low:g}; allowed: less than ultimate_strength_pa ({high:g})")

@@ -104,7 +104,7 @@ class Extension:
     simulated: Targets = lambda _: {}
     cases: Callable[[Settings], Mapping[str, Any]] | None = None
     targets: Targets = lambda _: {}
-    offers: Mapping[Literal["motions", "verdict"], str] = field(default_factory=dict)
+    offers: Mapping[Literal["motions", "run_ups", "verdict"], str] = field(default_factory=dict)
     remarks: Callable[[Settings], list[str]] = lambda _: []
     figures: tuple[Figure, ...] = ()
     panel: Panel | None = None

@@ -44,8 +44,8 @@ def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
     return targets
 
 
-def offered(what: Literal["motions", "verdict"], sweep: Sweep) -> dict[str, str]:
-    """File that an extension offers to other rules, `motions` or `verdict`, as the input of that name; none without one."""
+def offered(what: Literal["motions", "run_ups", "verdict"], sweep: Sweep) -> dict[str, str]:
+    """File that an extension offers to other rules under that name, as the input of that name; none without one."""
     offering = ((extension, extension.offers[what]) for extension in EXTENSIONS if what in extension.offers)
     files = [file for extension, file in offering if extension.targets(sweep)[file]]
     return {what: files[0]} if files else {}

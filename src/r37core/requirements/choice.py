@@ -50,6 +50,9 @@ class Requirements:
     goodman_share: Annotated[
         float | None, Key("Largest share of the Goodman line", name="goodman_share_at_most", ge=1e-6, le=1e6)
     ] = None
+    miner_sum: Annotated[
+        float | None, Key("Largest share of the life that a run-up uses, by Miner", name="miner_sum_at_most", ge=1e-12, le=1e6)
+    ] = None
     used_lining: Annotated[
         float | None,
         Key("Largest share of the lining's thickness that is used", "_percent", "used_lining_at_most", ge=1e-6, le=100),
@@ -70,7 +73,7 @@ class Requirements:
     @property
     def run_requirements(self) -> Self:
         """Requirements on what runs give alone."""
-        return replace(self, clearance=None, mass=None, campbell_margins=())
+        return replace(self, miner_sum=None, clearance=None, mass=None, campbell_margins=())
 
     @property
     def any_of_runs(self) -> bool:
@@ -80,7 +83,7 @@ class Requirements:
     @property
     def any(self) -> bool:
         """True if there is one."""
-        numbers = (self.above_yield, self.goodman_share, self.used_lining, self.clearance, self.mass)
+        numbers = (self.above_yield, self.goodman_share, self.miner_sum, self.used_lining, self.clearance, self.mass)
         return bool(self.campbell_margins) or any(number is not None for number in numbers)
 
 

@@ -40,8 +40,9 @@ class Evidence:
 
     `members`, `motions`: parts of the datasets of members under tolerances and of more motions. `looks`: further runs, see
     requirements.looks, each a response of JUDGED; none where none were done, for the reason in `not_looked`. `clearance` (m):
-    of a casing whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); NaN each where not
-    known. `error`: relative error of stress and wear by mesh and step. `point_contact`: whether contact acts on points.
+    of a casing whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); `miner_sum` of the worst
+    run-up; NaN each where not known. `error`: relative error of stress and wear by mesh and step. `point_contact`: whether
+    contact acts on points.
     """
 
     response: xr.Dataset
@@ -54,6 +55,7 @@ class Evidence:
     clearance: float = np.nan
     thickness: float = np.nan
     mass: float = np.nan
+    miner_sum: float = np.nan
     error: float = 0.0
     point_contact: bool = False
 
@@ -102,11 +104,6 @@ class Evidence:
         speeds = self.response["speed"].values
         return (speeds >= self.operating.first) & (speeds <= self.operating.last)
 
-    @property
-    def operated(self) -> xr.Dataset:
-        """The runs in the operating range."""
-        return self.response.isel(speed=np.flatnonzero(self.operates))
-
     def growing(self, near: np.ndarray) -> str:
         """Where a motion still grows as its run ends, of runs `near` a limit, shape (speeds,); empty where none does."""
         if "motion_at_end" not in self.response:
@@ -118,7 +115,7 @@ class Evidence:
     @property
     def divergence(self) -> str:
         """How many runs in operation diverged, and when; empty where none did."""
-        runs = self.operated
+        runs = self.response.isel(speed=np.flatnonzero(self.operates))
         ended = runs.isel(speed=np.flatnonzero(runs["status"].values == RunStatus.DIVERGED))
         if not ended.sizes["speed"]:
             return ""

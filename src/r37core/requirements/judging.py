@@ -350,6 +350,14 @@ def _clearance(evidence: Evidence) -> Columns:
     return _worst_at(-loss, speed)
 
 
+def _miner_sum(evidence: Evidence) -> Columns:
+    if np.isnan(evidence.miner_sum):
+        return {"note": "no run-up has it: run_ups, fatigue and stress of the scene, the material's fatigue_exponent"}
+    if np.isinf(evidence.miner_sum):
+        return _no_number(np.nan, "a run-up diverged, or breaks the blade at once")
+    return {"value": evidence.miner_sum}
+
+
 def _mass(evidence: Evidence) -> Columns:
     return {"value": evidence.mass, "note": "" if np.isfinite(evidence.mass) else "matrices do not say it"}
 
@@ -363,7 +371,11 @@ _OF_RUNS: _Numbers = {
     "used_lining": ("%", 100.0, _used_lining),
 }
 
-_OF_BLADE: _Numbers = {"clearance": ("mm", 1e3, _clearance), "mass": ("kg", 1.0, _mass)}
+_OF_BLADE: _Numbers = {
+    "miner_sum": ("1", 1.0, _miner_sum),
+    "clearance": ("mm", 1e3, _clearance),
+    "mass": ("kg", 1.0, _mass),
+}
 
 
 def distance_from_operation(crossing: float, operating: OperatingRange) -> float:

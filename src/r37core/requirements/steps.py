@@ -50,9 +50,10 @@ def look(input: Any, output: Any, params: Any) -> None:
 def judge(input: Any, output: Any, params: Any) -> None:
     """Judge each blade and scene. Output: verdict (csv).
 
-    Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members and
-    motions. Params: pairs, looked (those of them with looks), not_looked (why others have none), requirements, operating,
-    densities, clearance and thickness by scene, errors (of each pair), point_contact (blades whose contact acts on points).
+    Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members,
+    motions and run_ups. Params: pairs, looked (those of them with looks), not_looked (why others have none), requirements,
+    operating, densities, clearance and thickness by scene, errors (of each pair), point_contact (blades whose contact acts on
+    points).
     """
     files = dict(input.items())
     shapes = zip(params.densities.items(), as_list(files.pop("volumes")), strict=True)

@@ -74,12 +74,14 @@ def verdict_table(
     """A row for each requirement of each of the `pairs` of blade and scene: COLUMNS.
 
     `datasets`: campbell, rms and, if there, stress, wear, members and motions. `numbers`: clearance and thickness by scene,
-    mass by blade, of Evidence, where they are known.
+    mass by blade, of Evidence, where they are known; `run_ups` among the datasets has run-ups by blade and scene.
     """
     rows = []
+    damage = _miner_sums(datasets.get("run_ups"))
     for blade, scene in pairs:
         more: dict[str, Any] = {name: _part(datasets.get(name), blade, scene) for name in ("members", "motions")}
         more |= {name: known.get(blade if name == "mass" else scene, np.nan) for name, known in numbers.items()}
+        more["miner_sum"] = damage.get((blade, scene), np.nan)
         response, campbell = response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade)
         error, point_contact = sureness.errors.get((blade, scene), 0.0), blade in sureness.point_contact
         evidence = Evidence(response, campbell=campbell, operating=operating, error=error, point_contact=point_contact, **more)
@@ -89,6 +91,15 @@ def verdict_table(
         evidence = replace(evidence, looks=looks, not_looked=reason)
         rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
     return pd.DataFrame(rows, columns=["blade", "scene", *COLUMNS])
+
+
+def _miner_sums(run_ups: xr.Dataset | None) -> dict[tuple[str, str], float]:
+    """Miner's sum of the worst run-up of each blade and scene that has one; NaN where one of its run-ups has none."""
+    if run_ups is None or "miner_sum" not in run_ups:
+        return {}
+    runs = run_ups[["blade", "scene", "miner_sum"]].to_dataframe()
+    worst = runs.groupby(["blade", "scene"])["miner_sum"].agg(lambda sums: sums.max(skipna=False))
+    return {(str(blade), str(scene)): float(value) for (blade, scene), value in worst.items()}
 
 
 def _part(dataset: xr.Dataset | None, blade: str, scene: str) -> xr.Dataset | None:

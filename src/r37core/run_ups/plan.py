@@ -77,6 +77,7 @@ class RunUps:
                 "results": lambda wildcards: list(self.sweep.results(wildcards)),
                 "highest_order": self.sweep.settings.fidelity.time_integration.spectrum_highest_order,
                 "yield_stress": self.sweep.yield_stress,
+                "strengths": self.sweep.strengths,
                 "provenance": made.sweep,
             },
         )
@@ -185,6 +186,7 @@ EXTENSION = Extension(
     checks=(run_ups_can_be_done, slowest_speeds_can_be_run, no_coriolis, no_rotors),
     simulated=lambda sweep: {RUN_UP: RunUps(sweep).files},
     targets=lambda sweep: dict.fromkeys((DATASET, TABLE, RATES), [{}] if _pairs(sweep) else []),
+    offers={"run_ups": DATASET},
     remarks=remarks,
     figures=(
         Figure(

@@ -7,7 +7,9 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from r37core.rom.contact_model import ContactModel
+from r37core.stress.cycles import rainflow_cycles, worst_nodes
 from r37core.stress.operator import StressOperator
+from r37core.stress.statistic import UNKNOWN, Strengths
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.kept_numbers import KEPT, amplitudes, append_rotation
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
@@ -26,6 +28,7 @@ def record_run_up(
     highest_order: int,
     stress: StressOperator | None,
     yield_stress: float,
+    strengths: Strengths = UNKNOWN,
 ) -> dict[str, np.ndarray]:
     """Do a run-up, and keep of every whole revolution what is asked for in `results`.
 
@@ -33,8 +36,8 @@ def record_run_up(
     `time` (s, at its end), shape (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS.
     `amplitude` (m), shape (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion;
     `max_von_mises` (Pa) and `max_wear` (m, by the end of the constant-speed segment that the revolution ends in), shape
-    (revolutions,). A run that diverges has the revolutions before it; one that does so while it wears the lining is that of
-    the lining as new.
+    (revolutions,). With fatigue: numbers of _Cycles, by these `strengths`, infinite damage of a run that diverges. Such a run
+    has the revolutions before; one that diverges while it wears the lining is that of the lining as new.
     """
     orders, run_up, choice = highest_order if "spectrum" in results else None, integration.run_up, integration.choice
     diverged = False
@@ -44,9 +47,12 @@ def record_run_up(
         if repeats:
             integration.start(integration.state.wear)
         revolutions, reached = _Revolutions(integration.model, choice, orders, stress, "static_stress" in results), 0
+        cycles = _Cycles(integration.model, stress) if stress is not None and "fatigue" in results else None
         for segments in integration.segments():
             diverged, reached = segments.diverged, reached + len(segments.samples)
             revolutions.add(segments)
+            if cycles is not None:
+                cycles.add(segments)
         if diverged:
             break
     totals = integration.state.totals
@@ -63,6 +69,10 @@ def record_run_up(
         "worn": np.array(int(run_up.worn)),
         "yield_stress": np.array(yield_stress),
     }
+    if cycles is not None:
+        unknown = {"largest_stress_range": np.array(np.nan), "miner_sum": np.array(np.inf if strengths.have_line else np.nan)}
+        first = run_up.before * choice.snapshots_per_revolution
+        result |= unknown if diverged else cycles.numbers(first, strengths)
     if "wear" not in results:
         del result["max_wear"]
     if "energy" in results:
@@ -141,6 +151,38 @@ class _Revolutions:
         if self.stress is not None:
             reduced["max_von_mises"] = largest_stress(self.stress, arrays["coordinates"], arrays["bound"])
         self.reduced.append(reduced)
+
+
+@dataclass
+class _Cycles:
+    """Signed von Mises stress (Pa), rotation's in it, at all instants of a run-up, of the worst node of each mode.
+
+    `stress`: operator of all nodes.
+    """
+
+    model: ContactModel
+    stress: StressOperator
+    histories: list[np.ndarray] = field(default_factory=list)
+    followed: StressOperator | None = None
+
+    def add(self, segments: IntegratedSegments) -> None:
+        """Add the stress of some segments, at the nodes that the first ones choose."""
+        to_reduced = self.model.to_reduced @ segments.shapes
+        if self.followed is None:
+            self.followed = worst_nodes(self.stress, to_reduced.T)
+        states = append_rotation(segments.snapshots, self.model, segments.snapshot_speeds)
+        to_stressed = block_diag(to_reduced, np.eye(states.shape[1] - to_reduced.shape[1]))
+        self.histories.append(self.followed.signed_von_mises(states @ to_stressed.T).astype(np.float32))
+
+    def numbers(self, first: int, strengths: Strengths) -> dict[str, np.ndarray]:
+        """`largest_stress_range` (Pa) of a node from the instant `first` on, and `miner_sum`.
+
+        That is the share of the life that its cycles use, by these `strengths`.
+        """
+        history = np.concatenate(self.histories)[first:].astype(float)
+        ranges = np.ptp(history, axis=0)
+        damage = strengths.miner_sum(rainflow_cycles(history[:, ranges.argmax()]))
+        return {"largest_stress_range": np.array(ranges.max()), "miner_sum": np.array(damage)}
 
 
 def largest_stress(stress: StressOperator, coordinates: np.ndarray, bound: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ from r37core.contact.scene import Scene
 from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model
 from r37core.stress.operator import judged_operator, read_stress_operators
+from r37core.stress.statistic import Strengths
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_file import write_speed
 
@@ -22,7 +23,7 @@ from .tables import rate_table, run_up_table
 def record(input: Any, output: Any, params: Any) -> None:
     """Do one run-up. Inputs: model, and stress and campbell if needed. Output: run_up (npz).
 
-    Params: scene, choice, run_up, name, results, highest_order, yield_stress, provenance.
+    Params: scene, choice, run_up, name, results, highest_order, yield_stress, strengths, provenance.
     """
     choice = from_plain(IntegrationChoice, params.choice)
     campbell = read_dataset(input.campbell) if hasattr(input, "campbell") else None
@@ -33,6 +34,7 @@ def record(input: Any, output: Any, params: Any) -> None:
         highest_order=params.highest_order,
         stress=judged_operator(read_stress_operators(input.stress)) if hasattr(input, "stress") else None,
         yield_stress=params.yield_stress,
+        strengths=from_plain(Strengths, params.strengths),
     )
     write_speed(result, output.run_up, params.provenance)
 

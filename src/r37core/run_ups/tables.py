@@ -64,6 +64,9 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
             "revolutions_above_yield": int(np.count_nonzero(stress > limit)),
             "last_von_mises_pa": float(stress[-1]),
         }
+    for name, column in (("miner_sum", "miner_sum"), ("largest_stress_range", "largest_stress_range_pa")):
+        if name in run:
+            row[column] = float(run[name])
     if "max_wear" in run and len(speed):
         row["max_wear_m"] = float(run["max_wear"][-1])
     return row

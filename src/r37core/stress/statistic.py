@@ -4,11 +4,13 @@ Apart from what simulations import: a changed statistic runs none of them again.
 """
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import inf, isfinite
 from typing import Any
 
 import numpy as np
+
+from .cycles import StressCycles
 
 HIGH = 0.9
 """Share of the revolutions that the high quantile is not exceeded in."""
@@ -16,15 +18,25 @@ HIGH = 0.9
 
 @dataclass(frozen=True)
 class Strengths:
-    """Stress amplitude that a material endures at zero mean, and its tensile strength (Pa); infinite where not known."""
+    """Stress amplitude that a material endures at zero mean, and its tensile strength (Pa); infinite where not known.
+
+    It endures that amplitude for so many `cycles`, and others by the `exponent` of its S-N line, infinite where not known.
+    """
 
     fatigue_strength: float = inf
     ultimate_strength: float = inf
+    cycles: float = 1e7
+    exponent: float = inf
 
     @property
     def are_known(self) -> bool:
         """True where a material has a fatigue strength."""
         return isfinite(self.fatigue_strength)
+
+    @property
+    def have_line(self) -> bool:
+        """True where a material has an S-N line."""
+        return isfinite(self.exponent)
 
     def share(self, alternating: np.ndarray, mean: np.ndarray) -> np.ndarray:
         """Share of the Goodman line, alternating/S_f + mean/S_u of stresses (Pa), compression as 0; NaN without strengths."""
@@ -32,6 +44,19 @@ class Strengths:
             return np.full(np.shape(alternating), np.nan)
         tension = np.maximum(np.asarray(mean, dtype=float), 0.0)
         return np.asarray(alternating, dtype=float) / self.fatigue_strength + tension / self.ultimate_strength
+
+    def miner_sum(self, cycles: StressCycles) -> float:
+        """Share of the life that cycles use, by Palmgren and Miner; NaN without an S-N line.
+
+        Of so many cycles N of an amplitude S_a and a mean S_m, compression as 0, by Goodman and Basquin:
+        n/N with N = N_f (S_f/S)^k and S = S_a/(1 - S_m/S_u). There is no amplitude below which a cycle does no damage.
+        """
+        if not self.have_line:
+            return np.nan
+        left = 1.0 - np.maximum(cycles.mean, 0.0) / self.ultimate_strength
+        with np.errstate(divide="ignore"):
+            amplitude = np.where(left > 0.0, cycles.amplitude / np.maximum(left, 0.0), np.inf)
+        return float(np.sum(cycles.count / self.cycles * (amplitude / self.fatigue_strength) ** self.exponent))
 
 
 UNKNOWN = Strengths()
@@ -48,7 +73,7 @@ def goodman_statistic(run: Mapping[str, np.ndarray], strengths: Strengths) -> di
     rows = [_goodman(*of_region, strengths) for of_region in regions]
     names = ["goodman_share", "goodman_share_median", "share_of_revolutions_above_goodman"]
     names += ["goodman_alternating_stress", "goodman_mean_stress"]
-    limits = {name: np.array(value, dtype=float) for name, value in asdict(strengths).items()}
+    limits = {name: np.array(getattr(strengths, name)) for name in ("fatigue_strength", "ultimate_strength")}
     return limits | dict(zip(names, np.array(rows, dtype=float).T, strict=True))
 
 
