@@ -171,8 +171,8 @@ class _Cycles:
         if self.followed is None:
             self.followed = worst_nodes(self.stress, to_reduced.T)
         states = append_rotation(segments.snapshots, self.model, segments.snapshot_speeds)
-        to_stressed = block_diag(to_reduced, np.eye(states.shape[1] - to_reduced.shape[1]))
-        self.histories.append(self.followed.signed_von_mises(states @ to_stressed.T).astype(np.float32))
+        shapes = block_diag(to_reduced, np.eye(states.shape[1] - to_reduced.shape[1]))
+        self.histories.append(self.followed.signed_von_mises(states @ shapes.T).astype(np.float32))
 
     def numbers(self, first: int, strengths: Strengths) -> dict[str, np.ndarray]:
         """`largest_stress_range` (Pa) of a node from the instant `first` on, and `miner_sum`.
