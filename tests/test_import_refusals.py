@@ -364,3 +364,40 @@ def test_a_material_of_the_file_that_is_not_used(tmp_path, file, text, found):
     (tmp_path / file).write_text(text)
     other = ignored_material(file, tmp_path, TITANIUM)
     assert other is None if found is None else other.youngs_modulus == found
+
+
+@pytest.mark.parametrize(
+    ("options", "grouped", "said"),
+    [
+        (
+            {"Mesh.SaveAll": 1},
+            1,
+            r"some elements are in no physical group: give all volumes one, or write with Mesh\.SaveAll = 0",
+        ),
+        (
+            {"Mesh.Recombine3DAll": 1},
+            2,
+            r"hexahedron27; allowed: .*; leave nodes on faces out \(Mesh\.SecondOrderIncomplete = 1",
+        ),
+    ],
+)
+def test_what_gmsh_has_written_otherwise(tmp_path, options, grouped, said):
+    """Two boxes, so many of them in a group, in the structured mesh that recombines to elements with nodes on their faces."""
+    import gmsh
+
+    gmsh.initialize()
+    try:
+        for name, value in ({"General.Terminal": 0, "Mesh.ElementOrder": 2} | options).items():
+            gmsh.option.setNumber(name, value)
+        for number in range(2):
+            gmsh.model.occ.addBox(0.0, 0.2 + 0.05 * number, 0.0, 0.004, 0.05, 0.03)
+        gmsh.model.occ.fragment([(3, 1)], [(3, 2)])
+        gmsh.model.occ.synchronize()
+        gmsh.model.mesh.setTransfiniteAutomatic(recombine="Mesh.Recombine3DAll" in options)
+        gmsh.model.addPhysicalGroup(3, [1, 2][:grouped], name="blade")
+        gmsh.model.mesh.generate(3)
+        gmsh.write(str(tmp_path / "boxes.msh"))
+    finally:
+        gmsh.finalize()
+    with pytest.raises(ImportRefused, match=said):
+        attempt(tmp_path, OF_OURS | {"mesh": "boxes.msh"})

@@ -75,6 +75,8 @@ def quietly(read: Callable[[Path], Any], file: Path) -> Any:
             raise
         lacking = f"something names {error}, which the file lacks; are there elements without their mid-nodes?"
         cause = lacking if isinstance(error, KeyError) else f"{type(error).__name__}: {str(error) or 'the file is damaged'}"
+        if "Incompatible cell data 'gmsh:physical'" in str(error):
+            cause = "some elements are in no physical group: give all volumes one, or write with Mesh.SaveAll = 0"
         reason = " ".join(printed.getvalue().split()) or cause
         raise ImportRefused(f"the reader gave up: {reason}") from None
 

@@ -9,6 +9,7 @@ from r37core.exchange.refusal import ImportRefused
 from r37core.fem.elements import ELEMENTS
 
 _SURFACE = ("vertex", "line", "triangle", "quad", "polygon")
+_WITH_FACE_NODES = ("hexahedron27", "wedge18")
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,12 @@ def solid_blocks(cells: Iterable[tuple[str, np.ndarray]]) -> dict[str, np.ndarra
             parts.setdefault(name, []).append(np.asarray(nodes, dtype=np.int64))
     unknown = [name for name in parts if name not in ELEMENTS]
     if unknown:
-        raise ImportRefused(f"found elements of type {', '.join(unknown)}; allowed: {', '.join(ELEMENTS)}")
+        remedy = (
+            "; leave nodes on faces out (Mesh.SecondOrderIncomplete = 1 in gmsh)"
+            if set(unknown) & set(_WITH_FACE_NODES)
+            else ""
+        )
+        raise ImportRefused(f"found elements of type {', '.join(unknown)}; allowed: {', '.join(ELEMENTS)}{remedy}")
     if not parts:
         raise ImportRefused(f"found no solid elements; allowed: {', '.join(ELEMENTS)}")
     return {name: np.concatenate(parts[name]) for name in ELEMENTS if name in parts}
