@@ -150,7 +150,7 @@ def test_linings_are_compared_with_the_tips_of_the_blades():
     numbers = {"Ref": (5.07e6, 1.014e6, 7.48e6, 0.289), "S100": (5.07e6, 1.014e6, 6.2e6, 0.3)}
     runs = {(blade, "abradable"): dict(zip(names, values, strict=True)) for blade, values in numbers.items()}
     assert lining_texts(runs) == [
-        "abradable: stiffness of the lining at the tip 5.07e+06 N/m, 1.01e+06 while it wears, on 0.289 to 0.3 of the tip's "
+        "abradable: stiffness of the lining at the tip 5.07e+06 N/m, 1.01e+06 while it wears, on 28.9 to 30% of the tip's "
         "length; of the blade there 6.2e+06 to 7.48e+06 N/m"
     ]
     assert lining_texts({}) == []

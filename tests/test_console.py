@@ -98,7 +98,8 @@ def test_an_interruption_while_the_rules_are_read_is_one_line(root, capsys, monk
     assert shown == [(ValueError, error, None)]
     lines = [line for line in (root / "Snakefile").read_text().splitlines() if line and not line.startswith("#")]
     before = lines[: lines.index("failures.end_interruptions_in_one_line()")]
-    assert before == ["import os", "import sys", "from r37core.console import failures"]
+    imported = [line.split()[1] for line in before if line.startswith(("import", "from"))]
+    assert imported == ["os", "sys", "importlib.util", "snakemake.exceptions", "r37core.console"]
 
 
 @pytest.fixture
@@ -177,6 +178,27 @@ def test_a_job_of_the_structure_is_named_when_it_begins(clock):
     clock.now = 1.0
     said(progress, "progress", "steps", done=1, total=100)
     assert log.getvalue() == "jobs 1 of 100; 1.0 a second; now mesh Ref\n"
+
+
+def test_no_run_is_silent(clock):
+    """A line comes while jobs are planned, and while one of them takes long, also after simulations."""
+    log = io.StringIO()
+    progress = Progress(10, log, clock)
+    clock.now = 29.0
+    progress.beat()
+    assert log.getvalue() == ""
+    clock.now = 31.0
+    progress.beat()
+    assert log.getvalue() == "planning the jobs, for 31 s\n"
+    simulate(progress, clock, 40, "Ref")
+    said(progress, "job_info", "", jobid=1, rule_name="looks", wildcards={"blade": "Ref"}, output=["looks.nc"])
+    clock.now = 175.0
+    progress.beat()
+    assert log.getvalue().splitlines()[-1].endswith("; now looks Ref for 2 min")
+    said(progress, "progress", "steps", done=100, total=100)
+    clock.now, written = 400.0, log.getvalue()
+    progress.beat()
+    assert log.getvalue() == written
 
 
 def test_a_message_of_a_job_takes_the_place_of_the_line(clock):

@@ -88,7 +88,7 @@ def test_a_run_that_diverged_is_above_yield_and_what_is_not_run_or_computed_cann
     runs["diverged_revolution"][place(1100.0)] = 3.7
     judgement = one(Requirements(above_yield=0.0), response=runs)
     assert judgement["verdict"] == FAILS
-    assert "1 of 41 runs diverged, the first at revolution 3.7" in judgement["note"]
+    assert "1 of 41 runs diverged, soonest at 1100 rad/s after 3.7 revolutions" in judgement["note"]
     narrow = response(above(2000.0, 2000.0)).isel(speed=slice(16, None))
     judgement = one(Requirements(above_yield=0.0), response=narrow)
     assert (judgement["verdict"], judgement["note"]) == (UNKNOWN, "speeds are not run from 1050 to 1250 rad/s")
@@ -505,6 +505,13 @@ def test_a_range_that_is_not_run_is_remarked_on(with_requirements):
     (line,) = remarks(with_requirements(operating=RANGE, requirements=needs, scenes=["direct"]))
     assert "up to about 232 further runs of each blade and scene (1)" in line
     assert not remarks(with_requirements(operating=RANGE, requirements={"mass_at_most_kg": 1.0}))
+
+
+def test_what_no_run_can_tell_is_said_beforehand(with_requirements):
+    needs = {"goodman_share_at_most": 1.0, "used_lining_at_most_percent": 50.0}
+    first, second, _ = remarks(with_requirements(operating=RANGE, requirements=needs, scenes=["abradable", "direct"]))
+    assert first == "requirements: goodman_share cannot be told without fatigue among the results of abradable, direct"
+    assert second.startswith("requirements: goodman_share cannot be told of Ref") and "fatigue_strength_pa" in second
 
 
 def test_what_moves_no_run_runs_no_further_runs_again(with_requirements):

@@ -192,3 +192,10 @@ def test_the_summary_has_the_place(responses):
     worst = response.isel(speed=int(np.argmax(response["max_von_mises_ever"].values)))
     for name in ("span", "chord", "side"):
         assert row[f"max_von_mises_{name}"] == worst[f"max_von_mises_{name}"]
+
+
+def test_a_region_without_nodes_is_no_map_s(whole):
+    """As the benchmark's box is to a blade of another place."""
+    region = next(iter(whole.stress_regions.values()))
+    empty = replace(region, evaluated=region.evaluated[:0], nodes=replace(region.nodes, nodes=region.nodes.nodes[:0]))
+    assert mapped_region({"first": replace(region, evaluated=region.evaluated[:5]), "empty": empty}) == "first"

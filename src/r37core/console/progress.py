@@ -5,9 +5,11 @@ from the log file and from a dry run too. A plugin of `--logger` must be a top-l
 with its colours, must stand in every profile, and where its package is not found a run ends with Snakemake's list of options.
 """
 
+import atexit
 import contextlib
 import logging
 import sys
+import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Collection
@@ -37,6 +39,9 @@ _CHATTER = (
 _ON_TERMINAL_S, _ELSEWHERE_S = 0.5, 60.0
 """Shortest time between two lines: one that renews itself, or plain ones."""
 
+_SILENT_S, _SILENT_ELSEWHERE_S = 10.0, 30.0
+"""Longest time without a line, on a terminal and elsewhere, and how long a job runs before the line says for how long."""
+
 
 @dataclass
 class Progress(logging.Filter):
@@ -44,13 +49,14 @@ class Progress(logging.Filter):
 
     `most`: how many simulations there may be at most, those of earlier runs included; windows of adaptive speeds, which are
     run in any case, may pass it. The line goes to `stream`: renewed in place if that is a terminal, and now and then as a line
-    of its own if it is not. Snakemake's log file has everything.
+    of its own if it is not. Snakemake's log file has everything. While `beating` it comes in any case: no
+    run is silent.
     """
 
     most: int
     stream: TextIO = field(default_factory=lambda: sys.stderr)
     clock: Callable[[], float] = time.monotonic
-    _jobs: dict[Any, tuple[str, str, str]] = field(default_factory=dict)
+    _jobs: dict[Any, tuple[str, str, str, float]] = field(default_factory=dict)
     _simulated: Counter[str] = field(default_factory=Counter)
     _diverged: int = 0
     _done: int = 0
@@ -58,9 +64,19 @@ class Progress(logging.Filter):
     _began: float | None = None
     _written: float = -1e9
     _open: bool = False
+    _ended: threading.Event = field(default_factory=threading.Event)
+    _lock: threading.RLock = field(default_factory=threading.RLock)
+    _made: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._made = self.clock()
 
     def filter(self, record: logging.LogRecord) -> bool:
         """True where Snakemake's own handler should write the record."""
+        with self._lock:
+            return self._passes(record)
+
+    def _passes(self, record: logging.LogRecord) -> bool:
         event = str(getattr(record, "event", None) or "")
         self._take(event, record)
         message = record.getMessage().strip()
@@ -74,12 +90,13 @@ class Progress(logging.Filter):
         if event == "job_info":
             output: Collection[str] = getattr(record, "output", None) or [""]
             blade = (getattr(record, "wildcards", None) or {}).get("blade", "")
-            self._jobs[record.jobid] = (record.rule_name, blade, str(next(iter(output))))  # type: ignore[attr-defined]
+            about = (record.rule_name, blade, str(next(iter(output))), self.clock())  # type: ignore[attr-defined]
+            self._jobs[record.jobid] = about  # type: ignore[attr-defined]
             if not self._simulated and self.stream.isatty():
                 # what takes half a minute is named when it begins, not when it has ended
                 self._write(immediately=True)
         elif event == "job_finished":
-            rule, blade, output = self._jobs.pop(record.job_id, ("", "", ""))  # type: ignore[attr-defined]
+            rule, blade, output, _ = self._jobs.pop(record.job_id, ("", "", "", 0.0))  # type: ignore[attr-defined]
             if rule == "simulate":
                 self._simulated[blade] += 1
                 with contextlib.suppress(InputFileError):
@@ -104,10 +121,34 @@ class Progress(logging.Filter):
         if rate > 0.0 and (self._simulated or self._done == self._known):
             # jobs before the first simulation take a hundred times as long as those after it
             parts.append(f"{_duration((self._known - self._done) / rate)} for those known")
-        if self._jobs and not self._simulated:
-            last = list(self._jobs.values())[-2:]
-            parts.append(f"now {', '.join(f'{rule} {blade}'.strip() for rule, blade, _ in last)}")
-        return "; ".join(parts)
+        if now := self._now():
+            parts.append(f"now {', '.join(now)}")
+        return "; ".join(parts) or f"planning the jobs, for {_duration(self.clock() - self._made)}"
+
+    def _now(self) -> list[str]:
+        """The last two jobs before the first simulation; then those that have run for long."""
+        running = []
+        for rule, blade, _, began in list(self._jobs.values()):
+            spent = self.clock() - began
+            named = f"{rule} {blade}".strip()
+            if spent >= _SILENT_S:
+                running.append(f"{named} for {_duration(spent)}")
+            elif not self._simulated:
+                running.append(named)
+        return running[-2:]
+
+    def beating(self) -> None:
+        """Write the line whenever there was none for long, until the last one, or until the process ends."""
+        atexit.register(self._ended.set)
+        while not self._ended.wait(1.0):
+            self.beat()
+
+    def beat(self) -> None:
+        """Write the line if there was none for long."""
+        silent = _SILENT_S if self.stream.isatty() else _SILENT_ELSEWHERE_S
+        with self._lock:
+            if not self._ended.is_set() and self.clock() - max(self._written, self._made) >= silent:
+                self._write(immediately=True)
 
     def _write(self, immediately: bool, last: bool = False) -> None:
         terminal = self.stream.isatty()
@@ -119,6 +160,7 @@ class Progress(logging.Filter):
         self.stream.flush()
         self._open = terminal
         if last:
+            self._ended.set()
             self._close_line()
 
     def _close_line(self) -> None:
@@ -132,6 +174,8 @@ def quieten(handlers: Collection[logging.Handler], progress: Progress) -> bool:
     terminal = [handler for handler in handlers if handler.name == HANDLER]
     for handler in terminal:
         handler.addFilter(progress)
+    if terminal:
+        threading.Thread(target=progress.beating, daemon=True).start()
     return bool(terminal)
 
 

@@ -81,7 +81,8 @@ class Console:
         if self.caller:
             self.caller.failed(failures.notes())
         else:
-            _say_last(["", *failures.taken()])
+            # a figure that failed hides no verdict
+            _say_last(["", *lines_of_extensions(self.settings, self.began), *failures.taken()])
 
 
 def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root: Path, values: Mapping[str, Any]) -> Console:

@@ -123,7 +123,9 @@ class Evidence:
         many = "every run" if count == total else f"{count} of {total} runs"
         if "diverged_revolution" not in ended:
             return f"{many} diverged"
-        return f"{many} diverged, the first at revolution {float(ended['diverged_revolution'].min()):.3g}"
+        lasted = np.nan_to_num(ended["diverged_revolution"].values, nan=np.inf)
+        speed, revolutions = ended["speed"].values[lasted.argmin()], lasted.min()
+        return f"{many} diverged, soonest at {speed:.5g} rad/s after {revolutions:.3g} revolutions"
 
     @property
     def diverged(self) -> np.ndarray:

@@ -305,8 +305,16 @@ def _goodman_share(evidence: Evidence) -> Columns:
         return {"note": without}
     share, speed = evidence.worst(np.where(evidence.diverged, np.inf, evidence.response["goodman_share"].values))
     if not np.isfinite(share):
-        return _no_number(speed, evidence.divergence)
+        return _diverged(evidence, speed)
     return _worst_at(share, speed)
+
+
+def _diverged(evidence: Evidence, speed: float) -> Columns:
+    """A requirement that fails by runs that diverged: in the range, or next to its end at a `speed` (rad/s)."""
+    inside = evidence.response["speed"].values[evidence.diverged & evidence.operates]
+    if not len(inside):
+        return _no_number(speed, "the run next to the range diverged")
+    return _no_number(np.nan, evidence.divergence) | {"from_rad_s": inside.min(), "to_rad_s": inside.max()}
 
 
 def _no_number(speed: float, note: str) -> Columns:
@@ -332,7 +340,7 @@ def _used_lining(evidence: Evidence) -> Columns:
     value, speed = evidence.worst(np.where(through | evidence.diverged, np.inf, used))
     if np.isinf(value):
         worn = evidence.worst(through.astype(float))[0] > 0.0
-        return _no_number(speed, "worn through to the casing" if worn else evidence.divergence)
+        return _no_number(speed, "worn through to the casing") if worn else _diverged(evidence, speed)
     note = ""
     if "motion_at_end" in response:
         nearest = int(np.abs(response["speed"].values - speed).argmin())

@@ -202,9 +202,32 @@ def remarks(settings: Settings) -> list[str]:
         named = ", ".join(f"{blade} in {scene}" for blade, scene in short[:3]) + (", ..." if len(short) > 3 else "")
         reach = f"{operating.first:.6g} to {operating.last:.6g} rad/s"
         lines.append(f"operating: the speeds of {named} do not reach over {reach}; what is judged there is not known")
+    lines += _not_told(settings)
     if looked := Judged(Sweep(settings)).looked:
         runs = f"up to about {most_further_runs(operating)} further runs of each blade and scene ({len(looked)})"
         lines.append(f"requirements: {runs} that does not fail clearly")
+    return lines
+
+
+def _not_told(settings: Settings) -> list[str]:
+    """Requirements that no run of some blades and scenes can tell, for want of a result or of strengths."""
+    requirements, sweep, lines = settings.section(SECTION).requirements(), Sweep(settings), []
+    pairs = sweep.runs_with("rms")
+    lined = [pair for pair in pairs if settings.scenes[pair[1]].scene.lining is not None]
+    weak = [name for name in settings.blades if not settings.blades[name].strengths.are_known]
+    for name, result, asked in (
+        ("above_yield", "stress", pairs),
+        ("goodman_share", "fatigue", pairs),
+        ("used_lining", "wear", lined),
+    ):
+        if getattr(requirements, name) is None:
+            continue
+        scenes = dict.fromkeys(scene for blade, scene in asked if (blade, scene) not in sweep.runs_with(result))
+        if scenes:
+            lines.append(f"requirements: {name} cannot be told without {result} among the results of {', '.join(scenes)}")
+        if result == "fatigue" and weak:
+            strengths = "material.fatigue_strength_pa and ultimate_strength_pa"
+            lines.append(f"requirements: {name} cannot be told of {', '.join(weak)} without {strengths}")
     return lines
 
 

@@ -65,9 +65,10 @@ def lining_texts(runs: Mapping[tuple[str, str], Mapping[str, Any]]) -> list[str]
     for scene in dict.fromkeys(scene for _, scene in runs):
         blades = [numbers for (_, name), numbers in runs.items() if name == scene]
         spans = {name: _span([numbers[name] for numbers in blades]) for name in blades[0]}
+        percent = _span([100.0 * numbers["lined_tip_share"] for numbers in blades])
         lines.append(
             f"{scene}: stiffness of the lining at the tip {spans['lining_elastic_stiffness']} N/m, "
-            f"{spans['lining_plastic_stiffness']} while it wears, on {spans['lined_tip_share']} of the tip's length; of the "
+            f"{spans['lining_plastic_stiffness']} while it wears, on {percent}% of the tip's length; of the "
             f"blade there {spans['tip_stiffness']} N/m"
         )
     return lines

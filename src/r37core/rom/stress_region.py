@@ -38,8 +38,8 @@ class StressRegion:
 
     @property
     def is_complete(self) -> bool:
-        """True where stress is recovered at all nodes of the region."""
-        return len(self.evaluated) == len(self.nodes.nodes)
+        """True where stress is recovered at all nodes of the region, and it has some."""
+        return 0 < len(self.evaluated) == len(self.nodes.nodes)
 
 
 @dataclass(frozen=True)
