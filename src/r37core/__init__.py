@@ -1,3 +1,3 @@
 """Blade-tip rubbing: blade shape, finite elements, reduced model and post-processing, usable without Snakemake."""
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
