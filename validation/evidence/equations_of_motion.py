@@ -108,11 +108,14 @@ def with_static_modes(blade, first):
     return replace(blade, **moving, flexibility=static @ static.T, edge_flexibility=of_edge)
 
 
-def static_contact(blade, times, stiffness, method="DOP853", **tolerances):
-    """Leading edge's normal displacement (m) with static modes, on bars of `stiffness` (N/m) or, if infinite, the casing."""
+def static_pressure(blade, stiffness, worn=lambda time: 0.0):
+    """Normal forces (N), shape (nodes,), at a time and a state, with static modes: a function of both.
+
+    On bars of `stiffness` (N/m) or, if infinite, the casing; `worn`: how much shorter (m) the bars before the nodes are then.
+    """
 
     def pressure(time, state):
-        depth = blade.penetration(time, state)[0]
+        depth = blade.penetration(time, state)[0] - worn(time)
         pressed = depth > 0.0
         if not pressed.any():
             return np.zeros(blade.nodes)
@@ -128,6 +131,13 @@ def static_contact(blade, times, stiffness, method="DOP853", **tolerances):
                 return forces
             first = int(np.argmax(wrong))
             pressed[first] = not pressed[first]
+
+    return pressure
+
+
+def static_contact(blade, times, stiffness, method="DOP853", **tolerances):
+    """Leading edge's normal displacement (m) with static modes, on bars of `stiffness` (N/m) or, if infinite, the casing."""
+    pressure = static_pressure(blade, stiffness)
 
     def rate(time, state):
         return blade.motion(state, pressure(time, state))

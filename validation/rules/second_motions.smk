@@ -101,6 +101,21 @@ use rule evidence as second_motions_folds with:
         **evidence("second_motions.folds"),
 
 
+use rule evidence as second_motions_harmonic_balance with:
+    input:
+        unpack(
+            behind_engine(
+                models=[f"{MOTIONS['points']}/{blade}/contact_pressure_edge.npz" for blade in ("Ref", "L50", "CS100")]
+            ),
+        ),
+    output:
+        table=f"{TABLES}/second_motions_harmonic_balance.csv",
+    log:
+        "logs/validation/second_motions_harmonic_balance.log",
+    params:
+        **evidence("harmonic_balance.held"),
+
+
 use rule evidence as second_motions_again with:
     input:
         unpack(

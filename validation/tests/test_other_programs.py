@@ -1,5 +1,6 @@
 """The time integration against SciPy and other programs, on a small blade."""
 
+import copy
 import os
 from dataclasses import replace
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 from evidence.equations_of_motion import against_spring, blade_of, with_wear, without_yield
+from evidence.harmonic_balance import by_harmonic_balance
 from evidence.massless_boundary import boundary_rows, massless_boundary, run_nlstep
 from integration_cases import random_model, with_static_modes
 
@@ -155,3 +157,17 @@ def test_nlstep_on_a_light_touch():
     ours = integrated(stiff, scene, 8000, EXACT_MODAL, static_above=0.3)[0][:HALF]
     found = run_nlstep(blade_of(stiff, SPEED, scene, np.inf), len(SLOW), 160, SAMPLES, HALF)[0]
     assert error(found, ours) < 0.01
+
+
+def test_a_settled_motion_is_found_by_harmonic_balance(model):
+    """From a tenth less than it, by mousai; bars that are worn otherwise have another motion."""
+    choice = IntegrationChoice(1e-6, 60, SAMPLES * 10, integrator=EXACT_MODAL)
+    simulation = Simulation(model, SPEED, SCENE, choice)
+    state = simulation.start()
+    simulation.advance(state, choice.revolutions)
+    motion = simulation.advance_samples(copy.deepcopy(state), choice.samples_per_revolution).samples[:, 0]
+    sizes = [np.sqrt(np.mean(each**2)) for each in (motion, by_harmonic_balance(simulation, state))]
+    assert sizes[0] > 1e-6
+    assert sizes[1] == pytest.approx(sizes[0], rel=2e-3)
+    state.wear += 2e-5
+    assert np.sqrt(np.mean(by_harmonic_balance(simulation, state) ** 2)) != pytest.approx(sizes[0], rel=1e-2)
