@@ -141,7 +141,7 @@ def test_linings_of_a_run_are_compared_with_the_tips_before_it_starts(config_cop
         "material_abradable: stiffness of the lining at the tip 1.76e+07 N/m, 3.51e+06 while it wears"
     )
     assert published.startswith(
-        "abradable: stiffness of the lining at the tip 5.07e+06 N/m, 1.01e+06 while it wears, on 0.289 of"
+        "abradable: stiffness of the lining at the tip 5.07e+06 N/m, 1.01e+06 while it wears, on 28.9% of"
     )
     assert published.endswith("(as the models in results have it)")
     (config_copy / "results/Ref/contact_pressure_edge.npz").write_bytes(b"half a file")

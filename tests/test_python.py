@@ -463,7 +463,7 @@ def test_the_command_refuses_in_one_line(root, capsys, tmp_path):
     assert told.out == "" and told.err.startswith("r37: scene: found 'rub'; allowed: abradable") and told.err.count("\n") == 1
     assert main(["check", "missing.yaml"]) == 1
     assert main(["check", config]) == 0
-    assert "level: standard\nsimulations: 896 to about 2842\ntheir CPU time: about 85.3 s" in capsys.readouterr().out
+    assert "level: standard\nsimulations: 896 to about 2842\ntheir CPU time: about 4.74 minutes" in capsys.readouterr().out
 
 
 def test_an_interrupted_command_says_so_in_a_line(monkeypatch, capsys):

@@ -54,7 +54,7 @@ def test_candidates_have_the_largest_stress_of_all_nodes(model, every_node, cont
     np.testing.assert_array_equal(found[2], wanted[2])
     ratio = found[:2] / wanted[:2]
     assert ratio.max() < 1.0 + 1e-5 and ratio.min() > 0.95
-    assert np.median(ratio) == 1.0 and ratio.mean(axis=1).min() > 0.999
+    assert np.median(ratio) == 1.0 and ratio.mean(axis=1).min() > 0.998
 
 
 def test_the_band_leaves_out_a_mode_above_the_limit(model, steel):

@@ -11,6 +11,10 @@ from r37core.config.speed_choice import most_runs
 from .samples import Pair, Sample
 
 
+_JOB_S = 0.07
+"""CPU time (s) of a simulation beside its time integration: its process, results and file, and Snakemake's share."""
+
+
 @dataclass(frozen=True)
 class Extent:
     """Simulations of a sweep, `certain` ones and at `most` where speeds are adaptive, and at most so many of its `members`."""
@@ -34,8 +38,8 @@ class Extent:
         return f"{sweep}, and at most {self.members} of members" if self.members else sweep
 
     def cpu_time(self, per_run: float) -> str:
-        """Time that they take at most, in words; `per_run`: CPU seconds of one."""
-        cost = self.at_most * per_run
+        """Time that they take at most, in words; `per_run`: CPU seconds of the time integration of one."""
+        cost = self.at_most * (per_run + _JOB_S)
         return f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
 
 
