@@ -10,7 +10,6 @@ from r37core.config.speed_choice import most_runs
 
 from .samples import Pair, Sample
 
-
 _JOB_S = 0.07
 """CPU time (s) of a simulation beside its time integration: its process, results and file, and Snakemake's share."""
 
