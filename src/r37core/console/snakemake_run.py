@@ -81,8 +81,11 @@ class Console:
         if self.caller:
             self.caller.failed(failures.notes())
         else:
-            # a figure that failed hides no verdict
-            _say_last(["", *lines_of_extensions(self.settings, self.began), *failures.taken()])
+            lines: list[str] = []
+            # a figure that failed hides no verdict, and what is half made no failure
+            with contextlib.suppress(Exception):
+                lines = lines_of_extensions(self.settings, self.began)
+            _say_last(["", *lines, *failures.taken()])
 
 
 def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root: Path, values: Mapping[str, Any]) -> Console:
