@@ -10,6 +10,8 @@ from snakemake_interface_executor_plugins.registry import ExecutorPluginRegistry
 from workflow_runs import copy_project, dataset_values, overlay, snakemake
 
 import r37
+from r37.jobs import parallel_results
+from r37core.config import ConfigError
 from r37core.console.executor import Executor
 
 CLUSTER = ("--workflow-profile", "profiles/cluster", "--executor", "cluster-generic", "--cluster-generic-submit-cmd", "sh")
@@ -43,6 +45,14 @@ def test_groups_of_a_cluster_give_the_bits_of_one_machine(root, compiled, tmp_pa
     runs = len(list((tmp_path / "cluster").glob("results/*/abradable/speed_*.npz")))
     assert 0 < said.count("--local-groupid") < runs / 2
     assert dataset_values(tmp_path / "cluster") == dataset_values(tmp_path / "alone")
+
+
+def test_a_backend_without_results_one_by_one_is_refused():
+    with (
+        joblib.parallel_config(backend="multiprocessing"),
+        pytest.raises(ConfigError, match="joblib's backend: .*choose another"),
+    ):
+        parallel_results([int, int], 2)
 
 
 @pytest.mark.slow

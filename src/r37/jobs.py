@@ -40,7 +40,11 @@ def parallel_results(calls: Sequence[Callable[[], Result]], cores: int, what: st
         with _alone():
             return [call() for call in shown]
     with _POOL:
-        results = Parallel(n_jobs=processes, return_as="generator")(delayed(_called)(call) for call in calls)
+        try:
+            parallel = Parallel(n_jobs=processes, return_as="generator")
+        except ValueError as error:
+            raise ConfigError(f"joblib's backend: {error}; choose another, as loky, threading or dask") from None
+        results = parallel(delayed(_called)(call) for call in calls)
         return [result for _, result in zip(shown, results, strict=True)]
 
 
