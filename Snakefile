@@ -6,7 +6,9 @@ from importlib.util import find_spec
 from snakemake.exceptions import WorkflowError
 
 if find_spec("r37core") is None:
-    raise WorkflowError(f"r37's package is missing in {sys.executable}: `pip install .` in a clone of r37, or `make setup`")
+    raise WorkflowError(
+        f"r37's package is missing in {sys.executable}: `pip install .` in a clone of r37, or `make setup`"
+    )
 
 from r37core.console import failures
 

@@ -50,7 +50,7 @@ def test_groups_of_a_cluster_give_the_bits_of_one_machine(root, compiled, tmp_pa
 def test_a_backend_without_results_one_by_one_is_refused():
     with (
         joblib.parallel_config(backend="multiprocessing"),
-        pytest.raises(ConfigError, match="joblib's backend: .*choose another"),
+        pytest.raises(ConfigError, match=r"joblib's backend: .*choose another"),
     ):
         parallel_results([int, int], 2)
 
