@@ -195,6 +195,7 @@ def test_no_run_is_silent(clock):
     clock.now = 175.0
     progress.beat()
     assert log.getvalue().splitlines()[-1].endswith("; now looks Ref for 2 min")
+    said(progress, "job_finished", "", job_id=1)
     said(progress, "progress", "steps", done=100, total=100)
     clock.now, written = 400.0, log.getvalue()
     progress.beat()

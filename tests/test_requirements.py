@@ -512,6 +512,8 @@ def test_what_no_run_can_tell_is_said_beforehand(with_requirements):
     first, second, _ = remarks(with_requirements(operating=RANGE, requirements=needs, scenes=["abradable", "direct"]))
     assert first == "requirements: goodman_share cannot be told without fatigue among the results of abradable, direct"
     assert second.startswith("requirements: goodman_share cannot be told of Ref") and "fatigue_strength_pa" in second
+    (line,) = remarks(with_requirements(operating=RANGE, requirements={"miner_sum_at_most": 1.0}, scenes=["direct"]))
+    assert line.startswith("requirements: miner_sum cannot be told of Ref") and line.endswith("material.fatigue_exponent")
 
 
 def test_what_moves_no_run_runs_no_further_runs_again(with_requirements):

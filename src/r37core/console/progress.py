@@ -138,7 +138,7 @@ class Progress(logging.Filter):
         return running[-2:]
 
     def beating(self) -> None:
-        """Write the line whenever there was none for long, until the last one, or until the process ends."""
+        """Write the line whenever there was none for long, until the process ends."""
         atexit.register(self._ended.set)
         while not self._ended.wait(1.0):
             self.beat()
@@ -146,8 +146,10 @@ class Progress(logging.Filter):
     def beat(self) -> None:
         """Write the line if there was none for long."""
         silent = _SILENT_S if self.stream.isatty() else _SILENT_ELSEWHERE_S
-        with self._lock:
-            if not self._ended.is_set() and self.clock() - max(self._written, self._made) >= silent:
+        # a terminal that is gone ends no run
+        with self._lock, contextlib.suppress(OSError, ValueError):
+            waiting = bool(self._jobs) or not self._known
+            if waiting and not self._ended.is_set() and self.clock() - max(self._written, self._made) >= silent:
                 self._write(immediately=True)
 
     def _write(self, immediately: bool, last: bool = False) -> None:
@@ -160,7 +162,6 @@ class Progress(logging.Filter):
         self.stream.flush()
         self._open = terminal
         if last:
-            self._ended.set()
             self._close_line()
 
     def _close_line(self) -> None:

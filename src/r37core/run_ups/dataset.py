@@ -27,7 +27,7 @@ VARIABLES = {
     "worn": Variable((), "1", "1: the lining is worn by the same run-up, done once before", "i1"),
     **STATUS,
     "yield_stress": OF_STRESS["yield_stress"],
-    "largest_stress_range": Variable((), "Pa", "largest range of the signed von Mises stress at a node, rotation's in it"),
+    "largest_stress_range": Variable((), "Pa", "largest range of the stress of a node, along its deviator's largest change"),
     "miner_sum": Variable((), "1", "share of the life that the run-up's stress cycles use, by Miner's rule"),
     **{name: RESPONSE[name] for name in ("largest_normal_force", "casing_hits", "contact_work", "damping_loss")},
     "stiffness_work": Variable((), "J", "energy that the change of the stiffness with the speed brings to the vibration"),

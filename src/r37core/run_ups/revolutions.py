@@ -7,7 +7,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from r37core.rom.contact_model import ContactModel
-from r37core.stress.cycles import rainflow_cycles, worst_nodes
+from r37core.stress.cycles import largest_damage, operator_numbers
 from r37core.stress.operator import StressOperator
 from r37core.stress.statistic import UNKNOWN, Strengths
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -155,34 +155,22 @@ class _Revolutions:
 
 @dataclass
 class _Cycles:
-    """Signed von Mises stress (Pa), rotation's in it, at all instants of a run-up, of the worst node of each mode.
-
-    `stress`: operator of all nodes.
-    """
+    """Stress of all nodes, rotation's in it, at all instants of a run-up; `stress`: their operator."""
 
     model: ContactModel
     stress: StressOperator
-    histories: list[np.ndarray] = field(default_factory=list)
-    followed: StressOperator | None = None
+    parts: list[np.ndarray] = field(default_factory=list)
 
     def add(self, segments: IntegratedSegments) -> None:
-        """Add the stress of some segments, at the nodes that the first ones choose."""
-        to_reduced = self.model.to_reduced @ segments.shapes
-        if self.followed is None:
-            self.followed = worst_nodes(self.stress, to_reduced.T)
-        states = append_rotation(segments.snapshots, self.model, segments.snapshot_speeds)
-        shapes = block_diag(to_reduced, np.eye(states.shape[1] - to_reduced.shape[1]))
-        self.histories.append(self.followed.signed_von_mises(states @ shapes.T).astype(np.float32))
+        """Add the numbers that the stress of some segments is made of."""
+        rotation = append_rotation(segments.snapshots, self.model, segments.snapshot_speeds)[:, segments.snapshots.shape[1] :]
+        shapes = self.model.to_reduced @ segments.shapes
+        self.parts.append(operator_numbers(self.stress, segments.snapshots, shapes, rotation))
 
     def numbers(self, first: int, strengths: Strengths) -> dict[str, np.ndarray]:
-        """`largest_stress_range` (Pa) of a node from the instant `first` on, and `miner_sum`.
-
-        That is the share of the life that its cycles use, by these `strengths`.
-        """
-        history = np.concatenate(self.histories)[first:].astype(float)
-        ranges = np.ptp(history, axis=0)
-        damage = strengths.miner_sum(rainflow_cycles(history[:, ranges.argmax()]))
-        return {"largest_stress_range": np.array(ranges.max()), "miner_sum": np.array(damage)}
+        """`largest_stress_range` (Pa) and `miner_sum`, the share of the life that is used, from the instant `first` on."""
+        largest, damage = largest_damage(self.stress, np.concatenate(self.parts)[first:], strengths)
+        return {"largest_stress_range": np.array(largest), "miner_sum": np.array(damage)}
 
 
 def largest_stress(stress: StressOperator, coordinates: np.ndarray, bound: np.ndarray) -> np.ndarray:

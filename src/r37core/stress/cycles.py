@@ -1,10 +1,19 @@
 """Cycles of a stress that changes over time: by rainflow counting. Light: jobs import it."""
 
-from dataclasses import dataclass, replace
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .operator import StressOperator
+
+if TYPE_CHECKING:
+    from .statistic import Strengths
+
+_USUAL_EXPONENT, _COUNTED = 8.0, 24
+"""Exponent by which nodes are chosen without an S-N line; nodes that are counted of each kind."""
 
 
 @dataclass(frozen=True)
@@ -19,22 +28,64 @@ class StressCycles:
     count: np.ndarray
 
 
-def rainflow_cycles(stress: np.ndarray) -> StressCycles:
-    """Cycles of a `stress` (Pa) over time, shape (instants,), as ASTM E1049-85 counts them."""
+def rainflow_cycles(stress: np.ndarray, mean: np.ndarray | None = None) -> StressCycles:
+    """Cycles of a `stress` (Pa) over time, shape (instants,), as ASTM E1049-85 counts them.
+
+    `mean` (Pa), shape (instants,): of what the mean of a cycle is taken, that of its two ends; by default of the stress itself.
+    """
     import rainflow
 
     change = np.diff(stress)
-    turning = np.flatnonzero(change[:-1] * change[1:] <= 0.0) + 1
-    counted = [(size, mean, count) for size, mean, count, *_ in rainflow.extract_cycles(stress[[0, *turning, -1]])]
-    size, mean, count = np.array(counted, dtype=float).reshape(-1, 3).T
-    return StressCycles(0.5 * size, mean, count)
+    turning = np.concatenate([[0], np.flatnonzero(change[:-1] * change[1:] <= 0.0) + 1, [len(stress) - 1]])
+    of_mean = (stress if mean is None else mean)[turning]
+    counted = [
+        (size, 0.5 * (of_mean[begin] + of_mean[end]), count)
+        for size, _, count, begin, end in rainflow.extract_cycles(stress[turning])
+    ]
+    size, means, count = np.array(counted, dtype=float).reshape(-1, 3).T
+    return StressCycles(0.5 * size, means, count)
 
 
-def worst_nodes(stress: StressOperator, shapes: np.ndarray) -> StressOperator:
-    """The operator of those nodes alone that have the largest von Mises stress of one of the `shapes`.
+def operator_numbers(stress: StressOperator, states: np.ndarray, shapes: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    """Numbers that the operator maps to stress, shape (instants, numbers), in single precision.
 
-    `shapes`, shape (shapes, coordinates): reduced coordinates.
+    `states`, shape (instants, modes), and their `shapes`, shape (coordinates, modes): of the vibration; `rotation`, shape
+    (instants, shapes): amplitudes of rotation's shapes.
     """
-    nodes = np.unique(stress.von_mises(shapes).argmax(axis=1))
-    places = None if stress.places is None else stress.places[nodes]
-    return replace(stress, operator=stress.operator[:, nodes], places=places, is_complete=False)
+    states, shapes = stress.band_part(states, shapes)
+    return np.concatenate([states @ shapes.T, rotation], axis=1).astype(np.float32)
+
+
+def largest_damage(stress: StressOperator, numbers: np.ndarray, strengths: Strengths) -> tuple[float, float]:
+    """Largest range of the stress (Pa) of all nodes, and the largest Miner's sum of those that may have it.
+
+    `numbers`: operator_numbers over time. At a node the path of the deviator, in parts whose length is the von Mises stress, is
+    counted along the direction in which it varies most; the mean of a cycle is that of the sum of the normal stresses, as in
+    r37core.stress.revolutions. Those nodes are counted whose path reaches farthest from its mean, or is farthest from it on
+    average, both with their means by Goodman's line.
+    """
+    exponent = strengths.exponent if strengths.have_line else _USUAL_EXPONENT
+    count, width = stress.operator.shape[1], numbers.shape[1]
+    farthest, average, ranges = (np.zeros(count) for _ in range(3))
+    for node in range(count):
+        path, direction = _path(stress, numbers, node)
+        distance = np.linalg.norm(path, axis=1)
+        mean = float(numbers.mean(axis=0, dtype=float) @ stress.trace[node, :width])
+        left = max(1.0 - max(mean, 0.0) / strengths.ultimate_strength, 1e-9)
+        farthest[node], ranges[node] = distance.max() / left, np.ptp(path @ direction)
+        scale = max(float(distance.max()), 1e-30)
+        average[node] = scale * float(np.mean((distance / scale) ** exponent)) ** (1.0 / exponent) / left
+    nodes = np.union1d(np.argsort(-farthest)[:_COUNTED], np.argsort(-average)[:_COUNTED])
+    damage = []
+    for node in nodes:
+        path, direction = _path(stress, numbers, node)
+        trace = numbers @ stress.trace[node, :width]
+        damage.append(strengths.miner_sum(rainflow_cycles((path @ direction).astype(float), trace.astype(float))))
+    return float(ranges.max()), float(np.max(damage))
+
+
+def _path(stress: StressOperator, numbers: np.ndarray, node: int) -> tuple[np.ndarray, np.ndarray]:
+    """Deviator of a node less its mean, shape (instants, 5), and the direction in which it varies most, shape (5,)."""
+    path = numbers @ stress.deviatoric[:, node, : numbers.shape[1]].T
+    path = path - path.mean(axis=0)
+    return path, np.linalg.eigh((path.T @ path).astype(float))[1][:, -1]

@@ -99,14 +99,6 @@ class StressOperator:
 
     def von_mises(self, coordinates: np.ndarray) -> np.ndarray:
         """Von Mises stress (Pa), shape (instants, nodes), for coordinates as above."""
-        return von_mises(self._components(coordinates))
-
-    def signed_von_mises(self, coordinates: np.ndarray) -> np.ndarray:
-        """The same with the sign of the sum of the normal stresses: negative in compression."""
-        components = self._components(coordinates)
-        return np.copysign(von_mises(components), components[:3].sum(axis=0))
-
-    def _components(self, coordinates: np.ndarray) -> np.ndarray:
         vibration, rotation = np.split(coordinates, [self.coordinates], axis=1)
         if self.band is not None:
             coordinates = np.concatenate([vibration @ self.band.T, rotation], axis=1)
@@ -114,7 +106,7 @@ class StressOperator:
             products = products_of(vibration @ self.large_coordinates.T)
             coordinates = np.concatenate([vibration, products, rotation], axis=1)
         operator = self.operator[:, :, : coordinates.shape[1]]
-        return np.einsum("cnj,tj->ctn", operator, coordinates, optimize=True)
+        return von_mises(np.einsum("cnj,tj->ctn", operator, coordinates, optimize=True))
 
 
 StressOperators = Mapping[str, StressOperator]

@@ -54,9 +54,9 @@ class Strengths:
         if not self.have_line:
             return np.nan
         left = 1.0 - np.maximum(cycles.mean, 0.0) / self.ultimate_strength
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             amplitude = np.where(left > 0.0, cycles.amplitude / np.maximum(left, 0.0), np.inf)
-        return float(np.sum(cycles.count / self.cycles * (amplitude / self.fatigue_strength) ** self.exponent))
+            return float(np.sum(cycles.count / self.cycles * (amplitude / self.fatigue_strength) ** self.exponent))
 
 
 UNKNOWN = Strengths()
