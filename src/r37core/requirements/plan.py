@@ -228,9 +228,9 @@ def _not_told(settings: Settings) -> list[str]:
         if result == "fatigue" and weak:
             strengths = "material.fatigue_strength_pa and ultimate_strength_pa"
             lines.append(f"requirements: {name} cannot be told of {', '.join(weak)} without {strengths}")
-    if requirements.miner_sum is not None:
-        if lacking := [name for name in settings.blades if not settings.blades[name].strengths.have_line]:
-            lines.append(f"requirements: miner_sum cannot be told of {', '.join(lacking)} without material.fatigue_exponent")
+    lacking = [name for name in settings.blades if not settings.blades[name].strengths.have_line]
+    if requirements.miner_sum is not None and lacking:
+        lines.append(f"requirements: miner_sum cannot be told of {', '.join(lacking)} without material.fatigue_exponent")
     return lines
 
 

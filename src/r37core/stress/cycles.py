@@ -37,9 +37,9 @@ def rainflow_cycles(stress: np.ndarray, mean: np.ndarray | None = None) -> Stres
 
     change = np.diff(stress)
     turning = np.concatenate([[0], np.flatnonzero(change[:-1] * change[1:] <= 0.0) + 1, [len(stress) - 1]])
-    of_mean = (stress if mean is None else mean)[turning]
+    level = (stress if mean is None else mean)[turning]
     counted = [
-        (size, 0.5 * (of_mean[begin] + of_mean[end]), count)
+        (size, 0.5 * (level[begin] + level[end]), count)
         for size, _, count, begin, end in rainflow.extract_cycles(stress[turning])
     ]
     size, means, count = np.array(counted, dtype=float).reshape(-1, 3).T
