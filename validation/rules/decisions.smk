@@ -1,5 +1,10 @@
 # What an engineer decides: clearance and lining (docs/clearance_and_lining.md), fatigue below yield (docs/safe_blade.md).
 DECIDED = ["Ref", "S100", "CS50"]
+LARGE = {
+    "structure": {"kinematics": "quadratic", "boundary": {"contact": "patches"}},
+    "speeds": [{"start": 1080, "stop": 1860, "step": 20}],
+    "operating": {"idle_rpm": 10400, "redline_rpm": 17700},
+}
 
 
 module decide:
@@ -33,9 +38,7 @@ module decide_large:
             blades=DECIDED,
             scenes=["Room"],
             scenes_file="config/decide_scenes.yaml",
-            structure={"kinematics": "quadratic", "boundary": {"contact": "patches"}},
-            speeds=[{"start": 1080, "stop": 1860, "step": 20}],
-            operating={"idle_rpm": 10400, "redline_rpm": 17700},
+            **LARGE,
         )
 
 
@@ -52,9 +55,7 @@ module decide_rubbing:
             blades=["S100"],
             scenes=["Rubbing"],
             scenes_file="validation/decisions.yaml",
-            structure={"kinematics": "quadratic", "boundary": {"contact": "patches"}},
-            speeds=[{"start": 1080, "stop": 1860, "step": 20}],
-            operating={"idle_rpm": 10400, "redline_rpm": 17700},
+            **LARGE,
             requirements={"above_yield_at_most_rad_s": 0},
         )
 

@@ -49,8 +49,8 @@ class Progress(logging.Filter):
 
     `most`: how many simulations there may be at most, those of earlier runs included; windows of adaptive speeds, which are
     run in any case, may pass it. The line goes to `stream`: renewed in place if that is a terminal, and now and then as a line
-    of its own if it is not. Snakemake's log file has everything. While `beating` it comes in any case: no
-    run is silent.
+    of its own if it is not. Snakemake's log file has everything. While `beating`
+    the line also comes when Snakemake says nothing for long.
     """
 
     most: int

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from r37core.rom.contact_model import ContactModel
+from r37core.rom.rotation import rotation_amplitudes
 from r37core.stress.cycles import largest_damage, operator_numbers
 from r37core.stress.operator import StressOperator
 from r37core.stress.statistic import UNKNOWN, Strengths
@@ -163,7 +164,7 @@ class _Cycles:
 
     def add(self, segments: IntegratedSegments) -> None:
         """Add the numbers that the stress of some segments is made of."""
-        rotation = append_rotation(segments.snapshots, self.model, segments.snapshot_speeds)[:, segments.snapshots.shape[1] :]
+        rotation = rotation_amplitudes(self.model.rotation_stiffening, segments.snapshot_speeds)
         shapes = self.model.to_reduced @ segments.shapes
         self.parts.append(operator_numbers(self.stress, segments.snapshots, shapes, rotation))
 

@@ -12,8 +12,8 @@ from .operator import StressOperator
 if TYPE_CHECKING:
     from .statistic import Strengths
 
-_USUAL_EXPONENT, _COUNTED = 8.0, 24
-"""Exponent by which nodes are chosen without an S-N line; nodes that are counted of each kind."""
+_COUNTED = 24
+"""Nodes that are counted of each kind: that reach farthest, and that are farthest on average."""
 
 
 @dataclass(frozen=True)
@@ -57,29 +57,31 @@ def operator_numbers(stress: StressOperator, states: np.ndarray, shapes: np.ndar
 
 
 def largest_damage(stress: StressOperator, numbers: np.ndarray, strengths: Strengths) -> tuple[float, float]:
-    """Largest range of the stress (Pa) of all nodes, and the largest Miner's sum of those that may have it.
+    """Largest range of the stress (Pa) of all nodes, and the largest Miner's sum of those that may have it: NaN without a line.
 
     `numbers`: operator_numbers over time. At a node the path of the deviator, in parts whose length is the von Mises stress, is
     counted along the direction in which it varies most; the mean of a cycle is that of the sum of the normal stresses, as in
     r37core.stress.revolutions. Those nodes are counted whose path reaches farthest from its mean, or is farthest from it on
     average, both with their means by Goodman's line.
     """
-    exponent = strengths.exponent if strengths.have_line else _USUAL_EXPONENT
-    count, width = stress.operator.shape[1], numbers.shape[1]
-    farthest, average, ranges = (np.zeros(count) for _ in range(3))
-    for node in range(count):
+    traces = stress.trace[:, : numbers.shape[1]]
+    left = np.maximum(1.0 - np.maximum(traces @ numbers.mean(axis=0, dtype=float), 0.0) / strengths.ultimate_strength, 1e-9)
+    farthest, average, ranges = (np.zeros(len(traces)) for _ in range(3))
+    for node in range(len(traces)):
         path, direction = _path(stress, numbers, node)
-        distance = np.linalg.norm(path, axis=1)
-        mean = float(numbers.mean(axis=0, dtype=float) @ stress.trace[node, :width])
-        left = max(1.0 - max(mean, 0.0) / strengths.ultimate_strength, 1e-9)
-        farthest[node], ranges[node] = distance.max() / left, np.ptp(path @ direction)
-        scale = max(float(distance.max()), 1e-30)
-        average[node] = scale * float(np.mean((distance / scale) ** exponent)) ** (1.0 / exponent) / left
+        ranges[node] = np.ptp(path @ direction)
+        if strengths.have_line:
+            distance = np.linalg.norm(path, axis=1)
+            largest = max(float(distance.max()), 1e-30)
+            share = float(np.mean((distance / largest) ** strengths.exponent)) ** (1.0 / strengths.exponent)
+            farthest[node], average[node] = largest / left[node], share * largest / left[node]
+    if not strengths.have_line:
+        return float(ranges.max()), np.nan
     nodes = np.union1d(np.argsort(-farthest)[:_COUNTED], np.argsort(-average)[:_COUNTED])
     damage = []
     for node in nodes:
         path, direction = _path(stress, numbers, node)
-        trace = numbers @ stress.trace[node, :width]
+        trace = numbers @ traces[node]
         damage.append(strengths.miner_sum(rainflow_cycles((path @ direction).astype(float), trace.astype(float))))
     return float(ranges.max()), float(np.max(damage))
 
