@@ -12,9 +12,6 @@ from .operator import StressOperator
 if TYPE_CHECKING:
     from .statistic import Strengths
 
-_COUNTED = 24
-"""Nodes that are counted of each kind: that reach farthest, and that are farthest on average."""
-
 
 @dataclass(frozen=True)
 class StressCycles:
@@ -57,33 +54,30 @@ def operator_numbers(stress: StressOperator, states: np.ndarray, shapes: np.ndar
 
 
 def largest_damage(stress: StressOperator, numbers: np.ndarray, strengths: Strengths) -> tuple[float, float]:
-    """Largest range of the stress (Pa) of all nodes, and the largest Miner's sum of those that may have it: NaN without a line.
+    """Largest range of the stress (Pa) and largest Miner's sum of all nodes; NaN for the sum without an S-N line.
 
     `numbers`: operator_numbers over time. At a node the path of the deviator, in parts whose length is the von Mises stress, is
     counted along the direction in which it varies most; the mean of a cycle is that of the sum of the normal stresses, as in
-    r37core.stress.revolutions. Those nodes are counted whose path reaches farthest from its mean, or is farthest from it on
-    average, both with their means by Goodman's line.
+    r37core.stress.revolutions. A node is not counted whose sum could not be the largest: it has no more cycles than half its
+    instants, none of them larger than its range, nor about a larger mean than its largest.
     """
     traces = stress.trace[:, : numbers.shape[1]]
-    left = np.maximum(1.0 - np.maximum(traces @ numbers.mean(axis=0, dtype=float), 0.0) / strengths.ultimate_strength, 1e-9)
-    farthest, average, ranges = (np.zeros(len(traces)) for _ in range(3))
-    for node in range(len(traces)):
+    ranges, bounds = np.zeros(len(traces)), np.zeros(len(traces))
+    for node, trace in enumerate(traces):
         path, direction = _path(stress, numbers, node)
         ranges[node] = np.ptp(path @ direction)
-        if strengths.have_line:
-            distance = np.linalg.norm(path, axis=1)
-            largest = max(float(distance.max()), 1e-30)
-            share = float(np.mean((distance / largest) ** strengths.exponent)) ** (1.0 / strengths.exponent)
-            farthest[node], average[node] = largest / left[node], share * largest / left[node]
+        worst = StressCycles(0.5 * ranges[node, None], np.max(numbers @ trace, keepdims=True), np.array([0.5 * len(numbers)]))
+        bounds[node] = strengths.miner_sum(worst)
     if not strengths.have_line:
         return float(ranges.max()), np.nan
-    nodes = np.union1d(np.argsort(-farthest)[:_COUNTED], np.argsort(-average)[:_COUNTED])
-    damage = []
-    for node in nodes:
+    damage = 0.0
+    for node in np.argsort(-bounds, kind="stable"):
+        if bounds[node] <= damage:
+            break
         path, direction = _path(stress, numbers, node)
-        trace = numbers @ traces[node]
-        damage.append(strengths.miner_sum(rainflow_cycles((path @ direction).astype(float), trace.astype(float))))
-    return float(ranges.max()), float(np.max(damage))
+        cycles = rainflow_cycles((path @ direction).astype(float), (numbers @ traces[node]).astype(float))
+        damage = max(damage, strengths.miner_sum(cycles))
+    return float(ranges.max()), damage
 
 
 def _path(stress: StressOperator, numbers: np.ndarray, node: int) -> tuple[np.ndarray, np.ndarray]:
