@@ -19,10 +19,10 @@ def shipped(root, tmp_path_factory):
 
 def test_they_are_numbered_and_stand_on_a_page(root):
     assert [file.name[:3] for file in EXAMPLES] == [f"{number:02}_" for number in range(1, 6)]
-    page = (root / "docs/examples.md").read_text()
+    page = (root / "docs/gallery.md").read_text()
     for file in EXAMPLES:
         first = file.read_text().splitlines()[0]
-        assert first.startswith(f'"""{int(file.name[:2])}. ') and f"examples/{file.name}" in page
+        assert first.startswith(f'"""{int(file.name[:2])}. ') and f"](../examples/{file.name})" in page
 
 
 @pytest.mark.slow

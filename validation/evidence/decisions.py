@@ -5,8 +5,11 @@ from __future__ import annotations
 import shutil
 from typing import Any
 
+import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 
+from r37core.figures import style
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table
 
@@ -18,10 +21,7 @@ FINE_THICKNESS = 0.003
 
 
 def limits(input: Any, output: Any, params: Any) -> None:
-    """Clearances from which a blade meets all requirements, by lining. Inputs: coarse, fine (designs and verdict), picture.
-
-    Outputs: table, picture.
-    """
+    """Clearances from which a blade meets all requirements, by lining. Inputs: coarse, fine (designs and verdict)."""
     coarse, fine = (_judged(*map(read_table, files)) for files in (input.coarse, input.fine))
     rows = []
     for (blade, thickness), part in coarse.groupby(["blade", THICKNESS], sort=False):
@@ -29,11 +29,10 @@ def limits(input: Any, output: Any, params: Any) -> None:
         rows.append([blade, f"{1e3 * thickness:g}", limit_text(part), limit_text(finer) if len(finer) else ""])
     head = ["blade", "lining (mm)", "meets from, steps of 0.1 mm", "meets from, steps of 0.01 mm"]
     write_table(head, rows, output.table)
-    shutil.copyfile(input.picture, output.picture)
 
 
 def lengths(input: Any, output: Any, params: Any) -> None:
-    """Lengths above yield in operation over lining and clearance. Input: designs. Output: table."""
+    """Lengths above yield in operation over lining and clearance. Input: designs. Outputs: table, picture."""
     designs = read_table(input.designs)
     column = "length_most_revolutions_operating_rad_s"
     rows = []
@@ -42,6 +41,28 @@ def lengths(input: Any, output: Any, params: Any) -> None:
         clearances = [f"{1e3 * clearance:.2f} mm" for clearance in by_clearance[CLEARANCE]]
         rows.append([blade, f"{1e3 * thickness:g}", *(f"{length:.0f}" for length in by_clearance[column])])
     write_table(["blade", "lining (mm)", *clearances], rows, output.table)
+    draw_lengths(pd.DataFrame(rows, columns=["blade", "lining", *clearances]), output.picture)
+
+
+def draw_lengths(table: pd.DataFrame, file: str) -> None:
+    """A map of lengths for each blade: thickness of the lining over clearance."""
+    blades = {str(blade): part for blade, part in table.groupby("blade", sort=False)}
+    letters: dict[Any, Any] = {f"{name}size": 9 for name in ("font.", "axes.title", "axes.label", "xtick.label", "ytick.label")}
+    with plt.rc_context(letters):
+        figure, panels = plt.subplots(len(blades), 1, figsize=(4.6, 1.75 * len(blades)), sharex=True)
+        for axes, (blade, part) in zip(panels, blades.items(), strict=True):
+            values = part.iloc[:, 2:].astype(float).to_numpy()
+            image = axes.imshow(values, origin="lower", aspect="auto", cmap="YlOrRd", vmin=0.0, vmax=120.0)
+            for (row, column), value in np.ndenumerate(values):
+                axes.text(column, row, f"{value:.0f}", ha="center", va="center", color="white" if value > 80.0 else "black")
+            axes.set_yticks(range(len(part)), part["lining"])
+            axes.set_title(f"blade {blade}", loc="left")
+            axes.grid(visible=False)
+        panels[-1].set_xticks(range(table.shape[1] - 2), [name.removesuffix(" mm") for name in table.columns[2:]])
+        panels[-1].set_xlabel("clearance (mm)")
+        figure.supylabel("thickness of the lining (mm)")
+        figure.colorbar(image, ax=panels, label="speeds above yield in operation (rad/s)")
+        style.save(figure, file)
 
 
 def verdicts(input: Any, output: Any, params: Any) -> None:

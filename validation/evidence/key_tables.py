@@ -1,6 +1,6 @@
-"""Tables of docs/configuration.md and docs/results.md that follow from the code: every key, and every column in words.
+"""Tables that follow from the code: every key in docs/configuration.md, every declared column in validation/tables/columns.csv.
 
-`PYTHONPATH=validation python -m evidence.key_tables` renews both pages.
+`PYTHONPATH=validation python -m evidence.key_tables` renews both files.
 """
 
 from __future__ import annotations
@@ -14,12 +14,15 @@ from typing import Any, NamedTuple
 from r37core.base.io import write_text
 from r37core.base.units import SUFFIXES
 from r37core.config.speed_section import UNITS
+from r37core.designs.table import MEASURES
 from r37core.product.schemas import MODELS
-from r37core.results.columns import RANKING, SUMMARY, Column
+from r37core.results.columns import CHANCE, IN_REGION, OPERATING, RANGED, RANKING, SUMMARY, column_named, names
+from r37core.results.ranges import COLUMNS as TOLERANCES
+from r37core.results.ranking import RANKED_BY
 
 from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
 from .keys_again import Shown, ShownModels
-from .pages import replace_part
+from .pages import replace_part, write_table
 
 UNIT_OF_SUFFIX = {
     "_m": "m",
@@ -200,24 +203,36 @@ def filled(page: str) -> str:
     return page
 
 
-def column_list(columns: Iterable[Column]) -> str:
-    """Columns as a list of Markdown."""
-    return "\n".join(f"- `{column.name}`: {column.meaning}" for column in columns)
+COLUMNS = Path("validation/tables/columns.csv")
+"""File with the meaning of every declared column."""
+
+_RANGES = [name for column in RANGED for name in column.range_names]
+_RANKED_RANGES = [f"{name}_{end}" for name in RANKED_BY for end in ("low", "high")]
+
+TABLES_OF_RESULTS = {
+    "summary.csv": [*names(SUMMARY), *_RANGES],
+    "ranking.csv": ["blade", "scene", *names(RANKING), *_RANKED_RANGES, IN_REGION.format("REGION"), f"{CHANCE}BLADE"],
+    "designs.csv": ["blade", "scene", *names(MEASURES), *names(OPERATING)],
+    "tolerances.csv": TOLERANCES,
+}
+"""Table of results -> its declared columns. REGION and BLADE stand for a name."""
 
 
-COLUMN_LISTS = {"columns": SUMMARY, "ranking_columns": RANKING}
-"""Part of docs/results.md -> columns that stand there."""
+def column_rows() -> Iterator[tuple[str, str, str]]:
+    """Table, column and meaning of every declared column."""
+    declared = {"summary.csv": SUMMARY, "ranking.csv": RANKING, "designs.csv": (*MEASURES, *OPERATING)}
+    for file, columns in TABLES_OF_RESULTS.items():
+        for name in columns:
+            column = column_named(name, (*declared.get(file, ()), *SUMMARY, *RANKING))
+            assert column is not None, f"{file}: {name} is not declared"
+            yield file, name, column.meaning
 
 
-def main(docs: Path = Path("docs")) -> None:
-    """Renew both pages."""
-    page = docs / "configuration.md"
+def main(root: Path = Path()) -> None:
+    """Renew the page of the configuration, and the table of columns."""
+    page = root / "docs/configuration.md"
     write_text(filled(page.read_text(encoding="utf-8")), page)
-    page = docs / "results.md"
-    text = page.read_text(encoding="utf-8")
-    for name, words in COLUMN_LISTS.items():
-        text = replace_part(text, name, column_list(words))
-    write_text(text, page)
+    write_table(("file", "column", "meaning"), column_rows(), root / COLUMNS)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,9 @@
-"""Tables of pages: CSV files of validation/tables, which stand in the pages as Markdown."""
+"""Tables and numbers of pages: CSV files of validation/tables, which stand in the pages as Markdown and in sentences.
+
+`<!-- table NAME -->` and `<!-- end -->` hold a table, `<!-- table NAME: Ref; S100 -->` its rows of these first cells.
+A number in a sentence stands before its source, `452<!--NAME:Ref:bare_casing-->`: table, row and column, and from the second
+number of a cell on its place, from 0. A row is named by its first cell, or by its first cells joined by +.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +15,12 @@ from typing import Any
 
 from r37core.base.io import as_list, atomic_write, write_text
 
-_MARKER = re.compile(r"^<!-- table (\w+) -->$", re.MULTILINE)
+_MARKER = re.compile(r"^<!-- table (\w+)(?:: [^\n]*)? -->$", re.MULTILINE)
+_NUMBER = re.compile(
+    r"(?P<number>[-+]?\d[\d.,]*\d|[-+]?\d)"
+    r"<!--(?P<table>\w+):(?P<row>[^:\s]+):(?P<column>[^:\s]+?)(?::(?P<place>\d+))?-->"
+)
+_DIGITS = re.compile(r"(?<![\d\w])[-+]?\d(?:[\d.,]*\d)?(?:e[-+]?\d+)?")
 _LINK = re.compile(r"(?<=/)validation/tables/\w+\.csv|(?<=\()validation/tables/\w+\.csv")
 _PICTURE = re.compile(r"!\[[^\]]*\]\(([\w/]+\.png)\)")
 
@@ -69,16 +79,37 @@ class Pages:
         return sorted(str(file.relative_to(self._root)) for file in shown)
 
     def tables(self, page: str) -> list[str]:
-        """Files of the tables of a page, in its order."""
-        names = _MARKER.findall((self._root / page).read_text(encoding="utf-8"))
+        """Files of the tables of a page, then of the numbers in its sentences, each once."""
+        text = (self._root / page).read_text(encoding="utf-8")
+        names = dict.fromkeys([*_MARKER.findall(text), *(found["table"] for found in _NUMBER.finditer(text))])
         return [f"validation/tables/{name}.csv" for name in names]
 
 
 def renewed(page: str, files: Iterable[Path | str]) -> str:
-    """Text of a page with its tables taken from their files."""
-    for file in files:
-        page = replace_part(page, f"table {Path(file).stem}", markdown(read_table(file)))
-    return page
+    """Text of a page with its tables and numbers taken from their files."""
+    tables = {Path(file).stem: read_table(file) for file in files}
+    for name, (head, *rows) in tables.items():
+        for marker in re.findall(rf"^<!-- (table {name}(?:: [^\n]*)?) -->$", page, re.MULTILINE):
+            _, _, chosen = marker.partition(": ")
+            shown = [row for row in rows if not chosen or row[0] in chosen.split("; ")]
+            page = replace_part(page, marker, markdown([head, *shown]))
+    return _NUMBER.sub(lambda found: found[0].replace(found["number"], _number(tables[found["table"]], found), 1), page)
+
+
+def _number(table: Sequence[Sequence[str]], source: re.Match[str]) -> str:
+    """The number that a source names; ValueError where the table has no such row, column or number."""
+    head, *rows = table
+    try:
+        column = [_word(name) for name in head].index(source["column"])
+        names = source["row"].split("+")
+        row = next(row for row in rows if [_word(cell) for cell in row[: len(names)]] == names)
+        return _DIGITS.findall(row[column])[int(source["place"] or 0)]
+    except (ValueError, StopIteration, IndexError):
+        raise ValueError(f"{source[0]}: the table has no such row, column or number") from None
+
+
+def _word(cell: str) -> str:
+    return re.sub(r"[^\w.-]+", "_", cell).strip("_")
 
 
 def renew(input: Any, output: Any, params: Any) -> None:

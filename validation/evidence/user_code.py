@@ -1,8 +1,7 @@
-"""Figures of programs that stand on a page: those of examples/figures, and the worked example of docs/your_blade.md."""
+"""Figures of programs: those of examples/figures (docs/gallery.md), and the worked example of docs/your_blade.md."""
 
 from __future__ import annotations
 
-import ast
 import contextlib
 import re
 import runpy
@@ -14,15 +13,6 @@ from typing import Any
 import matplotlib.pyplot as plt
 
 import r37
-
-
-def part(program: Path) -> str:
-    """Heading, words, lines and picture of a program, as they stand on the page."""
-    text = program.read_text(encoding="utf-8")
-    title, _, about = (ast.get_docstring(ast.parse(text)) or "").partition("\n\n")
-    code = text.split('"""', 2)[2].strip()
-    picture = f"![{title}](user_code/{program.stem}.png)"
-    return f"## {title.removesuffix('.')}\n\n{about}\n\n```python\n{code}\n```\n\n{picture}\n"
 
 
 def picture(input: Any, output: Any, params: Any) -> None:

@@ -35,9 +35,13 @@ use rule evidence as lining_own_blade with:
         **evidence("lining.own_blade"),
 
 
+# blades with large displacements, of the run of interactions.smk
+LARGE_MOTION = "results/runs/interactions_quadratic"
+
+
 use rule evidence as lining_contact_length_of_blade with:
     input:
-        unpack(lambda wildcards: behind_engine(**models_of(wildcards.blade, "results/runs/patches"))(wildcards)),
+        unpack(lambda wildcards: behind_engine(**models_of(wildcards.blade, LARGE_MOTION))(wildcards)),
     output:
         "results/evidence/lining_contact_length_{blade}.csv",
     log:

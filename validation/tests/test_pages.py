@@ -36,18 +36,36 @@ def test_a_table_in_a_page(tmp_path):
     page = "Before.\n\n<!-- table rates -->\nold\n<!-- end -->\n\nAfter.\n"
     assert renewed(page, [file]) == page.replace("old\n", markdown(read_table(file)))
     assert markdown(read_table(file)).splitlines()[1:3] == ["|---|---|", r"| Ref | 1 \| 2 |"]
-    with pytest.raises(ValueError):
-        renewed(page.replace("table rates", "table others"), [file])
+
+
+def test_numbers_in_sentences_come_from_tables(tmp_path):
+    file = tmp_path / "rates.csv"
+    write_table(["blade", "scene", "rate, up (m/s)"], [["S50", "bare casing", "-1.5 (2)"], ["S50", "lined", "3,100"]], file)
+    page = "It is 1<!--rates:S50+bare_casing:rate_up_m_s--> m/s, rank 9<!--rates:S50:rate_up_m_s:1-->"
+    page += ", or 7<!--rates:S50+lined:rate_up_m_s-->."
+    new = renewed(page, [file])
+    assert re.sub("<!--.*?-->", "", new) == "It is -1.5 m/s, rank 2, or 3,100."
+    assert renewed(new, [file]) == new
+    for wrong in ("rates:S100:rate_up_m_s", "rates:S50:rate", "rates:S50:rate_up_m_s:2"):
+        with pytest.raises(ValueError, match="no such row"):
+            renewed(f"1<!--{wrong}-->", [file])
+
+
+def test_a_page_shows_some_rows_of_a_table(tmp_path):
+    file = tmp_path / "rates.csv"
+    write_table(["blade", "rate"], [["Ref", "1"], ["L50", "2"], ["S100", "3"]], file)
+    page = renewed("<!-- table rates: Ref; S100 -->\n<!-- end -->\n", [file])
+    assert page.splitlines()[3:5] == ["| Ref | 1 |", "| S100 | 3 |"]
 
 
 def test_pages_name_their_tables_and_pictures(tmp_path):
     (tmp_path / "docs").mkdir()
     (tmp_path / "README.md").write_text("![A](docs/a.png)\n[all rows](validation/tables/b.csv)\n")
-    text = "<!-- table c -->\n<!-- end -->\n![B](gallery/b.png) [all](../validation/tables/d.csv)\n"
+    text = "4<!--e:Ref:rate-->\n<!-- table c -->\n<!-- end -->\n![B](gallery/b.png) [all](../validation/tables/d.csv)\n"
     (tmp_path / "docs/one.md").write_text(text)
     pages = Pages(tmp_path)
-    assert pages.files == ["docs/one.md"] and pages.tables("docs/one.md") == ["validation/tables/c.csv"]
-    assert pages.all_tables == [f"validation/tables/{name}.csv" for name in "bcd"]
+    assert pages.files == ["docs/one.md"] and pages.tables("docs/one.md") == [f"validation/tables/{name}.csv" for name in "ce"]
+    assert pages.all_tables == [f"validation/tables/{name}.csv" for name in "bcde"]
     assert pages.pictures == ["docs/a.png", "docs/gallery/b.png"]
 
 
@@ -58,8 +76,8 @@ def test_mutants_are_of_modules_and_tests_that_are_there():
     assert [name for names in modules.values() for name in names.split() if not (CHECKOUT / "tests" / name).exists()] == []
 
 
-NOT_MADE_HERE = {"modelling_choices_v0_2", "other_programs_histories", "other_programs_rms"}
-"""Tables of an older tag, and of a program that one has to bring (docs/validation.md)."""
+NOT_MADE_HERE = {"columns", "modelling_choices_v0_2", "other_programs_histories", "other_programs_rms"}
+"""Tables of the code (evidence.key_tables), of an older tag, and of a program that one has to bring (docs/validation.md)."""
 
 
 @pytest.mark.slow

@@ -1,10 +1,10 @@
-"""Figures of docs/user_code.md: their programs run, at a small level and at few speeds, and stand on the page as they are."""
+"""Programs of examples/figures run, at a small level and at few speeds, and docs/gallery.md has each with its picture."""
 
+import ast
 import re
 
 import matplotlib.pyplot as plt
 import pytest
-from evidence.user_code import part
 from workflow_runs import copy_finished
 
 PROGRAMS = 10
@@ -15,14 +15,21 @@ def programs(root):
     return sorted((root / "examples/figures").glob("*.py"))
 
 
-def test_the_page_has_the_programs_as_they_are(root, programs):
-    text = (root / "docs/user_code.md").read_text()
-    assert text.endswith("\n".join(part(program) for program in programs))
-    assert len(programs) == text.count("```python") == PROGRAMS
-    for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
-        lines = [line for line in block.splitlines() if line and not line.startswith(("import", "from"))]
+def test_the_gallery_links_each_program_with_its_picture(root, programs):
+    text = (root / "docs/gallery.md").read_text()
+    for program in programs:
+        title = ast.get_docstring(ast.parse(program.read_text())).splitlines()[0].removesuffix(".")
+        link = f"[{program.name}](../examples/figures/{program.name})"
+        assert f"{link}\n\n![{title}](user_code/{program.stem}.png)\n" in text
+    assert len(programs) == text.count("](user_code/") == PROGRAMS
+
+
+def test_the_programs_are_short_and_call_r37_alone(programs):
+    for program in programs:
+        code = program.read_text().split('"""', 2)[2]
+        lines = [line for line in code.splitlines() if line and not line.startswith(("import", "from"))]
         assert len(lines) <= 10
-        assert "r37core" not in block
+        assert "r37core" not in code
 
 
 @pytest.mark.slow

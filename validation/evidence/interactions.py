@@ -1,0 +1,76 @@
+"""The worst interaction of each of the seven blades: linear, of second order, for longer, and by other motions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from r37core.results.closing import interaction_title
+from r37core.results.ranking import read_ranking
+from r37core.results.table_file import read_table
+
+from .pages import write_table
+
+THICKNESS = 0.005
+"""Thickness (m) of the lining of the benchmark."""
+
+NEAR = 24.0
+"""Distance of speeds (rad/s) within which two peaks are the same interaction."""
+
+LENGTH, FROM, TO = "length_most_revolutions_rad_s", "most_revolutions_from_rad_s", "most_revolutions_to_rad_s"
+
+
+def worst(input: Any, output: Any, params: Any) -> None:
+    """Tables of both scenes. Inputs: summaries and rankings (linear, quadratic, longer). Outputs: lining, bare, every."""
+    runs = [_Run(*files) for files in zip(input.summaries, input.rankings, strict=True)]
+    every = [run.summary.assign(run=name) for name, run in zip(("linear", "second order", "longer"), runs, strict=True)]
+    pd.concat(every).to_csv(output.every, index=False, float_format="%.6g")
+    linear, quadratic, longer = runs
+    head = ["blade", "worst interaction", "at (rad/s)", "motion: linear / second order (mm)"]
+    head += ["above yield: airfoil / box / twice as long (rad/s)", "worst motion: mm / above yield (rad/s)"]
+    for scene, twice, file in (
+        ("material_abradable", "twice_abradable", output.lining),
+        ("direct", "twice_direct", output.bare),
+    ):
+        lined = scene != "direct"
+        rows = []
+        for blade in dict.fromkeys(quadratic.summary["blade"]):
+            row, whole = quadratic.worst(blade, scene), quadratic.ranking.loc[blade, scene]
+            lengths = (whole[LENGTH], whole[LENGTH.replace("_rad", "_box_rad")], longer.ranking.loc[blade, twice][LENGTH])
+            most = max(whole["largest_rms_worst_m"], whole["largest_rms_m"])
+            cells = [blade, _title(row), _place(row, lined)]
+            cells += [f"{linear.height(blade, scene, row['peak_speed_rad_s'])} / {1e3 * row['peak_motion_m']:.1f}"]
+            cells += [" / ".join(f"{length:.0f}" for length in lengths)]
+            cells += [f"{1e3 * most:.1f} / {whole['length_most_revolutions_worst_rad_s']:.0f}"]
+            rows.append([*cells, *([f"{100 * row['sufficient_thickness_m'] / THICKNESS:.0f}"] if lined else [])])
+        write_table([*head, *(["lining used (%)"] if lined else [])], rows, file)
+
+
+class _Run:
+    """Tables of a run."""
+
+    def __init__(self, summary: str, ranking: str):
+        self.summary = read_table(summary)
+        self.ranking = read_ranking(ranking).set_index(["blade", "scene"])
+
+    def height(self, blade: str, scene: str, speed: float) -> str:
+        """Largest motion (mm) of the peaks near a speed, a dash where there is none."""
+        own = self.summary[(self.summary["blade"] == blade) & (self.summary["scene"] == scene)]
+        near = own[(own["peak_speed_rad_s"] - speed).abs() <= NEAR]
+        return f"{1e3 * near['peak_motion_m'].max():.1f}" if len(near) else "-"
+
+    def worst(self, blade: str, scene: str) -> pd.Series:
+        """The interaction with the longest length above yield, or of those without any the largest motion."""
+        own = self.summary[(self.summary["blade"] == blade) & (self.summary["scene"] == scene)]
+        return own.sort_values([LENGTH, "peak_motion_m"], ascending=False).iloc[0]
+
+
+def _title(row: pd.Series) -> str:
+    mode = row["mode"] if isinstance(row["mode"], str) else ""
+    return interaction_title(mode, int(row["engine_order"]))
+
+
+def _place(row: pd.Series, lined: bool) -> str:
+    """Speed of the peak with lining, range above yield of a bare casing, whose speed of the largest motion is chance."""
+    return f"{row['peak_speed_rad_s']:.0f}" if lined else f"{row[FROM]:.0f} to {row[TO]:.0f}"

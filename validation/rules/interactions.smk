@@ -1,0 +1,90 @@
+# Which interactions are dangerous (docs/interactions.md): by linear and by second-order motion, on the same speeds.
+def dangers(name, kinematics, **keys):
+    """Configuration of a run of all blades on patches."""
+    return run(
+        f"interactions_{name}",
+        "patches",
+        fidelity="draft",
+        structure={"boundary": {"contact": "patches"}, "kinematics": kinematics},
+        speeds=[{"start": 750, "stop": 2000, "step": 10, "refine_to": 2.5}],
+        **keys,
+    )
+
+
+# motions carried up and down the speeds, which are not dwelt on
+CARRIED = {
+    "from_rad_s": 750,
+    "to_rad_s": 2000,
+    "step_rad_s": 10,
+    "dwell": {"range_speeds": 0},
+    "branches": {"number": 0},
+}
+
+
+module interactions_linear:
+    snakefile:
+        "../../Snakefile"
+    config:
+        dangers("linear", "linear", second_motions=CARRIED)
+
+
+use rule * from interactions_linear as interactions_linear_*
+
+
+module interactions_quadratic:
+    snakefile:
+        "../../Snakefile"
+    config:
+        dangers("quadratic", "quadratic", second_motions=CARRIED)
+
+
+use rule * from interactions_quadratic as interactions_quadratic_*
+
+
+module interactions_longer:
+    snakefile:
+        "../../Snakefile"
+    config:
+        dangers(
+            "longer",
+            "quadratic",
+            scenes_file="validation/longer.yaml",
+            scenes=["twice_abradable", "twice_direct"],
+        )
+
+
+use rule * from interactions_longer as interactions_longer_*
+
+
+RUNS = [f"results/runs/interactions_{name}" for name in ("linear", "quadratic", "longer")]
+
+
+use rule evidence as interactions with:
+    input:
+        unpack(
+            behind_engine(
+                summaries=[f"{folder}/summary.csv" for folder in RUNS],
+                rankings=[f"{folder}/ranking.csv" for folder in RUNS],
+            )
+        ),
+    output:
+        lining=f"{TABLES}/interactions_lining.csv",
+        bare=f"{TABLES}/interactions_bare.csv",
+        every=f"{TABLES}/interactions_every.csv",
+    log:
+        "logs/validation/interactions.log",
+    params:
+        **evidence("interactions.worst"),
+
+
+# the first picture of README
+use rule evidence as answer with:
+    input:
+        unpack(behind_engine(linear=f"{RUNS[0]}/ranking.csv", quadratic=f"{RUNS[1]}/ranking.csv")),
+    output:
+        table=f"{TABLES}/answer.csv",
+        picture="docs/answer.png",
+    log:
+        "logs/validation/answer.log",
+    params:
+        **evidence("answer.draw"),
