@@ -207,14 +207,14 @@
     const plan = layout(x, y, { margin: { l: 60, r: 30, t: 10, b: 45 } });
     // above the numbers of the engine orders
     plan.legend.y = 1.06;
-    const [lines, numbers] = orderTraces(...ranges);
+    const [lines, numbers] = orderTraces("campbell", ...ranges);
     draw("campbell", [lines, ...traces, numbers], plan);
-    followView();
+    followView("campbell");
   }
 
   // lines of the engine orders from border to border of a panel, and their numbers where they leave it, as far as these have room
-  function orderTraces([left, right], [bottom, top]) {
-    const { clientWidth, clientHeight } = document.getElementById("campbell");
+  function orderTraces(name, [left, right], [bottom, top]) {
+    const { clientWidth, clientHeight } = document.getElementById(name);
     const lines = {
       x: [], y: [], text: [], mode: "lines", line: { color: theme.colour("lines"), width: 1 }, hoverinfo: "text", name: "engine orders",
     };
@@ -243,19 +243,19 @@
   }
 
   // the engine orders fit the part of the diagram that is shown
-  function fitOrders() {
-    const place = document.getElementById("campbell");
-    const [lines, numbers] = orderTraces(place.layout.xaxis.range, place.layout.yaxis.range);
+  function fitOrders(diagram) {
+    const place = document.getElementById(diagram);
+    const [lines, numbers] = orderTraces(diagram, place.layout.xaxis.range, place.layout.yaxis.range);
     const both = (name) => [lines[name], numbers[name]];
     const changes = { x: both("x"), y: both("y"), text: both("text"), textposition: ["middle center", numbers.textposition] };
     Plotly.restyle(place, changes, [0, place.data.length - 1]);
   }
 
   // what is drawn again stays zoomed
-  function followView() {
-    const place = document.getElementById("campbell");
-    if (place.dataset.follows) fitOrders();
-    else place.on("plotly_relayout", fitOrders);
+  function followView(name) {
+    const place = document.getElementById(name);
+    if (place.dataset.follows) fitOrders(name);
+    else place.on("plotly_relayout", () => fitOrders(name));
     place.dataset.follows = "yes";
   }
 
@@ -533,6 +533,7 @@
   const offered = {
     state, set, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
   };
+  DRAWINGS.interaction_map = [interactionMap(data, { ...offered, campbell, orderTraces, followView }), ["blade", "scene", "unit"]];
   for (const [extension, contents] of Object.entries(data.panels ?? {})) {
     for (const [name, panel] of Object.entries(panels[extension](await unpackAll(contents), offered))) {
       const section = Object.assign(document.createElement("section"), { className: panel.first ? "wide" : "" });

@@ -15,6 +15,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 from r37core.results.closing import interaction_title
+from r37core.results.interaction_sizes import sized
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
@@ -44,7 +45,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     `interactions`: summary.csv; `rms`: which speeds were run. A circle stands at the peak speed and at the frequency of its
     engine order there. Its area is the length above yield in most revolutions or, in a scene without stress, the motion.
     """
-    rows = _measured(interactions, rms)
+    rows = sized(interactions, rms)
     lengths = rows[rows["unit"] == "rad/s"].groupby("scene")["size"].max()
     scenes = rms["scene"].values.astype(str).tolist()
     longest = sorted(scenes, key=lambda scene: -lengths.get(scene, 0.0))[:_MOST_SCENES]
@@ -73,24 +74,6 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
             own = rows[(rows["scene"] == scene) & (rows["size"] > 0.0) & (rows["frequency"] <= highest)]
             _label(axes, own.sort_values("size", ascending=False), figure.dpi / 72.0, named=len(colours) > 1)
     return figure
-
-
-def _measured(interactions: pd.DataFrame, rms: xr.Dataset) -> pd.DataFrame:
-    """The table with `frequency` (Hz), `size` in its `unit`, and `onward`: it reaches to an end of the speeds that were run."""
-    length = interactions["length_most_revolutions_rad_s"].fillna(interactions["width_above_yield_rad_s"])
-    stress = length.notna().groupby(interactions["scene"]).transform("any").astype(bool)
-    ran = rms["speed"].where(rms["status"] != RunStatus.NOT_RUN)
-    first, last = (
-        [float(end.sel(blade=blade, scene=scene)) for blade, scene in interactions[["blade", "scene"]].values]
-        for end in (ran.min("speed"), ran.max("speed"))
-    )
-    begin, end = interactions["most_revolutions_from_rad_s"], interactions["most_revolutions_to_rad_s"]
-    return interactions.assign(
-        frequency=interactions["engine_order"].astype(float) * interactions["peak_speed_rad_s"] / (2.0 * np.pi),
-        size=length.where(stress, 1e3 * interactions["peak_motion_m"]).fillna(0.0),
-        unit=np.where(stress, "rad/s", "mm"),
-        onward=(begin <= first) | (end >= last),
-    )
 
 
 def _colours(blades: list[str], rows: pd.DataFrame) -> dict[str, str]:
