@@ -117,7 +117,7 @@
       ...theme.layout(), margin: { l: 60, r: 15, t: 10, b: 45 }, hovermode: "closest", dragmode: DRAG, xaxis: x, yaxis: y, showlegend: true,
       legend: { orientation: "h", y: 1.02, yanchor: "bottom", font: { size: 11 } }, uirevision: state.unit,
       shapes: [
-        { type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: theme.colour("muted"), width: 1, dash: "dot" }},
+        { name: "cursor", type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: theme.colour("muted"), width: 1, dash: "dot" }},
         ...(x.title.text.startsWith("speed (") ? operatingRange() : []),
       ],
       ...more,
@@ -474,8 +474,10 @@
     if (typeof value !== "number") return String(value);
     return digits(value * (unit === "rad/s" ? factor() : toUnit), count);
   }
+  // rows of the verdict, of a run with requirements
+  const requirements = data.panels?.requirements?.requirements ?? [];
   const page = {
-    state, set, valueText,
+    state, set, valueText, requirements,
     mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : "") + (["max_wear_m", "sufficient_thickness_m"].includes(name) && row.worn_through_share > 0 ? " \u2020" : ""),
     link: data.shapes.length ? shapeLink : null,
   };
@@ -531,7 +533,7 @@
 
   // panels of extensions, tables that decide first and the others below: hidden where they have nothing to show, and not named as missing
   const offered = {
-    state, set, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
+    state, set, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, requirements, MAGMA, muted: () => theme.colour("muted"),
   };
   DRAWINGS.interaction_map = [interactionMap(data, { ...offered, campbell, orderTraces, followView }), ["blade", "scene", "unit"]];
   for (const [extension, contents] of Object.entries(data.panels ?? {})) {
@@ -547,11 +549,11 @@
     }
   }
 
-  // plotly draws all anew where it is told of another place, and the line alone where only its opacity is asked for
+  // a table has no cursor. Plotly draws all anew where it is told of another place, and the line alone where only its opacity is asked for
   function moveCursor(name) {
-    const [cursor] = (!missing.has(name) && document.getElementById(name).layout.shapes) || [];
+    const [cursor] = (!missing.has(name) && document.getElementById(name).layout?.shapes) || [];
     const x = state.speed * factor();
-    if (!cursor || cursor.x0 === x) return;
+    if (cursor?.name !== "cursor" || cursor.x0 === x) return;
     Object.assign(cursor, { x0: x, x1: x });
     Plotly.relayout(name, { "shapes[0].opacity": 1 });
   }
