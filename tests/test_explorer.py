@@ -217,7 +217,7 @@ def test_the_page_loads_without_an_error(page):
     assert not any(page.is_visible(f"#{name}") or f"{name}=" in page.url for name in ("band", "members"))
     assert "members" not in page.inner_text("body")
     assert page.title() == "r37 <trial>"
-    assert page.locator(".js-plotly-plot").count() == 5
+    assert page.locator(".js-plotly-plot").count() == 6
     assert page.is_visible("#stress")
     assert page.locator("#interactions tbody tr").count() == 1
     assert page.is_hidden("#ranking")
@@ -294,6 +294,41 @@ def test_it_opens_at_a_run_that_diverged_or_without_stress_at_the_largest_motion
         assert other.text_content("#now").startswith("L<50>, direct, 900 rad/s")
 
 
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_interactions_are_circles_by_danger(page, datasets, interactions, tmp_path, scheme):
+    """Of the chosen scene, with areas as their lengths; a click goes to one. What has no engine order has no circle."""
+    row = interactions.iloc[0].to_dict()
+    rows = [
+        row | {"length_most_revolutions_rad_s": 36.0, "most_revolutions_to_rad_s": 1300.0},
+        row | {"blade": "L<50>", "peak_speed_rad_s": 1000.25, "engine_order": 3, "length_most_revolutions_rad_s": 9.0},
+        row | {"peak_speed_rad_s": 1100.0, "length_most_revolutions_rad_s": 0.0},
+        row | {"peak_speed_rad_s": 900.0, "engine_order": None, "status": "diverged"},
+    ]
+    contents = explorer_contents(datasets, pd.DataFrame(rows))
+    place = "#scene=abradable&blade=Ref&speed=900"
+    with beside(page, contents, tmp_path / "explorer.html", (1400, 1000), place, color_scheme=scheme) as other:
+        plot = "document.getElementById('interaction_map')"
+        marks = {
+            (one["name"], x): (y, size)
+            for one in other.evaluate(f"{plot}.data.filter(({{ name }}) => {[*BLADES, 'diverged']}.includes(name))")
+            for x, y, size in zip(one["x"], one["y"], np.resize(one["marker"]["size"], len(one["x"])), strict=True)
+        }
+        assert set(marks) == {("Ref", 1200.0), ("Ref", 1100.0), ("L<50>", 1000.25), ("diverged", 900.0)}
+        assert marks["L<50>", 1000.25][0] == pytest.approx(3 * 1000.25 / (2 * np.pi))
+        assert marks["Ref", 1200.0][1] == pytest.approx(2.0 * marks["L<50>", 1000.25][1])
+        texts = other.evaluate(f"{plot}.layout.annotations.map(({{ text }}) => text)")
+        assert texts[-2:] == ["Ref 1B/4, > 36 rad/s", "L&lt;50> 1B/3, 9 rad/s"]
+        assert other.locator("#sizes .key").all_text_contents() == [
+            "20 rad/s above yield", "5 rad/s above yield", "not above yield"
+        ]  # fmt: skip
+        circle = other.locator("#interaction_map .points path").nth([name for name, _ in marks].index("L<50>")).bounding_box()
+        other.mouse.click(circle["x"] + 0.5 * circle["width"], circle["y"] + 0.5 * circle["height"])
+        other.wait_for_function("document.getElementById('now').textContent.startsWith('L<50>, abradable, 1000.3 rad/s')")
+        assert other.locator("#interactions tr.chosen td.interaction").all_text_contents() == ["1B/3"]
+        other.select_option("#scene", "direct")
+        assert "no interaction was found" in other.text_content("#interaction_map")
+
+
 @pytest.mark.parametrize("width", [390, 1400])
 def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width):
     """Without scrolling sideways, and with plotly's buttons clear of what is drawn."""
@@ -301,13 +336,13 @@ def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width)
     place = "#scene=abradable&quantity=share_of_time_in_contact&all=true"
     with beside(page, contents, tmp_path / "explorer.html", (width, 844), place) as other:
         assert other.evaluate("document.documentElement.scrollWidth") <= width
-        for name in ("campbell", "response", "spectrum", "wear", "stress"):
+        for name in ("interaction_map", "campbell", "response", "spectrum", "wear", "stress"):
             buttons, plot = (other.locator(f"#{name} {part}").first.bounding_box() for part in (".modebar", ".main-svg"))
             assert buttons["y"] + buttons["height"] <= plot["y"], name
             assert buttons["x"] + buttons["width"] <= width, name
             titles = {button.get_attribute("data-title") for button in other.locator(f"#{name} .modebar-btn").all()}
             assert titles == {"Download plot as a PNG", "Zoom", "Pan", "Reset axes"}
-        assert other.locator("main > section:visible").count() == 6
+        assert other.locator("main > section:visible").count() == 7
         other.select_option("#scene", "direct")
         assert other.locator("main > section:visible h2").all_text_contents()[-1] == "Spectrum"
         # what is there takes the room of what is not

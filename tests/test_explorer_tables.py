@@ -6,7 +6,8 @@ import pytest
 from browser import opened
 from explorer_cases import beside, interaction_rows, sweep
 
-from r37core.explorer import write_page
+from r37core.designs.panel import contents as design_panel
+from r37core.explorer import FOLDER, page_parts, write_page
 from r37core.explorer.contents import explorer_contents
 from r37core.results.columns import RANKING as RANKING_COLUMNS
 from r37core.results.columns import SUMMARY, column_named
@@ -172,6 +173,69 @@ def test_which_blade(at_ref):
     at_ref.locator("#bars button", has_text="Ref").press("Enter")
     assert at_ref.text_content("#now").startswith("Ref, direct")
     assert at_ref.locator("#bars tr.chosen td.here").count() == 1
+
+
+def judged(*verdicts):
+    """Panel of the requirements with rows: blade, scene, verdict on the length above yield, of which 24 rad/s are allowed."""
+    names = ("blade", "scene", "verdict")
+    numbers = {
+        "requirement": "above_yield",
+        "limit": 24.0,
+        "value": 1.0,
+        "margin": 1.0,
+        "unit": "rad/s",
+        "certainty": "",
+        "note": "",
+    }
+    rows = [dict(zip(names, row, strict=True)) | numbers | {"from_rad_s": None, "to_rad_s": None} for row in verdicts]
+    return {"requirements": {"pairs": [], "requirements": rows}}
+
+
+def test_the_ranking_shows_the_worst_motion_and_the_limit(page, rows, tmp_path):
+    """Thin bars, with the length from rest and the limit on them, each named in the key; without them neither bar nor name."""
+    worst = [f"length_most_revolutions_{name}_rad_s" for name in ("worst", "rest", "operating")]
+    more = RANKING.assign(**dict(zip(worst, ([15.0, 45.0, np.nan, np.nan], [6.0, 30.0, np.nan, np.nan], 12.0), strict=True)))
+    contents = explorer_contents(sweep(), rows, ranking=more) | {"panels": judged(("Ref", "abradable", "fails"))}
+    parts = page_parts([FOLDER.parent / "requirements/panel.js"])
+    with beside(page, contents, tmp_path / "explorer.html", parts=parts) as other:
+        cell = other.locator("#bars tbody tr").nth(1).locator("td:nth-of-type(1)")
+        boxes = {name: cell.locator(f".{name}").bounding_box() for name in ("worst", "rest", "inside", "limit")}
+        line = cell.locator(".bar").first.bounding_box()
+        assert boxes["worst"]["width"] == pytest.approx(45 / 60 * line["width"], rel=0.02)
+        assert boxes["inside"]["width"] == pytest.approx(12 / 60 * line["width"], rel=0.02)
+        places = [(boxes[name]["x"] - line["x"]) / line["width"] for name in ("rest", "limit")]
+        assert places == pytest.approx([30 / 60, 24 / 60], abs=0.01)
+        assert other.locator("#keys button").all_text_contents()[3:] == [
+            "above yield in most revolutions, worst motion (rad/s)", "above yield in most revolutions, in operation (rad/s)",
+            "above yield in most revolutions, from rest (rad/s)", "limit in operation (rad/s)",
+        ]  # fmt: skip
+        assert cell.locator(".numbers").text_content() == "30 / 60"
+    with beside(page, explorer_contents(sweep(), rows, ranking=more.drop(columns=worst[:2])), tmp_path / "other.html") as other:
+        assert other.locator("#bars .thin").count() == 0
+        assert len(other.locator("#keys button").all()) == 3
+
+
+def test_the_map_of_designs_has_the_line_of_a_requirement(page, rows, tmp_path):
+    """Round the design that does not fail it, which has a mark; a step in speed leaves the line where it is."""
+    keys = ["scene.casing.clearance_m", "scene.lining.thickness_m"]
+    places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
+    designs = pd.DataFrame([("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)])
+    table = designs.set_axis(["blade", "scene", "family", *keys], axis=1).assign(
+        length_most_revolutions_rad_s=[40.0, 30, 20, 0]
+    )
+    verdicts = [("Ref", f"Room_{number}", verdict) for number, verdict in enumerate(("fails", "fails", "fails", "meets"))]
+    contents = explorer_contents(sweep(), rows) | {"panels": {"designs": design_panel(table)} | judged(*verdicts)}
+    parts = page_parts([FOLDER.parent / f"{name}/panel.js" for name in ("designs", "requirements")])
+    with beside(page, contents, tmp_path / "explorer.html", place="#blade=Ref&scene=abradable&speed=900", parts=parts) as other:
+        map_ = "document.getElementById('designs')"
+        sides = f"{map_}.layout.shapes.map(one => [one.x0, one.y0, one.x1, one.y1])"
+        assert sorted(other.evaluate(sides)) == [[0.5, 0.5, 0.5, 1.5], [0.5, 0.5, 1.5, 0.5]]
+        assert other.evaluate(f"{map_}.data[0].text") == [["40", "20"], ["30", "0 \u2713"]]
+        assert "limit: above_yield" in other.text_content("#designs .legend")
+        other.locator("h1").click()
+        other.keyboard.press("ArrowRight")
+        assert "1000.3 rad/s" in other.text_content("#now")
+        assert [0.5, 0.5, 0.5, 1.5] in other.evaluate(sides)
 
 
 def test_a_ranking_without_some_columns(page, rows, tmp_path):

@@ -5,15 +5,19 @@ from functools import partial
 
 import matplotlib.pyplot as plt
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
+from matplotlib.collections import PathCollection
 from matplotlib.colors import to_hex
 from matplotlib.text import Text
 from PIL import Image
 
-from r37core.figures import campbell_diagram, comparison, maps, response_curves, style, waterfall
+from r37core.figures import campbell_diagram, comparison, interaction_map, maps, response_curves, style, waterfall
 from r37core.figures.style import save
 from r37core.product.reporting import FIGURES
+from r37core.results.columns import INTERACTIONS, names
+from r37core.results.table_file import read_table
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -64,12 +68,33 @@ def datasets():
     }
 
 
+def interactions(*rows):
+    """summary.csv of rows of 1B/4 that differ from one, at 1700 rad/s with 20 rad/s above yield, in what is given."""
+    row = {"blade": "Ref", "scene": "abradable", "mode": "1B", "engine_order": 4, "peak_speed_rad_s": 1700.0}
+    row |= {"length_most_revolutions_rad_s": 20.0, "peak_motion_m": 0.01, "status": "completed"}
+    return pd.DataFrame([row | given for given in rows], columns=names(INTERACTIONS)).astype({"engine_order": "Int64"})
+
+
+def draw_interactions(datasets, *rows):
+    table = interactions(*rows or ({}, {"blade": "L50", "scene": "direct"}))
+    return interaction_map.draw_interactions(datasets["campbell"], datasets["rms"], table)
+
+
+def circles(axes):
+    """Speed, frequency and area of each circle."""
+    marks = [one for one in axes.collections if isinstance(one, PathCollection) and len(one.get_offsets())]
+    return [
+        row for one in marks for row in np.column_stack([one.get_offsets(), np.resize(one.get_sizes(), len(one.get_offsets()))])
+    ]
+
+
 def drawn(datasets):
     """Every figure of the sweep."""
     of = {kind: data.sel(blade="Ref") for kind, data in datasets.items()}
     lined = {kind: data.sel(scene="abradable") for kind, data in datasets.items() if kind != "campbell"}
     yield "campbell", campbell_diagram.draw_campbell(of["campbell"], "Ref")
     yield "campbells", campbell_diagram.draw_campbell_overview(datasets["campbell"])
+    yield "interactions", draw_interactions(datasets)
     yield "response", response_curves.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
     yield "responses", response_curves.draw_response_overview(datasets["rms"])
     maps_of = {kind: data.sel(scene="abradable") for kind, data in of.items() if kind != "campbell"}
@@ -274,6 +299,64 @@ def test_comparison_marks_runs_that_diverged(datasets):
         assert len(x) == 5 and x.min() >= -2.0 and x.max() <= 6.0
         assert crosses.get_color() == style.blade_styles(BLADES)[BLADES[1]]["color"]
     assert {BLADES[1], "diverged"} <= {text.get_text() for text in figure.legends[0].get_texts()}
+
+
+def test_interactions_are_circles_whose_area_is_their_length_above_yield(datasets):
+    """Where no length is known the width; a ring for none, and a cross for what diverged, with an engine order or without."""
+    unknown = {"length_most_revolutions_rad_s": np.nan}
+    figure = draw_interactions(
+        datasets,
+        {},
+        {"blade": "L50", "engine_order": 6, "peak_speed_rad_s": 1200.0, "width_above_yield_rad_s": 5.0, **unknown},
+        {"blade": "S100", "peak_speed_rad_s": 900.0, "length_most_revolutions_rad_s": 0.0},
+        {"engine_order": pd.NA, "peak_speed_rad_s": 1500.0},
+        {"engine_order": pd.NA, "peak_speed_rad_s": 1900.0, "status": "diverged"},
+        {"peak_speed_rad_s": 1000.0, "status": "diverged", "length_most_revolutions_rad_s": 10.0},
+    )
+    axes = figure.axes[0]
+    found = {float(speed): (frequency, area) for speed, frequency, area in circles(axes)}
+    assert sorted(found) == [900.0, 1000.0, 1200.0, 1700.0]
+    assert found[1200.0][0] == pytest.approx(6 * 1200.0 / (2 * np.pi))
+    areas = [found[speed][1] / found[1700.0][1] for speed in (1000.0, 1200.0)]
+    assert areas == pytest.approx([0.5, 0.25])
+    crosses = [place for line in axes.lines if line.get_label() == "diverged" for place in line.get_xydata().tolist()]
+    assert crosses == [[1000.0, pytest.approx(4 * 1000.0 / (2 * np.pi))], [1900.0, 0.97]]
+    texts = [text.get_text() for text in axes.texts]
+    assert {"Ref 1B/4, 20 rad/s", "L50 1B/6, 5 rad/s", "1 not shown: higher, or without an engine order"} <= set(texts)
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["20 rad/s", "2 rad/s"]
+    assert {*BLADES, "not above yield", "diverged"} == {text.get_text() for text in figure.legends[0].get_texts()}
+    assert [text.get_text() for text in figure.axes[1].texts if "found" in text.get_text()] == ["no interaction was found"]
+
+
+def test_labels_of_interactions_do_not_lie_on_each_other_and_say_where_the_speeds_end(datasets):
+    one = {kind: datasets[kind].sel(blade=["Ref"]) for kind in ("campbell", "rms")}
+    rows = [{"peak_speed_rad_s": 1600.0 + 20.0 * n, "length_most_revolutions_rad_s": 30.0 - n} for n in range(12)]
+    figure = draw_interactions(one, *rows, {"length_most_revolutions_rad_s": 98.4, "most_revolutions_to_rad_s": 2000.0})
+    labels = [text for text in figure.axes[0].texts if "rad/s" in text.get_text()]
+    assert len(labels) == 6
+    assert labels[0].get_text() == "1B/4, > 98 rad/s"
+    boxes = [text.get_window_extent() for text in labels]
+    assert not any(box.count_overlaps(boxes[:number]) for number, box in enumerate(boxes))
+
+
+def test_interactions_without_stress_are_as_large_as_their_motion(datasets):
+    unknown = {"length_most_revolutions_rad_s": np.nan}
+    figure = draw_interactions(datasets, unknown, unknown | {"peak_motion_m": 0.0025, "peak_speed_rad_s": 1200.0})
+    (_, _, area), (_, _, smaller) = circles(figure.axes[0])
+    assert smaller == pytest.approx(0.25 * area)
+    assert "Ref 1B/4, 10 mm" in [text.get_text() for text in figure.axes[0].texts]
+
+
+def test_a_run_without_interactions_says_so_and_of_many_scenes_the_longest_are_drawn(datasets, tmp_path):
+    interactions().to_csv(tmp_path / "summary.csv", index=False)
+    figure = interaction_map.draw_interactions(datasets["campbell"], datasets["rms"], read_table(tmp_path / "summary.csv"))
+    assert all("no interaction was found" in [text.get_text() for text in axes.texts] for axes in figure.axes[:2])
+    scenes = [f"scene{number}" for number in range(8)]
+    many = datasets | {"rms": datasets["rms"].isel(scene=[0] * 8).assign_coords(scene=scenes)}
+    figure = draw_interactions(
+        many, *({"scene": scene, "length_most_revolutions_rad_s": 9.0 - n} for n, scene in enumerate(scenes))
+    )
+    assert [axes.get_title() for axes in figure.axes] == scenes[:6]
 
 
 NAMES = {"blade": "Ref", "scene": "direct", "family": "Sweep"}

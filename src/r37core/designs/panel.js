@@ -1,5 +1,5 @@
 // designs over two numbers that vary: length above yield in most revolutions, of the family that the chosen blade or scene is of; a click
-// chooses a design
+// chooses a design. Lines go round the designs that do not fail a requirement, and those that meet all have a mark
 panels.designs = (families, page) => {
   const { state, digits, axis, layout, draw } = page;
   const distinct = (place, rows) => [...new Set(rows.map((row) => row[place]))].sort((one, other) => one - other);
@@ -15,6 +15,35 @@ panels.designs = (families, page) => {
     return own ?? shown[0];
   }
 
+  const verdicts = (cell, name) => page.requirements
+    .filter(({ blade, scene, requirement }) => cell && blade === cell[0] && scene === cell[1] && (name ?? requirement) === requirement)
+    .map(({ verdict }) => verdict);
+  const meets = (cell) => {
+    const found = verdicts(cell);
+    return found.length > 0 && found.every((verdict) => ["meets", "does not apply"].includes(verdict));
+  };
+
+  // sides of cells between designs that fail a requirement and others; none to cells without a design
+  function limits(columns, rows) {
+    return [...new Set(page.requirements.map(({ requirement }) => requirement))].flatMap((name, number) => {
+      const keeps = (column, row) => {
+        const [verdict] = verdicts(column < columns && row < rows ? cellAt(column, row) : null, name);
+        return verdict === undefined ? null : verdict !== "fails";
+      };
+      const differ = (one, other) => one !== null && other !== null && one !== other;
+      const sides = [];
+      for (let row = 0; row < rows; row += 1) {
+        for (let column = 0; column < columns; column += 1) {
+          const here = keeps(column, row);
+          if (differ(here, keeps(column + 1, row))) sides.push([column + 0.5, row - 0.5, column + 0.5, row + 0.5]);
+          if (differ(here, keeps(column, row + 1))) sides.push([column - 0.5, row + 0.5, column + 0.5, row + 0.5]);
+        }
+      }
+      const line = { color: page.colourOf(1 + number), width: 4, dash: number % 2 ? "dash" : "solid" };
+      return sides.map(([x0, y0, x1, y1], side) => ({ type: "line", x0, y0, x1, y1, line, name: `limit: ${name}`, showlegend: side === 0 }));
+    });
+  }
+
   function map() {
     const { family, keys, other, rows: all } = chosen();
     const rows = all.filter(isOf(other));
@@ -28,12 +57,17 @@ panels.designs = (families, page) => {
     const [[acrossTitle, acrossFactor], [upTitle, upFactor]] = keys.map(axisOf);
     const trace = {
       type: "heatmap", x: across.map((value) => digits(acrossFactor * value, 4)), y: up.map((value) => digits(upFactor * value, 4)),
-      z: grid((cell) => cell[4]), zmin: 0, colorscale: page.MAGMA, zsmooth: false, hoverinfo: "text", texttemplate: "%{z:.0f}",
-      text: grid(([blade, scene, , , length]) => `${blade} in ${scene}<br>${digits(length, 3)} rad/s above yield in most revolutions`),
+      z: grid((cell) => cell[4]), zmin: 0, colorscale: page.MAGMA, zsmooth: false, hoverinfo: "text", texttemplate: "%{text}",
+      text: grid((cell) => (Number.isFinite(cell[4]) ? `${cell[4].toFixed(0)}${meets(cell) ? " \u2713" : ""}` : "")),
+      hovertext: grid(([blade, scene, , , length]) => `${blade} in ${scene}<br>${digits(length, 3)} rad/s above yield in most revolutions`
+        + `${meets([blade, scene]) ? "<br>meets all requirements" : ""}`),
       colorbar: { title: { text: `${family}: above yield (rad/s)`, side: "right" }, thickness: 12 },
     };
-    const plan = layout(axis(acrossTitle, { type: "category" }), axis(upTitle, { type: "category" }), { shapes: [], showlegend: false });
-    draw("designs", [trace], plan, false);
+    const plan = layout(axis(acrossTitle, { type: "category" }), axis(upTitle, { type: "category" }), {
+      shapes: limits(across.length, up.length), showlegend: page.requirements.length > 0,
+    });
+    const mark = { x: [null], y: [null], mode: "markers", marker: { color: "rgba(0,0,0,0)" }, name: "\u2713 meets all requirements" };
+    draw("designs", [trace, ...(page.requirements.length ? [mark] : [])], plan, false);
     const place = document.getElementById("designs");
     if (place.dataset.chooses) return undefined;
     place.dataset.chooses = "yes";

@@ -12,6 +12,7 @@ import xarray as xr
 from r37core.base.units import shown_unit
 from r37core.results.closing import interaction_title
 from r37core.results.columns import RANKING, SUMMARY, Column, column_named
+from r37core.results.interaction_sizes import sized
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranges import as_ranges_bear
 from r37core.results.variables import VARIABLES
@@ -69,7 +70,7 @@ def explorer_contents(
         **_stress(datasets.get("stress"), rms),
         "spectrum": _spectrum(datasets["spectrum"], rms) if "spectrum" in datasets else None,
         "wear": _wear(datasets["wear"], rms) if "wear" in datasets else None,
-        **interaction_table(as_ranges_bear(interactions)),
+        **interaction_table(sized(as_ranges_bear(interactions), rms)),
         **ranking_rows(ranking),
         "operating": [operating.first, operating.last] if operating else None,
         "shapes": [list(pair) for pair in shapes],

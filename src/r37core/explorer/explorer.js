@@ -117,7 +117,7 @@
       ...theme.layout(), margin: { l: 60, r: 15, t: 10, b: 45 }, hovermode: "closest", dragmode: DRAG, xaxis: x, yaxis: y, showlegend: true,
       legend: { orientation: "h", y: 1.02, yanchor: "bottom", font: { size: 11 } }, uirevision: state.unit,
       shapes: [
-        { type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: theme.colour("muted"), width: 1, dash: "dot" }},
+        { name: "cursor", type: "line", x0: cursor, x1: cursor, yref: "paper", y0: 0, y1: 1, line: { color: theme.colour("muted"), width: 1, dash: "dot" }},
         ...(x.title.text.startsWith("speed (") ? operatingRange() : []),
       ],
       ...more,
@@ -207,14 +207,14 @@
     const plan = layout(x, y, { margin: { l: 60, r: 30, t: 10, b: 45 } });
     // above the numbers of the engine orders
     plan.legend.y = 1.06;
-    const [lines, numbers] = orderTraces(...ranges);
+    const [lines, numbers] = orderTraces("campbell", ...ranges);
     draw("campbell", [lines, ...traces, numbers], plan);
-    followView();
+    followView("campbell");
   }
 
   // lines of the engine orders from border to border of a panel, and their numbers where they leave it, as far as these have room
-  function orderTraces([left, right], [bottom, top]) {
-    const { clientWidth, clientHeight } = document.getElementById("campbell");
+  function orderTraces(name, [left, right], [bottom, top]) {
+    const { clientWidth, clientHeight } = document.getElementById(name);
     const lines = {
       x: [], y: [], text: [], mode: "lines", line: { color: theme.colour("lines"), width: 1 }, hoverinfo: "text", name: "engine orders",
     };
@@ -243,19 +243,19 @@
   }
 
   // the engine orders fit the part of the diagram that is shown
-  function fitOrders() {
-    const place = document.getElementById("campbell");
-    const [lines, numbers] = orderTraces(place.layout.xaxis.range, place.layout.yaxis.range);
+  function fitOrders(diagram) {
+    const place = document.getElementById(diagram);
+    const [lines, numbers] = orderTraces(diagram, place.layout.xaxis.range, place.layout.yaxis.range);
     const both = (name) => [lines[name], numbers[name]];
     const changes = { x: both("x"), y: both("y"), text: both("text"), textposition: ["middle center", numbers.textposition] };
     Plotly.restyle(place, changes, [0, place.data.length - 1]);
   }
 
   // what is drawn again stays zoomed
-  function followView() {
-    const place = document.getElementById("campbell");
-    if (place.dataset.follows) fitOrders();
-    else place.on("plotly_relayout", fitOrders);
+  function followView(name) {
+    const place = document.getElementById(name);
+    if (place.dataset.follows) fitOrders(name);
+    else place.on("plotly_relayout", () => fitOrders(name));
     place.dataset.follows = "yes";
   }
 
@@ -474,8 +474,10 @@
     if (typeof value !== "number") return String(value);
     return digits(value * (unit === "rad/s" ? factor() : toUnit), count);
   }
+  // rows of the verdict, of a run with requirements
+  const requirements = data.panels?.requirements?.requirements ?? [];
   const page = {
-    state, set, valueText,
+    state, set, valueText, requirements,
     mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : "") + (["max_wear_m", "sufficient_thickness_m"].includes(name) && row.worn_through_share > 0 ? " \u2020" : ""),
     link: data.shapes.length ? shapeLink : null,
   };
@@ -531,8 +533,9 @@
 
   // panels of extensions, tables that decide first and the others below: hidden where they have nothing to show, and not named as missing
   const offered = {
-    state, set, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, MAGMA, muted: () => theme.colour("muted"),
+    state, set, factor, shown, digits, speedText, axis, speedAxis, layout, draw, colourOf, requirements, MAGMA, muted: () => theme.colour("muted"),
   };
+  DRAWINGS.interaction_map = [interactionMap(data, { ...offered, campbell, orderTraces, followView }), ["blade", "scene", "unit"]];
   for (const [extension, contents] of Object.entries(data.panels ?? {})) {
     for (const [name, panel] of Object.entries(panels[extension](await unpackAll(contents), offered))) {
       const section = Object.assign(document.createElement("section"), { className: panel.first ? "wide" : "" });
@@ -546,11 +549,11 @@
     }
   }
 
-  // plotly draws all anew where it is told of another place, and the line alone where only its opacity is asked for
+  // a table has no cursor. Plotly draws all anew where it is told of another place, and the line alone where only its opacity is asked for
   function moveCursor(name) {
-    const [cursor] = (!missing.has(name) && document.getElementById(name).layout.shapes) || [];
+    const [cursor] = (!missing.has(name) && document.getElementById(name).layout?.shapes) || [];
     const x = state.speed * factor();
-    if (!cursor || cursor.x0 === x) return;
+    if (cursor?.name !== "cursor" || cursor.x0 === x) return;
     Object.assign(cursor, { x0: x, x1: x });
     Plotly.relayout(name, { "shapes[0].opacity": 1 });
   }

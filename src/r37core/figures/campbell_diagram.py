@@ -27,7 +27,7 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
     speed = campbell["speed"].values
     highest = 1.3 * float(campbell["frequency"].sel(mode="2B").max())
     left.set(xlabel=style.SPEED_LABEL, ylabel="frequency (Hz)", ylim=(0.0, highest), xlim=(0.0, speed[-1]))
-    _draw_engine_orders(left, campbell["engine_order"].values, speed, highest)
+    draw_engine_orders(left, campbell["engine_order"].values, speed, highest)
     for name in campbell["mode"].values:
         frequency = campbell["frequency"].sel(mode=name)
         if float(frequency.min()) > highest:
@@ -60,7 +60,7 @@ def draw_campbell_overview(campbell: xr.Dataset) -> Figure:
         low, high = float(frequencies.min()), float(frequencies.max())
         margin = 0.08 * (high - low)
         axes.set(xlabel=style.SPEED_LABEL, title=name, xlim=(0.0, speed[-1]), ylim=(low - margin, high + margin))
-        _draw_engine_orders(axes, campbell["engine_order"].values, speed, high + margin)
+        draw_engine_orders(axes, campbell["engine_order"].values, speed, high + margin)
         style.rpm_axis(axes, most_ticks=5)
     panels[0].set_ylabel("frequency (Hz)")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
@@ -94,7 +94,7 @@ def _draw_casing(axes: Axes, campbell: xr.Dataset, casing: ElasticCasing, whose:
                 axes.plot(*crossing, "D", color=colour, markersize=2.5, markerfacecolor="white", zorder=4, alpha=alpha)
 
 
-def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float) -> None:
+def draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highest: float, letters: float = 6) -> None:
     """Lines, with their numbers where they leave the panel: beside it at the right, within it at the top."""
     beside: dict[str, Any] = {"xytext": (2, 0), "ha": "left", "va": "center"}
     white = {"facecolor": "white", "linewidth": 0, "pad": 0.6}
@@ -109,5 +109,7 @@ def _draw_engine_orders(axes: Axes, orders: np.ndarray, speed: np.ndarray, highe
         if end_on_axes[1] > 0.0 and np.linalg.norm(end_on_axes - labelled) > 0.07:
             look = beside if end == speed[-1] else top
             place = (end, order * end / (2.0 * np.pi))
-            axes.annotate(str(order), place, fontsize=6, color="0.3", textcoords="offset points", annotation_clip=False, **look)
+            axes.annotate(
+                str(order), place, fontsize=letters, color="0.3", textcoords="offset points", annotation_clip=False, **look
+            )
             labelled = end_on_axes

@@ -115,7 +115,7 @@ def mark_diverged(axes: Axes, places: np.ndarray, colour: str = "red") -> None:
     """Crosses at the upper edge, worse than any number, at the places on the x axis where a run diverged."""
     if len(places):
         where = axes.get_xaxis_transform()
-        axes.plot(places, np.full(len(places), 0.97), "x", color=colour, label="diverged", transform=where)
+        axes.plot(places, np.full(len(places), 0.97), "x", color=colour, label="diverged", transform=where, zorder=4)
 
 
 def mark_operating(figure: Figure, operating: OperatingRange) -> None:
@@ -148,7 +148,7 @@ def say(axes: Axes, text: str) -> None:
 def rpm_axis(axes: Axes, most_ticks: int = 9) -> None:
     """A second axis above one of speeds in rad/s, in revolutions per minute."""
     above = axes.secondary_xaxis("top", functions=_RPM)
-    above.set_xlabel("rpm", fontsize=7)
+    above.set_xlabel("rpm", fontsize=plt.rcParams["xtick.labelsize"])
     above.xaxis.set_major_locator(MaxNLocator(most_ticks))
 
 

@@ -1,0 +1,183 @@
+"""Campbell diagrams with the interactions of a run, each a circle whose area is its length above yield."""
+
+from itertools import product
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+from matplotlib.transforms import Bbox
+
+from r37core.results.closing import interaction_title
+from r37core.results.interaction_sizes import sized
+from r37core.rom.naming import NAMED_MODES
+from r37core.time_integration.status import RunStatus
+
+from . import style
+from .campbell_diagram import draw_engine_orders
+
+_WIDTH = 5.2
+"""Width (inch) at which letters can still be read where a telephone shows the figure."""
+
+_MOST_SCENES, _MOST_LABELS = 6, 6
+_LARGEST, _RING = 26.0, 5.0
+"""Diameters (pt) of the largest circle of a panel, and of the ring for an interaction that is not above yield."""
+
+_LETTERS: dict[Any, Any] = {f"{part}size": 9 for part in ("font.", "axes.label", "xtick.label", "ytick.label", "legend.font")}
+_HALO = [withStroke(linewidth=2.0, foreground="white")]
+_AWAY = [(side, distance) for distance in (1.5, 12.0, 24.0, 36.0) for side in product((1, -1, 0), (1, -1, 0)) if any(side)]
+"""Sides of a circle, across and up, on which its label may stand, and how far from it (pt)."""
+
+_LEADER = {"arrowstyle": "-", "color": "0.3", "linewidth": 0.6, "shrinkA": 0.0, "shrinkB": 0.0}
+_OTHERS = "0.45"
+"""Colour of blades that have none of their own."""
+
+
+def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.DataFrame) -> Figure:
+    """Draw a panel for each scene, at most six: those with the longest length above yield.
+
+    `interactions`: summary.csv; `rms`: which speeds were run. A circle stands at the peak speed and at the frequency of its
+    engine order there. Its area is the length above yield in most revolutions or, in a scene without stress, the motion.
+    """
+    rows = sized(interactions, rms)
+    lengths = rows[rows["unit"] == "rad/s"].groupby("scene")["size"].max()
+    scenes = rms["scene"].values.astype(str).tolist()
+    longest = sorted(scenes, key=lambda scene: -lengths.get(scene, 0.0))[:_MOST_SCENES]
+    scenes = [scene for scene in scenes if scene in longest]
+    colours = _colours(campbell["blade"].values.astype(str).tolist(), rows[rows["scene"].isin(scenes)])
+    ran = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
+    margin = max(0.03 * (ran[-1] - ran[0]), 0.01 * ran[-1])
+    highest = np.nanmin([1.3 * float(campbell["frequency"].sel(mode="2B").max()), 1.15 * rows["frequency"].max()])
+    with plt.rc_context(_LETTERS | {"axes.titlesize": 10}):
+        size = (_WIDTH, 0.9 + len(scenes) * (3.0 if len(scenes) < 3 else 2.4))
+        figure, grid = plt.subplots(len(scenes), 1, figsize=size, sharex=True, sharey=True, squeeze=False)
+        panels = dict(zip(scenes, grid.flat, strict=True))
+        grid[0, 0].set(xlim=(ran[0] - margin, ran[-1] + margin), ylim=(0.0, highest))
+        style.rpm_axis(grid[0, 0], most_ticks=6)
+        grid[-1, 0].set_xlabel(style.SPEED_LABEL)
+        for scene, axes in panels.items():
+            axes.set(title=scene, ylabel="frequency (Hz)")
+            axes.grid(visible=False)
+            _draw_modes(axes, campbell)
+            _draw_marks(axes, rows[rows["scene"] == scene], colours)
+        handles, labels = style.legend_entries(grid.flat)
+        if handles:
+            figure.legend(handles, labels, loc="outside lower center", ncols=5, handletextpad=0.1, columnspacing=1.0)
+        figure.draw_without_rendering()
+        for scene, axes in panels.items():
+            own = rows[(rows["scene"] == scene) & (rows["size"] > 0.0) & (rows["frequency"] <= highest)]
+            _label(axes, own.sort_values("size", ascending=False), figure.dpi / 72.0, named=len(colours) > 1)
+    return figure
+
+
+def _colours(blades: list[str], rows: pd.DataFrame) -> dict[str, str]:
+    """Colours of the blades, each colour for the one with the largest circle that has it; of other blades grey."""
+    looks, largest = style.blade_styles(blades), rows.groupby("blade")["size"].max()
+    owner: dict[str, str] = {}
+    for blade in sorted(blades, key=lambda blade: -largest.get(blade, -1.0)):
+        owner.setdefault(looks[blade]["color"], blade)
+    return {blade: look["color"] if owner[look["color"]] == blade else _OTHERS for blade, look in looks.items()}
+
+
+def _draw_modes(axes: Axes, campbell: xr.Dataset) -> None:
+    """Engine orders, and the named modes: a line, or a band from the lowest to the highest blade."""
+    (left, right), highest = axes.get_xlim(), axes.get_ylim()[1]
+    orders = campbell["engine_order"].values
+    draw_engine_orders(axes, orders[orders * left < 2.0 * np.pi * highest], np.array([left, right]), highest, letters=8)
+    for mode in NAMED_MODES:
+        frequency = campbell["frequency"].sel(mode=mode)
+        low, high = frequency.min("blade"), frequency.max("blade")
+        axes.fill_between(campbell["speed"], low, high, color="0.5", alpha=0.25, linewidth=0.0, zorder=1.0)
+        for edge in (low, high):
+            axes.plot(campbell["speed"], edge, color="0.35", linewidth=0.9, zorder=1.1)
+        place = (left, float(np.interp(left, campbell["speed"], high)))
+        if place[1] < highest:
+            above: dict[str, Any] = {"textcoords": "offset points", "xytext": (3, 2), "va": "bottom"}
+            axes.annotate(mode, place, fontweight="bold", color="0.2", path_effects=_HALO, **above)
+
+
+def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None:
+    """Circles, the largest first, rings for what is not above yield, crosses for what diverged, and a key of the sizes."""
+    if rows.empty:
+        style.say(axes, "no interaction was found")
+        return
+    inside, diverged = rows["frequency"] <= axes.get_ylim()[1], rows["status"] == RunStatus.DIVERGED.text
+    shown = rows[inside].sort_values("size", ascending=False)
+    for blade in [blade for blade in colours if blade in set(shown["blade"])] if len(colours) > 1 else []:
+        axes.scatter([], [], 30.0, color=colours[blade], label="other blades" if colours[blade] == _OTHERS else blade)
+    above, none = shown[shown["size"] > 0.0], shown[shown["size"] == 0.0]
+    for part, areas, share in ((above, _areas(above), 0.45), (none, _RING**2, 0.0)):
+        faces, edges = ([to_rgba(colours[blade], alpha) for blade in part["blade"]] for alpha in (share, 1.0))
+        axes.scatter(*_places(part), areas, facecolors=faces, edgecolors=edges, linewidths=0.9, zorder=2.5)
+    if len(none):
+        axes.scatter([], [], _RING**2, facecolors="none", edgecolors="0.2", label="not above yield")
+    if (diverged & inside).any():
+        axes.plot(*_places(rows[diverged & inside]), "x", color="red", zorder=2.6, label="diverged")
+    # without an engine order it has no frequency
+    style.mark_diverged(axes, rows["peak_speed_rad_s"][diverged & ~inside].values)
+    if left_out := int((~inside & ~diverged).sum()):
+        where: dict[str, Any] = {"xycoords": "axes fraction", "va": "top", "path_effects": _HALO}
+        axes.annotate(f"{left_out} not shown: higher, or without an engine order", (0.01, 0.98), **where)
+    if len(above):
+        unit, largest = above["unit"].iloc[0], above["size"].max()
+        sizes = [_round(largest), _round(0.15 * largest)]
+        key: dict[str, Any] = {"marker": "o", "linestyle": "", "color": "0.8", "markeredgecolor": "0.3"}
+        handles = [Line2D([], [], markersize=_LARGEST * np.sqrt(each / largest), **key) for each in sizes]
+        box: dict[str, Any] = {"frameon": True, "framealpha": 0.9, "edgecolor": "none", "columnspacing": 1.0, "borderpad": 0.6}
+        axes.legend(handles, [f"{each:g} {unit}" for each in sizes], loc="lower right", ncols=2, **box)
+
+
+def _places(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
+    return rows["peak_speed_rad_s"], rows["frequency"]
+
+
+def _areas(rows: pd.DataFrame) -> pd.Series:
+    """Areas (square points) of circles of the rows of a panel."""
+    return _LARGEST**2 * rows["size"] / rows["size"].max()
+
+
+def _round(value: float) -> float:
+    """Largest of 1, 2 and 5 times a power of ten that is not above a value."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * max(digit for digit in (1, 2, 5) if digit * power <= value * (1.0 + 1e-9)))
+
+
+def _label(axes: Axes, rows: pd.DataFrame, point: float, *, named: bool) -> None:
+    """Label the largest circles, as far as there is room: neither on each other nor on other circles. `point`: in pixels."""
+    radii, legend = 0.5 * np.sqrt(_areas(rows)).values, axes.get_legend()
+    middles = axes.transData.transform(np.column_stack(_places(rows)))
+    reach = point * radii[:, None]
+    circles = [Bbox(corners) for corners in np.stack([middles - reach, middles + reach], axis=1)]
+    taken = [legend.get_window_extent()] if legend else []
+    most = len(taken) + _MOST_LABELS
+    for number, row in enumerate(rows.to_dict("records")):
+        avoided = [*taken, *circles[:number], *circles[number + 1 :]]
+        for (across, up), distance in _AWAY:
+            offset = (radii[number] + distance) * np.array([across, up]) / np.hypot(across, up)
+            xy = (row["peak_speed_rad_s"], row["frequency"])
+            place: dict[str, Any] = {"xy": xy, "xytext": offset, "textcoords": "offset points"}
+            sides: dict[str, Any] = {"ha": ("center", "left", "right")[across], "va": ("center", "bottom", "top")[up]}
+            text = axes.annotate(_text(row, named=named), **place, **sides, path_effects=_HALO)
+            box = text.get_window_extent()
+            if axes.bbox.contains(*box.min) and axes.bbox.contains(*box.max) and not box.count_overlaps(avoided):
+                axes.annotate("", **place, arrowprops=_LEADER)
+                taken.append(box)
+                break
+            text.remove()
+        if len(taken) == most:
+            return
+
+
+def _text(row: dict[str, Any], *, named: bool) -> str:
+    """Label of a circle: Ref 1B/4, 98 rad/s."""
+    mode = row["mode"] if isinstance(row["mode"], str) else ""
+    title = interaction_title(mode, int(row["engine_order"])).removeprefix("engine ")
+    amount = f"{row['size']:.0f}" if row["size"] >= 10.0 else f"{row['size']:.2g}"
+    blade = f"{row['blade']} " if named else ""
+    return f"{blade}{title}, {'> ' * row['onward']}{amount} {row['unit']}"
