@@ -89,11 +89,59 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
         signature = page.locator("dt.sig").inner_text()
         assert "speeds_rpm" in signature and "cores: int" in signature and "options" not in signature
         assert page.locator("dd a[href='r37.simulate.html#r37.simulate']").count()
+        page.locator(".viewcode-link").first.click()
+        line = page.url.rpartition("#")[2]
+        assert "def sweep(" in page.locator("pre").inner_text().split("\n")[int(line) :][0]
         page.goto((site / "simulation.html").as_uri())
         drawn = page.locator(".equation svg").evaluate_all("all => all.map(one => one.getBoundingClientRect().width)")
         assert len(drawn) >= 5
         assert min(drawn) > 50
         assert page.problems == []
+
+
+@pytest.mark.slow
+def test_words_of_a_page_lead_to_it_in_the_search(built, root):
+    site = built[0][0]
+    words = runpy.run_path(str(root / "docs/site/search_words.py"))["WORDS"]
+    with opened(site / "search.html", {"width": 1400, "height": 900}) as page:
+        for name in words.keys() & {file.stem for file in site.glob("*.html")}:
+            for query in words[name].split(", "):
+                page.goto(f"{(site / 'search.html').as_uri()}?q={query}")
+                first = page.locator("#search-results ul.search li a").first
+                assert first.get_attribute("href") == f"{name}.html", query
+
+
+SMALL = """() => [...document.querySelectorAll(".picture:not(a *) img")]
+    .filter(image => image.clientWidth < parseFloat(image.style.minWidth)).map(image => image.src)"""
+"""Pictures whose letters are smaller than docs/site/pictures.py lets them be."""
+
+SIDEWAYS = """() => Math.max(
+    ...[...document.querySelectorAll("html, body, .content")].map(box => box.scrollWidth - box.clientWidth))"""
+"""How far a page scrolls sideways (px), in the theme's box, too."""
+
+
+@pytest.mark.slow
+def test_pages_on_a_phone_have_legible_pictures_and_do_not_scroll_sideways(built):
+    site = built[0][0]
+    pages = [*site.glob("*.html"), *site.glob("api/*.html")]
+    with opened(site / "index.html", {"width": 390, "height": 800}, color_scheme="dark") as page:
+        for file in pages:
+            page.goto(file.as_uri())
+            assert page.evaluate(SIDEWAYS) == 0, file
+            assert page.evaluate(SMALL) == [], file
+        page.goto((site / "gallery.html").as_uri())
+        for kind, change in {"drawing": "invert", "rendering": "brightness"}.items():
+            assert page.locator(f".{kind} img").first.evaluate("image => getComputedStyle(image).filter").startswith(change)
+
+
+@pytest.mark.parametrize(("colours", "drawing"), [([0] * 8, True), (range(0, 256, 4), False)])
+def test_only_pictures_of_few_colours_are_inverted_on_a_dark_page(root, colours, drawing):
+    image = pytest.importorskip("PIL.Image")
+    is_drawing = runpy.run_path(str(root / "docs/site/pictures.py"))["is_drawing"]
+    picture = image.new("RGBA", (400, 100), "white")
+    for column, grey in enumerate(colours):
+        picture.paste((grey, grey, grey), (2 * column, 0, 2 * column + 2, 100))
+    assert is_drawing(picture) == drawing
 
 
 @pytest.mark.slow

@@ -9,11 +9,14 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent.parent / "src")]
 
+from source_pages import linkcode_resolve  # noqa: E402, F401  # a value of sphinx.ext.linkcode
+
 from r37core import __version__  # noqa: E402
 
 project = "r37"
 version = release = __version__
-extensions = ["myst_nb", "sphinx.ext.autodoc", "api_pages", "equations", "repository_links"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.linkcode", "api_pages", "equations", "pictures", "repository_links"]
+extensions += ["search_words", "source_pages"]
 exclude_patterns = ["site/*", "tutorial.py"]
 
 # pages are Markdown as GitHub shows it, with $...$ and $$...$$ for formulas
@@ -34,6 +37,8 @@ toc_object_entries = False
 
 html_theme = "furo"
 html_title = f"r37 {version}"
+# filters of pictures on a dark page: black letters on white become white letters on its colour, with the hues that they had
+html_theme_options = {"dark_css_variables": {"drawing": "invert(0.93) hue-rotate(180deg)", "rendering": "brightness(0.85)"}}
 html_static_path = ["style"]
 html_css_files = ["r37.css"]
 # excerpts would be fetched, which browsers refuse to a page on the disk
@@ -41,5 +46,7 @@ html_show_search_summary = False
 # pages and calls before the inside
 html_search_scorer = str(HERE / "search_order.js")
 html_copy_source = False
+# no page leads to an index of all names
+html_use_index = html_domain_indices = False
 html_show_copyright = False
 html_show_sphinx = False
