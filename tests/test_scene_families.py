@@ -272,11 +272,19 @@ def test_a_map_has_values_in_place_and_the_line_of_a_requirement():
     np.testing.assert_array_equal(axes.collections[0].get_array().reshape(2, 2), [[40.0, 20.0], [30.0, 0.0]])
     marks = [line for line in axes.lines if line.get_label() == "meets all requirements"]
     assert (list(marks[0].get_xdata()), list(marks[0].get_ydata())) == ([1], [0.7])
-    (limit,) = [collection for collection in axes.collections[1:] if collection.get_label() == "limit: above_yield"]
+    (limit,) = [collection for collection in axes.collections[1:] if collection.get_label() == "limit of above yield"]
     # round the design that meets it
     assert sorted(segment.tolist() for segment in limit.get_segments()) == [[[0.5, 0.5], [0.5, 1.5]], [[0.5, 0.5], [1.5, 0.5]]]
     assert [text.get_text() for text in axes.texts] == ["40", "20", "30", "0"]
-    assert axes.get_xlabel() == "scene.casing.clearance (mm)"
+    assert axes.get_xlabel() == "casing, clearance (mm)"
+
+
+def test_a_map_without_a_speed_above_yield_shows_how_near_fatigue_is():
+    table = table_of([0.0, 0.0, 0.0, 0.0]).assign(largest_goodman_share=[1.3, 0.9, 0.6, 0.25])
+    (compared,) = compared_in(table).values()
+    figure = draw_design_map("Room", table, to_plain(compared))
+    assert [text.get_text() for text in figure.axes[0].texts] == ["1.30", "0.60", "0.90", "0.25"]
+    assert "Goodman" in figure.axes[-1].get_ylabel()
 
 
 @pytest.mark.slow

@@ -26,6 +26,8 @@ def write(translator, node):
     if file.suffix == ".png":
         with Image.open(file) as picture:
             kind = "drawing" if is_drawing(picture) else "rendering"
+            if "A" in picture.getbands() and picture.getchannel("A").getextrema()[0] == 0:
+                kind = "on-any-page"
             least = min(picture.width / picture.info.get("dpi", [RENDERED])[0] * WIDTH, picture.width)
             size = f'width="{picture.width}" height="{picture.height}" style="min-width: {least:.0f}px"'
     type(translator).visit_image(translator, node)

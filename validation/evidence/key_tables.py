@@ -19,6 +19,7 @@ from r37core.product.schemas import MODELS
 from r37core.results.columns import CHANCE, IN_REGION, OPERATING, RANGED, RANKING, SUMMARY, column_named, names
 from r37core.results.ranges import COLUMNS as TOLERANCES
 from r37core.results.ranking import RANKED_BY
+from r37core.second_motions.tables import RANGE_COLUMNS, RANGES
 
 from .allowed_values import AllowedValues, Schema, entries_of, name_of, resolved
 from .keys_again import Shown, ShownModels
@@ -214,13 +215,15 @@ TABLES_OF_RESULTS = {
     "ranking.csv": ["blade", "scene", *names(RANKING), *_RANKED_RANGES, IN_REGION.format("REGION"), f"{CHANCE}BLADE"],
     "designs.csv": ["blade", "scene", *names(MEASURES), *names(OPERATING)],
     "tolerances.csv": TOLERANCES,
+    "second_motions.csv": RANGE_COLUMNS,
 }
 """Table of results -> its declared columns. REGION and BLADE stand for a name."""
 
 
 def column_rows() -> Iterator[tuple[str, str, str]]:
     """Table, column and meaning of every declared column."""
-    declared = {"summary.csv": SUMMARY, "ranking.csv": RANKING, "designs.csv": (*MEASURES, *OPERATING)}
+    designs = (*MEASURES, *OPERATING)
+    declared = {"ranking.csv": RANKING, "designs.csv": designs, "second_motions.csv": RANGES}
     for file, columns in TABLES_OF_RESULTS.items():
         for name in columns:
             column = column_named(name, (*declared.get(file, ()), *SUMMARY, *RANKING))

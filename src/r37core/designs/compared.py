@@ -36,5 +36,6 @@ class Compared:
 
 
 def axis_of_key(key: str) -> tuple[str, float]:
-    """Label of the axis of a key, and what a unit there is in the key's, inverted: lengths in mm."""
-    return (f"{key.removesuffix('_m')} (mm)", 1e3) if key.endswith("_m") else (key, 1.0)
+    """Label of the axis of a key, in words, and what a unit there is in the key's, inverted: lengths in mm."""
+    words = key.removeprefix("scene.").removesuffix("_m").replace(".", ", ").replace("_", " ")
+    return (f"{words} (mm)", 1e3) if key.endswith("_m") else (words, 1.0)

@@ -22,12 +22,13 @@ def draw_design_map(
 ) -> Figure:
     """Length above yield in most revolutions over two keys, a panel for each of what does not vary.
 
+    Where no design is above yield, the largest share of the Goodman line is drawn instead, if it is known.
     `compared`: a Compared, as plain values; `verdict`: verdict.csv, whose requirements are lines round the designs
     that do not fail them, and marks on those that meet all.
     """
     chosen = from_plain(Compared, compared)
-    column = length_column(table)
     rows, keys = chosen.rows(table), chosen.keys
+    column, label, digits = _measure(rows)
     panels = [(str(name), part) for name, part in rows.groupby(chosen.other, sort=False)] if chosen.other else [(title, rows)]
     across = min(len(panels), 3)
     down = -(-len(panels) // across)
@@ -35,7 +36,7 @@ def draw_design_map(
     figure, grid = plt.subplots(down, across, figsize=size, squeeze=False, sharex=True, sharey=True)
     highest = max(float(rows[column].max()), 1.0)
     for axes, (name, part) in zip(grid.flat, panels, strict=False):
-        cells = _draw_cells(axes, _grid(part, keys, column, "max"), highest)
+        cells = _draw_cells(axes, _grid(part, keys, column, "max"), highest, digits)
         axes.set_title(name)
         _label(axes, part, keys)
         axes.label_outer()
@@ -43,8 +44,7 @@ def draw_design_map(
             _draw_verdict(axes, part, keys, verdict)
     for axes in list(grid.flat)[len(panels) :]:
         axes.set_axis_off()
-    inside = " in operation" if "operating" in column else ""
-    figure.colorbar(cells, ax=grid, label=f"length above yield{inside} (rad/s)")
+    figure.colorbar(cells, ax=grid, label=label)
     handles, labels = style.legend_entries(grid.flat)
     if handles:
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
@@ -52,19 +52,27 @@ def draw_design_map(
     return figure
 
 
+def _measure(rows: pd.DataFrame) -> tuple[str, str, int]:
+    """Column that is drawn, its label and the digits of its values."""
+    column = length_column(rows)
+    if not rows[column].any() and rows.get("largest_goodman_share", pd.Series()).notna().any():
+        return "largest_goodman_share", "no speed above yield: share of the Goodman line", 2
+    return column, f"length above yield{' in operation' if 'operating' in column else ''} (rad/s)", 0
+
+
 def _grid(rows: pd.DataFrame, keys: Sequence[str], column: str, together: str) -> np.ndarray:
     """Values over the second and the first key, whatever the distance of these."""
     return rows.pivot_table(index=keys[1], columns=keys[0], values=column, aggfunc=together, dropna=False).to_numpy(float)
 
 
-def _draw_cells(axes: Axes, values: np.ndarray, highest: float) -> QuadMesh:
+def _draw_cells(axes: Axes, values: np.ndarray, highest: float, digits: int) -> QuadMesh:
     """Cells of one unit each with their values."""
     corners = (np.arange(count + 1) - 0.5 for count in values.shape[::-1])
     cells = axes.pcolormesh(*corners, values, cmap="cividis", vmin=0.0, vmax=highest)
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):
             colour = "white" if value < 0.5 * highest else "black"
-            axes.text(column, row, f"{value:.0f}", color=colour, fontsize=6, ha="center", va="center")
+            axes.text(column, row, f"{value:.{digits}f}", color=colour, fontsize=8, ha="center", va="center")
     return cells
 
 
@@ -90,7 +98,9 @@ def _draw_verdict(axes: Axes, rows: pd.DataFrame, keys: Sequence[str], verdict: 
         if borders:
             # dashed on solid, where limits lie on each other
             colour, dashes = style.COLOURS[(1 + number) % len(style.COLOURS)], "--" if number % 2 else "-"
-            lines = LineCollection(borders, linewidths=2.0, colors=colour, linestyles=dashes, label=f"limit: {name}")
+            lines = LineCollection(
+                borders, linewidths=2.0, colors=colour, linestyles=dashes, label=f"limit of {name}".replace("_", " ")
+            )
             axes.add_collection(lines, autolim=False)
 
 

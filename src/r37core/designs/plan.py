@@ -131,7 +131,8 @@ EXTENSION = Extension(
             files={"table": TABLE},
             label="map of {family}",
             caption="Family {family} over two numbers that vary. Colour: length of the speeds above yield in most "
-            "revolutions, in the operating range where there is one. Lines: where a requirement begins to fail.",
+            "revolutions, in the operating range where there is one; without any, share of the Goodman line. Lines: where a "
+            "requirement begins to fail.",
             category="Families",
             arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
             offered="verdict",

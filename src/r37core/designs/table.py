@@ -22,11 +22,15 @@ _NAMES = ("blade", "scene", "family")
 """Columns of names."""
 
 STRUCTURE = (
-    Column("mass_kg", "of the blade"),
+    Column("mass_kg", "mass of the blade"),
     Column("frequency_1b_hz", "frequency of the first bending mode", "1B at rest"),
     Column("frequency_1t_hz", "frequency of the first torsion mode", "1T at rest"),
-    Column("clearance_loss_1b_m", "largest as the tip swings along the free mode", "loss of clearance, 1B"),
-    Column("clearance_loss_1t_m", "largest as the tip swings along the free mode", "loss of clearance, 1T"),
+    Column(
+        "clearance_loss_1b_m", "largest loss of clearance as the tip swings along the free mode 1B", "loss of clearance, 1B"
+    ),
+    Column(
+        "clearance_loss_1t_m", "largest loss of clearance as the tip swings along the free mode 1T", "loss of clearance, 1T"
+    ),
 )
 """Columns of designs.csv that do not depend on the scene."""
 

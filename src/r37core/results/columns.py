@@ -1,4 +1,4 @@
-"""Columns of summary.csv and ranking.csv, each declared once: tables, docs/results.md and explorer follow from them.
+"""Columns of summary.csv and ranking.csv, each declared once: the tables, columns.csv of the pages and the explorer follow.
 
 Light: the configuration imports it.
 """
@@ -114,9 +114,9 @@ INTERACTIONS = (
     ),
     Column("max_von_mises_pa", "largest von Mises stress of the last revolution", "largest stress, last revolution", place=150),
     Column("max_von_mises_speed_rad_s", "speed of the largest stress", "at speed", place=160),
-    Column("max_von_mises_span", "its span", "span", place=162),
-    Column("max_von_mises_chord", "its chord", "chord", place=164),
-    Column("max_von_mises_side", "its side", "side", place=166),
+    Column("max_von_mises_span", "span of the largest stress", "span", place=162),
+    Column("max_von_mises_chord", "chord of the largest stress", "chord", place=164),
+    Column("max_von_mises_side", "side of the largest stress", "side", place=166),
     Column("stress_region", "part of the blade where stress is evaluated"),
     Column("max_wear_m", "largest wear of the lining", "largest wear", place=180),
     Column(
@@ -149,9 +149,9 @@ INTERACTIONS = (
     ),
     Column("width_ever_above_yield_rad_s", f"width above yield if any of the {_REVOLUTIONS} counts"),
     Column("some_revolutions_from_rad_s", f"lowest speed at which {_IN_SOME}", f"{_SOME} from", place=110, scatter=True),
-    Column("some_revolutions_to_rad_s", "highest such speed", f"{_SOME} to", place=120, scatter=True),
+    Column("some_revolutions_to_rad_s", f"highest speed at which {_IN_SOME}", f"{_SOME} to", place=120, scatter=True),
     Column("most_revolutions_from_rad_s", f"lowest speed at which {_IN_MOST}", f"{_MOST} from", scatter=True),
-    Column("most_revolutions_to_rad_s", "highest such speed", f"{_MOST} to", scatter=True),
+    Column("most_revolutions_to_rad_s", f"highest speed at which {_IN_MOST}", f"{_MOST} to", scatter=True),
     Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, place=130),
     Column("median_von_mises_pa", _MEDIAN, "median stress", place=140),
     Column("high_von_mises_pa", f"largest 90% quantile of the von Mises stress over the {_REVOLUTIONS}", "high stress"),
@@ -178,8 +178,8 @@ MEMBERS_SHOWING = (
 
 SECOND_MOTIONS = (
     Column("second_motion", "motion, carried `up` or `down`, that is most above that from rest", place=230),
-    Column("second_motion_speed_rad_s", "its speed", "speed of the second motion", place=240),
-    Column("second_motion_rms_normal_m", "its normal rms", "normal rms of the second motion", place=250),
+    Column("second_motion_speed_rad_s", "speed of the second motion", "speed of the second motion", place=240),
+    Column("second_motion_rms_normal_m", "normal rms of the second motion", "normal rms of the second motion", place=250),
     Column("second_motion_rest_rms_normal_m", "normal rms from rest at that speed", "normal rms from rest there", place=260),
 )
 """Columns that second motions add to summary.csv."""
@@ -191,7 +191,11 @@ ROBUSTNESS = (
     Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, scatter=True, minimised=True),
     Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}", _SOME, scatter=True, minimised=True),
     Column("length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", "ever above yield"),
-    Column("length_lasting_rad_s", "the same where the motion lasts or grows at the end", f"{_MOST}, lasting"),
+    Column(
+        "length_lasting_rad_s",
+        "length of all speeds above yield in most revolutions whose motion lasts or grows at the end",
+        f"{_MOST}, lasting",
+    ),
     Column(
         "exceedance_integral_rad_s",
         f"integral over speed of the share of {_REVOLUTIONS} that exceed yield",
@@ -214,16 +218,21 @@ ROBUSTNESS = (
     Column("largest_median_stress_pa", _MEDIAN, minimised=True),
     Column("first_most_revolutions_rad_s", f"lowest speed {_MOST}", f"first speed {_MOST}"),
     Column("first_some_revolutions_rad_s", f"lowest speed {_SOME}", f"first speed {_SOME}"),
-    Column("widest_range_rad_s", "width of the widest of these ranges", f"widest range {_MOST}", minimised=True),
-    Column("widest_range_from_rad_s", "its lowest speed", "widest range from"),
-    Column("ranges_most_revolutions", "number of these ranges", f"ranges {_MOST}"),
+    Column(
+        "widest_range_rad_s",
+        "width of the widest range above yield in most revolutions",
+        f"widest range {_MOST}",
+        minimised=True,
+    ),
+    Column("widest_range_from_rad_s", "lowest speed of the widest range above yield", "widest range from"),
+    Column("ranges_most_revolutions", "number of ranges above yield in most revolutions", f"ranges {_MOST}"),
     Column(
         "largest_rms_m",
         "largest normal and tangential rms of the leading edge together",
         "largest rms, both directions",
         minimised=True,
     ),
-    Column("largest_rms_speed_rad_s", "its speed", "speed of the largest rms"),
+    Column("largest_rms_speed_rad_s", "speed of the largest rms", "speed of the largest rms"),
     Column("drop", _LOST, "amplitude lost above the peak", percent=True),
     Column("largest_gap_rad_s", "largest distance of neighbouring speeds: it can hide a narrower interaction"),
     Column("diverged_runs", "diverged runs", "diverged", minimised=True),
@@ -239,14 +248,14 @@ OPERATING = (
     ),
     Column(
         "exceedance_integral_operating_rad_s",
-        "the integral over the operating range, weighted by its dwells",
+        "integral over the operating range of the share of later revolutions above yield, weighted by its dwells",
         "integral above yield, in operation",
         scatter=True,
         minimised=True,
     ),
     Column(
         "goodman_integral_operating_rad_s",
-        "the same of the share of revolutions above the Goodman line",
+        "integral over the operating range of the share of revolutions above the Goodman line, weighted by the dwells",
         "integral above Goodman, in operation",
         minimised=True,
     ),
@@ -254,21 +263,25 @@ OPERATING = (
 """Measures of a response inside the operating range."""
 
 WORST_MOTION = (
-    Column("length_most_revolutions_rest_rad_s", "this length from rest, at the speeds of sweeps", f"{_MOST}, from rest"),
+    Column(
+        "length_most_revolutions_rest_rad_s",
+        "length above yield in most revolutions from rest, at the speeds of sweeps",
+        f"{_MOST}, from rest",
+    ),
     Column(
         "length_most_revolutions_worst_rad_s",
-        "this length by the worst motion up, down and from rest",
+        "length above yield in most revolutions by the worst motion up, down and from rest",
         f"{_MOST}, worst motion",
     ),
-    Column("largest_rms_worst_m", "largest rms of these motions", "largest rms, worst motion"),
+    Column("largest_rms_worst_m", "largest rms of the motions up, down and from rest", "largest rms, worst motion"),
     Column("rank_worst", "place by the worst motion", "rank by the worst motion"),
 )
 """Columns that second motions add to ranking.csv."""
 
 OVER_SCENES = (
     Column("rank_over_scenes", "rank by the longest length in any scene; shared within scatter"),
-    Column("worst_rank", "worst of its ranks"),
-    Column("length_over_scenes_rad_s", "sum of its lengths", f"{_MOST}, all scenes"),
+    Column("worst_rank", "worst rank of the blade in any scene"),
+    Column("length_over_scenes_rad_s", "sum of the lengths above yield over all scenes", f"{_MOST}, all scenes"),
 )
 """Columns of ranking.csv that are the same in all scenes, where there are several."""
 
@@ -280,7 +293,7 @@ RANKING = (
     *WORST_MOTION,
     Column("members", "members of the sample"),
     *OPERATING,
-    Column("rank_operating", "place by this integral", "rank in operation"),
+    Column("rank_operating", "place by the integral over the operating range", "rank in operation"),
 )
 """All columns that ranking.csv may have next to blade, scene, ranges over members and chances."""
 

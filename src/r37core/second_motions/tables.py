@@ -8,6 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from r37core.results.closing import counted
+from r37core.results.columns import Column
 from r37core.results.other_motions import swept
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import MotionKind
@@ -17,23 +18,38 @@ from .dwelling import HIGH, LOW, STARTS, VERDICT, Lasting, judged
 from .periodic import UNIT_CIRCLE
 from .ranges import MotionLevels
 
-RANGE_COLUMNS = (
-    "blade",
-    "scene",
-    "from_rad_s",
-    "to_rad_s",
-    "speeds",
-    "speed_rad_s",
-    "largest_motion",
-    *(f"{what}_normal_{motion}_m" for what in ("rms", "peak") for motion in MOTIONS),
-    *(f"median_von_mises_{motion}_pa" for motion in MOTIONS),
-    *(f"share_above_yield_{motion}" for motion in MOTIONS),
-    "dwell_speed_rad_s",
-    "kind",
-    "share_of_time",
-    "held_revolutions",
+_NORMAL = {"rms": "rms normal to the casing", "peak": "largest displacement towards the casing"}
+
+RANGES = (
+    Column("blade", "name of the blade"),
+    Column("scene", "name of the scene"),
+    Column("from_rad_s", "lowest speed of the range"),
+    Column("to_rad_s", "highest speed of the range"),
+    Column("speeds", "number of computed speeds in the range"),
+    Column("speed_rad_s", "speed at which the motions differ most, by the ratio of their rms"),
+    Column("largest_motion", "largest motion at `speed_rad_s`: `up`, `down` or `rest`"),
+    *(
+        Column(f"{what}_normal_{motion}_m", f"{meaning} at `speed_rad_s`, motion `{motion}`")
+        for what, meaning in _NORMAL.items()
+        for motion in MOTIONS
+    ),
+    *(
+        Column(f"median_von_mises_{motion}_pa", f"median stress of the later revolutions at `speed_rad_s`, motion `{motion}`")
+        for motion in MOTIONS
+    ),
+    *(
+        Column(f"share_above_yield_{motion}", f"share of the later revolutions above yield at `speed_rad_s`, motion `{motion}`")
+        for motion in MOTIONS
+    ),
+    Column("dwell_speed_rad_s", "speed of the dwell that decides `kind`"),
+    Column("kind", "result of the dwells for the largest motion: `diverged`, `lasting`, `switching` or `transient`"),
+    Column("share_of_time", "share of a long time that the largest motion takes, where motions change"),
+    Column("held_revolutions", "revolutions for which the largest motion is held, `inf` if never left"),
 )
-"""Columns of second_motions.csv; their meaning is in docs/glossary.md."""
+"""Columns of second_motions.csv."""
+
+RANGE_COLUMNS = tuple(column.name for column in RANGES)
+"""Names of the columns of second_motions.csv."""
 
 DWELL_COLUMNS = (
     "blade",
