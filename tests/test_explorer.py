@@ -303,6 +303,7 @@ def test_interactions_are_circles_by_danger(page, datasets, interactions, tmp_pa
         row | {"blade": "L<50>", "peak_speed_rad_s": 1000.25, "engine_order": 3, "length_most_revolutions_rad_s": 9.0},
         row | {"peak_speed_rad_s": 1100.0, "length_most_revolutions_rad_s": 0.0},
         row | {"peak_speed_rad_s": 900.0, "engine_order": None, "status": "diverged"},
+        row | {"peak_speed_rad_s": 900.0, "engine_order": None},
     ]
     contents = explorer_contents(datasets, pd.DataFrame(rows))
     place = "#scene=abradable&blade=Ref&speed=900"
@@ -321,6 +322,7 @@ def test_interactions_are_circles_by_danger(page, datasets, interactions, tmp_pa
         assert other.locator("#sizes .key").all_text_contents() == [
             "20 rad/s above yield", "5 rad/s above yield", "not above yield"
         ]  # fmt: skip
+        assert "1 not shown: higher, or without an engine order" in other.text_content("#sizes")
         circle = other.locator("#interaction_map .points path").nth([name for name, _ in marks].index("L<50>")).bounding_box()
         other.mouse.click(circle["x"] + 0.5 * circle["width"], circle["y"] + 0.5 * circle["height"])
         other.wait_for_function("document.getElementById('now').textContent.startsWith('L<50>, abradable, 1000.3 rad/s')")

@@ -9,7 +9,7 @@ const interactionMap = (data, page) => {
   const pen = document.createElement("canvas").getContext("2d");
   const diameter = (size, largest) => {
     const { clientWidth } = document.getElementById(NAME);
-    return size > 0 ? Math.min(40, clientWidth / 12) * Math.sqrt(size / largest) : RING;
+    return size > 0 ? Math.max(3, Math.min(40, clientWidth / 12) * Math.sqrt(size / largest)) : RING;
   };
   const inUnit = (size, unit) => {
     const value = unit === "mm" ? size : size * factor();
@@ -84,11 +84,12 @@ const interactionMap = (data, page) => {
   }
 
   // what two sizes mean, below the diagram
-  function drawKey(circles) {
+  function drawKey(circles, leftOut) {
     const [{ size: largest, unit } = { size: 0 }] = circles;
-    const round = (value) => {
-      const power = 10 ** Math.floor(Math.log10(value));
-      return power * [5, 2, 1].find((digit) => digit * power <= value * (1 + 1e-9));
+    const toShown = unit === "mm" ? 1 : factor();
+    const round = (size) => {
+      const power = 10 ** Math.floor(Math.log10(size * toShown));
+      return power * [5, 2, 1].find((digit) => digit * power <= size * toShown * (1 + 1e-9)) / toShown;
     };
     const circle = (size, text) => {
       const key = Object.assign(document.createElement("span"), { className: "key" });
@@ -101,34 +102,39 @@ const interactionMap = (data, page) => {
     document.getElementById("sizes").replaceChildren(
       ...(largest > 0 ? [largest, 0.15 * largest].map(round).map((size) => circle(size, `${inUnit(size, unit)} ${said}`)) : []),
       ...(circles.some(({ size }) => size === 0) ? [circle(0, "not above yield")] : []),
+      ...(leftOut ? [`${leftOut} not shown: higher, or without an engine order`] : []),
     );
   }
 
   return function drawMap() {
     const { modes, frequency } = campbell;
     const rows = data.interactions.filter(({ scene }) => scene === state.scene);
-    const circles = rows.filter((row) => row.frequency !== null).sort((one, other) => other.size - one.size);
-    const largest = circles[0]?.size ?? 0;
     const second = data.blades.flatMap((_, blade) => frequency.row(blade, Math.max(modes.indexOf("2B"), 0)));
-    const top = Math.min(1.3 * Math.max(...second.filter(Number.isFinite)), circles.length ? 1.15 * Math.max(...circles.map((row) => row.frequency)) : Infinity);
+    const heights = rows.map((row) => row.frequency).filter((height) => height !== null);
+    const top = Math.min(1.3 * Math.max(...second.filter(Number.isFinite)), heights.length ? 1.15 * Math.max(...heights) : Infinity);
+    const circles = rows.filter((row) => row.frequency !== null && row.frequency <= top).sort((one, other) => other.size - one.size);
+    const largest = circles[0]?.size ?? 0;
     const x = speedAxis();
     const named = bands(x.range[0], top);
     const diverged = rows.filter(({ status }) => status === "diverged");
     const crosses = {
-      x: shown(diverged.map((row) => row.peak_speed_rad_s)), y: diverged.map((row) => Math.min(row.frequency ?? top, top)), mode: "markers", name: "diverged",
-      customdata: diverged, hoverinfo: "text", text: diverged.map((row) => `${row.blade} diverged<br>${speedText(row.peak_speed_rad_s)}`),
+      x: shown(diverged.map((row) => row.peak_speed_rad_s)), y: diverged.map((row) => Math.min(row.frequency ?? top, top)),
+      name: "diverged", mode: "markers", cliponaxis: false, customdata: diverged, hoverinfo: "text",
+      text: diverged.map((row) => `${row.blade} diverged<br>${speedText(row.peak_speed_rad_s)}`),
       marker: { symbol: "x", size: 9, color: theme.colour("warning") },
     };
-    const traces = data.blades.map((blade) => trace(circles.filter((row) => row.blade === blade), blade, largest)).filter(({ x: places }) => places.length);
+    const traces = data.blades.map((blade) => trace(circles.filter((row) => row.blade === blade), blade, largest))
+      .filter(({ x: places }) => places.length);
     const plan = layout(x, axis("frequency (Hz)", { range: [0, top] }), { margin: { l: 60, r: 30, t: 10, b: 45 } });
     Object.assign(plan.legend, { itemsizing: "constant", y: 1.06 });
     const [lines, numbers] = page.orderTraces(NAME, x.range, [0, top]);
-    draw(NAME, [{ ...lines, showlegend: false }, ...named.map(({ band }) => band), ...traces, ...(diverged.length ? [crosses] : []), numbers], plan, false);
+    const marks = [...named.map(({ band }) => band), ...traces, ...(diverged.length ? [crosses] : [])];
+    draw(NAME, [{ ...lines, showlegend: false }, ...marks, numbers], plan, false);
     page.followView(NAME);
     const none = { text: "no interaction was found", xref: "paper", x: 0.5, yref: "paper", y: 0.5, showarrow: false };
     const annotations = [...named.map(({ name }) => name), ...(rows.length ? labels(circles, largest) : [none])];
     Plotly.relayout(NAME, { annotations });
-    drawKey(circles);
+    drawKey(circles, rows.filter((row) => !circles.includes(row) && !diverged.includes(row)).length);
     const place = document.getElementById(NAME);
     if (place.dataset.chooses) return;
     place.dataset.chooses = "yes";

@@ -69,8 +69,8 @@ FIGURES = (
         label="interactions",
         caption="Which interactions are dangerous? A Campbell diagram of each scene: engine orders (grey, with their numbers), "
         "and 1B, 1T and 2B, bands over several blades. A circle is an interaction, at its peak speed and engine order. Its "
-        "area is the length of its speeds above yield in most revolutions; without stress, the rms of the motion. Each panel "
-        "has its own scale, in its corner. '>': the range goes on to an end of the speeds that were run. Red crosses: runs "
+        "area is the length of its speeds above yield in most revolutions; without stress, the rms of the motion. The scale "
+        "stands in the corner of each panel. '>': the range goes on to an end of the speeds that were run. Red crosses: runs "
         "that diverged, at the upper edge where no engine order is known. Of more than six scenes those with the longest "
         "lengths.",
     ),

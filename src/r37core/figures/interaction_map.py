@@ -27,7 +27,10 @@ _WIDTH = 5.2
 
 _MOST_SCENES, _MOST_LABELS = 6, 6
 _LARGEST, _RING = 26.0, 5.0
-"""Diameters (pt) of the largest circle of a panel, and of the ring for an interaction that is not above yield."""
+"""Diameters (pt) of the largest circle, and of the ring for an interaction that is not above yield."""
+
+_SMALL = 0.2
+"""Share of the largest size of all below which a scene has a scale of its own."""
 
 _LETTERS: dict[Any, Any] = {f"{part}size": 9 for part in ("font.", "axes.label", "xtick.label", "ytick.label", "legend.font")}
 _HALO = [withStroke(linewidth=2.0, foreground="white")]
@@ -50,7 +53,11 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     scenes = rms["scene"].values.astype(str).tolist()
     longest = sorted(scenes, key=lambda scene: -lengths.get(scene, 0.0))[:_MOST_SCENES]
     scenes = [scene for scene in scenes if scene in longest]
-    colours = _colours(campbell["blade"].values.astype(str).tolist(), rows[rows["scene"].isin(scenes)])
+    rows = rows[rows["scene"].isin(scenes)]
+    # one scale, but for scenes whose circles would be points on it
+    own, all_scenes = (rows.groupby(by)["size"].transform("max") for by in ("scene", "unit"))
+    rows = rows.assign(scale=own.where(own < _SMALL * all_scenes, all_scenes))
+    colours = _colours(campbell["blade"].values.astype(str).tolist(), rows)
     ran = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
     margin = max(0.03 * (ran[-1] - ran[0]), 0.01 * ran[-1])
     highest = np.nanmin([1.3 * float(campbell["frequency"].sel(mode="2B").max()), 1.15 * rows["frequency"].max()])
@@ -125,10 +132,10 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
         where: dict[str, Any] = {"xycoords": "axes fraction", "va": "top", "path_effects": _HALO}
         axes.annotate(f"{left_out} not shown: higher, or without an engine order", (0.01, 0.98), **where)
     if len(above):
-        unit, largest = above["unit"].iloc[0], above["size"].max()
+        unit, scale, largest = above["unit"].iloc[0], above["scale"].iloc[0], above["size"].max()
         sizes = [_round(largest), _round(0.15 * largest)]
         key: dict[str, Any] = {"marker": "o", "linestyle": "", "color": "0.8", "markeredgecolor": "0.3"}
-        handles = [Line2D([], [], markersize=_LARGEST * np.sqrt(each / largest), **key) for each in sizes]
+        handles = [Line2D([], [], markersize=_LARGEST * np.sqrt(each / scale), **key) for each in sizes]
         box: dict[str, Any] = {"frameon": True, "framealpha": 0.9, "edgecolor": "none", "columnspacing": 1.0, "borderpad": 0.6}
         axes.legend(handles, [f"{each:g} {unit}" for each in sizes], loc="lower right", ncols=2, **box)
 
@@ -138,8 +145,8 @@ def _places(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
 
 
 def _areas(rows: pd.DataFrame) -> pd.Series:
-    """Areas (square points) of circles of the rows of a panel."""
-    return _LARGEST**2 * rows["size"] / rows["size"].max()
+    """Areas (square points) of the circles, all large enough to be seen."""
+    return (_LARGEST**2 * rows["size"] / rows["scale"]).clip(lower=4.0)
 
 
 def _round(value: float) -> float:
