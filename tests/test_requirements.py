@@ -14,7 +14,7 @@ from r37core.fem.assembly import mesh_volume
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.requirements.choice import CampbellMargin, Requirements
-from r37core.requirements.evidence import Evidence, overlaid, worst_of
+from r37core.requirements.evidence import Evidence, extended, overlaid, worst_of
 from r37core.requirements.judging import (
     DOWN,
     FAILS,
@@ -53,6 +53,14 @@ def response(shares, **more):
 def campbell(crossing=1200.0):
     crossings = xr.DataArray([[crossing, np.nan]], {"mode": ["1B"], "engine_order": [4, 5]}, ("mode", "engine_order"))
     return xr.Dataset({"crossing_speed": crossings})
+
+
+def test_motions_over_a_part_of_the_speeds_extend_a_response_in_two_units():
+    """Datasets of a run have their speeds in revolutions per minute, too; those of sweeps do not."""
+    runs = response(above(1000.0, 1300.0)).assign_coords(speed_rpm=("speed", 9.55 * SPEEDS))
+    motions = response(above(2000.0, 2000.0)).isel(speed=slice(2, -2))
+    joined = extended(runs, motions)
+    assert joined["speed"].values.tolist() == SPEEDS.tolist() and list(joined.coords) == ["speed"]
 
 
 def one(requirements, **evidence):

@@ -189,7 +189,8 @@ def judged_part(response: xr.Dataset) -> xr.Dataset:
 
 
 def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
-    """Runs `below` with those of `above` in place of them where these are, over the speeds of both."""
+    """Runs `below` with those of `above` in place of them where these are, over the speeds of both and no other coordinate."""
+    below, above = (runs.reset_coords(drop=True) for runs in (below, above))
     kept = below.isel(speed=np.flatnonzero(~np.isin(below["speed"].values, above["speed"].values)))
     over_speeds = [str(name) for name in above.data_vars if "speed" in above[name].dims]
     joined = xr.concat([kept[over_speeds], above[over_speeds]], "speed").sortby("speed")
