@@ -96,6 +96,39 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
         assert page.problems == []
 
 
+SMALL = """() => [...document.querySelectorAll(".picture:not(a *) img")]
+    .filter(image => image.clientWidth < parseFloat(image.style.minWidth)).map(image => image.src)"""
+"""Pictures whose letters are smaller than docs/site/pictures.py lets them be."""
+
+SIDEWAYS = """() => Math.max(
+    ...[...document.querySelectorAll("html, body, .content")].map(box => box.scrollWidth - box.clientWidth))"""
+"""How far a page scrolls sideways (px), in the theme's box, too."""
+
+
+@pytest.mark.slow
+def test_pages_on_a_phone_have_legible_pictures_and_do_not_scroll_sideways(built):
+    site = built[0][0]
+    pages = [*site.glob("*.html"), *site.glob("api/*.html")]
+    with opened(site / "index.html", {"width": 390, "height": 800}, color_scheme="dark") as page:
+        for file in pages:
+            page.goto(file.as_uri())
+            assert page.evaluate(SIDEWAYS) == 0, file
+            assert page.evaluate(SMALL) == [], file
+        page.goto((site / "gallery.html").as_uri())
+        for kind, change in {"drawing": "invert", "rendering": "brightness"}.items():
+            assert page.locator(f".{kind} img").first.evaluate("image => getComputedStyle(image).filter").startswith(change)
+
+
+@pytest.mark.parametrize(("colours", "drawing"), [([0] * 8, True), (range(0, 256, 4), False)])
+def test_only_pictures_of_few_colours_are_inverted_on_a_dark_page(root, colours, drawing):
+    image = pytest.importorskip("PIL.Image")
+    is_drawing = runpy.run_path(str(root / "docs/site/pictures.py"))["is_drawing"]
+    picture = image.new("RGBA", (400, 100), "white")
+    for column, grey in enumerate(colours):
+        picture.paste((grey, grey, grey), (2 * column, 0, 2 * column + 2, 100))
+    assert is_drawing(picture) == drawing
+
+
 @pytest.mark.slow
 def test_a_broken_link_is_refused(built):
     _, status, errors = built[1]

@@ -13,7 +13,7 @@ from r37core import __version__  # noqa: E402
 
 project = "r37"
 version = release = __version__
-extensions = ["myst_nb", "sphinx.ext.autodoc", "api_pages", "equations", "repository_links"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "api_pages", "equations", "pictures", "repository_links"]
 exclude_patterns = ["site/*", "tutorial.py"]
 
 # pages are Markdown as GitHub shows it, with $...$ and $$...$$ for formulas
@@ -34,6 +34,8 @@ toc_object_entries = False
 
 html_theme = "furo"
 html_title = f"r37 {version}"
+# filters of pictures on a dark page: black letters on white become white letters on its colour, with the hues that they had
+html_theme_options = {"dark_css_variables": {"drawing": "invert(0.93) hue-rotate(180deg)", "rendering": "brightness(0.85)"}}
 html_static_path = ["style"]
 html_css_files = ["r37.css"]
 # excerpts would be fetched, which browsers refuse to a page on the disk
@@ -41,5 +43,7 @@ html_show_search_summary = False
 # pages and calls before the inside
 html_search_scorer = str(HERE / "search_order.js")
 html_copy_source = False
+# no page leads to an index of all names
+html_use_index = html_domain_indices = False
 html_show_copyright = False
 html_show_sphinx = False
