@@ -96,6 +96,18 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
         assert page.problems == []
 
 
+@pytest.mark.slow
+def test_words_of_a_page_lead_to_it_in_the_search(built, root):
+    site = built[0][0]
+    words = runpy.run_path(str(root / "docs/site/search_words.py"))["WORDS"]
+    with opened(site / "search.html", {"width": 1400, "height": 900}) as page:
+        for name in words.keys() & {file.stem for file in site.glob("*.html")}:
+            for query in words[name].split(", "):
+                page.goto(f"{(site / 'search.html').as_uri()}?q={query}")
+                first = page.locator("#search-results ul.search li a").first
+                assert first.get_attribute("href") == f"{name}.html", query
+
+
 SMALL = """() => [...document.querySelectorAll(".picture:not(a *) img")]
     .filter(image => image.clientWidth < parseFloat(image.style.minWidth)).map(image => image.src)"""
 """Pictures whose letters are smaller than docs/site/pictures.py lets them be."""

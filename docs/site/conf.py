@@ -13,7 +13,7 @@ from r37core import __version__  # noqa: E402
 
 project = "r37"
 version = release = __version__
-extensions = ["myst_nb", "sphinx.ext.autodoc", "api_pages", "equations", "pictures", "repository_links"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "api_pages", "equations", "pictures", "repository_links", "search_words"]
 exclude_patterns = ["site/*", "tutorial.py"]
 
 # pages are Markdown as GitHub shows it, with $...$ and $$...$$ for formulas
