@@ -89,6 +89,9 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
         signature = page.locator("dt.sig").inner_text()
         assert "speeds_rpm" in signature and "cores: int" in signature and "options" not in signature
         assert page.locator("dd a[href='r37.simulate.html#r37.simulate']").count()
+        page.locator(".viewcode-link").first.click()
+        line = page.url.rpartition("#")[2]
+        assert "def sweep(" in page.locator("pre").inner_text().split("\n")[int(line) :][0]
         page.goto((site / "simulation.html").as_uri())
         drawn = page.locator(".equation svg").evaluate_all("all => all.map(one => one.getBoundingClientRect().width)")
         assert len(drawn) >= 5

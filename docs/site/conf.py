@@ -9,11 +9,14 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent.parent / "src")]
 
+from source_pages import linkcode_resolve  # noqa: E402, F401  # a value of sphinx.ext.linkcode
+
 from r37core import __version__  # noqa: E402
 
 project = "r37"
 version = release = __version__
-extensions = ["myst_nb", "sphinx.ext.autodoc", "api_pages", "equations", "pictures", "repository_links", "search_words"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.linkcode", "api_pages", "equations", "pictures", "repository_links"]
+extensions += ["search_words", "source_pages"]
 exclude_patterns = ["site/*", "tutorial.py"]
 
 # pages are Markdown as GitHub shows it, with $...$ and $$...$$ for formulas
