@@ -23,11 +23,13 @@ def is_drawing(picture):
 def write(translator, node):
     """A picture in a box, with the size that it needs, loaded when it comes into view."""
     file, kind, size = translator.builder.srcdir / node["uri"], "drawing", ""
-    if file.suffix == ".png":
+    # Sphinx warns of one that is not there
+    if file.suffix == ".png" and file.exists():
         with Image.open(file) as picture:
             kind = "drawing" if is_drawing(picture) else "rendering"
-            if "A" in picture.getbands() and picture.getchannel("A").getextrema()[0] == 0:
-                kind = "on-any-page"
+            # drawn in grey on nothing, for any page
+            if picture.mode == "RGBA" and picture.getpixel((0, 0))[3] == 0:
+                kind = "transparent"
             least = min(picture.width / picture.info.get("dpi", [RENDERED])[0] * WIDTH, picture.width)
             size = f'width="{picture.width}" height="{picture.height}" style="min-width: {least:.0f}px"'
     type(translator).visit_image(translator, node)

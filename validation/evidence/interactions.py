@@ -15,8 +15,8 @@ from .pages import write_table
 THICKNESS = 0.005
 """Thickness (m) of the lining of the benchmark."""
 
-NEAR = 24.0
-"""Distance of speeds (rad/s) within which two peaks are the same interaction."""
+NEAR = 0.06
+"""Distance of two peaks, as a share of the speed, within which they are the same interaction."""
 
 LENGTH, FROM, TO = "length_most_revolutions_rad_s", "most_revolutions_from_rad_s", "most_revolutions_to_rad_s"
 
@@ -57,7 +57,7 @@ class _Run:
     def height(self, blade: str, scene: str, speed: float) -> str:
         """Largest motion (mm) of the peaks near a speed, a dash where there is none."""
         own = self.summary[(self.summary["blade"] == blade) & (self.summary["scene"] == scene)]
-        near = own[(own["peak_speed_rad_s"] - speed).abs() <= NEAR]
+        near = own[(own["peak_speed_rad_s"] - speed).abs() <= NEAR * speed]
         return f"{1e3 * near['peak_motion_m'].max():.1f}" if len(near) else "-"
 
     def worst(self, blade: str, scene: str) -> pd.Series:
