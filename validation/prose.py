@@ -117,7 +117,7 @@ def pages(root=ROOT):
 
 
 MOST_WORDS, MOST_OF_A_PAGE, MOST_ROWS, MOST_COLUMNS = 28_000, 2_000, 7, 8
-"""Words of all pages and of each, rows and columns of a generated table on a page; the page of the configuration is left out."""
+"""Words of all pages and of each, rows and columns of a generated table on a page: of all but configuration.md."""
 
 
 def large_tables(text):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from published import INTERACTIONS
 from r37core.config import Settings
 from r37core.contact.scene import Scene
 from r37core.fem.matrices import assemble
-from r37core.figures.style import PAGE, plt, save
+from r37core.figures.style import plt, save
 from r37core.mesh.blade_mesh import BladeMesh
 from r37core.mesh.generate import generate_mesh
 from r37core.rom.reduce import reduce_blade
@@ -218,16 +219,26 @@ def contact_lengths_of_blade(input: Any, output: Any, params: Any) -> None:
     pd.DataFrame([row]).to_csv(output[0], index=False)
 
 
+def spread(heights: Mapping[str, float], least: float) -> dict[str, float]:
+    """Heights of labels, in the order of those of their curves, at `least` so far apart."""
+    places: dict[str, float] = {}
+    for name, height in sorted(heights.items(), key=lambda each: each[1]):
+        places[name] = max(height, max(places.values(), default=-np.inf) + least)
+    return places
+
+
 def contact_lengths(input: Any, output: Any, params: Any) -> None:
     """Lengths and places of all blades at each contact length, and their picture. Input: files of contact_lengths_of_blade."""
     table = pd.concat([pd.read_csv(file) for file in input.files]).set_index("blade")
     ranks = table.rank(method="min").astype(int)
     rows = [[blade, *(f"{table.loc[blade, name]:.0f} ({ranks.loc[blade, name]})" for name in table)] for blade in table.index]
     write_table(["blade", *(f"{name} mm" for name in table)], rows, output.table)
-    figure, axes = plt.subplots(figsize=(PAGE, 2.8))
+    figure, axes = plt.subplots(figsize=(5.2, 3.2))
+    heights = spread(table.iloc[:, -1].to_dict(), 0.075 * float(table.to_numpy().max()))
     for blade in table.index:
-        axes.semilogx(table.columns.astype(float), table.loc[blade], "o-", label=blade)
-    axes.set_xlabel("contact length (mm)")
-    axes.set_ylabel("length above yield (rad/s)")
-    axes.legend(ncols=4)
+        (line,) = axes.semilogx(table.columns.astype(float), table.loc[blade], "o-", markersize=4)
+        axes.annotate(str(blade), (1.1, heights[blade]), color=line.get_color(), va="center", annotation_clip=False, fontsize=9)
+    axes.set(xlabel="contact length (mm)", ylabel="speeds above yield (rad/s)")
+    axes.set_xticks(table.columns.astype(float), list(table.columns))
+    axes.minorticks_off()
     save(figure, output.picture)

@@ -1,6 +1,7 @@
 """Tables and numbers of pages: CSV files of validation/tables, which stand in the pages as Markdown and in sentences.
 
-`<!-- table NAME -->` and `<!-- end -->` hold a table, `<!-- table NAME: Ref; S100 -->` its rows of these first cells.
+`<!-- table NAME -->` and `<!-- end -->` hold a table, `<!-- table NAME: Ref; S100 -->` its rows of these first cells, and
+`<!-- lines NAME: fan -->` the last cells of such rows, as what a program prints.
 A number in a sentence stands before its source, `452<!--NAME:Ref:bare_casing-->`: table, row and column, and from the second
 number of a cell on its place, from 0. A row is named by its first cell, or by its first cells joined by +.
 """
@@ -15,7 +16,7 @@ from typing import Any
 
 from r37core.base.io import as_list, atomic_write, write_text
 
-_MARKER = re.compile(r"^<!-- table (\w+)(?:: [^\n]*)? -->$", re.MULTILINE)
+_MARKER = re.compile(r"^<!-- (?:table|lines) (\w+)(?:: [^\n]*)? -->$", re.MULTILINE)
 _NUMBER = re.compile(
     r"(?P<number>[-+]?\d[\d.,]*\d|[-+]?\d)"
     r"<!--(?P<table>\w+):(?P<row>[^:\s]+):(?P<column>[^:\s]+?)(?::(?P<place>\d+))?-->"
@@ -89,10 +90,11 @@ def renewed(page: str, files: Iterable[Path | str]) -> str:
     """Text of a page with its tables and numbers taken from their files."""
     tables = {Path(file).stem: read_table(file) for file in files}
     for name, (head, *rows) in tables.items():
-        for marker in re.findall(rf"^<!-- (table {name}(?:: [^\n]*)?) -->$", page, re.MULTILINE):
+        for marker in re.findall(rf"^<!-- ((?:table|lines) {name}(?:: [^\n]*)?) -->$", page, re.MULTILINE):
             _, _, chosen = marker.partition(": ")
             shown = [row for row in rows if not chosen or row[0] in chosen.split("; ")]
-            page = replace_part(page, marker, markdown([head, *shown]))
+            printed = "\n".join(["```text", *(row[-1] for row in shown), "```"])
+            page = replace_part(page, marker, markdown([head, *shown]) if marker.startswith("table") else printed)
     return _NUMBER.sub(lambda found: found[0].replace(found["number"], _number(tables[found["table"]], found), 1), page)
 
 

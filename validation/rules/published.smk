@@ -167,7 +167,9 @@ use rule evidence as overview with:
         unpack(
             behind_engine(
                 modes=f"results/exports/{windows.REFERENCE}/modes",
-                responses=windows.responses("results"),
+                lined=f"results/{windows.REFERENCE}/abradable/response.nc",
+                direct=f"results/{windows.REFERENCE}/direct/response.nc",
+                campbell=f"results/{windows.REFERENCE}/campbell.nc",
             )
         ),
     output:

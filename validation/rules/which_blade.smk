@@ -34,7 +34,7 @@ use rule * from regions as regions_*
 
 use rule evidence as which_blade with:
     input:
-        unpack(behind_engine(ranking="results/runs/quadratic/ranking.csv")),
+        unpack(behind_engine(ranking="results/runs/interactions_quadratic/ranking.csv")),
     output:
         table=f"{TABLES}/which_blade.csv",
     log:

@@ -56,6 +56,10 @@ def test_a_page_shows_some_rows_of_a_table(tmp_path):
     write_table(["blade", "rate"], [["Ref", "1"], ["L50", "2"], ["S100", "3"]], file)
     page = renewed("<!-- table rates: Ref; S100 -->\n<!-- end -->\n", [file])
     assert page.splitlines()[3:5] == ["| Ref | 1 |", "| S100 | 3 |"]
+    assert (
+        renewed("<!-- lines rates: L50 -->\n<!-- end -->\n", [file])
+        == "<!-- lines rates: L50 -->\n```text\n2\n```\n<!-- end -->\n"
+    )
 
 
 def test_pages_name_their_tables_and_pictures(tmp_path):

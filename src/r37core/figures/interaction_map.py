@@ -69,7 +69,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
         style.rpm_axis(grid[0, 0], most_ticks=6)
         grid[-1, 0].set_xlabel(style.SPEED_LABEL)
         for scene, axes in panels.items():
-            axes.set(title=scene, ylabel="frequency (Hz)")
+            axes.set(title=style.in_words(scene), ylabel="frequency (Hz)")
             axes.grid(visible=False)
             _draw_modes(axes, campbell)
             _draw_marks(axes, rows[rows["scene"] == scene], colours)

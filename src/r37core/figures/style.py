@@ -41,6 +41,14 @@ SPEED_LABEL = "speed (rad/s)"
 RUN_UP_LABEL = "mean speed of the revolution (rad/s)"
 """Labels of axes of speeds, by which the operating range is marked."""
 
+_SHIPPED = {"abradable": "abradable lining", "direct": "bare casing", "material_abradable": "lining on all of the tip"}
+
+
+def in_words(scene: Any) -> str:
+    """Name of a scene as figures have it: those of the benchmark in words, others as they are."""
+    return _SHIPPED.get(str(scene), str(scene))
+
+
 OUTSIDE = "above yield: outside the linear model"
 
 PARAMETERS: dict[Any, Any] = {

@@ -1,0 +1,13 @@
+# A fan blade of another program, judged and attacked by the commands of docs/assess.md.
+use rule evidence as assess with:
+    input:
+        unpack(behind_engine(page=ancient("docs/assess.md"), fan=sorted(map(str, Path("examples/fan").glob("*"))))),
+    output:
+        table=f"{TABLES}/assess.csv",
+        map="docs/assess_map.png",
+        stress="docs/assess_stress.png",
+    log:
+        "logs/validation/assess.log",
+    threads: workflow.cores
+    params:
+        **evidence("assess.verdicts"),
