@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import yaml
+
 ROOT = Path(__file__).parents[1]
 MEAN, LONG, SHARE = 20.0, 30, 0.12
 """Most words of a sentence on average, words of a long sentence, and the largest share of long ones."""
@@ -108,6 +110,38 @@ def forbidden(text):
         for match in re.finditer(pattern, plain(text), re.IGNORECASE):
             corrections[match[0]] = better
     return corrections
+
+
+SOURCED = ("README.md", "index.md", "first_run.md", "assess.md", "what_to_trust.md", "which_blade.md", "interactions.md")
+SOURCED += ("clearance_and_lining.md",)
+"""Pages whose numbers all come from a table or from the configuration."""
+
+_NAMES = re.compile(r"\b(\d[BT](/\d+)?|rotor 37|Python 3.\d+|[A-Z]+\d+)\b|^\d+\. ", re.MULTILINE)
+_FACTORS = (1.0, 1e-9, 1e-6, 1e-3, 1e2, 1e3, 1e6, 0.10471975512)
+"""Between units of the configuration and of the pages."""
+
+
+def configured(root=ROOT):
+    """Numbers of the shipped configuration and of the examples, in every unit, as texts of four digits."""
+    files = [*(root / "config").glob("*.yaml"), *root.glob("examples/*/*.yaml")]
+    numbers = (abs(float(n)) for file in files for n in _numbers(yaml.safe_load(file.read_text(encoding="utf-8"))))
+    return {f"{factor * number:.4g}" for number in numbers for factor in _FACTORS}
+
+
+def _numbers(content):
+    if isinstance(content, dict | list):
+        for part in content.values() if isinstance(content, dict) else content:
+            yield from _numbers(part)
+    elif re.fullmatch(r"[-+\d.]+(e[-+]?\d+)?", str(content)):
+        yield content
+
+
+def unsourced(text, known):
+    """Numbers in the sentences of a page that neither have their source behind them nor are `known`."""
+    sentences = plain(re.sub(rf"[-+\d.,]*\d{_SOURCE.pattern}", "", text))
+    sentences = re.sub(r"`[^`]*`|(?:https?|doi):\S+", "", sentences)
+    numbers = re.findall(r"(?<![\w.])\d(?:[\d,.]*\d)?(?!\w)", _NAMES.sub("", sentences))
+    return [number for number in numbers if f"{float(number.replace(',', '')):.4g}" not in known]
 
 
 def pages(root=ROOT):

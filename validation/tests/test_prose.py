@@ -73,6 +73,17 @@ def test_a_table_is_large_by_its_rows_or_columns():
     assert large(f"<!-- table b -->\n{9 * '| a '}|\n|---|\n<!-- end -->\n") == ["b"]
 
 
+@pytest.mark.parametrize("page", PROSE["SOURCED"])
+def test_numbers_of_answers_have_a_source(page):
+    assert PROSE["unsourced"](PAGES[page], PROSE["configured"]()) == []
+
+
+def test_a_number_without_a_source_is_found():
+    page = "1. At 1B/4 of rotor 37, S50 has 452<!--a:b:c--> rad/s, 7 mm, `8` and\n0.356 mm; 1,200 of [12](13.md).\n"
+    assert PROSE["unsourced"](page, {"0.356"}) == ["7", "1,200", "12"]
+    assert {"0.356", "0.15", "1854", "0.3141"} - PROSE["configured"]() == {"0.3141"}
+
+
 def test_docstrings_and_names_can_be_read_alone():
     assert PROSE["leaning_docstrings"]() == []
     assert len(PROSE["preposition_names"]()) < 60

@@ -89,7 +89,7 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
         axes.set_visible(False)
     for axes, scene in zip(panels.flat, scenes, strict=False):
         _draw_bars(axes, ranking[ranking["scene"] == scene].set_index("blade").reindex(blades))
-        axes.set(title=style.in_words(scene), xlabel="speeds above yield (rad/s)")
+        axes.set(title=style.scene_words(scene), xlabel="speeds above yield (rad/s)")
     named = [f"{blade}\n{contacts[blade]}" if blade in contacts else blade for blade in blades]
     panels[0][0].set_yticks(np.arange(len(blades)), named)
     panels[0][0].invert_yaxis()

@@ -55,7 +55,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     scenes = [scene for scene in scenes if scene in longest]
     rows = rows[rows["scene"].isin(scenes)]
     # one scale, but for scenes whose circles would be points on it
-    own, all_scenes = (rows.groupby(by)["size"].transform("max") for by in ("scene", "unit"))
+    own, all_scenes = (rows.groupby(key)["size"].transform("max") for key in ("scene", "unit"))
     rows = rows.assign(scale=own.where(own < _SMALL * all_scenes, all_scenes))
     colours = _colours(campbell["blade"].values.astype(str).tolist(), rows)
     ran = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
@@ -69,7 +69,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
         style.rpm_axis(grid[0, 0], most_ticks=6)
         grid[-1, 0].set_xlabel(style.SPEED_LABEL)
         for scene, axes in panels.items():
-            axes.set(title=style.in_words(scene), ylabel="frequency (Hz)")
+            axes.set(title=style.scene_words(scene), ylabel="frequency (Hz)")
             axes.grid(visible=False)
             _draw_modes(axes, campbell)
             _draw_marks(axes, rows[rows["scene"] == scene], colours)

@@ -44,7 +44,7 @@ def draw_response(
     if stress is not None:
         for scene in stress["scene"].values:
             largest = stress["max_von_mises"].sel(scene=scene).dropna("speed")
-            panels[2].plot(largest["speed"], 1e-9 * largest, ".-", markersize=3, label=style.in_words(scene))
+            panels[2].plot(largest["speed"], 1e-9 * largest, ".-", markersize=3, label=style.scene_words(scene))
         style.yield_lines(panels[2], stress["yield_stress"].to_series(), named=True)
         panels[2].set_ylabel("largest von Mises (GPa)")
     panels[-1].set_xlabel(style.SPEED_LABEL)
@@ -75,7 +75,7 @@ def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
     for scene in rms["scene"].values:
         runs = rms.sel(scene=scene)
         response = runs[f"rms_{direction}"].sel(tip_point="leading_edge").dropna("speed")
-        (line,) = axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=style.in_words(scene))
+        (line,) = axes.plot(response["speed"], 1e3 * response, ".-", markersize=3, label=style.scene_words(scene))
         if "motion_at_end" in runs:
             _mark_motion(axes, 1e3 * response, runs["motion_at_end"].sel(speed=response["speed"]), line.get_color())
         style.mark_diverged(axes, runs["speed"].values[runs["status"].values == RunStatus.DIVERGED])
@@ -94,9 +94,9 @@ def _draw_largest(axes: Axes, motions: xr.Dataset, direction: str) -> None:
     for number, scene in enumerate(motions["scene"].values):
         pair = swept(motions.sel(scene=scene))
         largest = 1e3 * pair[f"rms_{direction}"].max("motion").where(pair["differ"] > 0.0)
-        label = f"{style.in_words(scene)}, largest motion"
+        label = f"{style.scene_words(scene)}, largest motion"
         axes.plot(pair["speed"], largest, "+", color=f"C{number}", markersize=5, label=label)
-        shade(axes, pair, f"C{number}", f"{style.in_words(scene)}: motions differ")
+        shade(axes, pair, f"C{number}", f"{style.scene_words(scene)}: motions differ")
 
 
 def shade(axes: Axes, pair: xr.Dataset, colour: Any = "0.5", name: str = "motions differ") -> None:

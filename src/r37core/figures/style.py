@@ -44,7 +44,7 @@ RUN_UP_LABEL = "mean speed of the revolution (rad/s)"
 _SHIPPED = {"abradable": "abradable lining", "direct": "bare casing", "material_abradable": "lining on all of the tip"}
 
 
-def in_words(scene: Any) -> str:
+def scene_words(scene: Any) -> str:
     """Name of a scene as figures have it: those of the benchmark in words, others as they are."""
     return _SHIPPED.get(str(scene), str(scene))
 
