@@ -1,0 +1,64 @@
+"""The commands of docs/assess.md, from a mesh to a verdict and to what overturns it, over three of its speeds."""
+
+import re
+import shlex
+import shutil
+
+import pandas as pd
+import pytest
+from conftest import CHECKOUT
+from workflow_runs import snakemake
+from yaml import safe_load
+
+from r37core.base.yaml_file import load_yaml
+
+SHORTER = {"1080": "1220", "1440": "1240"}
+"""Ends of the range of speeds, and those of the test."""
+
+
+def shortened(text):
+    for end, nearer in SHORTER.items():
+        text = text.replace(end, nearer)
+    return text
+
+
+@pytest.fixture(scope="module")
+def page(root):
+    return (root / "docs/assess.md").read_text()
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("assess")
+    for part in ("config", "envs", "examples", "profiles", "workflow"):
+        shutil.copytree(CHECKOUT / part, folder / part)
+    (folder / "src").symlink_to(CHECKOUT / "src")
+    shutil.copy(CHECKOUT / "Snakefile", folder)
+    file = folder / "examples/fan/assess.yaml"
+    file.write_text(shortened(file.read_text()))
+    return folder
+
+
+def test_the_page_shows_the_file(root, page):
+    (shown,) = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+    assert safe_load(shown) == load_yaml(root / "examples/fan/assess.yaml")
+
+
+@pytest.mark.slow
+def test_every_command_of_the_page_ends_with_a_verdict(project, page):
+    """At draft: the first one on six designs, each other one in a folder of its own."""
+    commands = [shlex.split(shortened(block)) for block in re.findall(r"```sh\n(snakemake .*?)```", page, re.DOTALL)]
+    runs = []
+    for _, *words in commands:
+        given = words if "--config" in words else [*words, "--config"]
+        snakemake(project, *given, "fidelity=draft")
+        runs.append(next((re.findall(r"name: (\w+)", word)[0] for word in words if word.startswith("run=")), "fan"))
+        verdict = pd.read_csv(project / "results/runs" / runs[-1] / "verdict.csv")
+        assert set(verdict["verdict"]) <= {"meets", "fails", "cannot tell", "does not apply"}
+        assert {"above_yield", "goodman_share", "used_lining"} == set(verdict["requirement"])
+    assert len(runs) == 6 and len(set(runs)) == 6
+    designs = load_yaml(project / "examples/fan/scenes.yaml")["Room"]["vary"]
+    first = pd.read_csv(project / "results/runs/fan/verdict.csv")
+    assert first["scene"].nunique() == len(designs["casing.clearance_m"]) * len(designs["lining.thickness_m"])
+    for figure in re.findall(r"`figures/(\w+\.png)`", page):
+        assert (project / "results/runs/fan/figures" / figure).exists(), figure
