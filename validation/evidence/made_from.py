@@ -14,13 +14,16 @@ from r37core.base.yaml_file import load_yaml
 
 RECORD = "validation/tables/made_from.json"
 
+MAIN_JOB = tuple(f"config/{name}.yaml" for name in ("blades", "config", "fidelity", "scenes"))
+
 _LAYOUT = (tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
 
 
 class MadeFrom:
     """Committed files of the folder `root`, and the hash of what each is made from: target -> rule file, and hash of its code.
 
-    Beside these count the configuration, the shared runs and, for all but `engine` itself, the numbers of the engine.
+    Beside these count the shared runs, the configuration of the main job and those of its files that the rules name and, for
+    all but `engine` itself, the numbers of the engine.
     `sources`: target -> another file of the repository that it is made from.
     """
 
@@ -30,9 +33,12 @@ class MadeFrom:
     def now(self, target: str) -> str:
         """Hash of what a target would be made from."""
         file, code = self._rules[target]
-        runs, others = file.with_name("runs.smk"), {self._engine, self._sources.get(target, "")} - {target, ""}
-        parts = [code, *map(_words, (file, runs)), *((self._root / name).read_bytes() for name in sorted(others))]
-        configuration = sorted([*self._root.glob("config/*.yaml"), *self._root.glob("validation/*.yaml")])
+        words = [*_words(file), *_words(file.with_name("runs.smk"))]
+        others = {self._engine, self._sources.get(target, "")} - {target, ""}
+        parts = [code, words, *((self._root / name).read_bytes() for name in sorted(others))]
+        every = sorted([*self._root.glob("config/*.yaml"), *self._root.glob("validation/*.yaml")])
+        main = [self._root / name for name in MAIN_JOB]
+        configuration = [name for name in every if name in main or name.stem in " ".join(words)]
         return hashlib.sha256(repr([*parts, *map(load_yaml, configuration)]).encode()).hexdigest()[:16]
 
     def out_of_date(self, pages: Pages) -> list[str]:

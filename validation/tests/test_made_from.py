@@ -64,6 +64,14 @@ def test_other_content_makes_a_table_out_of_date(committed, name, text):
     assert out_of_date() == [TABLE]
 
 
+def test_a_configuration_that_no_rule_names_makes_nothing_out_of_date(committed):
+    folder, out_of_date = committed
+    (folder / "config/others.yaml").write_text("{}")
+    assert out_of_date() == []
+    (folder / "config/a.yaml").write_text("{}")
+    assert out_of_date() == [TABLE]
+
+
 def test_other_code_or_another_table_makes_out_of_date(committed):
     folder, out_of_date = committed
     assert out_of_date("2") == [TABLE]
