@@ -147,7 +147,7 @@ def test_speeds_that_are_cut_free_or_growing_have_open_markers(datasets):
     states.loc["abradable", 1700.0] = MotionAtEnd.GROWING
     figure = response_curves.draw_response("Ref", None, rms.assign(motion_at_end=states))
     for axes in figure.axes[:2]:
-        curve = next(line for line in axes.lines if line.get_label() == "abradable")
+        curve = next(line for line in axes.lines if line.get_label() == "abradable lining")
         for marker, label, speeds in (("o", "cut free at the end", [1725, 1750, 1775]), ("^", "growing at the end", [1700])):
             (marks,) = (line for line in axes.lines if line.get_label() == label)
             assert (marks.get_marker(), marks.get_fillstyle(), marks.get_color()) == (marker, "none", curve.get_color())

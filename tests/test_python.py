@@ -383,7 +383,7 @@ def test_plots_are_those_of_the_workflow_and_leave_matplotlib_alone(finished, co
     assert r37.plot_campbell(campbell, title="mine").axes[0].get_title().endswith("blade mine")
     with_stress = r37.plot_response(response, campbell)
     assert len(with_stress.axes) == 3 and "dotted" in with_stress.axes[0].get_title()
-    (line,) = (one for one in with_stress.axes[0].lines if one.get_label() == "abradable")
+    (line,) = (one for one in with_stress.axes[0].lines if one.get_label() == "abradable lining")
     np.testing.assert_allclose(line.get_ydata(), 1e3 * response["rms_normal"].sel(tip_point="leading_edge"))
     part = results["rms"].sel(blade="Ref", scene="direct")
     assert len(r37.plot_response(part).axes) == 2 and "dotted" not in r37.plot_response(part).axes[0].get_title()
