@@ -7,17 +7,16 @@ from collections.abc import Mapping
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, VARIANTS, WIDTH_ABOVE_YIELD
+from published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, WIDTH_ABOVE_YIELD
 
 from r37core.figures import style
 from r37core.figures.maps import draw_cells
-from r37core.results.measures import leading_edge, peak_of, peak_speed, width_above_yield
+from r37core.results.measures import leading_edge, width_above_yield
 
 from .benchmark_measures import history_of
-from .published_checks import PEAK_WITHIN, Runs
+from .published_checks import Runs
 from .published_windows import BARE
 
 FINE, COARSE = 248, 62

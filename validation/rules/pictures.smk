@@ -36,7 +36,7 @@ use rule evidence as your_blade_pictures with:
         **evidence("user_code.worked_example"),
 
 
-# shapes and signals of Ref with abradable lining, which a scene has where it asks for them; three peaks fit a page
+# signals of Ref with abradable lining, which a scene has where it asks for them; three peaks fit a page
 module shapes_and_signals:
     snakefile:
         "../../Snakefile"
