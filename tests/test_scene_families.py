@@ -280,9 +280,12 @@ def test_a_map_has_values_in_place_and_the_line_of_a_requirement():
 
 
 def test_a_map_without_a_speed_above_yield_shows_how_near_fatigue_is():
-    table = table_of([0.0, 0.0, 0.0, 0.0]).assign(largest_goodman_share=[1.3, 0.9, 0.6, 0.25])
+    table = table_of([0.0, 0.0, 0.0, 0.0])
+    verdict = table[["blade", "scene"]].assign(
+        requirement="goodman_share", verdict="meets", margin=1.0, value_highest=[1.3, 0.9, 0.6, 0.25]
+    )
     (compared,) = compared_in(table).values()
-    figure = draw_design_map("Room", table, to_plain(compared))
+    figure = draw_design_map("Room", table, to_plain(compared), verdict)
     assert [text.get_text() for text in figure.axes[0].texts] == ["1.30", "0.60", "0.90", "0.25"]
     assert "Goodman" in figure.axes[-1].get_ylabel()
 

@@ -127,8 +127,8 @@ def remarks_on_lobes(settings: Settings, changed: Collection[str] = ()) -> list[
     if not names:
         return []
     return [
-        f"scene {', '.join(names)}: lobes grow with the clearance, which this run changes or spreads: casing.amplitude_clearances "
-        "gives their height in clearances; casing.amplitude_m holds it (docs/clearance_and_lining.md)"
+        f"scene {', '.join(names)}: lobes grow with the clearance, which this run changes or spreads: "
+        "casing.amplitude_clearances gives their height in clearances; casing.amplitude_m holds it (docs/clearance_and_lining.md)"
     ]
 
 

@@ -22,13 +22,13 @@ def draw_design_map(
 ) -> Figure:
     """Length above yield in most revolutions over two keys, a panel for each of what does not vary.
 
-    Where no design is above yield, the largest share of the Goodman line is drawn instead, if it is known.
+    Where no design is above yield, the largest share of the Goodman line in all that was tried is drawn instead.
     `compared`: a Compared, as plain values; `verdict`: verdict.csv, whose requirements are lines round the designs
     that do not fail them, and marks on those that meet all.
     """
     chosen = from_plain(Compared, compared)
-    rows, keys = chosen.rows(table), chosen.keys
-    column, label, digits = _measure(rows)
+    keys = chosen.keys
+    rows, column, label, digits = _measured(chosen.rows(table), verdict)
     panels = [(str(name), part) for name, part in rows.groupby(chosen.other, sort=False)] if chosen.other else [(title, rows)]
     across = min(len(panels), 3)
     down = -(-len(panels) // across)
@@ -52,12 +52,15 @@ def draw_design_map(
     return figure
 
 
-def _measure(rows: pd.DataFrame) -> tuple[str, str, int]:
-    """Column that is drawn, its label and the digits of its values."""
+def _measured(rows: pd.DataFrame, verdict: pd.DataFrame | None) -> tuple[pd.DataFrame, str, str, int]:
+    """Rows with the column that is drawn, its name, its label and the digits of its values."""
     column = length_column(rows)
-    if not rows[column].any() and rows.get("largest_goodman_share", pd.Series()).notna().any():
-        return "largest_goodman_share", "no speed above yield: share of the Goodman line", 2
-    return column, f"length above yield{' in operation' if 'operating' in column else ''} (rad/s)", 0
+    if verdict is not None and not rows[column].any():
+        tried = verdict[verdict["requirement"] == "goodman_share"][["blade", "scene", "value_highest"]]
+        if len(tried):
+            label = "no speed above yield; largest share of the Goodman line"
+            return rows.merge(tried, on=["blade", "scene"]), "value_highest", label, 2
+    return rows, column, f"length above yield{' in operation' if 'operating' in column else ''} (rad/s)", 0
 
 
 def _grid(rows: pd.DataFrame, keys: Sequence[str], column: str, together: str) -> np.ndarray:
