@@ -8,7 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import matplotlib.axes
 import numpy as np
 from published import INTERACTIONS
 
@@ -16,7 +15,6 @@ from r37core.config.declaring import si_form
 from r37core.contact.elastic_casing import ElasticCasing
 from r37core.contact.ring import Ring, RingMode
 from r37core.contact.scene import Scene
-from r37core.figures.style import PAGE, plt
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
@@ -128,32 +126,14 @@ def peak_cell(speeds: np.ndarray, rms: np.ndarray) -> str:
 
 
 def peaks(input: Any, output: Any, params: Any) -> None:
-    """Table of the peaks of the ten published interactions, and picture of those of engine order 4."""
+    """Table of the peaks of the ten published interactions."""
     runs, rows = Runs(input.files), []
-    figure, panels = plt.subplots(1, 7, figsize=(PAGE, 1.9), sharey=True)
-    axes_of = iter(panels)
     for row in INTERACTIONS:
         speeds = round(row.peak) + np.arange(-SPAN, SPAN + 0.5 * STEP, STEP)
         cells = [f"{row.blade} 1B/{row.engine_order}", f"{row.peak:g}"]
-        axes = next(axes_of) if row.engine_order == 4 else None
-        for number, casing in enumerate(CASINGS):
-            rms = runs.motion(row.blade, LINING, speeds, runs.modes(casing))
-            cells.append(peak_cell(speeds, rms))
-            if axes is not None:
-                _draw(axes, speeds, rms, number)
-                axes.set(title=row.blade, xlabel="rad/s")
+        cells += [peak_cell(speeds, runs.motion(row.blade, LINING, speeds, runs.modes(casing))) for casing in CASINGS]
         rows.append(cells)
-    panels[0].set_ylabel("rms (mm)")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(CASINGS))
-    figure.savefig(output.picture)
     write_table(["interaction", "published (rad/s)", *map(shown, CASINGS)], rows, output.table)
-
-
-def _draw(axes: matplotlib.axes.Axes, speeds: np.ndarray, rms: np.ndarray, number: int) -> None:
-    """A curve, and below it dots where runs diverge, in a row of its own."""
-    (line,) = axes.plot(speeds, 1e3 * rms, label=shown(CASINGS[number]), linewidth=0.8)
-    diverged = speeds[np.isnan(rms)]
-    axes.plot(diverged, np.full(len(diverged), -0.6 * number), ".", color=line.get_color(), markersize=1.5)
 
 
 def bare_casing(input: Any, output: Any, params: Any) -> None:

@@ -1,4 +1,4 @@
-"""Pictures of docs/gallery.md: our counterpart of every result figure of the paper, at level `standard`."""
+"""Pictures of docs/gallery.md: our counterparts of figures of the paper, at level `standard`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from published import BLADES, INTERACTIONS, REFERENCE
+from published import INTERACTIONS, REFERENCE
 
 from r37core.base.dataset_file import read_dataset
 from r37core.figures import style
@@ -16,19 +16,15 @@ from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_spectral_map
 
 from .configuration import settings_of
-from .gallery_shapes import draw_mesh, draw_modes, draw_variants
+from .gallery_shapes import draw_mesh, draw_modes
 from .published_figures import (
     COARSE,
     FINE,
     SCENES,
-    draw_blades,
-    draw_clearances,
     draw_histories,
-    draw_peak_histories,
     draw_reference,
     draw_revolution,
     draw_stress_over_speed,
-    draw_variant_spectra,
     draw_wear,
     draw_widths,
 )
@@ -40,26 +36,18 @@ _DOTS_PER_INCH = 120
 
 
 def charts(input: Any, output: Any, params: Any) -> None:
-    """All pictures but the rendered ones. Inputs: model, campbells."""
+    """All pictures but the rendered ones. Inputs: model, campbell."""
     responses, shipped = swept(source("standard").responses), runs_of("standard")
-    diagrams = {blade: read_dataset(file) for blade, file in zip(BLADES, input.campbells, strict=True)}
-    lined = {blade: responses[blade, True] for blade in BLADES}
-    both = {"lined": lined[REFERENCE], "direct": responses[REFERENCE, False]}
+    diagram, both = read_dataset(input.campbell), {"lined": responses[REFERENCE, True], "direct": responses[REFERENCE, False]}
     drawn: dict[str, Callable[[], Figure]] = {
-        "campbell": lambda: draw_campbell(diagrams[REFERENCE], REFERENCE),
+        "campbell": lambda: draw_campbell(diagram, REFERENCE),
         "reference": lambda: draw_reference(both["lined"], both["direct"]),
-        "spectrum_lined": lambda: draw_spectral_map(both["lined"], diagrams[REFERENCE], f"{REFERENCE}, {SCENES['lined'][0]}"),
-        "spectrum_direct": lambda: draw_spectral_map(
-            both["direct"], diagrams[REFERENCE], f"{REFERENCE}, {SCENES['direct'][0]}"
-        ),
-        "revolution": lambda: draw_revolution(instants(input.model, lined[REFERENCE]), INTERACTIONS[0].peak),
+        "spectrum_lined": lambda: draw_spectral_map(both["lined"], diagram, f"{REFERENCE}, {SCENES['lined'][0]}"),
+        "spectrum_direct": lambda: draw_spectral_map(both["direct"], diagram, f"{REFERENCE}, {SCENES['direct'][0]}"),
+        "revolution": lambda: draw_revolution(instants(input.model, both["lined"]), INTERACTIONS[0].peak),
         "histories": lambda: draw_histories(shipped),
         "stress": lambda: draw_stress_over_speed(both),
-        "wear_content": lambda: draw_wear(lined[REFERENCE]),
-        "variants_spectra": lambda: draw_variant_spectra(lined, diagrams),
-        "variants_response": lambda: draw_blades(shipped),
-        "clearances": lambda: draw_clearances(diagrams),
-        "peak_histories": lambda: draw_peak_histories(shipped),
+        "wear_content": lambda: draw_wear(both["lined"]),
         "widths": lambda: draw_widths(shipped),
     }
     for name, draw in drawn.items():
@@ -75,9 +63,6 @@ def instants(model: str, response: Any) -> np.ndarray:
 
 
 def shapes(input: Any, output: Any, params: Any) -> None:
-    """The rendered pictures. Inputs: meshes, modes."""
-    meshes = dict(zip(BLADES, input.meshes, strict=True))
-    reference = meshes.pop(REFERENCE)
+    """The rendered pictures. Inputs: mesh, modes."""
     draw_modes(Path(input.modes) / "modes_0.vtu", output.modes)
-    draw_mesh(reference, settings_of(Path.cwd()).reduction_choice(REFERENCE).judged_region, output.mesh)
-    draw_variants(meshes, reference, output.variants)
+    draw_mesh(input.mesh, settings_of(Path.cwd()).reduction_choice(REFERENCE).judged_region, output.mesh)

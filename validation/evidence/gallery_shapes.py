@@ -1,8 +1,7 @@
-"""Rendered figures of the gallery: mode shapes, the region of stress, the variants' shapes."""
+"""Rendered figures of the gallery: mode shapes, the region of stress."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -59,23 +58,6 @@ def draw_mesh(file: Path | str, region: RegionChoice, png: Path | str) -> None:
     part = grid.extract_points(inside, adjacent_cells=False)
     plotter.add_mesh(_surface(part), color=style.COLOURS[1], show_edges=True, line_width=0.5)
     _finish(plotter, "region of stress")
-    save_picture(plotter, png)
-
-
-def draw_variants(meshes: Mapping[str, Path | str], reference: Path | str, png: Path | str) -> None:
-    """The blades (name -> mesh), each in its colour, over the reference blade in grey."""
-    with readable(reference):
-        behind = _surface(pyvista.read(reference))
-    styles = style.blade_styles(["", *meshes])
-    plotter = new_plotter(len(meshes), (170 * len(meshes), _HEIGHT - 60))
-    for column, (name, file) in enumerate(meshes.items()):
-        plotter.subplot(0, column)
-        with readable(file):
-            plotter.add_mesh(
-                _surface(pyvista.read(file)), color=styles[name]["color"], smooth_shading=True, split_sharp_edges=True
-            )
-        plotter.add_mesh(behind, color="grey", opacity=0.35)
-        _finish(plotter, name)
     save_picture(plotter, png)
 
 

@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 
 from r37core.base.dataset_file import read_dataset
-from r37core.figures.style import PAGE, plt, save
 from r37core.results.columns import MOST_REVOLUTIONS
 
 from .configuration import settings_of
@@ -25,9 +24,6 @@ CLEARANCES = (0.2, 0.3, 0.356, 0.4, 0.5, 0.6)
 """(mm) The third is the benchmark's."""
 
 HELD, SCALED = "0.712 mm", "2 clearances"
-STYLES = {(HELD, "points"): "C0.-", (HELD, "patches"): "C0.--", (SCALED, "points"): "C1.-", (SCALED, "patches"): "C1.--"}
-LOWER_BOUND = {"linestyle": "none", "markerfacecolor": "white"}
-"""Marker of a length that reaches beyond the speeds, over the filled one."""
 
 BELOW, ABOVE, STEP = 0.04, 0.15, 8.0
 """Speeds about the Campbell speed, as shares of it, and their step (rad/s)."""
@@ -51,33 +47,10 @@ def lengths_of_blade(input: Any, output: Any, params: Any) -> None:
 
 
 def lengths(input: Any, output: Any, params: Any) -> None:
-    """Table and picture of all blades. Input: files of lengths_of_blade.
-
-    A length that reaches beyond the speeds has a > in the table and an open circle in the picture.
-    """
+    """Table of all blades, with a > before a length that reaches beyond the speeds. Input: files of lengths_of_blade."""
     found = pd.concat([pd.read_csv(file) for file in input.files])
     rows = []
     for (scene, blade, contact, lobes), part in found.groupby(["scene", "blade", "contact", "lobes"], sort=False):
         cells = [f"{'> ' * row.beyond}{row.length_rad_s:.0f}" for row in part.itertuples()]
         rows.append([SCENES[scene], blade, contact, lobes, *cells])
     write_table(["scene", "blade", "contact", "lobes", *(f"{clearance:g} mm" for clearance in CLEARANCES)], rows, output.table)
-    _draw(found, output.picture)
-
-
-def _draw(found: pd.DataFrame, file: str) -> None:
-    blades, curves = list(dict.fromkeys(found["blade"])), found.set_index(["scene", "blade", "contact", "lobes"]).sort_index()
-    figure, grid = plt.subplots(len(SCENES), len(blades), figsize=(PAGE, 3.6), sharex=True, sharey="row", squeeze=False)
-    for row, (scene, words) in zip(grid, SCENES.items(), strict=True):
-        row[0].set_ylabel(f"{words} (rad/s)")
-        for axes, blade in zip(row, blades, strict=True):
-            axes.set_title(blade)
-            for (lobes, contact), style in STYLES.items():
-                curve = curves.loc[scene, blade, contact, lobes]
-                axes.plot(curve["clearance_mm"], curve["length_rad_s"], style, label=f"lobes of {lobes}, {contact}")
-                bounds = curve[curve["beyond"]]
-                axes.plot(bounds["clearance_mm"], bounds["length_rad_s"], style[:3], **LOWER_BOUND)
-    for axes in grid[-1]:
-        axes.set_xlabel("clearance (mm)")
-    figure.supylabel("length of speeds above yield", fontsize=8)
-    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
-    save(figure, file)

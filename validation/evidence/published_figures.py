@@ -1,4 +1,4 @@
-"""Pictures of what the paper publishes, of ours: response, stress, wear and clearances."""
+"""Pictures of what the paper publishes, of ours: response, stress and wear."""
 
 from __future__ import annotations
 
@@ -7,17 +7,16 @@ from collections.abc import Mapping
 import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, VARIANTS, WIDTH_ABOVE_YIELD
+from published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, WIDTH_ABOVE_YIELD
 
 from r37core.figures import style
 from r37core.figures.maps import draw_cells
-from r37core.results.measures import leading_edge, peak_of, peak_speed, width_above_yield
+from r37core.results.measures import leading_edge, width_above_yield
 
 from .benchmark_measures import history_of
-from .published_checks import PEAK_WITHIN, Runs
+from .published_checks import Runs
 from .published_windows import BARE
 
 FINE, COARSE = 248, 62
@@ -54,31 +53,6 @@ def draw_reference(lined: xr.Dataset, bare: xr.Dataset) -> Figure:
     return figure
 
 
-def draw_blades(shipped: Runs) -> Figure:
-    """Rms of all blades about their interaction of 1B with order 4; dotted: published peaks."""
-    figure, panels = plt.subplots(2, 1, figsize=(style.PAGE, 5.2), sharex=True)
-    for axes, (name, direction) in zip(panels, _DIRECTIONS.items(), strict=True):
-        _draw_about_order_4(axes, shipped, name, 1e3)
-        axes.set_ylabel(f"rms, {direction} (mm)")
-    style.rpm_axis(panels[0])
-    _legend_above(figure, panels[0])
-    panels[1].set_xlabel("speed (rad/s); dotted: published peaks")
-    return figure
-
-
-def _draw_about_order_4(axes: Axes, shipped: Runs, name: str, scale: float) -> None:
-    """One curve for each blade, and its published peak."""
-    for number, row in enumerate(INTERACTIONS[: len(BLADES)]):
-        run, color = leading_edge(shipped[row.name]), f"C{number}"
-        axes.plot(run["speed"], scale * run[name], ".-", color=color, markersize=3, linewidth=1.0, label=row.blade)
-        axes.axvline(row.peak, color=color, linestyle=":", linewidth=0.9)
-
-
-def _legend_above(figure: Figure, axes: Axes) -> None:
-    """The legend of one panel above the figure, out of the way of its peaks."""
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=len(BLADES) + 1, fontsize=8)
-
-
 def draw_histories(shipped: Runs) -> Figure:
     """Largest stress of every revolution of the reference blade in both scenes, at three published speeds."""
     runs = {"lined": shipped[INTERACTIONS[0].name], "direct": shipped[BARE]}
@@ -93,30 +67,6 @@ def draw_histories(shipped: Runs) -> Figure:
         axes.set(xlabel="revolution", title=f"{speed:g} rad/s")
     panels[0].set_ylabel("largest von Mises of the revolution (GPa)")
     panels[0].legend()
-    return figure
-
-
-def draw_choices(choices: Mapping[str, Runs]) -> Figure:
-    """One row for each choice: error of every peak speed in percent, and how many there are; grey: what counts as agreeing."""
-    figure, axes = plt.subplots(figsize=(9.0, 0.32 * len(choices) + 1.6))
-    axes.axvspan(-100 * PEAK_WITHIN, 100 * PEAK_WITHIN, color="0.92", zorder=0)
-    rows = np.arange(len(choices))
-    for number, published in enumerate(INTERACTIONS):
-        speeds = [peak_speed(runs[published.name]) if published.name in runs else np.nan for runs in choices.values()]
-        errors = 100.0 * (np.array(speeds) / published.peak - 1.0)
-        marker = "o" if published.engine_order == 4 else "^sD"[published.engine_order - 5]
-        color = f"C{number}" if published.engine_order == 4 else "C0"
-        axes.plot(errors, rows, marker, color=color, alpha=0.8, markersize=5, linestyle="none", label=published.label)
-    for row, runs in enumerate(choices.values()):
-        found_peaks = sum(np.isfinite(peak_speed(runs[published.name])) for published in INTERACTIONS if published.name in runs)
-        axes.annotate(
-            f"{found_peaks} of {len(INTERACTIONS)}", (1.01, row), xycoords=("axes fraction", "data"), va="center", fontsize=8
-        )
-    axes.set_yticks(rows, list(choices))
-    axes.invert_yaxis()
-    axes.set(xlabel="peak speed less the published one (%)")
-    axes.annotate("peaks found", (1.01, 1.0), xycoords="axes fraction", va="bottom", fontsize=8)
-    figure.legend(loc="outside lower center", ncols=5, fontsize=8)
     return figure
 
 
@@ -169,59 +119,6 @@ def draw_wear(response: xr.Dataset) -> Figure:
         axes.set_xlabel("speed (rad/s)")
         axes.grid(False)
         style.rpm_axis(axes)
-    return figure
-
-
-def draw_variant_spectra(responses: Mapping[str, xr.Dataset], campbells: Mapping[str, xr.Dataset]) -> Figure:
-    """Spectral maps of the variants, normal to the casing, on one scale, with the frequency of 1B."""
-    figure, grid = plt.subplots(2, 3, figsize=(style.PAGE, 4.2), sharex=True, sharey=True)
-    shown = {blade: 1e3 * responses[blade]["amplitude"].sel(engine_order=slice(0.0, 12.0)) for blade in VARIANTS}
-    top = max(float(amplitude.max()) for amplitude in shown.values())
-    for axes, blade in zip(grid.flat, VARIANTS, strict=True):
-        amplitude = shown[blade].dropna("speed", how="all")
-        values = np.maximum(amplitude.transpose("engine_order", "speed").values, 1e-12)
-        norm = LogNorm(top / 10**_DECADES, top)
-        picture = draw_cells(axes, amplitude["speed"].values, amplitude["engine_order"].values, values, norm=norm, cmap="magma")
-        frequency = campbells[blade]["frequency"].sel(mode="1B").isel(speed=slice(1, None))
-        axes.plot(frequency["speed"], 2.0 * np.pi * frequency / frequency["speed"], "--", color="white", linewidth=0.7)
-        axes.set(xlim=(float(amplitude["speed"].min()), float(amplitude["speed"].max())), ylim=(0.0, 12.0))
-        axes.set_title(blade, pad=4 if axes in grid[1] else None)
-        axes.grid(False)
-    for axes in grid[0]:
-        style.rpm_axis(axes, most_ticks=4)
-    figure.supxlabel("speed (rad/s)", fontsize=8)
-    figure.supylabel("engine order", fontsize=8)
-    figure.colorbar(picture, ax=grid, label="amplitude, normal (mm)", aspect=40)
-    return figure
-
-
-def draw_clearances(campbells: Mapping[str, xr.Dataset]) -> Figure:
-    """Dynamic clearance of all blades along 1B and 1T."""
-    figure, panels = plt.subplots(1, 2, figsize=(style.PAGE, 3.2), sharey=True)
-    styles = style.blade_styles(BLADES)
-    for axes, mode in zip(panels, ("1B", "1T"), strict=True):
-        for blade in BLADES:
-            curve = campbells[blade]["dynamic_clearance"].sel(mode=mode)
-            axes.plot(1e3 * curve["tangential_displacement"], 1e3 * curve, label=blade, **styles[blade])
-        axes.set(xlabel="tangential displacement (mm)", title=mode)
-    panels[0].set_ylabel("change of clearance (mm)")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
-    return figure
-
-
-def draw_peak_histories(shipped: Runs) -> Figure:
-    """Largest stress of every revolution of each blade at its own lined peak of 1B with order 4."""
-    figure, axes = plt.subplots(figsize=(style.PAGE, 3.2))
-    styles = style.blade_styles(BLADES)
-    for blade in BLADES:
-        run = shipped[f"{blade}_4"]
-        speed = float(peak_of(run)["speed"])
-        history = 1e-9 * history_of(run, speed)
-        label = f"{blade}, {speed:g} rad/s"
-        axes.semilogy(run["revolution"], np.where(history > 0.0, history, np.nan), label=label, **styles[blade])
-    style.yield_lines(axes, {blade: float(shipped[f"{blade}_4"]["yield_stress"]) for blade in BLADES})
-    axes.set(xlabel="revolution", ylabel="largest von Mises (GPa)", ylim=(1e-3, None))
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside right upper")
     return figure
 
 

@@ -10,13 +10,11 @@ import numpy as np
 from published import BLADES, INTERACTIONS, REFERENCE
 
 from r37core.base.dataset_file import read_dataset
-from r37core.figures import style
 from r37core.results.measures import peak_speed
 
 from .checks import Check, number, score
 from .pages import write_table
 from .published_checks import Runs, structure_checks, survey_checks, window_checks
-from .published_figures import draw_choices
 from .published_ranges import Judged, counts, judge
 from .published_runs import in_windows, runs_of, swept
 from .published_windows import ALL_CHOICES, ALL_MEMBERS, CHOICES, INSIDE, narrow, source, wide
@@ -123,9 +121,8 @@ def _largest_error(several: Sequence[Check]) -> str:
 
 
 def choices(input: Any, output: Any, params: Any) -> None:
-    """Modelling choices, each varied once: all columns, a few for the page, and the picture of the peak speeds."""
+    """Modelling choices, each varied once: all columns, and a few for the page."""
     varied = choices_runs()
-    style.save(draw_choices(varied), output.picture)
     head, rows = choices_table(varied)
     write_table(head, rows, output.table)
     shown = [head.index(name) for name in ("choice", "peaks within 0.6%", "drops", *SHORT, "agree")]

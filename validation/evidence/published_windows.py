@@ -167,10 +167,6 @@ CHARTS = (
     "histories",
     "stress",
     "wear_content",
-    "variants_spectra",
-    "variants_response",
-    "clearances",
-    "peak_histories",
     "widths",
 )
 """Pictures of docs/gallery.md that are drawn, not rendered."""

@@ -9,19 +9,17 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import xarray as xr
-from matplotlib.axes import Axes
 
 from r37core.base.dataset_file import read_dataset
 from r37core.base.io import scratch_folder
 from r37core.contact.scene import Scene
 from r37core.figures import style
-from r37core.figures.response_curves import shade
-from r37core.results.other_motions import ranking_with_motions, swept
+from r37core.results.other_motions import ranking_with_motions
 from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.second_motions.branches import branch_through, events_of
 from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
 from r37core.second_motions.examining import dwells_of
-from r37core.second_motions.figures import COLOURS, LINES
+from r37core.second_motions.figures import COLOURS
 from r37core.second_motions.motion_files import SweptStates, dwell_dataset
 from r37core.second_motions.periodic import PeriodicBlade, orbit_after
 from r37core.second_motions.sweeping import CarriedSweep
@@ -55,7 +53,7 @@ WAYS = ("as shipped", "plain engine", "half the step")
 
 
 def tables(input: Any, output: Any, params: Any) -> None:
-    """Second motions of all blades. Inputs: points, patches, ranges, dwells. Outputs: table, ranges, ranking, picture."""
+    """Second motions of all blades. Inputs: points, patches, ranges, dwells. Outputs: table, ranges, ranking."""
     motions = {contact: read_dataset(getattr(input, contact)) for contact in CONTACTS}
     ranges = {contact: pd.read_csv(file) for contact, file in zip(CONTACTS, input.ranges, strict=True)}
     columns = [(name, contact) for name in SCENES for contact in CONTACTS]
@@ -72,7 +70,6 @@ def tables(input: Any, output: Any, params: Any) -> None:
     together = pd.concat([table.assign(contact=contact) for contact, table in ranges.items()])
     together.to_csv(output.ranges, index=False, float_format="%.6g")
     write_table(*_ranking(motions["patches"], blades), output.ranking)
-    _picture(motions, blades, output.picture)
 
 
 def _cell(ranges: pd.DataFrame, motions: xr.Dataset) -> str:
@@ -106,31 +103,6 @@ def _ranking(motions: xr.Dataset, blades: Iterable[str]) -> tuple[list[str], lis
             columns.append([f"{value:.0f} ({place})" for value, place in zip(length, places, strict=True)])
             head.append(f"{name}: {words}")
     return head, [[blade, *cells] for blade, *cells in zip(blades, *columns, strict=True)]
-
-
-def _picture(motions: dict[str, xr.Dataset], blades: list[str], file: Path | str) -> None:
-    figure, grid = plt.subplots(
-        len(blades), len(CONTACTS), figsize=(style.PAGE, 1.05 * len(blades) + 0.8), sharex=True, sharey="row"
-    )
-    for row, blade in zip(grid, blades, strict=True):
-        for axes, contact in zip(row, CONTACTS, strict=True):
-            _draw(axes, swept(motions[contact].sel(blade=blade, scene="direct")))
-        row[0].set_ylabel(f"{blade} (mm)")
-    for axes, contact in zip(grid[0], CONTACTS, strict=True):
-        axes.set_title(f"bare casing, {contact}")
-        style.rpm_axis(axes)
-    for axes in grid[-1]:
-        axes.set_xlabel("speed (rad/s)")
-    figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=4)
-    style.save(figure, file)
-
-
-def _draw(axes: Axes, pair: xr.Dataset) -> None:
-    for motion in MOTIONS:
-        label = "from rest" if motion == REST else f"carried {motion}"
-        mean = 1e3 * pair["motion_mean"].sel(motion=motion)
-        axes.plot(pair["speed"], mean, LINES[motion], color=COLOURS[motion], label=label, linewidth=0.8)
-    shade(axes, pair)
 
 
 def kinds(input: Any, output: Any, params: Any) -> None:

@@ -34,6 +34,6 @@ def worked_example(input: Any, output: Any, params: Any) -> None:
             runpy.run_path("draw.py")
         blade = r37.blade("Fan", file=folder / "blades.yaml")
         r37.run(blade, "material_abradable", cores=2, folder=folder / "run", targets="all_blades")
-        figures = {name: f"{name}_Fan" for name in ("campbell", "response", "shapes")}
+        figures = {name: f"{name}_Fan" for name in ("campbell", "response")}
         for name, figure in (figures | {"contact_force": "contact_force_Fan__material_abradable"}).items():
             shutil.copy(folder / f"run/results/figures/{figure}.png", output[name])

@@ -78,7 +78,6 @@ use rule evidence as clearance_lobes with:
         ),
     output:
         table=f"{TABLES}/clearance_lobes.csv",
-        picture="docs/clearance_lobes.png",
     log:
         "logs/validation/clearance_lobes.log",
     params:

@@ -28,7 +28,6 @@ use rule evidence as coriolis_peaks with:
         unpack(CORIOLIS_MODELS),
     output:
         table=f"{TABLES}/coriolis_peaks.csv",
-        picture="docs/coriolis_peaks.png",
     log:
         "logs/validation/coriolis_peaks.log",
     params:

@@ -24,7 +24,6 @@ use rule evidence as casing_peaks with:
         unpack(CASING_MODELS),
     output:
         table=f"{TABLES}/casing_peaks.csv",
-        picture="docs/elastic_casing_peaks.png",
     log:
         "logs/validation/casing_peaks.log",
     params:

@@ -28,7 +28,6 @@ use rule evidence as your_blade_pictures with:
     output:
         campbell="docs/your_blade_campbell.png",
         response="docs/your_blade_response.png",
-        shapes="docs/your_blade_shapes.png",
         contact_force="docs/your_blade_contact_force.png",
     log:
         "logs/validation/your_blade_pictures.log",
@@ -37,39 +36,34 @@ use rule evidence as your_blade_pictures with:
         **evidence("user_code.worked_example"),
 
 
-# shapes and signals of Ref with abradable lining, which a scene has where it asks for them; three peaks fit a page
-module shapes_and_signals:
+# signals of Ref with abradable lining, which a scene has where it asks for them; three peaks fit a page
+module signals:
     snakefile:
         "../../Snakefile"
     config:
         run(
-            "shapes_and_signals",
+            "signals",
             blades=["Ref"],
-            scenes_file="validation/shapes_and_signals.yaml",
+            scenes_file="validation/signals.yaml",
             scenes=["abradable"],
             signals={"speeds_rad_s": [1002, 1260, 1729]},
         )
 
 
-use rule * from shapes_and_signals as shapes_and_signals_*
+use rule * from signals as signals_*
 
 
 # picture of a page -> the figure of a run that it is
 PAGE_PICTURES = {
     "blades": "results/figures/blades.png",
+    "interactions": "results/runs/interactions_quadratic/figures/interactions.png",
     "response_Ref": "results/figures/response_Ref.png",
-    "shapes": "results/runs/shapes_and_signals/figures/shapes_Ref__abradable.png",
-    "signals": "results/runs/shapes_and_signals/figures/orders_Ref__abradable.png",
-    "campbell_elastic_casing": "results/runs/elastic_casing/figures/campbell_Ref.png",
+    "signals": "results/runs/signals/figures/orders_Ref__abradable.png",
     "casing_Ref": "results/runs/elastic_casing/figures/casing_Ref__elastic_abradable.png",
-    "clearance_growing_abradable": "results/runs/clearance/figures/clearance_growing_abradable.png",
-    "designs_Sweep": "results/runs/families/figures/designs_Sweep.png",
     "rotor": "results/runs/rotors/figures/rotor_Ref__rotor_abradable.png",
     "run_up_rates": "results/runs/run_ups/figures/run_up_rates_abradable.png",
-    "run_ups_Ref": "results/runs/run_ups/figures/run_ups_Ref__abradable.png",
     "search_slices": "results/runs/search_surrogate_2/figures/search_slices.png",
     "tolerances_Ref": "results/runs/members/figures/tolerances_Ref__material_abradable.png",
-    "which_blade": "results/runs/quadratic/figures/ranking.png",
 }
 
 

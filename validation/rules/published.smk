@@ -108,7 +108,6 @@ use rule evidence as published_choices with:
     output:
         table=f"{TABLES}/modelling_choices.csv",
         short=f"{TABLES}/modelling_choices_short.csv",
-        picture="docs/modelling_choices.png",
     log:
         "logs/validation/published_choices.log",
     params:
@@ -134,7 +133,7 @@ use rule evidence as gallery_charts with:
             behind_engine(
                 *histories("standard"),
                 model=f"results/runs/campaign/{windows.REFERENCE}/rom_pressure_edge.nc",
-                campbells=[f"results/runs/campaign/{blade}/campbell.nc" for blade in windows.BLADES],
+                campbell=f"results/runs/campaign/{windows.REFERENCE}/campbell.nc",
             )
         ),
     output:
@@ -149,12 +148,12 @@ use rule evidence as gallery_shapes with:
     input:
         unpack(
             behind_engine(
-                meshes=[f"results/{blade}/mesh.vtu" for blade in windows.BLADES],
+                mesh=f"results/{windows.REFERENCE}/mesh.vtu",
                 modes=f"results/exports/{windows.REFERENCE}/modes",
             )
         ),
     output:
-        **{name: f"docs/gallery/{name}.png" for name in ("modes", "mesh", "variants")},
+        **{name: f"docs/gallery/{name}.png" for name in ("modes", "mesh")},
     log:
         "logs/validation/gallery_shapes.log",
     params:

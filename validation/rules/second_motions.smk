@@ -42,7 +42,6 @@ use rule evidence as second_motions with:
         table=f"{TABLES}/second_motions.csv",
         ranges=f"{TABLES}/second_motions_ranges.csv",
         ranking=f"{TABLES}/second_motions_ranking.csv",
-        picture="docs/second_motions.png",
     log:
         "logs/validation/second_motions.log",
     params:
