@@ -144,5 +144,5 @@ print(results.ranking[["blade", "rank", "length_most_revolutions_rad_s", "larges
 #   blades is run again.
 # - `results/explorer.html` shows all blades linked, `make report` makes one file of it.
 # - A family instead of one blade: `r37.designs(..., vary={"chordwise_sweep_deg": [0, 5, 10]})`. Ten figures, each with its
-#   code: [user_code.md](user_code.md).
+#   code: [gallery.md](gallery.md).
 # - A mesh or matrices of another program: [your_blade.md](your_blade.md).

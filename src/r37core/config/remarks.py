@@ -128,7 +128,8 @@ def remarks_on_lobes(settings: Settings, changed: Collection[str] = ()) -> list[
         return []
     return [
         f"scene {', '.join(names)}: lobes grow with the clearance, which this run changes or spreads: "
-        "casing.amplitude_clearances gives their height in clearances; casing.amplitude_m holds it (docs/clearance.md)"
+        "casing.amplitude_clearances gives their height in clearances; casing.amplitude_m holds it "
+        "(docs/clearance_and_lining.md)"
     ]
 
 
