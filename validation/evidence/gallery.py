@@ -1,4 +1,4 @@
-"""Pictures of docs/gallery.md: our counterpart of every result figure of the paper, at level `standard`."""
+"""Pictures of docs/gallery.md: our counterparts of figures of the paper, at level `standard`."""
 
 from __future__ import annotations
 
@@ -38,16 +38,16 @@ _DOTS_PER_INCH = 120
 def charts(input: Any, output: Any, params: Any) -> None:
     """All pictures but the rendered ones. Inputs: model, campbell."""
     responses, shipped = swept(source("standard").responses), runs_of("standard")
-    diagram, lined, direct = read_dataset(input.campbell), responses[REFERENCE, True], responses[REFERENCE, False]
+    diagram, both = read_dataset(input.campbell), {"lined": responses[REFERENCE, True], "direct": responses[REFERENCE, False]}
     drawn: dict[str, Callable[[], Figure]] = {
         "campbell": lambda: draw_campbell(diagram, REFERENCE),
-        "reference": lambda: draw_reference(lined, direct),
-        "spectrum_lined": lambda: draw_spectral_map(lined, diagram, f"{REFERENCE}, {SCENES['lined'][0]}"),
-        "spectrum_direct": lambda: draw_spectral_map(direct, diagram, f"{REFERENCE}, {SCENES['direct'][0]}"),
-        "revolution": lambda: draw_revolution(instants(input.model, lined), INTERACTIONS[0].peak),
+        "reference": lambda: draw_reference(both["lined"], both["direct"]),
+        "spectrum_lined": lambda: draw_spectral_map(both["lined"], diagram, f"{REFERENCE}, {SCENES['lined'][0]}"),
+        "spectrum_direct": lambda: draw_spectral_map(both["direct"], diagram, f"{REFERENCE}, {SCENES['direct'][0]}"),
+        "revolution": lambda: draw_revolution(instants(input.model, both["lined"]), INTERACTIONS[0].peak),
         "histories": lambda: draw_histories(shipped),
-        "stress": lambda: draw_stress_over_speed({"lined": lined, "direct": direct}),
-        "wear_content": lambda: draw_wear(lined),
+        "stress": lambda: draw_stress_over_speed(both),
+        "wear_content": lambda: draw_wear(both["lined"]),
         "widths": lambda: draw_widths(shipped),
     }
     for name, draw in drawn.items():

@@ -24,6 +24,7 @@ CLEARANCES = (0.2, 0.3, 0.356, 0.4, 0.5, 0.6)
 """(mm) The third is the benchmark's."""
 
 HELD, SCALED = "0.712 mm", "2 clearances"
+
 BELOW, ABOVE, STEP = 0.04, 0.15, 8.0
 """Speeds about the Campbell speed, as shares of it, and their step (rad/s)."""
 
@@ -46,7 +47,7 @@ def lengths_of_blade(input: Any, output: Any, params: Any) -> None:
 
 
 def lengths(input: Any, output: Any, params: Any) -> None:
-    """Table of all blades; a length that reaches beyond the speeds has a >. Input: files of lengths_of_blade."""
+    """Table of all blades, with a > before a length that reaches beyond the speeds. Input: files of lengths_of_blade."""
     found = pd.concat([pd.read_csv(file) for file in input.files])
     rows = []
     for (scene, blade, contact, lobes), part in found.groupby(["scene", "blade", "contact", "lobes"], sort=False):

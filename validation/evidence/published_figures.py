@@ -1,4 +1,4 @@
-"""Pictures of what the paper publishes, of ours: response, stress, wear and clearances."""
+"""Pictures of what the paper publishes, of ours: response, stress and wear."""
 
 from __future__ import annotations
 

@@ -122,7 +122,8 @@ def _largest_error(several: Sequence[Check]) -> str:
 
 def choices(input: Any, output: Any, params: Any) -> None:
     """Modelling choices, each varied once: all columns, and a few for the page."""
-    head, rows = choices_table(choices_runs())
+    varied = choices_runs()
+    head, rows = choices_table(varied)
     write_table(head, rows, output.table)
     shown = [head.index(name) for name in ("choice", "peaks within 0.6%", "drops", *SHORT, "agree")]
     write_table([head[at] for at in shown], [[row[at] for at in shown] for row in rows], output.short)

@@ -37,27 +37,28 @@ use rule evidence as your_blade_pictures with:
 
 
 # signals of Ref with abradable lining, which a scene has where it asks for them; three peaks fit a page
-module shapes_and_signals:
+module signals:
     snakefile:
         "../../Snakefile"
     config:
         run(
-            "shapes_and_signals",
+            "signals",
             blades=["Ref"],
-            scenes_file="validation/shapes_and_signals.yaml",
+            scenes_file="validation/signals.yaml",
             scenes=["abradable"],
             signals={"speeds_rad_s": [1002, 1260, 1729]},
         )
 
 
-use rule * from shapes_and_signals as shapes_and_signals_*
+use rule * from signals as signals_*
 
 
 # picture of a page -> the figure of a run that it is
 PAGE_PICTURES = {
     "blades": "results/figures/blades.png",
+    "interactions": "results/runs/interactions_quadratic/figures/interactions.png",
     "response_Ref": "results/figures/response_Ref.png",
-    "signals": "results/runs/shapes_and_signals/figures/orders_Ref__abradable.png",
+    "signals": "results/runs/signals/figures/orders_Ref__abradable.png",
     "casing_Ref": "results/runs/elastic_casing/figures/casing_Ref__elastic_abradable.png",
     "rotor": "results/runs/rotors/figures/rotor_Ref__rotor_abradable.png",
     "run_up_rates": "results/runs/run_ups/figures/run_up_rates_abradable.png",

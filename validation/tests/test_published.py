@@ -9,11 +9,7 @@ import xarray as xr
 from evidence import published_windows as windows
 from evidence.checks import Check, claim, score
 from evidence.published_checks import Runs, survey_checks, torsion_speed, window_checks
-from evidence.published_figures import (
-    draw_reference,
-    draw_stress_over_speed,
-    draw_widths,
-)
+from evidence.published_figures import draw_reference, draw_stress_over_speed, draw_widths
 from evidence.published_ranges import counts, judge
 from evidence.published_tables import SHORT, checks_table, choices_table, differences, kinds, ranges_table, summary
 from evidence.published_windows import BARE
@@ -207,12 +203,10 @@ def test_each_choice_varies_one_thing(settings):
 
 
 def test_pictures_show_every_blade_and_both_scenes():
-    runs = published_runs()
     survey = {name: branch(1200.0, low=750.0, high=2000.0) for name in ("lined", "direct")}
-    figures = [draw_reference(survey["lined"], survey["direct"]), draw_stress_over_speed(survey)]
-    for figure in figures:
+    for figure in (draw_reference(survey["lined"], survey["direct"]), draw_stress_over_speed(survey)):
         assert figure.axes[0].get_legend_handles_labels()[1][:2] == ["abradable lining", "bare casing"]
-    assert len(draw_widths(runs).axes[0].patches) == len(BLADES)
+    assert len(draw_widths(published_runs()).axes[0].patches) == len(BLADES)
     plt.close("all")
 
 

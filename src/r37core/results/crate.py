@@ -34,7 +34,8 @@ def crate(files: Iterable[Path | str], folder: Path | str) -> dict[str, Any]:
                 "@id": "./",
                 "@type": "Dataset",
                 "name": "Rubbing of compressor blades, simulated",
-                "description": "Vibration, stress and wear over speed; docs/results.md has all columns and variables",
+                "description": "Vibration, stress and wear over speed; "
+                "validation/tables/columns.csv has all columns, docs/results.md the variables",
                 "datePublished": made,
                 "license": {"@id": "#license"},
                 "citation": {"@id": REFERENCES},
