@@ -6,8 +6,7 @@ import shutil
 
 import pandas as pd
 import pytest
-from conftest import CHECKOUT
-from workflow_runs import snakemake
+from workflow_runs import copy_project, snakemake
 from yaml import safe_load
 
 from r37core.base.yaml_file import load_yaml
@@ -28,12 +27,10 @@ def page(root):
 
 
 @pytest.fixture(scope="module")
-def project(tmp_path_factory):
+def project(root, tmp_path_factory):
     folder = tmp_path_factory.mktemp("assess")
-    for part in ("config", "envs", "examples", "profiles", "workflow"):
-        shutil.copytree(CHECKOUT / part, folder / part)
-    (folder / "src").symlink_to(CHECKOUT / "src")
-    shutil.copy(CHECKOUT / "Snakefile", folder)
+    copy_project(root, folder)
+    shutil.copytree(root / "examples", folder / "examples")
     file = folder / "examples/fan/assess.yaml"
     file.write_text(shortened(file.read_text()))
     return folder

@@ -117,12 +117,12 @@ SOURCED += ("clearance_and_lining.md",)
 """Pages whose numbers all come from a table or from the configuration."""
 
 _NAMES = re.compile(r"\b(\d[BT](/\d+)?|rotor 37|Python 3.\d+|[A-Z]+\d+)\b|^\d+\. ", re.MULTILINE)
-_FACTORS = (1.0, 1e-9, 1e-6, 1e-3, 1e2, 1e3, 1e6, 0.10471975512)
-"""Between units of the configuration and of the pages."""
+_FACTORS = (1.0, 1e-3, 1e3, 0.10471975512)
+"""Units of the configuration in those of the pages: the same, Hz in kHz, m in mm, rpm in rad/s."""
 
 
 def configured(root=ROOT):
-    """Numbers of the shipped configuration and of the examples, in every unit, as texts of four digits."""
+    """Numbers of the shipped configuration and of the examples, in units of the pages, as texts of four digits."""
     files = [*(root / "config").glob("*.yaml"), *root.glob("examples/*/*.yaml")]
     numbers = (abs(float(n)) for file in files for n in _numbers(yaml.safe_load(file.read_text(encoding="utf-8"))))
     return {f"{factor * number:.4g}" for number in numbers for factor in _FACTORS}

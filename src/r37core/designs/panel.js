@@ -40,7 +40,7 @@ panels.designs = (families, page) => {
         }
       }
       const line = { color: page.colourOf(1 + number), width: 4, dash: number % 2 ? "dash" : "solid" };
-      return sides.map(([x0, y0, x1, y1], side) => ({ type: "line", x0, y0, x1, y1, line, name: `limit: ${name}`, showlegend: side === 0 }));
+      return sides.map(([x0, y0, x1, y1], side) => ({ type: "line", x0, y0, x1, y1, line, name: `limit of ${name.replaceAll("_", " ")}`, showlegend: side === 0 }));
     });
   }
 

@@ -230,10 +230,7 @@ COLUMNS = [
 def interaction_table(interactions: pd.DataFrame) -> dict[str, object]:
     """`interactions`, rows as in summary.csv with their title, and `columns`."""
     table = interactions.astype(object).where(interactions.notna(), None)
-    titles = [
-        interaction_title(mode or "", None if order is None else int(order))
-        for mode, order in zip(table["mode"], table["engine_order"], strict=True)
-    ]
+    titles = [interaction_title(*row) for row in table[["mode", "engine_order"]].values]
     table = table.assign(interaction=titles)
     return {
         "interactions": table.to_dict("records"),

@@ -183,8 +183,7 @@ def _label(axes: Axes, rows: pd.DataFrame, point: float, *, named: bool) -> None
 
 def _text(row: dict[str, Any], *, named: bool) -> str:
     """Label of a circle: Ref 1B/4, 98 rad/s."""
-    mode = row["mode"] if isinstance(row["mode"], str) else ""
-    title = interaction_title(mode, int(row["engine_order"])).removeprefix("engine ")
+    title = interaction_title(row["mode"], row["engine_order"]).removeprefix("engine ")
     amount = f"{row['size']:.0f}" if row["size"] >= 10.0 else f"{row['size']:.2g}"
     blade = f"{row['blade']} " if named else ""
     return f"{blade}{title}, {'> ' * row['onward']}{amount} {row['unit']}"

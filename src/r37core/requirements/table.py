@@ -132,8 +132,7 @@ def operating_table(
             ends = (getattr(row, "some_revolutions_from_rad_s", np.nan), getattr(row, "some_revolutions_to_rad_s", np.nan))
             begin, end = 2 * (float(row.peak_speed_rad_s),) if pd.isna(ends[0]) else ends
             if operating.overlap(begin, end) >= 0.0:
-                order = None if pd.isna(row.engine_order) else int(row.engine_order)
-                title = interaction_title("" if pd.isna(row.mode) else str(row.mode), order)
+                title = interaction_title(row.mode, row.engine_order)
                 rows.append((blade, scene, INTERACTION, title, *_inside(begin, end, operating), np.nan))
         response = response_of(datasets, blade, scene)
         if "share_of_revolutions_above_yield" not in response:

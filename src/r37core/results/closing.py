@@ -49,11 +49,12 @@ def largest_stress_text(table: pd.DataFrame, speed: str) -> str:
     return f"; the largest stress {1e-9 * row['max_von_mises_pa']:.2f} GPa, {where}"
 
 
-def interaction_title(mode: str, engine_order: str | int | None) -> str:
-    """Title of an interaction: 1B/4, the engine order alone without a mode, or neither."""
-    if mode:
-        return f"{mode}/{engine_order}"
-    return "a peak of its own" if engine_order in (None, "") else f"engine order {engine_order}"
+def interaction_title(mode: object, engine_order: Any) -> str:
+    """Title of an interaction: 1B/4, the engine order alone without a mode, or neither; what a table leaves out may be NaN."""
+    order = "" if str(engine_order) in ("", "None", "nan") else f"{float(engine_order):.0f}"
+    if isinstance(mode, str) and mode:
+        return f"{mode}/{order}"
+    return f"engine order {order}" if order else "a peak of its own"
 
 
 def lining_texts(runs: Mapping[tuple[str, str], Mapping[str, Any]]) -> list[str]:

@@ -13,21 +13,19 @@ _OF = (
 
 
 def sized(interactions: pd.DataFrame, rms: xr.Dataset) -> pd.DataFrame:
-    """The table with columns `frequency`, `size`, `unit` and `onward`; NaN without an engine order is a frequency.
+    """The table with columns `frequency`, `size`, `unit` and `onward`.
 
-    `frequency` (Hz): of the engine order at the peak speed. `size`: length above yield in most revolutions, or the width where
-    there is none (rad/s); in a scene without stress the motion (mm); `unit`: which of these. `onward`: the speeds above yield
-    reach to an end of those that were run, by `rms`.
+    `frequency` (Hz): of the engine order at the peak speed, NaN without one. `size`: length above yield in most revolutions,
+    or the width where there is none (rad/s); in a scene without stress the motion (mm); `unit`: which of these. `onward`:
+    whether the speeds above yield reach to an end of those that were run, by `rms`.
     """
     table = interactions.reindex(columns=[*interactions.columns, *(name for name in _OF if name not in interactions)])
     length, width, begin, end, motion = (table[name].astype(float) for name in _OF)
     length = length.fillna(width)
     stress = length.notna().groupby(table["scene"]).transform("any").astype(bool)
     ran = rms["speed"].where(rms["status"] != RunStatus.NOT_RUN)
-    first, last = (
-        np.array([float(ends.sel(blade=blade, scene=scene)) for blade, scene in table[["blade", "scene"]].values])
-        for ends in (ran.min("speed"), ran.max("speed"))
-    )
+    pairs = pd.MultiIndex.from_frame(table[["blade", "scene"]])
+    first, last = (ends.to_series().reindex(pairs).to_numpy() for ends in (ran.min("speed"), ran.max("speed")))
     return interactions.assign(
         frequency=table["engine_order"].astype(float) * table["peak_speed_rad_s"] / (2.0 * np.pi),
         size=length.where(stress, 1e3 * motion).fillna(0.0),
