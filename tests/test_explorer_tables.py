@@ -231,7 +231,7 @@ def test_the_map_of_designs_has_the_line_of_a_requirement(page, rows, tmp_path):
         sides = f"{map_}.layout.shapes.map(one => [one.x0, one.y0, one.x1, one.y1])"
         assert sorted(other.evaluate(sides)) == [[0.5, 0.5, 0.5, 1.5], [0.5, 0.5, 1.5, 0.5]]
         assert other.evaluate(f"{map_}.data[0].text") == [["40", "20"], ["30", "0 \u2713"]]
-        assert "limit: above_yield" in other.text_content("#designs .legend")
+        assert "limit of above yield" in other.text_content("#designs .legend")
         other.locator("h1").click()
         other.keyboard.press("ArrowRight")
         assert "1000.3 rad/s" in other.text_content("#now")
