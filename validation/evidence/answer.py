@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from r37core.figures import style
 from r37core.results.ranking import read_ranking
 
-from .pages import write_table
+from .which_blade import write_ranks
 
 SCENES = {"material_abradable": "abradable lining", "direct": "bare casing"}
 LENGTHS = ("linear", "second order", "worst motion")
@@ -39,9 +39,7 @@ def draw(input: Any, output: Any, params: Any) -> None:
         for name, values in zip(LENGTHS, (linear[linear["scene"] == scene][length], of_scene[length], worst), strict=True):
             columns[f"{words}: {name}"] = values
     lengths = pd.DataFrame(columns).sort_values("bare casing: second order")
-    ranks = lengths.round().rank(method="min")
-    cells = [[f"{lengths.loc[b, c]:.0f} ({ranks.loc[b, c]:.0f})" for c in lengths] for b in lengths.index]
-    write_table(["blade", *lengths], [[str(b), *row] for b, row in zip(lengths.index, cells, strict=True)], output.table)
+    write_ranks(lengths, output.table)
     with plt.rc_context(ON_ANY_PAGE):
         figure, panels = plt.subplots(2, 1, figsize=(5.2, 6.0))
         for axes, words in zip(panels, SCENES.values(), strict=True):

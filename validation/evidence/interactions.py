@@ -6,10 +6,14 @@ from typing import Any
 
 import pandas as pd
 
+from r37core.base.dataset_file import read_dataset
 from r37core.results.closing import interaction_title
+from r37core.results.columns import MOST_REVOLUTIONS
+from r37core.results.other_motions import swept, worst_exceedance
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
 
+from .answer import SCENES
 from .pages import write_table
 
 THICKNESS = 0.005
@@ -17,6 +21,8 @@ THICKNESS = 0.005
 
 NEAR = 0.06
 """Distance of two peaks, as a share of the speed, within which they are the same interaction."""
+
+_LONGEST = 3
 
 LENGTH, FROM, TO = "length_most_revolutions_rad_s", "most_revolutions_from_rad_s", "most_revolutions_to_rad_s"
 
@@ -39,12 +45,25 @@ def worst(input: Any, output: Any, params: Any) -> None:
             row, whole = quadratic.worst(blade, scene), quadratic.ranking.loc[blade, scene]
             lengths = (whole[LENGTH], whole[LENGTH.replace("_rad", "_box_rad")], longer.ranking.loc[blade, twice][LENGTH])
             most = max(whole["largest_rms_worst_m"], whole["largest_rms_m"])
-            cells = [blade, _title(row), _place(row, lined)]
+            cells = [blade, interaction_title(row["mode"], row["engine_order"]), _place(row, lined)]
             cells += [f"{linear.height(blade, scene, row['peak_speed_rad_s'])} / {1e3 * row['peak_motion_m']:.1f}"]
             cells += [" / ".join(f"{length:.0f}" for length in lengths)]
             cells += [f"{1e3 * most:.1f} / {whole['length_most_revolutions_worst_rad_s']:.0f}"]
             rows.append([*cells, *([f"{100 * row['sufficient_thickness_m'] / THICKNESS:.0f}"] if lined else [])])
         write_table([*head, *(["lining used (%)"] if lined else [])], rows, file)
+
+
+def ranges(input: Any, output: Any, params: Any) -> None:
+    """Ranges above yield by the worst motion, by blade and scene. Inputs: motions. Output: table."""
+    motions = read_dataset(input.motions)
+    cells: dict[str, list[str]] = {}
+    for scene in SCENES:
+        for blade in motions["blade"].values:
+            found = worst_exceedance(swept(motions.sel(blade=blade, scene=scene))).ranges(MOST_REVOLUTIONS)
+            longest = sorted(sorted(found, key=lambda one: -one.length)[:_LONGEST], key=lambda one: one.begin)
+            cells.setdefault(blade, []).append(", ".join(f"{one.begin:.0f} to {one.end:.0f}" for one in longest))
+    head = ["blade", *(f"{words}: longest ranges (rad/s)" for words in SCENES.values())]
+    write_table(head, [[blade, *row] for blade, row in cells.items()], output.table)
 
 
 class _Run:
@@ -64,11 +83,6 @@ class _Run:
         """The interaction with the longest length above yield, or of those without any the largest motion."""
         own = self.summary[(self.summary["blade"] == blade) & (self.summary["scene"] == scene)]
         return own.sort_values([LENGTH, "peak_motion_m"], ascending=False).iloc[0]
-
-
-def _title(row: pd.Series) -> str:
-    mode = row["mode"] if isinstance(row["mode"], str) else ""
-    return interaction_title(mode, int(row["engine_order"]))
 
 
 def _place(row: pd.Series, lined: bool) -> str:

@@ -16,16 +16,15 @@ from r37core.base.dataset_file import read_dataset
 from r37core.base.io import readable
 from r37core.figures import style
 from r37core.figures.offscreen import look, new_plotter, rendered
-from r37core.results.closing import interaction_title
 from r37core.results.interaction_choice import InteractionChoice
-from r37core.results.interactions import find_interactions
+from r37core.results.interactions import find_interactions, titles
 from r37core.results.measures import motion
 from r37core.results.regions import read_judged
 
 from .answer import NEUTRAL, ON_ANY_PAGE
 from .gallery_shapes import add_mode
+from .published_figures import SCENES
 
-_SCENES = {"lined": ("abradable lining", "#0072B2"), "direct": ("bare casing", "#D55E00")}
 _NAMED = 2e-3
 """Motion (m) from which on a peak is named."""
 
@@ -34,7 +33,7 @@ _AXES = {"radial": (1.0, 0.0, 0.0), "downstream": (0.0, 0.0, 1.0)}
 
 def draw(input: Any, output: Any, params: Any) -> None:
     """Above the motion of the blade over speed, below the blade. Inputs: modes, lined, direct, campbell. Output: picture."""
-    runs = {kind: read_judged(getattr(input, kind)) for kind in _SCENES}
+    runs = {kind: read_judged(getattr(input, kind)) for kind in SCENES}
     with plt.rc_context(ON_ANY_PAGE):
         figure = plt.figure(figsize=(5.2, 4.6))
         response, blade = figure.subplots(2, 1, height_ratios=[1.5, 1.0])
@@ -71,18 +70,20 @@ def _first_bending(file: Path) -> np.ndarray:
 
 def _draw_response(axes: Axes, runs: dict[str, xr.Dataset], campbell: xr.Dataset) -> None:
     """Rms of the leading edge over speed in both scenes, peaks with their names, and the published peaks as triangles."""
-    for kind, (label, color) in _SCENES.items():
+    for kind, (label, color) in SCENES.items():
         axes.plot(runs[kind]["speed"], 1e3 * motion(runs[kind]), color=color, label=label)
     top = 1e3 * float(motion(runs["lined"]).max())
-    for peak in find_interactions(runs["lined"], campbell, InteractionChoice()):
+    found = find_interactions(runs["lined"], campbell, InteractionChoice())
+    names = titles(found)
+    for peak in found:
         if peak["peak_motion_m"] > _NAMED:
-            place = (peak["peak_speed_rad_s"], 1e3 * peak["peak_motion_m"])
-            title = interaction_title(peak["mode"] or "", int(peak["engine_order"]))
-            axes.annotate(title, place, (0, 2), textcoords="offset points", ha="center", va="bottom", fontsize=9)
+            speed = peak["peak_speed_rad_s"]
+            place = (speed, 1e3 * peak["peak_motion_m"])
+            axes.annotate(names[speed], place, (0, 2), textcoords="offset points", ha="center", va="bottom", fontsize=9)
     published = [(row.peak, "lined") for row in INTERACTIONS if row.blade == REFERENCE] + [(DIRECT_PEAK, "direct")]
     for number, (speed, kind) in enumerate(published):
         label = "published peak" if number == 0 else "_"
-        axes.plot(speed, 1.2 * top, "v", color=_SCENES[kind][1], markersize=6, linestyle="none", label=label)
+        axes.plot(speed, 1.2 * top, "v", color=SCENES[kind][1], markersize=6, linestyle="none", label=label)
     axes.set(xlabel="speed (rad/s)", ylabel="rms of the tip (mm)", ylim=(0.0, 1.3 * top))
     axes.set_title("blade Ref by linear theory", loc="left", fontweight="bold")
     axes.figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=3, handlelength=1.2)

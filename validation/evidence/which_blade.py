@@ -70,17 +70,38 @@ REGIONS = {"": "airfoil", "_airfoil_unfiltered": "airfoil, all modes", "_box": "
 
 def rankings(input: Any, output: Any, params: Any) -> None:
     """Lengths above yield and ranks in both scenes, in each region of the stress. Input: ranking."""
-    table = read_ranking(input.ranking).set_index(["scene", "blade"])
-    head = [f"{SCENES[scene]}: {words}" for scene in ON_PATCHES for words in REGIONS.values()]
-    rows = []
-    for blade in table.loc["direct"].index:
-        lengths_of = {
-            (scene, end): table.loc[on_patches, f"length_most_revolutions{end}_rad_s"]
-            for scene, on_patches in ON_PATCHES.items()
-            for end in REGIONS
-        }
-        rows.append([blade, *(f"{each[blade]:.0f} ({each.rank(method='min')[blade]:.0f})" for each in lengths_of.values())])
-    write_table(["blade", *head], rows, output.table)
+    _write_ranks([(words, input.ranking, [end]) for end, words in REGIONS.items()], output.table)
+
+
+CHECKS = {
+    "standard": ("standard", [""]),
+    "standard, worst motion": ("standard", ["", "_worst"]),
+    "with rotation": ("rotation", [""]),
+}
+"""What a column has in words -> name of the run, and ends of the columns of lengths, of which the largest counts."""
+
+
+def checks(input: Any, output: Any, params: Any) -> None:
+    """Lengths and ranks at the next level, and with the stress of rotation. Inputs: rankings by run."""
+    _write_ranks([(words, input[run], ends) for words, (run, ends) in CHECKS.items()], output.table)
+
+
+def _write_ranks(kinds: list[tuple[str, str, list[str]]], file: str) -> None:
+    """A column for each scene and kind. `kinds`: words, ranking, ends of the columns of lengths."""
+    columns = {}
+    for scene, on_patches in ON_PATCHES.items():
+        for words, ranking, ends in kinds:
+            table = read_ranking(ranking).set_index(["scene", "blade"]).loc[on_patches]
+            lengths = table[[f"length_most_revolutions{end}_rad_s" for end in ends]].max(axis=1)
+            columns[f"{SCENES[scene]}: {words}"] = lengths
+    write_ranks(pd.DataFrame(columns), file)
+
+
+def write_ranks(lengths: pd.DataFrame, file: str) -> None:
+    """Lengths (rad/s) of the blades as whole numbers, in brackets their ranks, which equal numbers share."""
+    ranks = lengths.round().rank(method="min")
+    cells = [[f"{lengths.loc[blade, name]:.0f} ({ranks.loc[blade, name]:.0f})" for name in lengths] for blade in lengths.index]
+    write_table(["blade", *lengths], [[str(blade), *row] for blade, row in zip(lengths.index, cells, strict=True)], file)
 
 
 def _lengths_of_row(row: pd.Series) -> str:

@@ -4,10 +4,12 @@ def dangers(name, kinematics, **keys):
     return run(
         f"interactions_{name}",
         "patches",
-        fidelity="draft",
         structure={"boundary": {"contact": "patches"}, "kinematics": kinematics},
-        speeds=[{"start": 750, "stop": 2000, "step": 10, "refine_to": 2.5}],
-        **keys,
+        **{
+            "fidelity": "draft",
+            "speeds": [{"start": 750, "stop": 2000, "step": 10, "refine_to": 2.5}],
+            **keys,
+        },
     )
 
 
@@ -56,6 +58,39 @@ module interactions_longer:
 use rule * from interactions_longer as interactions_longer_*
 
 
+# the same at the next level, and at half the distance of the speeds
+module interactions_standard:
+    snakefile:
+        "../../Snakefile"
+    config:
+        dangers(
+            "standard",
+            "quadratic",
+            fidelity="standard",
+            speeds=[{"start": 750, "stop": 2000, "step": 5, "refine_to": 1.25}],
+            second_motions=CARRIED,
+        )
+
+
+use rule * from interactions_standard as interactions_standard_*
+
+
+# and with the stress of rotation
+module interactions_rotation:
+    snakefile:
+        "../../Snakefile"
+    config:
+        dangers(
+            "rotation",
+            "quadratic",
+            scenes_file="validation/longer.yaml",
+            scenes=["material_abradable", "direct"],
+        )
+
+
+use rule * from interactions_rotation as interactions_rotation_*
+
+
 RUNS = [f"results/runs/interactions_{name}" for name in ("linear", "quadratic", "longer")]
 
 
@@ -75,6 +110,17 @@ use rule evidence as interactions with:
         "logs/validation/interactions.log",
     params:
         **evidence("interactions.worst"),
+
+
+use rule evidence as interactions_ranges with:
+    input:
+        unpack(behind_engine(motions=f"{RUNS[1]}/second_motions.nc")),
+    output:
+        table=f"{TABLES}/interactions_ranges.csv",
+    log:
+        "logs/validation/interactions_ranges.log",
+    params:
+        **evidence("interactions.ranges"),
 
 
 # the first picture of README

@@ -15,23 +15,6 @@ module ranking:
 use rule * from ranking as ranking_*
 
 
-# as long as a table needs: the airfoil, which decides, beside the benchmark's box and what all modes give
-module regions:
-    snakefile:
-        "../../Snakefile"
-    config:
-        run(
-            "regions",
-            scenes=["material_abradable", "direct"],
-            fidelity="draft",
-            structure={"boundary": {"contact": "patches"}},
-            speeds=[{"start": 760, "stop": 2000, "step": 20}],
-        )
-
-
-use rule * from regions as regions_*
-
-
 use rule evidence as which_blade with:
     input:
         unpack(behind_engine(ranking="results/runs/interactions_quadratic/ranking.csv")),
@@ -41,6 +24,21 @@ use rule evidence as which_blade with:
         "logs/validation/which_blade.log",
     params:
         **evidence("which_blade.rankings"),
+
+
+use rule evidence as which_blade_checks with:
+    input:
+        unpack(
+            behind_engine(
+                **{name: f"results/runs/interactions_{name}/ranking.csv" for name in ("standard", "rotation")}
+            )
+        ),
+    output:
+        table=f"{TABLES}/which_blade_checks.csv",
+    log:
+        "logs/validation/which_blade_checks.log",
+    params:
+        **evidence("which_blade.checks"),
 
 
 use rule evidence as which_blade_speeds with:

@@ -25,6 +25,8 @@ QUANTILES = tuple(ENDS.values())
 """Ends and middle of the range that nine tenths of the members lie in."""
 
 _CURVES = ("rms_normal", "rms_tangential", "max_von_mises")
+_JUDGED = ("share_of_revolutions_above_yield", "goodman_share", "used_thickness", "worn_through_share")
+_OF_ALL = ("yield_stress", "static_stress", "fatigue_strength", "lined")
 
 MEASURES = {
     "peak_speed": Variable((), "rad s-1", "speed of the leading edge's largest motion"),
@@ -91,9 +93,9 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
 
 
 def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:
-    """Curves and measures of one member."""
+    """Curves and measures of one member, and what requirements are judged by."""
     edge = leading_edge(response)
-    kept = [name for name in ("status", *_CURVES, "yield_stress", "share_of_revolutions_above_yield", "lined") if name in edge]
+    kept = [name for name in ("status", *_CURVES, *_JUDGED, *_OF_ALL) if name in edge]
     member = edge[kept].drop_vars("speed_rpm", errors="ignore")
     member = member.assign({name: ((), value, MEASURES[name].attributes) for name, value in values.items()})
     member["value"] = ("number", list(run.values), {"long_name": "value of the number, in the unit of its key"})
