@@ -320,7 +320,7 @@ def test_interactions_are_circles_by_danger(page, datasets, interactions, tmp_pa
         texts = other.evaluate(f"{plot}.layout.annotations.map(({{ text }}) => text)")
         assert texts[-2:] == ["Ref 1B/4, > 36 rad/s", "L&lt;50> 1B/3, 9 rad/s"]
         assert other.locator("#sizes .key").all_text_contents() == [
-            "20 rad/s above yield", "5 rad/s above yield", "not above yield"
+            "20 rad/s above yield", "5 rad/s above yield", "not above yield from rest"
         ]  # fmt: skip
         assert "1 not shown: higher, or without an engine order" in other.text_content("#sizes")
         circle = other.locator("#interaction_map .points path").nth([name for name, _ in marks].index("L<50>")).bounding_box()

@@ -70,7 +70,8 @@ def verdicts(input: Any, output: Any, params: Any) -> None:
     head = ["blade", "scene", "verdict", "shortest (rad/s)", "longest (rad/s)", "runs besides the sweep's", "note"]
     columns = ["blade", "scene", "verdict", "value_lowest", "value_highest", "further_runs", "note"]
     verdict = read_table(input.verdict)
-    write_table(head, verdict[columns].fillna("").astype(str).values.tolist(), output.table)
+    lengths = {name: verdict[name].map("{:.0f}".format) for name in ("value_lowest", "value_highest")}
+    write_table(head, verdict.assign(**lengths)[columns].fillna("").astype(str).values.tolist(), output.table)
 
 
 def _judged(designs: pd.DataFrame, verdict: pd.DataFrame) -> pd.DataFrame:

@@ -61,7 +61,9 @@ def ranges(input: Any, output: Any, params: Any) -> None:
         for blade in motions["blade"].values:
             found = worst_exceedance(swept(motions.sel(blade=blade, scene=scene))).ranges(MOST_REVOLUTIONS)
             longest = sorted(sorted(found, key=lambda one: -one.length)[:_LONGEST], key=lambda one: one.begin)
-            cells.setdefault(blade, []).append(", ".join(f"{one.begin:.0f} to {one.end:.0f}" for one in longest))
+            cells.setdefault(blade, []).append(
+                ", ".join(f"{one.begin:.0f} to {one.end:.0f} ({one.length:.0f})" for one in longest)
+            )
     head = ["blade", *(f"{words}: longest ranges (rad/s)" for words in SCENES.values())]
     write_table(head, [[blade, *row] for blade, row in cells.items()], output.table)
 

@@ -67,7 +67,7 @@ module interactions_standard:
             "standard",
             "quadratic",
             fidelity="standard",
-            speeds=[{"start": 750, "stop": 2000, "step": 5, "refine_to": 1.25}],
+            speeds=[{"start": 750, "stop": 2000, "step": 10, "refine_to": 1.25}],
             second_motions=CARRIED,
         )
 

@@ -58,7 +58,7 @@ def _measured(rows: pd.DataFrame, verdict: pd.DataFrame | None) -> tuple[pd.Data
     if verdict is not None and not rows[column].any():
         tried = verdict[verdict["requirement"] == "goodman_share"][["blade", "scene", "value_highest"]]
         if len(tried):
-            label = "no speed above yield; largest share of the Goodman line"
+            label = "largest share of the Goodman line"
             return rows.merge(tried, on=["blade", "scene"]), "value_highest", label, 2
     return rows, column, f"length above yield{' in operation' if 'operating' in column else ''} (rad/s)", 0
 

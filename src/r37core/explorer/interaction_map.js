@@ -101,7 +101,7 @@ const interactionMap = (data, page) => {
     const said = unit === "mm" ? "rms" : "above yield";
     document.getElementById("sizes").replaceChildren(
       ...(largest > 0 ? [largest, 0.15 * largest].map(round).map((size) => circle(size, `${inUnit(size, unit)} ${said}`)) : []),
-      ...(circles.some(({ size }) => size === 0) ? [circle(0, "not above yield")] : []),
+      ...(circles.some(({ size }) => size === 0) ? [circle(0, "not above yield from rest")] : []),
       ...(leftOut ? [`${leftOut} not shown: higher, or without an engine order`] : []),
     );
   }

@@ -123,14 +123,14 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
         faces, edges = ([to_rgba(colours[blade], alpha) for blade in part["blade"]] for alpha in (share, 1.0))
         axes.scatter(*_places(part), areas, facecolors=faces, edgecolors=edges, linewidths=0.9, zorder=2.5)
     if len(none):
-        axes.scatter([], [], _RING**2, facecolors="none", edgecolors="0.2", label="not above yield")
+        axes.scatter([], [], _RING**2, facecolors="none", edgecolors="0.2", label="not above yield from rest")
     if (diverged & inside).any():
         axes.plot(*_places(rows[diverged & inside]), "x", color="red", zorder=2.6, label="diverged")
     # without an engine order it has no frequency
     style.mark_diverged(axes, rows["peak_speed_rad_s"][diverged & ~inside].values)
     if left_out := int((~inside & ~diverged).sum()):
-        where: dict[str, Any] = {"xycoords": "axes fraction", "va": "top", "path_effects": _HALO}
-        axes.annotate(f"{left_out} not shown: higher, or without an engine order", (0.01, 0.98), **where)
+        where: dict[str, Any] = {"xycoords": "axes fraction", "va": "bottom", "path_effects": _HALO}
+        axes.annotate(f"{left_out} not shown: higher, or without an engine order", (0.01, 0.02), **where)
     if len(above):
         unit, scale, largest = above["unit"].iloc[0], above["scale"].iloc[0], above["size"].max()
         sizes = [_round(largest), _round(0.15 * largest)]
