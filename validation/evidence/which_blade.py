@@ -94,7 +94,7 @@ def _write_ranks(kinds: list[tuple[str, str, list[str]]], file: str) -> None:
             table = read_ranking(ranking).set_index(["scene", "blade"]).loc[on_patches]
             lengths = table[[f"length_most_revolutions{end}_rad_s" for end in ends]].max(axis=1)
             columns[f"{SCENES[scene]}: {words}"] = lengths
-    write_ranks(pd.DataFrame(columns), file)
+    write_ranks(pd.DataFrame(columns).loc[table.index], file)
 
 
 def write_ranks(lengths: pd.DataFrame, file: str) -> None:
