@@ -114,7 +114,7 @@ use rule evidence as interactions with:
 
 use rule evidence as interactions_ranges with:
     input:
-        unpack(behind_engine(motions=f"{RUNS[1]}/second_motions.nc")),
+        unpack(behind_engine(motions="results/runs/interactions_standard/second_motions.nc")),
     output:
         table=f"{TABLES}/interactions_ranges.csv",
     log:
