@@ -322,7 +322,7 @@ def test_interactions_are_circles_whose_area_is_their_length_above_yield(dataset
     crosses = [place for line in axes.lines if line.get_label() == "diverged" for place in line.get_xydata().tolist()]
     assert crosses == [[1000.0, pytest.approx(4 * 1000.0 / (2 * np.pi))], [1900.0, 0.97]]
     texts = [text.get_text() for text in axes.texts]
-    assert {"Ref 1B/4, 20 rad/s", "L50 1B/6, 5 rad/s", "1 not shown: higher, or without an engine order"} <= set(texts)
+    assert {"Ref 1B/4, 20 rad/s", "L50 1B/6, 5 rad/s", "1 not shown: higher,\nor without an engine order"} <= set(texts)
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["20 rad/s", "2 rad/s"]
     assert {*BLADES, "not above yield from rest", "diverged"} == {text.get_text() for text in figure.legends[0].get_texts()}
     assert [text.get_text() for text in figure.axes[1].texts if "found" in text.get_text()] == ["no interaction was found"]

@@ -130,7 +130,7 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
     style.mark_diverged(axes, rows["peak_speed_rad_s"][diverged & ~inside].values)
     if left_out := int((~inside & ~diverged).sum()):
         where: dict[str, Any] = {"xycoords": "axes fraction", "va": "bottom", "path_effects": _HALO}
-        axes.annotate(f"{left_out} not shown: higher, or without an engine order", (0.01, 0.02), **where)
+        axes.annotate(f"{left_out} not shown: higher,\nor without an engine order", (0.01, 0.02), **where)
     if len(above):
         unit, scale, largest = above["unit"].iloc[0], above["scale"].iloc[0], above["size"].max()
         sizes = [_round(largest), _round(0.15 * largest)]
