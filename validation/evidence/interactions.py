@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
+import xarray as xr
 
 from r37core.base.dataset_file import read_dataset
 from r37core.results.closing import interaction_title
 from r37core.results.columns import MOST_REVOLUTIONS
+from r37core.results.exceedance import SpeedRange
 from r37core.results.other_motions import swept, worst_exceedance
 from r37core.results.ranking import read_ranking
 from r37core.results.table_file import read_table
@@ -53,13 +56,22 @@ def worst(input: Any, output: Any, params: Any) -> None:
 
 
 def ranges(input: Any, output: Any, params: Any) -> None:
-    """Longest ranges above yield on lining by the worst motion of each blade. Inputs: motions. Output: table."""
-    motions, rows = read_dataset(input.motions).sel(scene="material_abradable"), []
-    for blade in motions["blade"].values:
-        found = worst_exceedance(swept(motions.sel(blade=blade))).ranges(MOST_REVOLUTIONS)
+    """Longest ranges above yield on lining by the worst motion. Inputs: draft, standard, motions. Output: table."""
+    draft, standard = (_ranges_of(read_dataset(file)) for file in (input.draft, input.standard))
+    rows = []
+    for blade, found in standard.items():
         longest = sorted(sorted(found, key=lambda one: -one.length)[:_LONGEST], key=lambda one: one.begin)
-        rows.append([blade, ", ".join(f"{one.begin:.0f} to {one.end:.0f} ({one.length:.0f})" for one in longest)])
-    write_table(["blade", "abradable lining: longest ranges (rad/s)"], rows, output.table)
+        both = [any(one.begin < other.end and other.begin < one.end for other in draft[blade]) for one in longest]
+        texts = [f"{one.begin:.0f} to {one.end:.0f} ({one.length:.0f})" for one in longest]
+        rows.append([blade, *(", ".join(np.array(texts)[np.array(both) == own]) for own in (True, False))])
+    write_table(["blade", "at both levels (rad/s)", "at standard alone (rad/s)"], rows, output.table)
+
+
+def _ranges_of(motions: xr.Dataset) -> dict[str, list[SpeedRange]]:
+    """Ranges above yield by the worst motion of each blade on lining."""
+    lined = motions.sel(scene="material_abradable")
+    blades = [str(blade) for blade in lined["blade"].values]
+    return {blade: worst_exceedance(swept(lined.sel(blade=blade))).ranges(MOST_REVOLUTIONS) for blade in blades}
 
 
 class _Run:

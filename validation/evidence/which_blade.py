@@ -75,6 +75,7 @@ def rankings(input: Any, output: Any, params: Any) -> None:
 
 CHECKS = {
     "standard": ("standard", [""]),
+    "standard, every 5 rad/s": ("fine", [""]),
     "standard, worst motion": ("standard", ["", "_worst"]),
     "with rotation": ("rotation", [""]),
 }
@@ -91,9 +92,11 @@ def _write_ranks(kinds: list[tuple[str, str, list[str]]], file: str) -> None:
     columns = {}
     for scene, on_patches in ON_PATCHES.items():
         for words, ranking, ends in kinds:
-            table = read_ranking(ranking).set_index(["scene", "blade"]).loc[on_patches]
-            lengths = table[[f"length_most_revolutions{end}_rad_s" for end in ends]].max(axis=1)
-            columns[f"{SCENES[scene]}: {words}"] = lengths
+            table = read_ranking(ranking).set_index("blade")
+            table = table[table["scene"] == on_patches]
+            if len(table):
+                lengths = table[[f"length_most_revolutions{end}_rad_s" for end in ends]].max(axis=1)
+                columns[f"{SCENES[scene]}: {words}"] = lengths
     write_ranks(pd.DataFrame(columns).loc[table.index], file)
 
 

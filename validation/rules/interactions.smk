@@ -58,7 +58,7 @@ module interactions_longer:
 use rule * from interactions_longer as interactions_longer_*
 
 
-# the same at the next level, and at half the distance of the speeds
+# the same at the next level, with speeds down to half as far apart
 module interactions_standard:
     snakefile:
         "../../Snakefile"
@@ -73,6 +73,23 @@ module interactions_standard:
 
 
 use rule * from interactions_standard as interactions_standard_*
+
+
+# adaptive speeds stay as far apart on the bare casing, so these are half as far by themselves
+module interactions_fine:
+    snakefile:
+        "../../Snakefile"
+    config:
+        dangers(
+            "fine",
+            "quadratic",
+            fidelity="standard",
+            scenes=["direct"],
+            speeds=[{"start": 750, "stop": 2000, "step": 5}],
+        )
+
+
+use rule * from interactions_fine as interactions_fine_*
 
 
 # and with the stress of rotation
@@ -114,7 +131,12 @@ use rule evidence as interactions with:
 
 use rule evidence as interactions_ranges with:
     input:
-        unpack(behind_engine(motions="results/runs/interactions_standard/second_motions.nc")),
+        unpack(
+            behind_engine(
+                draft=f"{RUNS[1]}/second_motions.nc",
+                standard="results/runs/interactions_standard/second_motions.nc",
+            )
+        ),
     output:
         table=f"{TABLES}/interactions_ranges.csv",
     log:

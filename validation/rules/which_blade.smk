@@ -30,7 +30,7 @@ use rule evidence as which_blade_checks with:
     input:
         unpack(
             behind_engine(
-                **{name: f"results/runs/interactions_{name}/ranking.csv" for name in ("standard", "rotation")}
+                **{name: f"results/runs/interactions_{name}/ranking.csv" for name in ("standard", "fine", "rotation")}
             )
         ),
     output:
