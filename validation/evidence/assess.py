@@ -27,13 +27,13 @@ def commands(page: str) -> dict[str, list[str]]:
 
 
 def verdicts(input: Any, output: Any, params: Any) -> None:
-    """The lines that each run ends with. Inputs: page, fan, its files. Outputs: table, map, stress."""
+    """The lines that each run ends with. Inputs: fan, its files. Params: page. Outputs: table, map, stress."""
     with tempfile.TemporaryDirectory() as name:
         folder, rows = Path(name), []
         for part in COPIED:
             (shutil.copytree if Path(part).is_dir() else shutil.copy)(part, folder / part)
         (folder / "src").symlink_to(Path("src").resolve())
-        for run, words in commands(Path(input.page).read_text(encoding="utf-8")).items():
+        for run, words in commands(Path(params.page).read_text(encoding="utf-8")).items():
             subprocess.run([sys.executable, "-m", *words], cwd=folder, check=True)
             lines = closing(folder / "results/runs" / run).splitlines()[1:]
             rows += [[run, line.split()[2], line.strip()] for line in lines]

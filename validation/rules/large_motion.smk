@@ -1,6 +1,6 @@
-# What large displacements change (docs/large_motion.md), beside the linear run of which_blade.smk.
+# What large displacements change (docs/large_motion.md).
 def displaced(kinematics):
-    """Configuration of a run at the speeds, scenes and level of the run `regions`."""
+    """Configuration of a run of each kinematics."""
     return run(
         kinematics,
         scenes=["material_abradable", "direct"],
@@ -8,6 +8,16 @@ def displaced(kinematics):
         structure={"boundary": {"contact": "patches"}, "kinematics": kinematics},
         speeds=[{"start": 760, "stop": 2000, "step": 20}],
     )
+
+
+module linear:
+    snakefile:
+        "../../Snakefile"
+    config:
+        displaced("linear")
+
+
+use rule * from linear as linear_*
 
 
 module rotating:
@@ -30,17 +40,14 @@ module quadratic:
 use rule * from quadratic as quadratic_*
 
 
-KINEMATICS = {"linear": "regions", "rotating": "rotating", "quadratic": "quadratic"}
+KINEMATICS = ("linear", "rotating", "quadratic")
 
 
 use rule evidence as large_motion with:
     input:
         unpack(
             behind_engine(
-                **{
-                    kind: responses(f"results/runs/{folder}", "material_abradable", "direct")
-                    for kind, folder in KINEMATICS.items()
-                },
+                **{kind: responses(f"results/runs/{kind}", "material_abradable", "direct") for kind in KINEMATICS},
             )
         ),
     output:
