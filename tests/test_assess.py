@@ -9,6 +9,7 @@ import pytest
 from workflow_runs import copy_project, snakemake
 from yaml import safe_load
 
+from r37core.base.dataset_file import read_dataset
 from r37core.base.yaml_file import load_yaml
 
 SHORTER = {"1080": "1220", "1440": "1240"}
@@ -54,6 +55,11 @@ def test_every_command_of_the_page_ends_with_a_verdict(project, page):
         assert set(verdict["verdict"]) <= {"meets", "fails", "cannot tell", "does not apply"}
         assert {"above_yield", "goodman_share", "used_lining"} == set(verdict["requirement"])
     assert len(runs) == 6 and len(set(runs)) == 6
+    results = project / "results/runs"
+    # each attack judges what the page says: stress of all members, the whole blade
+    members = pd.read_csv(results / "spread/verdict.csv").set_index("requirement")["members"]
+    assert (members[["above_yield", "goodman_share"]] == 8).all()
+    assert "0 to 97% span" in str(read_dataset(results / "regions/stress.nc")["stress_region"].isel(region=0).values)
     designs = load_yaml(project / "examples/fan/scenes.yaml")["Room"]["vary"]
     first = pd.read_csv(project / "results/runs/fan/verdict.csv")
     assert first["scene"].nunique() == len(designs["casing.clearance_m"]) * len(designs["lining.thickness_m"])

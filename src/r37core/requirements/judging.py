@@ -1,7 +1,6 @@
 """Requirements judged: the value of each, its margin, where it is worst, and how certain that is."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -45,7 +44,6 @@ ON_POINTS = "contact acts on points, whose motion changes with the mesh: structu
 NO_CONTACT = "the tip touches nothing, which needs no further runs"
 """Note on a requirement that is met without contact."""
 
-_THICKNESS = "lining.thickness_m"
 _CHANCE = 2.0
 """Standard deviations by which chance may move a length."""
 
@@ -260,17 +258,9 @@ def _members(columns_of: Callable[[Evidence], Columns], limit: float, evidence: 
         member = evidence.members.sel(member=name)
         member = member.isel(speed=np.flatnonzero(member["status"].values != RunStatus.NOT_RUN))
         if member.sizes["speed"]:
-            judged = replace(evidence, response=member, thickness=_thickness(member, evidence.thickness))
-            margins.append(_margin(columns_of(judged), limit))
+            margins.append(_margin(columns_of(evidence.replaced(member)), limit))
     known = np.array([margin for margin in margins if not np.isnan(margin)])
     return {"members": float(known.size), "share_of_members": float(np.mean(known >= 0.0))} if known.size else {}
-
-
-def _thickness(member: xr.Dataset, nominal: float) -> float:
-    """Thickness (m) of a member's lining, the `nominal` one where it does not spread."""
-    if _THICKNESS not in member.get("number", ()):
-        return nominal
-    return float(member["value"].sel(number=_THICKNESS).fillna(nominal))
 
 
 def _worst_at(value: float, speed: float, note: str = "") -> Columns:

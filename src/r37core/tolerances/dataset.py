@@ -25,7 +25,7 @@ QUANTILES = tuple(ENDS.values())
 """Ends and middle of the range that nine tenths of the members lie in."""
 
 _CURVES = ("rms_normal", "rms_tangential", "max_von_mises")
-_JUDGED = ("share_of_revolutions_above_yield", "goodman_share", "used_thickness", "worn_through_share")
+_JUDGED = ("share_of_revolutions_above_yield", "goodman_share")
 _OF_ALL = ("yield_stress", "static_stress", "fatigue_strength", "lined")
 
 MEASURES = {
