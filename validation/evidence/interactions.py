@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pandas as pd
 import xarray as xr
 
@@ -56,15 +55,20 @@ def worst(input: Any, output: Any, params: Any) -> None:
 
 
 def ranges(input: Any, output: Any, params: Any) -> None:
-    """Longest ranges above yield on lining by the worst motion. Inputs: draft, standard, motions. Output: table."""
+    """Longest ranges above yield on lining by the worst motion. Inputs: motions of `draft` and of `standard`. Output: table."""
     draft, standard = (_ranges_of(read_dataset(file)) for file in (input.draft, input.standard))
     rows = []
     for blade, found in standard.items():
         longest = sorted(sorted(found, key=lambda one: -one.length)[:_LONGEST], key=lambda one: one.begin)
-        both = [any(one.begin < other.end and other.begin < one.end for other in draft[blade]) for one in longest]
-        texts = [f"{one.begin:.0f} to {one.end:.0f} ({one.length:.0f})" for one in longest]
-        rows.append([blade, *(", ".join(np.array(texts)[np.array(both) == own]) for own in (True, False))])
+        both = [one for one in longest if any(one.begin < other.end and other.begin < one.end for other in draft[blade])]
+        alone = [one for one in longest if one not in both]
+        rows.append([blade, _words(both), _words(alone)])
     write_table(["blade", "at both levels (rad/s)", "at standard alone (rad/s)"], rows, output.table)
+
+
+def _words(ranges: list[SpeedRange]) -> str:
+    """Ranges of speeds (rad/s) with their lengths."""
+    return ", ".join(f"{one.begin:.0f} to {one.end:.0f} ({one.length:.0f})" for one in ranges)
 
 
 def _ranges_of(motions: xr.Dataset) -> dict[str, list[SpeedRange]]:

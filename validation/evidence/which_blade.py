@@ -70,7 +70,7 @@ REGIONS = {"": "airfoil", "_airfoil_unfiltered": "airfoil, all modes", "_box": "
 
 def rankings(input: Any, output: Any, params: Any) -> None:
     """Lengths above yield and ranks in both scenes, in each region of the stress. Input: ranking."""
-    _write_ranks([(words, input.ranking, [end]) for end, words in REGIONS.items()], output.table)
+    _write_lengths([(words, input.ranking, [end]) for end, words in REGIONS.items()], output.table)
 
 
 CHECKS = {
@@ -84,10 +84,10 @@ CHECKS = {
 
 def checks(input: Any, output: Any, params: Any) -> None:
     """Lengths and ranks at the next level, and with the stress of rotation. Inputs: rankings by run."""
-    _write_ranks([(words, input[run], ends) for words, (run, ends) in CHECKS.items()], output.table)
+    _write_lengths([(words, input[run], ends) for words, (run, ends) in CHECKS.items()], output.table)
 
 
-def _write_ranks(kinds: list[tuple[str, str, list[str]]], file: str) -> None:
+def _write_lengths(kinds: list[tuple[str, str, list[str]]], file: str) -> None:
     """A column for each scene and kind. `kinds`: words, ranking, ends of the columns of lengths."""
     columns = {}
     for scene, on_patches in ON_PATCHES.items():

@@ -1,15 +1,16 @@
 # Which interactions are dangerous (docs/interactions.md): by linear and by second-order motion, on the same speeds.
-def dangers(name, kinematics, **keys):
+DRAFT_SPEEDS = [{"start": 750, "stop": 2000, "step": 10, "refine_to": 2.5}]
+
+
+def dangers(name, kinematics, fidelity="draft", speeds=DRAFT_SPEEDS, **keys):
     """Configuration of a run of all blades on patches."""
     return run(
         f"interactions_{name}",
         "patches",
         structure={"boundary": {"contact": "patches"}, "kinematics": kinematics},
-        **{
-            "fidelity": "draft",
-            "speeds": [{"start": 750, "stop": 2000, "step": 10, "refine_to": 2.5}],
-            **keys,
-        },
+        fidelity=fidelity,
+        speeds=speeds,
+        **keys,
     )
 
 
