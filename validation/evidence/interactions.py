@@ -56,7 +56,7 @@ def worst(input: Any, output: Any, params: Any) -> None:
 
 def ranges(input: Any, output: Any, params: Any) -> None:
     """Longest ranges above yield on lining by the worst motion. Inputs: motions of `draft` and of `standard`. Output: table."""
-    draft, standard = (_ranges_of(read_dataset(file)) for file in (input.draft, input.standard))
+    draft, standard = (_ranges_of(read_dataset(file), "material_abradable") for file in (input.draft, input.standard))
     rows = []
     for blade, found in standard.items():
         longest = sorted(sorted(found, key=lambda one: -one.length)[:_LONGEST], key=lambda one: one.begin)
@@ -66,16 +66,23 @@ def ranges(input: Any, output: Any, params: Any) -> None:
     write_table(["blade", "at both levels (rad/s)", "at standard alone (rad/s)"], rows, output.table)
 
 
+def lasting(input: Any, output: Any, params: Any) -> None:
+    """Ranges above yield on lining by the worst motion with twice the revolutions. Input: motions. Output: table."""
+    found = _ranges_of(read_dataset(input.motions), "twice_abradable")
+    rows = [[blade, _words(ranges), f"{sum(one.length for one in ranges):.0f}"] for blade, ranges in found.items()]
+    write_table(["blade", "ranges (rad/s)", "in all (rad/s)"], rows, output.table)
+
+
 def _words(ranges: list[SpeedRange]) -> str:
     """Ranges of speeds (rad/s) with their lengths."""
     return ", ".join(f"{one.begin:.0f} to {one.end:.0f} ({one.length:.0f})" for one in ranges)
 
 
-def _ranges_of(motions: xr.Dataset) -> dict[str, list[SpeedRange]]:
-    """Ranges above yield by the worst motion of each blade on lining."""
-    lined = motions.sel(scene="material_abradable")
-    blades = [str(blade) for blade in lined["blade"].values]
-    return {blade: worst_exceedance(swept(lined.sel(blade=blade))).ranges(MOST_REVOLUTIONS) for blade in blades}
+def _ranges_of(motions: xr.Dataset, scene: str) -> dict[str, list[SpeedRange]]:
+    """Ranges above yield by the worst motion of each blade in a scene."""
+    own = motions.sel(scene=scene)
+    blades = [str(blade) for blade in own["blade"].values]
+    return {blade: worst_exceedance(swept(own.sel(blade=blade))).ranges(MOST_REVOLUTIONS) for blade in blades}
 
 
 class _Run:

@@ -109,6 +109,24 @@ module interactions_rotation:
 use rule * from interactions_rotation as interactions_rotation_*
 
 
+# and carried motions with twice the revolutions
+module interactions_lasting:
+    snakefile:
+        "../../Snakefile"
+    config:
+        dangers(
+            "lasting",
+            "quadratic",
+            scenes_file="validation/longer.yaml",
+            scenes=["twice_abradable"],
+            speeds=[{"start": 750, "stop": 2000, "step": 10}],
+            second_motions=CARRIED | {"revolutions": 200},
+        )
+
+
+use rule * from interactions_lasting as interactions_lasting_*
+
+
 RUNS = [f"results/runs/interactions_{name}" for name in ("linear", "quadratic", "longer")]
 
 
@@ -144,6 +162,17 @@ use rule evidence as interactions_ranges with:
         "logs/validation/interactions_ranges.log",
     params:
         **evidence("interactions.ranges"),
+
+
+use rule evidence as interactions_lasting with:
+    input:
+        unpack(behind_engine(motions="results/runs/interactions_lasting/second_motions.nc")),
+    output:
+        table=f"{TABLES}/interactions_lasting.csv",
+    log:
+        "logs/validation/interactions_lasting.log",
+    params:
+        **evidence("interactions.lasting"),
 
 
 # the first picture of README
