@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
-from pkgutil import resolve_name
 from typing import Any, TypeVar
 
 import numpy as np
 
-from r37core.base.io import Named
 from r37core.base.process_wide import ProcessWide
 from r37core.config import ConfigError
 
@@ -66,8 +64,3 @@ _alone = ProcessWide(_limit)
 
 _POOL = threading.Lock()
 """Held by the thread that the worker processes work for: joblib has one set of them."""
-
-
-def run_step(step: str, input: Mapping[str, Any], output: Mapping[str, Any], params: Mapping[str, Any]) -> Any:
-    """Do a step, named as `fem.steps.mesh`, whose module is imported now. Gives and raises what it does."""
-    return resolve_name(f"r37core.{step}")(Named(**input), Named(**output), Named(**params))

@@ -12,12 +12,12 @@ from .rounds import first_round, measure_members, read_round, round_after, write
 
 
 def refine(input: Any, output: Any, params: Any) -> None:
-    """Ask for the next speeds. Inputs: campbell first, then before and speeds. Output: round. Params: plan, choice, yields."""
+    """Ask for the next speeds. Inputs: campbell first, then before and speeds. Output: round. Params: plan, choice, yield_stress."""
     plan, choice = from_plain(SpeedPlan, params.plan), from_plain(RefinementChoice, params.choice)
     if hasattr(input, "campbell"):
         new_round = first_round(plan, read_dataset(input.campbell), choice)
     else:
         before = read_round(input.before)
-        measured = measure_members(params.yields, before.new, as_list(input.speeds))
+        measured = measure_members([params.yield_stress], before.new, as_list(input.speeds))
         new_round = round_after(before, measured, plan, choice)
     write_round(new_round, output.round)

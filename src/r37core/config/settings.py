@@ -83,6 +83,13 @@ class Settings:
         """Gives what a function makes of these settings, made once: for an extension's own part of them that takes long."""
         return cache(lambda make: make(self))
 
+    def varied(self, blades: Mapping[str, BladeSettings], scenes: Mapping[str, SceneSettings]) -> Settings:
+        """These settings with other blades and scenes in the place of those to run that have the same names."""
+        changed = replace(self)
+        # what is computed once stands in the object's dictionary
+        vars(changed).update(blades={**self.blades, **blades}, scenes={**self.scenes, **scenes}, speed_plans=self.speed_plans)
+        return changed
+
     @cached_property
     def blade_names(self) -> list[str]:
         """Blades that config.yaml chooses, of a family all of its designs, as far as they are in this run's part.
@@ -216,17 +223,12 @@ class Settings:
         assumed = not chosen.has_profiles and chosen.strengths.are_known and "stress" in wanted and "fatigue" not in wanted
         return (*wanted, "fatigue") if assumed else wanted
 
-    def integration_choice(
-        self, blade: str, scene: str, speed: float, history_speeds: Sequence[float] | None = None
-    ) -> IntegrationChoice:
-        """Numbers of the time integration at one speed of a blade and scene, with only what its results need.
-
-        `history_speeds` (rad/s): where the stress is kept for every revolution, in place of those of the scene.
-        """
+    def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
+        """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
         chosen = self.scenes[scene]
         everything = self.fidelity.time_integration.choice(chosen.scene.lining is not None)
         stress = "stress" in self.results_of(blade, scene)
-        history = speed in (chosen.stress_history_speeds if history_speeds is None else history_speeds)
+        history = speed in chosen.stress_history_speeds
         choice = replace(everything, revolutions=chosen.revolutions, until_settled=chosen.until_settled)
         return replace(
             choice,

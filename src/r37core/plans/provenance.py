@@ -5,15 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import UserDict
-from collections.abc import Mapping
 from functools import cache
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from r37core.base.plain import to_plain
 from r37core.rom.reduction_choice import LINEAR
-
-from .samples import Pair, Sample, Samples, folder_and_name, member_of
 
 if TYPE_CHECKING:
     from r37core.config import Settings
@@ -33,54 +29,45 @@ class Attributes(UserDict[str, Any]):
 class Provenance:
     """Attributes of the files of a run, made once for each blade and scene and not for each of thousands of jobs.
 
-    Its methods are parameters of rules: they take Snakemake's wildcards. `beside`: samples beside the sweep (see Samples), of
-    which a file says in addition which member it is of.
+    Its methods are parameters of rules: they take Snakemake's wildcards.
     """
 
-    def __init__(self, settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]] | None = None):
-        self._settings, self._samples = settings, Samples(settings, beside or {})
+    def __init__(self, settings: Settings):
+        self._settings = settings
         self._structure = cache(self._structure_of)
         self._sweep = cache(self._sweep_of)
 
     def shape(self, wildcards: Any) -> Attributes:
         """Attributes of a blade's geometry."""
-        blade, member = wildcards.blade, _member(member_of(wildcards))
-        return Attributes(blade=blade, input_hash=shape_hash(self._settings, blade), **member)
+        return Attributes(blade=wildcards.blade, input_hash=shape_hash(self._settings, wildcards.blade))
 
     def structure(self, wildcards: Any) -> Attributes:
         """Attributes of a blade's mesh, reduced model and Campbell diagram."""
-        return self._structure(member_of(wildcards), wildcards.blade)
+        return self._structure(wildcards.blade)
 
     def sweep(self, wildcards: Any) -> Attributes:
         """Attributes of the simulations of one blade and scene."""
-        return self._sweep(member_of(wildcards), wildcards.blade, wildcards.scene)
+        return self._sweep(wildcards.blade, wildcards.scene)
 
-    def _structure_of(self, member: str, blade: str) -> Attributes:
+    def _structure_of(self, blade: str) -> Attributes:
         level, contact = self._settings.fidelity_name, self._settings.contact_of(blade)
         made_of, kinematics = structure_hash(self._settings, blade), self._settings.kinematics_of(blade)
         moved = {} if kinematics == LINEAR else {"kinematics": kinematics}
-        return Attributes(blade=blade, fidelity=level, contact=contact, **moved, input_hash=made_of, **_member(member))
+        return Attributes(blade=blade, fidelity=level, contact=contact, **moved, input_hash=made_of)
 
-    def _sweep_of(self, member: str, blade: str, scene: str) -> Attributes:
+    def _sweep_of(self, blade: str, scene: str) -> Attributes:
         chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration
         step = steps.largest_step(chosen.scene.lining is not None)
-        run_member = self._samples.member(SimpleNamespace(member=member, blade=blade, scene=scene))
         return Attributes(
-            self._structure(member, blade),
+            self._structure(blade),
             scene=scene,
-            scene_parameters=json.dumps(to_plain(run_member.scene)),
+            scene_parameters=json.dumps(to_plain(chosen.scene)),
             revolutions=chosen.revolutions,
             **({"until": "settled"} if chosen.until_settled else {}),
             largest_time_step=step,
             # steps of all kinds of scenes, because datasets of one level may be joined
             numerics=f"{self._settings.fidelity.mesh.nodes} nodes, {steps.integrator} of {steps.wording}",
         )
-
-
-def _member(member: str) -> dict[str, str]:
-    """Name of a member, or of the folder that a member without a name has of its own; nothing of a nominal one."""
-    folder, name = folder_and_name(SimpleNamespace(member=member))
-    return {"member": name or folder} if folder else {}
 
 
 def shape_hash(settings: Settings, blade: str) -> str:

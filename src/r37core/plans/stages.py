@@ -39,7 +39,7 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
     source = {"source": imported.source, "folder": imported.folder, "locations": imported.locations}
     reduction = {"reduction": structure.reduction, "contact": structure.location_of_contact, "provenance": made.structure}
     shape = {"definition": structure.definition, "edges": settings.structure.edges, "provenance": made.shape}
-    model = {"material": structure.elastic, "kept": structure.kept, **reduction}
+    model = {"material": structure.elastic, "kept": True, **reduction}
     diagram = {
         "campbell": si_fields(settings.config.campbell),
         "maximum_speed": settings.structure.maximum_speed_rad_s,
@@ -75,7 +75,7 @@ def sweep_stages(sweep: Sweep, made: Provenance) -> dict[str, Stage]:
         return {"speed": wildcards.speed, "task": simulations.task(wildcards)}
 
     prepared = {"scene": simulations.plain_scene, "speed": highest, "choice": simulations.choice_of_scene}
-    refined = {"plan": rounds.refined_plan, "choice": rounds.refinement_choice, "yields": rounds.yields_of_round}
+    refined = {"plan": rounds.refined_plan, "choice": rounds.refinement_choice, "yield_stress": sweep.yield_stress}
     speeds = {"speeds": sweep.speeds, "stress_history_speeds": sweep.stress_history_speeds}
     limits = {"yield_stress": sweep.yield_stress, "strengths": sweep.strengths}
     joined = {**speeds, **limits, "provenance": made.sweep}

@@ -2,9 +2,7 @@
 
 import os
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,46 +12,27 @@ from r37core.config import Settings
 from r37core.config.settings import location_of_contact
 from r37core.exchange.importing.source import MatricesSource, MeshSource, matrix_files, mesh_files
 
-from .paths import MESH, WHOLE_BLADE_MODEL, fill
+from .paths import WHOLE_BLADE_MODEL, fill
 from .provenance import Attributes
-from .samples import NOMINAL, Pair, Sample, Samples, folder_and_name, member_of
 
 
 @dataclass(frozen=True)
 class Structure:
-    """Numbers of the rules from shape to Campbell diagram, also of samples `beside` the sweep; `wildcards` as of Sweep."""
+    """Numbers of the rules from shape to Campbell diagram; `wildcards` as of Sweep."""
 
     settings: Settings
-    beside: Mapping[str, Mapping[Pair, Sample]] = field(default_factory=dict)
-
-    @cached_property
-    def _samples(self) -> Samples:
-        return Samples(self.settings, self.beside)
 
     def definition(self, wildcards: Any) -> Any:
         """Shape of a blade."""
-        definition, (folder, name) = self._samples.blade(wildcards).definition, folder_and_name(wildcards)
-        if folder and isinstance(definition, Shape):
-            # the name is for messages
-            definition = replace(definition, name=f"{wildcards.blade}, {f'member {name} of ' if name else ''}{folder}")
-        return to_plain(definition)
-
-    def mesh(self, wildcards: Any) -> str:
-        """The mesh of a blade: the nominal one where the shape is."""
-        nominal = self.settings.blades[wildcards.blade].definition == self._samples.blade(wildcards).definition
-        return fill(MESH, member=NOMINAL if nominal else wildcards.member, blade=wildcards.blade)
+        return to_plain(self.settings.blades[wildcards.blade].definition)
 
     def material(self, wildcards: Any) -> dict[str, float] | None:
         """Material of a blade; None for one of matrices."""
-        return to_plain(self._samples.blade(wildcards).material)
+        return to_plain(self.settings.blades[wildcards.blade].material)
 
     def elastic(self, wildcards: Any) -> dict[str, float]:
         """Material of a blade with a mesh, without its strengths."""
-        return to_plain(self._samples.blade(wildcards).elastic.material)
-
-    def kept(self, wildcards: Any) -> bool:
-        """True if the user's cache keeps a blade's reduced model: those of members are used once."""
-        return member_of(wildcards) == NOMINAL
+        return to_plain(self.settings.blades[wildcards.blade].elastic.material)
 
     def location_of_contact(self, wildcards: Any) -> Attributes:
         """Where stands what a blade's contact acts on; another line re-runs nothing."""

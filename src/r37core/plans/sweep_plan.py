@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache, cached_property, partial
 from itertools import chain, count, takewhile
 from pathlib import Path
@@ -19,8 +19,6 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import OF_RUNS
 
 from . import paths
-from .samples import Pair, Sample, Samples, folder_and_name, member_of, path_part
-
 KINDS = ("rms", "spectrum", "stress", "fatigue", "wear", "casing")
 """Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
 
@@ -33,21 +31,15 @@ MOST_BLADES_DRAWN = 24
 
 @dataclass(frozen=True)
 class Sweep:
-    """Plan of the sweep that `settings` ask for, and of samples `beside` it (see Samples).
+    """Plan of the sweep that `settings` ask for.
 
-    Methods with `wildcards` are inputs and parameters of rules. `round_file(member=..., blade=..., scene=..., round=...)`: file
-    of a finished round of refinement; Snakemake's own exception for one that is still to be made. Without it adaptive speeds
-    have no plan.
+    Methods with `wildcards` are inputs and parameters of rules. `round_file(blade=..., scene=..., round=...)`: file of a
+    finished round of refinement; Snakemake's own exception for one that is still to be made. Without it adaptive speeds have
+    no plan.
     """
 
     settings: Settings
     round_file: Callable[..., str] | None = None
-    beside: Mapping[str, Mapping[Pair, Sample]] = field(default_factory=dict)
-
-    @cached_property
-    def samples(self) -> Samples:
-        """All members that are run."""
-        return Samples(self.settings, self.beside)
 
     def contact_model(self, wildcards: Any) -> str:
         """Contact model that the simulations of a blade and scene start from."""
@@ -73,33 +65,27 @@ class Sweep:
 
     def _model_file(self, wildcards: Any, pattern: str) -> str:
         tip_line = self.settings.scenes[wildcards.scene].tip_line
-        return paths.fill(pattern, member=self.samples.member(wildcards).model, blade=wildcards.blade, tip_line=tip_line)
-
-    def nominal_stamp(self, wildcards: Any) -> list[str]:
-        """Stamp of the nominal runs; a member waits for it, so that their error is reported once."""
-        where = {"blade": wildcards.blade, "scene": wildcards.scene}
-        return [paths.fill(paths.INTEGRATION_STAMP, **where)] if wildcards.member else []
+        return paths.fill(pattern, blade=wildcards.blade, tip_line=tip_line)
 
     def speed_files(self, wildcards: Any) -> list[str]:
         """The simulations of one blade and scene, by ascending speed: of all rounds, where its speeds are adaptive."""
         plan, rounds = self.speed_plan(wildcards), map(partial(self.new_speeds, wildcards), count())
         speeds = sorted(chain.from_iterable(takewhile(bool, rounds)) if plan.refined else plan.certain)
-        return paths.speed_files(member_of(wildcards), wildcards, speeds)
+        return paths.speed_files(wildcards, speeds)
 
     def new_speeds(self, wildcards: Any, number: int) -> list[float]:
-        """Speeds (rad/s) that a round asked for: the same of all members of a sample."""
+        """Speeds (rad/s) that a round asked for."""
         assert self.round_file is not None
-        member = path_part(folder_and_name(wildcards)[0])
-        file = self.round_file(member=member, blade=wildcards.blade, scene=wildcards.scene, round=number)
+        file = self.round_file(blade=wildcards.blade, scene=wildcards.scene, round=number)
         return speeds_of_round(file, self.speed_plan(wildcards))
 
     def yield_stress(self, wildcards: Any) -> float:
         """Yield stress of a blade (Pa)."""
-        return self.samples.member(wildcards).blade.yield_stress
+        return self.settings.blades[wildcards.blade].yield_stress
 
     def strengths(self, wildcards: Any) -> dict[str, float]:
         """Strengths of a blade's Goodman line (Pa), as plain values."""
-        return to_plain(self.samples.member(wildcards).blade.strengths)
+        return to_plain(self.settings.blades[wildcards.blade].strengths)
 
     def speed_plan(self, wildcards: Any) -> SpeedPlan:
         """Speeds of one blade and scene."""
@@ -112,11 +98,11 @@ class Sweep:
 
     def results(self, wildcards: Any) -> tuple[str, ...]:
         """Results requested for a blade and scene."""
-        return self.samples.sample(wildcards).results
+        return self.settings.results_of(wildcards.blade, wildcards.scene)
 
     def stress_history_speeds(self, wildcards: Any) -> tuple[float, ...]:
         """Speeds (rad/s) of a blade and scene whose stress is kept for every revolution."""
-        return self.samples.sample(wildcards).history_speeds
+        return self.settings.scenes[wildcards.scene].stress_history_speeds if "stress" in self.results(wildcards) else ()
 
     @property
     def kept(self) -> dict[str, int]:
@@ -166,7 +152,7 @@ def _evenly(names: list[str], most: int) -> list[str]:
 def speeds_of_round(file: str, plan: SpeedPlan | None = None) -> list[float]:
     """Speeds (rad/s) that a round asked for, of those that its `plan` may ask for.
 
-    Each member of a sample asks: the file is read once as long as it is the same. Raises InputFileError for a damaged one.
+    The file is read once as long as it is the same. Raises InputFileError for a damaged one.
     """
     return _speeds_of_round(file, Path(file).stat().st_mtime_ns, plan)
 
@@ -196,13 +182,12 @@ class Simulations:
     def task(self, wildcards: Any) -> str:
         """Parameters of one simulation, as JSON text."""
         results = tuple(result for result in self.sweep.results(wildcards) if result in OF_RUNS)
-        scene, choice = self.sweep.samples.member(wildcards).scene, self._choice(wildcards, float(wildcards.speed))
-        return _task(scene, choice, results, tuple(self.sweep.kept.items()))
+        choice = self._choice(wildcards, float(wildcards.speed))
+        return _task(self.sweep.settings.scenes[wildcards.scene].scene, choice, results, tuple(self.sweep.kept.items()))
 
     def _choice(self, wildcards: Any, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at a speed (rad/s)."""
-        history_speeds = self.sweep.samples.sample(wildcards).history_speeds
-        return self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, speed, history_speeds)
+        return self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, speed)
 
     def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
         """Numbers of the time integration at the highest speed of the basis."""
@@ -210,7 +195,7 @@ class Simulations:
 
     def plain_scene(self, wildcards: Any) -> dict[str, Any]:
         """The scene: what the blade meets."""
-        return to_plain(self.sweep.samples.member(wildcards).scene)
+        return to_plain(self.sweep.settings.scenes[wildcards.scene].scene)
 
     def priority(self, wildcards: Any) -> float:
         """Priority of a blade's simulations, above 0 and up to 1: results are to be complete one blade after another."""
@@ -240,20 +225,12 @@ class Rounds:
         return [paths.fill(paths.ROUND, blade=blade, scene=scene, round=0) for blade, scene in adaptive]
 
     def round_inputs(self, wildcards: Any) -> dict[str, Any]:
-        """Input files of a round: the Campbell diagram, or the runs that the round before it asked for, member by member."""
-        number, (folder, _) = int(wildcards.round), folder_and_name(wildcards)
+        """Input files of a round: the Campbell diagram, or the runs that the round before it asked for."""
+        number, where = int(wildcards.round), {"blade": wildcards.blade, "scene": wildcards.scene}
         if number == 0:
-            diagram = self.sweep.samples.sample(wildcards).campbell
-            return {"campbell": paths.fill(paths.CAMPBELL, member=diagram, blade=wildcards.blade)}
-        where = {"member": path_part(folder), "blade": wildcards.blade, "scene": wildcards.scene}
-        new, names = self.sweep.new_speeds(wildcards, number - 1), self.sweep.samples.sample(wildcards).deciding
-        files = [file for name in names for file in paths.speed_files(path_part(folder, name), wildcards, new)]
+            return {"campbell": paths.fill(paths.CAMPBELL, **where)}
+        files = paths.speed_files(wildcards, self.sweep.new_speeds(wildcards, number - 1))
         return {"before": paths.fill(paths.ROUND, **where, round=number - 1), "speeds": files}
-
-    def yields_of_round(self, wildcards: Any) -> list[float]:
-        """Yield stress (Pa) of the blade of each member whose runs a round looks at."""
-        sample = self.sweep.samples.sample(wildcards)
-        return [sample.members[name].blade.yield_stress for name in sample.deciding]
 
     def refined_plan(self, wildcards: Any) -> dict[str, Any]:
         """Speeds of one blade and scene, as plain values."""
@@ -263,9 +240,8 @@ class Rounds:
         """Criterion for halving intervals of speeds of a scene, as fields of RefinementChoice."""
         settings = self.sweep.settings
         refinement = settings.config.refinement.scene_refinement(settings.scenes[wildcards.scene].scene)
-        windows = tuple(si_form(Window, window) for window in refinement.windows)
-        share, prominence = self.sweep.samples.sample(wildcards).largest_share, settings.config.interactions.prominence
-        return to_plain(si_form(RefinementChoice, refinement, windows=windows, largest_share=share, prominence=prominence))
+        windows, prominence = tuple(si_form(Window, window) for window in refinement.windows), settings.config.interactions.prominence
+        return to_plain(si_form(RefinementChoice, refinement, windows=windows, prominence=prominence))
 
 
 @dataclass(frozen=True)

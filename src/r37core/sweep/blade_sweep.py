@@ -1,0 +1,93 @@
+"""Sweep of one blade in one scene as plain data: what its simulations start from, and at which speeds they are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from r37core.adaptive.refinement_choice import RefinementChoice
+from r37core.base.io import Named
+from r37core.base.plain import from_plain
+from r37core.base.speeds import SpeedPlan, exact_text
+from r37core.config import Settings
+from r37core.plans.sweep_plan import Rounds, Simulations, Sweep
+from r37core.stress.statistic import Strengths
+
+from .recipe import Recipe, recipe
+
+CAMPBELL = "campbell_of_blade"
+"""Stage of the Campbell diagram, that adaptive speeds begin with."""
+
+
+@dataclass(frozen=True)
+class BladeSweep:
+    """Sweep of a blade in a scene.
+
+    `given`: stage of the structure -> its file that is there; `recipes`: of the others. `models`: stages that simulations
+    start from, that of contact first. `task`, as JSON, of a simulation, and at the `history_speeds` (rad/s) `history_task`.
+    `yield_stress` (Pa), `strengths`: of the blade.
+    """
+
+    given: Mapping[str, str]
+    recipes: Mapping[str, Recipe]
+    models: tuple[str, ...]
+    task: str
+    history_speeds: tuple[float, ...]
+    history_task: str
+    yield_stress: float
+    strengths: Strengths
+
+    def file(self, stage: str, folder: Path, attributes: Mapping[str, Any]) -> Path:
+        """File of a stage of the structure, made in the folder where it is not there. Raises what making it raises."""
+        given = self.given.get(stage)
+        return Path(given) if given else self.recipes[stage].file(folder, attributes)
+
+    def task_at(self, speed: float) -> str:
+        """Task of the simulation at a speed (rad/s)."""
+        return self.history_task if speed in self.history_speeds else self.task
+
+
+@dataclass(frozen=True)
+class SharedSpeeds:
+    """Speeds that several sweeps have in common: the `plan`, and by which `choice` adaptive ones are refined."""
+
+    plan: SpeedPlan
+    choice: RefinementChoice
+
+
+def blade_sweep(
+    settings: Settings, blade: str, scene: str, given: Mapping[str, str] | None = None, *, kept: bool = True
+) -> BladeSweep:
+    """The sweep of a blade in a scene of these settings; `given` and `kept` as of BladeSweep and `recipe`."""
+    run, sweep, there = Named(blade=blade, scene=scene), Sweep(settings), given or {}
+    simulations, tip_line = Simulations(sweep), settings.scenes[scene].tip_line
+    models = ("contact_model", *(["stress_operator"] if "stress" in sweep.results(run) else []))
+    lines = {**dict.fromkeys(models, tip_line), CAMPBELL: None, "geometry": None}
+    if not settings.blades[blade].has_profiles:
+        del lines["geometry"]
+    history = sweep.stress_history_speeds(run)
+
+    def task(speed: float) -> str:
+        return simulations.task(Named(**vars(run), speed=exact_text(speed)))
+
+    return BladeSweep(
+        given=there,
+        recipes={
+            stage: recipe(settings, blade, stage, line, kept=kept) for stage, line in lines.items() if stage not in there
+        },
+        models=models,
+        task=task(0.0),
+        history_speeds=history,
+        history_task=task(history[0]) if history else "",
+        yield_stress=sweep.yield_stress(run),
+        strengths=from_plain(Strengths, sweep.strengths(run)),
+    )
+
+
+def shared_speeds(settings: Settings, blade: str, scene: str, largest_share: float | None = None) -> SharedSpeeds:
+    """Speeds of a blade in a scene, adaptive ones at most at `largest_share` of the finest grid, else as config.yaml says."""
+    run, sweep = Named(blade=blade, scene=scene), Sweep(settings)
+    choice = from_plain(RefinementChoice, Rounds(sweep).refinement_choice(run))
+    return SharedSpeeds(sweep.speed_plan(run), replace(choice, largest_share=largest_share or choice.largest_share))

@@ -1,0 +1,132 @@
+"""Driver of runs: sweeps at the speeds that they share, adaptive rounds included, which leave parts to go on from."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any, TypeVar
+
+from r37core.adaptive.rounds import first_round, measure_members, round_after
+from r37core.base.dataset_file import read_dataset
+from r37core.base.speeds import exact_text
+from r37core.machine_code.kept import content_digest, kept_file
+from r37core.results.response import write_response
+from r37core.time_integration.initial_motion import InitialMotion
+from r37core.time_integration.speed_file import read_status
+from r37core.time_integration.speed_job import run_job
+
+from .blade_sweep import BladeSweep, SharedSpeeds
+from .forks import count_simulation
+from .recipe import code_of
+
+Result = TypeVar("Result")
+Call = Callable[[], Any]
+RunAll = Callable[[Sequence[Call], str], Sequence[Any]]
+"""Gives the results of calls, in their order, on whatever processes; raises what one raises. The text says what they make."""
+
+SIMULATIONS = "simulations"
+"""What most calls make."""
+
+
+def one_by_one(calls: Sequence[Call], what: str = "") -> list[Any]:
+    """Results of the calls, in this process."""
+    return [call() for call in calls]
+
+
+@dataclass(frozen=True)
+class Driver:
+    """Driver of sweeps whose files lie in a `folder`, one folder each, and those of structures in `structures`.
+
+    A broken run goes on from the files that lie there: each has a name that follows from all that its content does.
+    `attributes`: as of `structure_attributes`; `run_all`: on which processes; `motion`: that simulations start in.
+    """
+
+    folder: Path
+    structures: Path
+    attributes: Mapping[str, Any]
+    run_all: RunAll = one_by_one
+    motion: InitialMotion | None = None
+
+    def run(
+        self, sweeps: Mapping[str, BladeSweep], speeds: SharedSpeeds, campbell: Path | None, about: Mapping[str, str]
+    ) -> dict[str, Path]:
+        """Run all sweeps, by the names of their folders; gives the responses. Raises what a simulation raises.
+
+        `campbell`: the diagram that adaptive speeds begin with; `about`: attributes of the files of each sweep, as JSON.
+        """
+        self.structures.mkdir(parents=True, exist_ok=True)
+        code = code_of("time_integration.speed_job.run_job")
+        models = self.run_all([partial(self._models, sweep) for sweep in sweeps.values()], "models")
+        runs = [
+            _Runs(self.folder / name, sweep, tuple(of), about[name], code, self.motion)
+            for (name, sweep), of in zip(sweeps.items(), models, strict=True)
+        ]
+        files = self._files(runs, speeds, campbell)
+        return dict(zip(sweeps, self.run_all([partial(run.response, files) for run in runs], "responses"), strict=True))
+
+    def _models(self, sweep: BladeSweep) -> list[tuple[str, str]]:
+        """Files of the models of a sweep, each with the digest of its content."""
+        files = [str(sweep.file(stage, self.structures, self.attributes)) for stage in sweep.models]
+        return [(file, content_digest(file)) for file in files]
+
+    def _files(self, runs: Sequence[_Runs], speeds: SharedSpeeds, campbell: Path | None) -> list[float]:
+        """Simulate at all speeds; gives them (rad/s), ascending."""
+        plan, choice = speeds.plan, speeds.choice
+        if not plan.refined:
+            self._simulate(runs, plan.certain)
+            return list(plan.certain)
+        assert campbell is not None
+        asked, done = first_round(plan, read_dataset(campbell), choice), list[float]()
+        while asked.new:
+            files = self._simulate(runs, asked.new)
+            done += asked.new
+            measured = measure_members([run.sweep.yield_stress for run in runs], asked.new, files)
+            asked = round_after(asked, measured, plan, choice)
+        return sorted(done)
+
+    def _simulate(self, runs: Sequence[_Runs], speeds: Sequence[float]) -> Sequence[Path]:
+        return self.run_all([partial(run.simulation, speed) for run in runs for speed in speeds], SIMULATIONS)
+
+
+@dataclass(frozen=True)
+class _Runs:
+    """Simulations of a `sweep` in a folder, from `models` with their digests."""
+
+    folder: Path
+    sweep: BladeSweep
+    models: tuple[tuple[str, str], ...]
+    about: str
+    code: Sequence[str]
+    motion: InitialMotion | None = field(default=None, compare=False)
+
+    def simulation(self, speed: float) -> Path:
+        """File of the simulation at a speed (rad/s), run now where it is missing."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        text, task = exact_text(speed), self.sweep.task_at(speed)
+
+        def run(file: Path) -> None:
+            run_job(text, str(file), task, self.about, *(model for model, _ in self.models), motion=self.motion)
+            count_simulation(self.folder.name, read_status(file))
+
+        return kept_file(f"speed_{text}.npz", self._made_of(task), run, self.folder)
+
+    def _made_of(self, task: str) -> list[Any]:
+        motion = self.motion and [part if part is None else part.tolist() for part in vars(self.motion).values()]
+        return [task, [digest for _, digest in self.models], motion, self.code]
+
+    def response(self, speeds: Sequence[float]) -> Path:
+        """File of the response over the speeds (rad/s), which have been simulated."""
+        file = self.folder / "response.nc"
+        write_response(
+            map(self.simulation, speeds),
+            speeds,
+            file,
+            stress_history_speeds=self.sweep.history_speeds,
+            yield_stress=self.sweep.yield_stress,
+            strengths=self.sweep.strengths,
+            provenance=json.loads(self.about),
+        )
+        return file

@@ -1,0 +1,121 @@
+"""Files of one blade's structure, each made by its stage when it is asked for, and kept under all that it is made of."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from pathlib import Path
+from pkgutil import resolve_name
+from typing import Any
+
+import r37core
+from r37core.base.io import Named, room_for, scratch_folder
+from r37core.base.plain import to_plain
+from r37core.config import Settings
+from r37core.exchange.importing.source import MatricesSource, MeshSource
+from r37core.machine_code.kept import kept_file, numerics
+from r37core.plans.code import CodeHashes
+from r37core.plans.provenance import Attributes, Provenance
+from r37core.plans.stages import structure_stages
+from r37core.plans.structure_plan import Imported, Structure
+
+LOGGER = logging.getLogger("r37")
+"""Logger of what a call or a job does now."""
+
+_FILES = {
+    "geometry": "geometry.nc",
+    "mesh": "mesh.vtu",
+    "reduced_model": "rom.nc",
+    "contact_model": "contact.npz",
+    "stress_operator": "stress.npz",
+    "campbell_of_blade": "campbell.nc",
+}
+"""Stage -> name of the file that others read, also of what a blade of another program has in its place."""
+
+_IMPORTED = {MeshSource: {"mesh": "imported_mesh"}, MatricesSource: {"reduced_model": "imported_matrices"}}
+"""Stages of a blade of another program in place of others."""
+
+
+_MAKING = threading.RLock()
+"""Held by the thread that makes structures: gmsh, and what reads meshes of others, serve one at a time."""
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """Recipe of a file: the `step` that makes it, from files with recipes of their own, with plain `params`.
+
+    `blade`, `title`: what is made, for messages; `name`: of the file.
+    """
+
+    blade: str
+    step: str
+    title: str
+    name: str
+    inputs: Mapping[str, Recipe] = field(default_factory=dict)
+    params: Mapping[str, Any] = field(default_factory=dict)
+
+    @cached_property
+    def made_of(self) -> list[Any]:
+        """All that the content of the file follows from, as plain values."""
+        return to_plain([code_of(self.step), [part.made_of for part in self.inputs.values()], self.params])
+
+    def file(self, folder: Path, attributes: Mapping[str, Any]) -> Path:
+        """The file in the folder, made now where it is missing, which may take minutes. Raises what making it raises.
+
+        `attributes`: as of `structure_attributes`.
+        """
+        with _MAKING, room_for(folder / self.name):
+            return kept_file(self.name, self.made_of, lambda file: self._make(file, folder, attributes), folder)
+
+    def _make(self, file: Path, folder: Path, attributes: Mapping[str, Any]) -> None:
+        files = {key: part.file(folder, attributes) for key, part in self.inputs.items()}
+        LOGGER.info("%s: %s", self.blade, self.title)
+        with scratch_folder() as aside:
+            # a mesh is also written for Gmsh
+            output = {file.stem: file, file.suffix[1:]: file, "msh": aside / "mesh.msh"}
+            # what a file says of its making is said by whom it is read for
+            params = {**self.params, **attributes, "code": code_of(self.step), "provenance": Attributes()}
+            shown = run_step(self.step, files, output, params)
+        if shown:
+            LOGGER.info("%s: %s", self.blade, shown)
+
+
+def recipe(settings: Settings, blade: str, stage: str, tip_line: str | None = None, *, kept: bool = True) -> Recipe:
+    """The recipe of the file of a stage, by the name of its rule; contact nodes lie on `tip_line`, else as config.yaml says.
+
+    `kept`: whether the user's cache has a copy of the reduced model.
+    """
+    wildcards = Named(blade=blade, tip_line=tip_line or settings.structure.boundary.tip_line)
+    stages = structure_stages(Structure(settings), Provenance(settings))
+    imported = _IMPORTED.get(type(settings.blades[blade].definition), {})
+
+    def of(stage: str) -> Recipe:
+        made = stages[imported.get(stage, stage)]
+        inputs = {key: of(other) for key, other in made.reads.items()}
+        values = {key: value for key, value in made.values(wildcards).items() if not isinstance(value, Attributes)}
+        values |= {"kept": kept} if "kept" in values else {}
+        return Recipe(blade, made.step, made.title, _FILES[stage], inputs, to_plain(values))
+
+    return of(stage)
+
+
+def structure_attributes(settings: Settings, blade: str) -> Attributes:
+    """Parameters of the stages of a blade's structure that are for messages: where its keys stand, and its files."""
+    structure, imported, wildcards = Structure(settings), Imported(settings), Named(blade=blade)
+    contact, locations = structure.location_of_contact(wildcards), imported.locations(wildcards)
+    return Attributes(contact=contact, locations=locations, folder=imported.folder)
+
+
+def run_step(step: str, input: Mapping[str, Any], output: Mapping[str, Any], params: Mapping[str, Any]) -> Any:
+    """Do a step, named as `fem.steps.mesh`, whose module is imported now. Gives and raises what it does."""
+    return resolve_name(f"r37core.{step}")(Named(**input), Named(**output), Named(**params))
+
+
+@cache
+def code_of(step: str) -> list[str]:
+    """Hash of the code of a step, and what its numbers come from: others make other files, and environments share folders."""
+    source = Path(r37core.__file__).parent.parent
+    return [CodeHashes(source, source)(f"{r37core.__name__}.{step}"), *numerics("gmsh", "h5py", "meshio", "numpy", "scipy")]
