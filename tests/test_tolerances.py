@@ -512,14 +512,12 @@ def test_a_range_has_the_digits_that_it_bears():
     pd.testing.assert_frame_equal(as_ranges_bear(without), without)
 
 
-def test_leftovers_are_members_that_are_not_drawn_any_more(root, tmp_path):
+def test_leftovers_are_members_of_blades_and_scenes_that_have_none_any_more(root, tmp_path):
     lining = {"lining.thickness_m": {"uniform_percent": 5.0}}
     settings = settings_of(root, {"members": 2, "blades": ["Ref"], "scenes": ["abradable"], "of_scenes": lining})
     folder = tmp_path / "tolerances"
-    kept = ["1/Ref/abradable/response.nc", "Ref/abradable/round_0.json", "0/Ref/mesh.vtu"]
-    gone = ["2", "0b", "0/Ref/direct", "Ref/direct", "S100", "0f1", "0/S100"]
-    # where members lay before
-    gone += ["Ref/abradable/0", "models"]
+    kept = ["Ref/abradable/members.nc", "Ref/abradable/1/response.nc", ".structures/rom.nc"]
+    gone = ["2", "0b", "Ref/direct", "S100", "models"]
     for name in [*kept, *(f"{name}/file" for name in gone)]:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text("x")

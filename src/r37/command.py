@@ -179,7 +179,7 @@ def _check(options: argparse.Namespace) -> None:
     from r37core.config.remarks import remarks_on_points
     from r37core.plans.extent import extent_of
     from r37core.plans.linings import linings_at_tip
-    from r37core.product.extensions import beside
+    from r37core.product.extensions import simulations_of_members
     from r37core.product.reading import load_settings
     from r37core.product.remarks import remarks
 
@@ -188,7 +188,7 @@ def _check(options: argparse.Namespace) -> None:
     first, *changes = options.config or [None]
     configuration = read_configuration(first).changed_by(changes)
     settings = load_settings(configuration.document, configuration.root)
-    extent, measured = extent_of(settings, beside(settings)), settings.fidelity.measured
+    extent, measured = extent_of(settings, simulations_of_members(settings)), settings.fidelity.measured
     print(f"blades: {', '.join(settings.blade_names)}")
     print(f"scenes: {', '.join(settings.scene_names)}")
     print(f"level: {settings.fidelity_name}")

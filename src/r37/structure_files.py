@@ -7,14 +7,14 @@ from pathlib import Path
 
 from r37core.config import ConfigError, Settings
 from r37core.machine_code.kept import named_folder, writable_folder
-from r37core.sweep.recipe import recipe, structure_attributes
+from r37core.sweep.recipe import recipes, structure_attributes
 
 from .jobs import parallel_results
 
 
 def structure_file(settings: Settings, blade: str, stage: str, tip_line: str | None = None) -> Path:
     """The file of a stage, with the numbers that one thread of linear algebra gives. Raises what making it raises."""
-    made = recipe(settings, blade, stage, tip_line)
+    made = recipes(settings, blade, {stage: tip_line})[stage]
     (file,) = parallel_results([partial(made.file, cache_folder(), structure_attributes(settings, blade))], 1)
     return file
 

@@ -15,7 +15,7 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage, structure_stages, sweep_stages
 from r37core.plans.structure_plan import Imported, Structure
 from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep
-from r37core.product.extensions import beside, sampling_of
+from r37core.product.extensions import sampling_of
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
     offered,
@@ -37,12 +37,12 @@ code = CodeHashes(console.source, SCRIPTS)
 # parameters of rules: a step, which is a function of r37core, and the hash of its code, or what stands for that
 engine = EngineNumbers(Path(settings.config.run.engine)) if settings.config.run.engine else code
 step = engine.step
-# members of samples that extensions have run beside the sweep, and what is made of them
-samples, sampling = beside(settings), sampling_of(settings)
-made = Provenance(settings, samples)
-structure = Structure(settings, samples)
+# members of an extension that are run next to the sweep, and what is made of them
+sampling = sampling_of(settings)
+made = Provenance(settings)
+structure = Structure(settings)
 imported = Imported(settings)
-sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0], samples)
+sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
 simulations, rounds, joined = Simulations(sweep), Rounds(sweep), Datasets(sweep)
 more_motions = offered("motions", sweep)
 run_up_dataset = offered("run_ups", sweep)
@@ -88,6 +88,5 @@ onerror:
 wildcard_constraints:
     blade="|".join(settings.blades),
     scene="|".join(settings.scenes),
-    member=sweep.samples.pattern,
     tip_line="pressure_edge|camber|suction_edge",
     speed=r"[0-9.]+",

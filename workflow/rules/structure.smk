@@ -1,6 +1,5 @@
 # Blade shape -> mesh -> reduced model -> Campbell diagram, for each blade. A blade of another program comes in as
-# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there. A member of a sample whose blade
-# is another one has a model of its own, by the same rules.
+# a mesh (imported_mesh) or as matrices (imported_matrices) and takes the same way from there.
 from r37core.blade.definition import Shape
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 
@@ -12,7 +11,7 @@ use rule step as geometry with:
     output:
         geometry=paths.GEOMETRY,
     log:
-        "<logs>/{member}{blade}/geometry.log",
+        "<logs>/{blade}/geometry.log",
     wildcard_constraints:
         blade=imported.pattern(Shape),
     # an impossible shape should stop the run before any long work
@@ -25,10 +24,10 @@ use rule step as mesh with:
     input:
         geometry=rules.geometry.output.geometry,
     output:
-        msh="<results>/{member}{blade}/mesh.msh",
+        msh="<results>/{blade}/mesh.msh",
         vtu=paths.MESH,
     log:
-        "<logs>/{member}{blade}/mesh.log",
+        "<logs>/{blade}/mesh.log",
     wildcard_constraints:
         blade=imported.pattern(Shape),
     # a mesh or model that fails should do so before the first simulation
@@ -68,11 +67,11 @@ use rule step as abaqus_deck with:
 
 use rule step as reduced_model with:
     input:
-        mesh=structure.mesh,
+        mesh=paths.MESH,
     output:
         rom=paths.REDUCED_MODEL,
     log:
-        "<logs>/{member}{blade}/reduced_model_{tip_line}.log",
+        "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
         blade=imported.pattern(Shape, MeshSource),
     priority: 2
@@ -116,7 +115,7 @@ use rule step as campbell_of_blade with:
     output:
         campbell=paths.CAMPBELL,
     log:
-        "<logs>/{member}{blade}/campbell.log",
+        "<logs>/{blade}/campbell.log",
     params:
         **stage(stages["campbell_of_blade"]),
 

@@ -1,5 +1,4 @@
-# Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene. So for the nominal sweep, where the
-# wildcard `member` is empty, and for each member of a sample beside it.
+# Reduced model -> one simulation per blade, scene and speed -> all speeds of a blade and scene.
 
 
 use rule step as contact_model with:
@@ -8,7 +7,7 @@ use rule step as contact_model with:
     output:
         contact=paths.CONTACT_MODEL,
     log:
-        "<logs>/{member}{blade}/contact_model_{tip_line}.log",
+        "<logs>/{blade}/contact_model_{tip_line}.log",
     priority: 2
     params:
         **stage(stages["contact_model"]),
@@ -20,7 +19,7 @@ use rule step as stress_operator with:
     output:
         stress=paths.STRESS_OPERATOR,
     log:
-        "<logs>/{member}{blade}/stress_operator_{tip_line}.log",
+        "<logs>/{blade}/stress_operator_{tip_line}.log",
     priority: 2
     params:
         **stage(stages["stress_operator"]),
@@ -29,11 +28,10 @@ use rule step as stress_operator with:
 use rule step as prepare_time_integration with:
     input:
         models=sweep.models,
-        nominal=sweep.nominal_stamp,
     output:
         touch(paths.INTEGRATION_STAMP),
     log:
-        "<logs>/{member}{blade}/{scene}/prepare_time_integration.log",
+        "<logs>/{blade}/{scene}/prepare_time_integration.log",
     # the sweep's jobs find the time integration compiled; one message before the sweep instead of one from each of its jobs. Nothing here
     # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
@@ -48,7 +46,7 @@ use rule step as simulate with:
     output:
         paths.SPEED,
     log:
-        "<logs>/{member}{blade}/{scene}/speed_{speed}.log",
+        "<logs>/{blade}/{scene}/speed_{speed}.log",
     priority: simulations.priority
     resources:
         mem_mb=300,
@@ -61,15 +59,14 @@ localrules:
     refine,
 
 
-# adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none. All members of a
-# sample are run at the same speeds, where they are worth it on average
+# adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none
 checkpoint refine:
     input:
         unpack(rounds.round_inputs),
     output:
         round=paths.ROUND,
     log:
-        "<logs>/{member}{blade}/{scene}/round_{round}.log",
+        "<logs>/{blade}/{scene}/round_{round}.log",
     wildcard_constraints:
         round=r"\d+",
     # before the next blade's simulations, which would leave this one's waiting
@@ -90,7 +87,7 @@ use rule step as response with:
     output:
         response=paths.RESPONSE,
     log:
-        "<logs>/{member}{blade}/{scene}/response.log",
+        "<logs>/{blade}/{scene}/response.log",
     priority: 5
     params:
         **stage(stages["response"]),

@@ -1,22 +1,44 @@
-# Tolerances: what is made of the members of samples, each with other values of what is never known exactly. Their models and runs
-# are made by the rules of the sweep.
+# Tolerances: members of each blade and scene, with other values of what is never known exactly, and what is made of them.
 from r37core.tolerances import plan as tolerances_plan
-from r37core.tolerances.plan import RESPONSE_OF_MEMBER, Tolerances
+from r37core.tolerances.plan import Tolerances
 
 tolerances = settings.made(Tolerances)
 
 
+# on the cores that are free, for its members and their speeds; what it had done is there when it is started again
+use rule step as tolerance_members with:
+    input:
+        prepared=paths.INTEGRATION_STAMP,
+        models=sweep.models,
+        campbell=paths.CAMPBELL,
+    output:
+        members=tolerances_plan.MEMBERS,
+    log:
+        "<logs>/tolerances/{blade}/{scene}/members.log",
+    priority: 3
+    threads: tolerances.number
+    resources:
+        mem_mb=lambda wildcards, threads: 500 * threads,
+    params:
+        **step("tolerances.steps.run"),
+        sweeps=tolerances.sweeps,
+        speeds=tolerances.speeds,
+        structure=tolerances.structure,
+        about=tolerances.about,
+        provenance=made.sweep,
+
+
 use rule step as tolerances_dataset with:
     input:
-        responses=paths.filled({RESPONSE_OF_MEMBER: tolerances.runs}),
-        rounds=tolerances.first_rounds,
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.pairs)}),
     output:
         dataset=tolerances_plan.DATASET,
     log:
         "<logs>/tolerances_dataset.log",
     params:
         **step("tolerances.steps.join"),
-        members=tolerances.runs,
+        pairs=tolerances.pairs,
+        runs=tolerances.runs,
         numbers=tolerances.numbers,
         values=tolerances.values,
         fidelity=settings.fidelity_name,
@@ -25,8 +47,7 @@ use rule step as tolerances_dataset with:
 use rule step as tolerance_table with:
     input:
         **tolerances.nominal,
-        responses=paths.filled({RESPONSE_OF_MEMBER: tolerances.runs_of_sample}),
-        campbells=tolerances.campbells_of_sample,
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.pairs)}),
         rounds=tolerances.first_rounds,
     output:
         table=shown(tolerances_plan.TABLE, PACKAGE / "tolerances/report.rst", TOGETHER, "tolerances"),
@@ -34,5 +55,6 @@ use rule step as tolerance_table with:
         "<logs>/tolerance_table.log",
     params:
         **step("tolerances.steps.table"),
-        members=tolerances.runs_of_sample,
+        pairs=tolerances.pairs,
+        runs=tolerances.runs,
         choice=plain(settings.config.interactions),

@@ -12,7 +12,7 @@ from r37core.console.failures import printed_warnings, reported, show
 
 def run(params):
     module, function = params.step.rsplit(".", 1)
-    params.address = snakemake.report_href
+    params.address, params.cores = snakemake.report_href, snakemake.threads
     warned = printed_warnings(params.locations) if hasattr(params, "locations") else nullcontext()
     with warned:
         shown = getattr(import_module(module), function)(snakemake.input, snakemake.output, params)

@@ -12,7 +12,10 @@ from .rounds import first_round, measure_members, read_round, round_after, write
 
 
 def refine(input: Any, output: Any, params: Any) -> None:
-    """Ask for the next speeds. Inputs: campbell first, then before and speeds. Output: round. Params: plan, choice, yield_stress."""
+    """Ask for the next speeds. Inputs: campbell first, then before and speeds. Output: round.
+
+    Params: plan, choice, yield_stress.
+    """
     plan, choice = from_plain(SpeedPlan, params.plan), from_plain(RefinementChoice, params.choice)
     if hasattr(input, "campbell"):
         new_round = first_round(plan, read_dataset(input.campbell), choice)

@@ -47,9 +47,9 @@ def new_netcdf(file: Path | str, provenance: Mapping[str, object]) -> Iterator[n
 
 
 @contextmanager
-def open_dataset(file: Path | str) -> Iterator[xr.Dataset]:
-    """A netCDF file as a dataset to read from. Raises InputFileError when it cannot be read."""
-    with NETCDF_LOCK, readable(file), xr.open_dataset(file, engine="netcdf4") as dataset:
+def open_dataset(file: Path | str, group: str | None = None) -> Iterator[xr.Dataset]:
+    """A netCDF file, or a group of it, as a dataset to read from. Raises InputFileError when it cannot be read."""
+    with NETCDF_LOCK, readable(file), xr.open_dataset(file, engine="netcdf4", group=group) as dataset:
         yield dataset
 
 
@@ -122,22 +122,34 @@ def write_dataset(dataset: xr.Dataset, file: Path | str, provenance: Mapping[str
     Coordinates carry no fill value, as the CF conventions ask. Arrays carry checksums, so that reading finds a flipped bit.
     """
     dataset = dataset.assign_attrs(FILE_ATTRIBUTES | dict(provenance or {}))
+    with NETCDF_LOCK, atomic_write(file) as partial:
+        dataset.to_netcdf(partial, engine="netcdf4", encoding=_encoding(dataset))
+
+
+def write_groups(groups: Iterable[tuple[str, xr.Dataset]], file: Path | str, provenance: Mapping[str, object]) -> None:
+    """Write datasets as the groups of these names of one netCDF4 file, as `write_dataset` does, one after another."""
+    with NETCDF_LOCK, atomic_write(file) as partial:
+        xr.Dataset(attrs=FILE_ATTRIBUTES | dict(provenance)).to_netcdf(partial, engine="netcdf4")
+        for name, dataset in groups:
+            dataset.to_netcdf(partial, mode="a", engine="netcdf4", group=name, encoding=_encoding(dataset))
+
+
+def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, float | bool | None]]:
     encoding: dict[str, dict[str, float | bool | None]] = {}
     for name, variable in dataset.variables.items():
         filled = name in dataset.data_vars and variable.dtype.kind == "f"
         encoding[str(name)] = {"_FillValue": np.nan if filled else None}
         if variable.ndim and variable.size and variable.dtype.kind in "fiu":
             encoding[str(name)]["fletcher32"] = True
-    with NETCDF_LOCK, atomic_write(file) as partial:
-        dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+    return encoding
 
 
-def read_dataset(file: Path | str, part: Mapping[str, object] | None = None) -> xr.Dataset:
-    """Read a netCDF file into memory; InputFileError when it cannot be read.
+def read_dataset(file: Path | str, part: Mapping[str, object] | None = None, group: str | None = None) -> xr.Dataset:
+    """Read a netCDF file, or a group of it, into memory; InputFileError when it cannot be read.
 
     `part`: label of a dimension, as far as the file has this, at which alone it is read; or several, of which it may lack some.
     """
-    with open_dataset(file) as dataset:
+    with open_dataset(file, group) as dataset:
         there = {name: wanted for name, wanted in (part or {}).items() if name in dataset.dims}
         several = {name: np.isin(dataset[name], wanted) for name, wanted in there.items() if isinstance(wanted, list)}
         return dataset.isel(several).sel({name: there[name] for name in there.keys() - several.keys()}).load()

@@ -21,6 +21,9 @@ FILE_ATTRIBUTES = {"Conventions": "CF-1.11", "r37core_version": __version__}
 JOB_LOG = logging.getLogger("r37core")
 """Logger of the steps, for the log of their job; from Python nobody hears it who does not ask for this logger's level DEBUG."""
 
+JOB_NEWS = logging.getLogger("r37core.news")
+"""Logger of the steps for what the user of a run should see while a job works."""
+
 FULL_DISK = 2**20
 """Bytes left on a disk that counts as full."""
 

@@ -188,4 +188,5 @@ def _about(job: Any) -> SimpleNamespace:
 
     files = {"input": (InputFiles, job.input), "output": (OutputFiles, job.output), "log": (Log, job.log)}
     plain = {name: kind(toclone=named, plainstr=True) for name, (kind, named) in files.items()}
-    return SimpleNamespace(**plain, params=job.params, wildcards=job.wildcards, rule=job.rule.name, report_href=ReportHref)
+    about = {"params": job.params, "wildcards": job.wildcards, "rule": job.rule.name, "threads": job.threads}
+    return SimpleNamespace(**plain, **about, report_href=ReportHref)

@@ -16,7 +16,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
-from r37core.base.io import FULL_DISK, JOB_LOG, OutputFileError
+from r37core.base.io import FULL_DISK, JOB_LOG, JOB_NEWS, OutputFileError
+from r37core.sweep.counts import COUNTS
 
 _NOTES = "R37_FAILURES"
 """Environment variable that names the file, one for each run: several may go on in one folder."""
@@ -44,14 +45,23 @@ def reported(rule: str, log: Path | str, about: str = "") -> Iterator[None]:
 @contextlib.contextmanager
 def _steps_heard(stream: TextIO) -> Iterator[None]:
     """Write there what steps say for the log."""
-    handler, level = logging.StreamHandler(stream), JOB_LOG.level
+    handler, news, level = logging.StreamHandler(stream), _Shown(), JOB_LOG.level
     JOB_LOG.addHandler(handler)
+    JOB_NEWS.addHandler(news)
     JOB_LOG.setLevel(logging.DEBUG)
     try:
         yield
     finally:
         JOB_LOG.removeHandler(handler)
+        JOB_NEWS.removeHandler(news)
         JOB_LOG.setLevel(level)
+
+
+class _Shown(logging.Handler):
+    """Handler that shows lines of a job while it works."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        show(record.getMessage(), sys.__stderr__)
 
 
 def show(line: str, stream: TextIO | None) -> None:
@@ -75,10 +85,11 @@ def printed_warnings(locations: Mapping[str, str]) -> Iterator[None]:
 
 
 def begin(run: str) -> None:
-    """Keep lines of the run of this name apart from those of others; the jobs that it starts inherit it."""
-    file = Path(f".snakemake/r37_failures_{run}.txt")
-    file.unlink(missing_ok=True)
-    os.environ[_NOTES] = str(file)
+    """Keep what the jobs of the run of this name report apart from that of others: they inherit where."""
+    for variable, what in ((_NOTES, "failures"), (COUNTS, "simulations")):
+        file = Path(f".snakemake/r37_{what}_{run}.txt")
+        file.unlink(missing_ok=True)
+        os.environ[variable] = str(file)
 
 
 def note(line: str, error: Exception | None = None) -> None:

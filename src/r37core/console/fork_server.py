@@ -4,7 +4,6 @@ At the file descriptor is a channel to the executor (r37core.console.executor), 
 process ends, with its jobs, when the executor says so or is gone.
 """
 
-import ctypes
 import gc
 import importlib
 import os
@@ -20,14 +19,13 @@ from multiprocessing.connection import Connection, wait
 from types import CodeType
 from typing import Any, NoReturn
 
+from r37core.sweep.forks import end_with_parent
+
 # every job imports it
 from . import failures as failures
 
 _NAMES = re.compile(rb"r37core(?:\.[a-z_]\w*)+")
 """Modules of the package, and functions in them, as a job's parameters name them."""
-
-_END_WITH_PARENT = 1
-"""Option of Linux: a process gets a signal when the one that forked it ends."""
 
 
 def serve(channel: Connection) -> None:
@@ -105,8 +103,7 @@ def _run(code: CodeType, temporary_folder: str | None, snakemake: Any) -> NoRetu
     try:
         signal.set_wakeup_fd(-1)
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-        if sys.platform == "linux":
-            ctypes.CDLL(None).prctl(_END_WITH_PARENT, signal.SIGKILL)
+        end_with_parent()
         if temporary_folder:
             os.environ["TMPDIR"], tempfile.tempdir = temporary_folder, None
         exec(code, {"__name__": "__main__", "__file__": code.co_filename, "snakemake": snakemake})

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from r37core.base.io import InputFileError
+from r37core.sweep.counts import counted_simulations
 from r37core.time_integration.speed_file import read_status
 from r37core.time_integration.status import RunStatus
 
@@ -110,12 +111,14 @@ class Progress(logging.Filter):
         spent = self.clock() - (self.clock() if self._began is None else self._began)
         rate = self._done / spent if spent > 0.0 else 0.0
         parts = [f"jobs {self._done} of {self._known}"] if self._known else []
-        if self._simulated:
-            blades = list(self._simulated.items())
+        of_many = counted_simulations()
+        if total := self._simulated.total() + of_many.total():
+            blades = [*self._simulated.items(), *([("members and designs", of_many.total())] if of_many else [])]
             shown = ", ".join(f"{blade} {number}" for blade, number in blades[-3:])
             more = f"{len(blades) - 3} blades more, " if len(blades) > 3 else ""
-            bound = f" of at most {self.most}" if self._simulated.total() <= self.most else ""
-            parts += [f"simulations {self._simulated.total()}{bound} ({more}{shown})", f"{self._diverged} diverged"]
+            bound = f" of at most {self.most}" if total <= self.most else ""
+            diverged = self._diverged + of_many[RunStatus.DIVERGED]
+            parts += [f"simulations {total}{bound} ({more}{shown})", f"{diverged} diverged"]
         if rate > 0.0:
             parts.append(f"{rate:.1f} a second")
         if rate > 0.0 and (self._simulated or self._done == self._known):

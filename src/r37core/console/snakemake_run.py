@@ -23,7 +23,7 @@ from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_on_points
 from r37core.plans.extent import extent_of
 from r37core.product.closing import closing_lines
-from r37core.product.extensions import beside
+from r37core.product.extensions import simulations_of_members
 from r37core.product.reading import settings_of_run
 from r37core.product.remarks import check_asked, check_part, lines_of_extensions, remarks, replaced_level, source_folder
 
@@ -123,7 +123,7 @@ def begin(workflow: Any, logger: logging.Logger, refusal: type[Exception], root:
     for line in [*lifted, *remarks(settings), *replaced_level(settings)]:
         logger.info(line)
     if not (caller or os.environ.get("R37_FULL_LOG") or output.dryrun or output.verbose):
-        quieten(logger.handlers, Progress(extent_of(settings, beside(settings)).at_most))
+        quieten(logger.handlers, Progress(extent_of(settings, simulations_of_members(settings)).at_most))
     return Console(workflow, refusal, logger.warning, settings, source, began, caller)
 
 

@@ -9,8 +9,7 @@ from r37core.cases.case import Case
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection, Section
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.extent import extents
-from r37core.plans.samples import Pair, Sample
+from r37core.plans.extent import Pair, extents
 from r37core.time_integration.speed_run import OF_RUNS
 
 
@@ -57,11 +56,11 @@ def _case(settings: Settings, blade: str, scene: str) -> Case:
     )
 
 
-def values(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> dict[str, Any]:
-    """How many runs each blade and scene has at most, those of samples `beside` the sweep included; and where they are run."""
+def values(settings: Settings, members: Mapping[Pair, int]) -> dict[str, Any]:
+    """How many runs each blade and scene has at most, with so many simulations of its `members`; and where they are run."""
     section = settings.section(SECTION)
     return {
-        "runs": {"__".join(pair): extent.at_most for pair, extent in extents(settings, beside).items()},
+        "runs": {"__".join(pair): extent.at_most for pair, extent in extents(settings, members).items()},
         "workflow_per_job": section.workflow_s_per_job,
         "cores": section.cores,
     }

@@ -4,14 +4,13 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from pathlib import Path
 from typing import Any, Literal
 
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection
 
+from .extent import Pair
 from .paths import Wildcards, pictures
-from .samples import Pair, Sample, Sampling
 from .sweep_plan import Sweep
 
 Targets = Callable[[Sweep], dict[str, Wildcards]]
@@ -72,15 +71,27 @@ class Figure:
 
 
 @dataclass(frozen=True)
+class Sampling:
+    """Members of an extension: the nominal blades and scenes with other numbers.
+
+    `simulations`: largest number of their simulations by blade and scene; none where the settings ask for none. What is made
+    of them stands in the tables of all blades: `ranges`, a table as of results/ranges.py, in the summary; `dataset`, with a
+    dimension `member`, in the ranking and the explorer.
+    """
+
+    simulations: Callable[[Settings], Mapping[Pair, int]]
+    ranges: str
+    dataset: str
+
+
+@dataclass(frozen=True)
 class Extension:
     """One capability: a folder of this package, a file of rules, and a line in the registry.
 
     `name`: of the folder, of the rule that makes all of it, and of its section of config.yaml.
     `section`: that section; none without one.
     `checks`: what no model of the section alone can check; each raises ConfigError.
-    `sampling`: members that it has run beside the sweep, and what is made of them.
-    `later`: of samples that are named while a run goes on, by the part of their folder below one of the extension's name; takes
-    the folder of the results.
+    `sampling`: members that it has run next to the sweep, and what is made of them.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
     `cases`: runs of one blade beside the sweep (r37core.cases), by name.
     `targets`: what is made of them; part of all_blades unless `made_on_request`.
@@ -100,7 +111,6 @@ class Extension:
     section: ExtensionSection[Any] | None = None
     checks: tuple[Callable[[Settings], None], ...] = ()
     sampling: Sampling | None = None
-    later: Callable[[Settings, Path], Callable[[str], Mapping[Pair, Sample]]] | None = None
     simulated: Targets = lambda _: {}
     cases: Callable[[Settings], Mapping[str, Any]] | None = None
     targets: Targets = lambda _: {}

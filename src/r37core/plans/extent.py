@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from r37core.config import Settings
 from r37core.config.speed_choice import most_runs
 
-from .samples import Pair, Sample
+Pair = tuple[str, str]
+"""Blade and scene."""
 
 _JOB_S = 0.07
 """CPU time (s) of a simulation beside its time integration: its process, results and file, and Snakemake's share."""
@@ -42,16 +43,14 @@ class Extent:
         return f"{cost:.3g} s" if cost < 120.0 else f"{cost / 60.0:.3g} minutes"
 
 
-def extents(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> dict[Pair, Extent]:
-    """The extent of each blade and scene, with the samples `beside` it (see Samples)."""
-    pair_extents: dict[Pair, Extent] = {}
-    for pair, plan in settings.speed_plans.items():
-        several = [samples[pair] for samples in beside.values() if pair in samples]
-        members = sum(len(sample.members) * plan.speed_count(sample.largest_share) for sample in several)
-        pair_extents[pair] = Extent(len(plan.certain), most_runs(settings, *pair), members)
-    return pair_extents
+def extents(settings: Settings, members: Mapping[Pair, int]) -> dict[Pair, Extent]:
+    """The extent of each blade and scene; `members`: simulations of members there, at most."""
+    return {
+        pair: Extent(len(plan.certain), most_runs(settings, *pair), members.get(pair, 0))
+        for pair, plan in settings.speed_plans.items()
+    }
 
 
-def extent_of(settings: Settings, beside: Mapping[str, Mapping[Pair, Sample]]) -> Extent:
+def extent_of(settings: Settings, members: Mapping[Pair, int]) -> Extent:
     """The extent of a whole run."""
-    return sum(extents(settings, beside).values(), Extent(0, 0, 0))
+    return sum(extents(settings, members).values(), Extent(0, 0, 0))

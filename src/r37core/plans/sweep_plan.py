@@ -19,6 +19,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import OF_RUNS
 
 from . import paths
+
 KINDS = ("rms", "spectrum", "stress", "fatigue", "wear", "casing")
 """Kinds of datasets over all blades and scenes; the first of every scene, the others of those that want them."""
 
@@ -240,7 +241,8 @@ class Rounds:
         """Criterion for halving intervals of speeds of a scene, as fields of RefinementChoice."""
         settings = self.sweep.settings
         refinement = settings.config.refinement.scene_refinement(settings.scenes[wildcards.scene].scene)
-        windows, prominence = tuple(si_form(Window, window) for window in refinement.windows), settings.config.interactions.prominence
+        prominence = settings.config.interactions.prominence
+        windows = tuple(si_form(Window, window) for window in refinement.windows)
         return to_plain(si_form(RefinementChoice, refinement, windows=windows, prominence=prominence))
 
 

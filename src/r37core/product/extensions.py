@@ -1,11 +1,10 @@
 """The registry of the extensions: a capability is one folder of this package, one file of rules, and one line here."""
 
 from importlib import import_module
-from pathlib import Path
 
 from r37core.config import Settings
-from r37core.plans.extension import Extension
-from r37core.plans.samples import Beside, Sampling
+from r37core.plans.extension import Extension, Sampling
+from r37core.plans.extent import Pair
 
 _FOLDERS = (
     "exports",
@@ -28,14 +27,13 @@ EXTENSIONS: tuple[Extension, ...] = tuple(import_module(f"r37core.{folder}.plan"
 """All extensions."""
 
 
-def beside(settings: Settings, results: Path | None = None) -> Beside:
-    """Samples of each extension that has some, by the folder of its results; `results`: in place of the workflow's."""
-    known = {each.name: dict(each.sampling.samples(settings)) for each in EXTENSIONS if each.sampling}
-    later = {each.name: each.later(settings, results or settings.results) for each in EXTENSIONS if each.later}
-    return Beside(known, later)
+def simulations_of_members(settings: Settings) -> dict[Pair, int]:
+    """Largest number of simulations of members, by blade and scene."""
+    sampling = sampling_of(settings)
+    return dict(sampling.simulations(settings)) if sampling else {}
 
 
 def sampling_of(settings: Settings) -> Sampling | None:
     """Sampling of the extension whose members this run has, if any. Tables have ranges of one sample."""
     several = (extension.sampling for extension in EXTENSIONS if extension.sampling)
-    return next((sampling for sampling in several if sampling.samples(settings)), None)
+    return next((sampling for sampling in several if sampling.simulations(settings)), None)

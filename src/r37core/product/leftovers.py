@@ -11,6 +11,7 @@ from r37core.base.speeds import SpeedPlan, exact_text
 from r37core.config import Settings
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep, speeds_of_round
+from r37core.product.extensions import EXTENSIONS
 from r37core.product.reading import RESERVED, read_settings
 from r37core.product.targets import everything
 
@@ -45,7 +46,10 @@ def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
     folders = {folder for file in planned for folder in file.parents}
     for pattern in {parent for file in patterns for parent in _own_folders(file)}:
         present = (folder for folder in results.glob(re.sub(r"\{\w+\}", "*", pattern)) if folder.is_dir())
-        yield from (folder for folder in present if folder not in folders)
+        # a hidden folder has parts of what lies next to it
+        yield from (folder for folder in present if folder not in folders and not folder.name.startswith("."))
+    own = (results / extension.name for extension in EXTENSIONS)
+    yield from (folder for folder in own if folder.is_dir() and folder not in folders)
 
 
 def _own_folders(pattern: str) -> Iterator[str]:

@@ -13,9 +13,9 @@ def judged(dataset: xr.Dataset) -> xr.Dataset:
     return dataset.isel(region=0, drop=True) if "region" in dataset.dims else dataset
 
 
-def read_judged(file: Path | str) -> xr.Dataset:
-    """The dataset of a file, with the judged region alone. Raises InputFileError where it cannot be read."""
-    return judged(read_dataset(file))
+def read_judged(file: Path | str, group: str | None = None) -> xr.Dataset:
+    """The dataset of a file or its group, with the judged region alone. Raises InputFileError where it cannot be read."""
+    return judged(read_dataset(file, group=group))
 
 
 def named_region(dataset: xr.Dataset, name: str) -> xr.Dataset:

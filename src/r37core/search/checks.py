@@ -132,7 +132,7 @@ def _tolerances_are_possible(settings: Settings, designs: SearchDesigns) -> None
         if nominal is None:
             raise document.refusal((*path, "of_blades", key), f"{key}, which '{designs.entry.blade}' does not have", "others")
     try:
-        designs.samples("of the search", None)
+        designs.members("of the search", None)
     except ImpossibleValueError as error:
         place, text = error.place(numbers)
         raise document.error((*path, *place), f"a member of the start: {text}; or a narrower tolerance") from None

@@ -1,10 +1,11 @@
 """Designs of a search: the blade that it starts at and its scenes, with other values of some keys."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, values_of
+from r37core.blade.definition import Shape
 from r37core.config import BladeSettings, Settings, operating_range, plain
 from r37core.config.blades import BladeEntry, blade_settings
 from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
@@ -12,22 +13,20 @@ from r37core.config.families import design_entry
 from r37core.config.section_laws import SECTION_KEYS, neutral_value
 from r37core.config.sections_entry import SectionsEntry
 from r37core.config.shape_keys import SHARES, ShapeKeys
+from r37core.contact.scene import Scene
 from r37core.plans.member_values import drawn, is_of_sample, sobol_points
-from r37core.plans.samples import NOMINAL, Member, Pair, Sample, path_part
 
-from .problem import START, Constraint, SearchChoice, SearchVariable
+from .problem import Constraint, SearchChoice, SearchVariable
 from .section import SECTION, SearchSection
 
 FOLDER = SECTION.name
 """Folder of the designs' files: the extension's name."""
 
+NOMINAL = "nominal"
+"""Name of the run of a design without tolerances."""
+
 _KEPT = ("stress", "static_stress", "fatigue")
 """Results of a scene that designs have, too: what they are judged by."""
-
-
-def member_part(design: str) -> str:
-    """The part `member` of the paths of a design's files."""
-    return path_part(f"{FOLDER}/{design}")
 
 
 @dataclass(frozen=True)
@@ -93,10 +92,6 @@ class SearchDesigns:
         """True if a variable is of the blade."""
         return any(number.kind == BLADE for number in self.numbers)
 
-    def model_part(self, name: str) -> str:
-        """The part `member` of the paths of a design's model: the nominal one where its blade is the start's."""
-        return NOMINAL if name == START or not self.blade_varies else member_part(name)
-
     def varied_entry(self, name: str, values: Mapping[str, float]) -> BladeEntry | SectionsEntry:
         """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
         return design_entry(self.entry.blade, self.start, values_of(BLADE, values), name, self.settings.designs.document)
@@ -114,30 +109,37 @@ class SearchDesigns:
         # the name is that of the start, by which tables of sweep and lean know it
         return blade_settings(blade, {**designs.entries, blade: changed}, self.settings.root, designs.document)
 
-    def samples(self, name: str, values: Sequence[float] | None) -> dict[Pair, Sample]:
-        """A design in each scene: its nominal run, and members under tolerances where an objective has a quantile.
+    def members(self, name: str, values: Sequence[float] | None) -> dict[str, dict[str, Settings]]:
+        """Scene -> the settings with a design in it: NOMINAL, and members under tolerances where an objective has a quantile.
 
-        Raises ConfigError and ImpossibleValueError where one of them is impossible.
+        Without `values` it is the start. Raises ConfigError and ImpossibleValueError where one of them is impossible.
         """
         blade = self.blade(name, values)
         named = {} if values is None else dict(zip(self.entry.variables, values, strict=True))
-        changes = {scene: self.scene_changes(scene, named) for scene in self.scenes}
-        return {(self.entry.blade, scene): self._sample(name, blade, scene, changed) for scene, changed in changes.items()}
+        return {scene: self._scene_members(name, blade, scene, self.scene_changes(scene, named)) for scene in self.scenes}
 
-    def _sample(self, name: str, blade: BladeSettings, scene: str, changes: Mapping[str, float]) -> Sample:
-        settings, own = self.settings, self.model_part(name)
-        chosen = entry_with(settings.scene_designs.entries[scene], changes).scene()
-        members = {NOMINAL: Member(blade, chosen, own), **self._members(name, blade, scene, changes)}
-        return Sample(
-            members=members,
-            deciding=list(members),
-            largest_share=settings.config.refinement.scene_refinement(chosen).largest_share,
-            results=tuple(result for result in settings.results_of(self.entry.blade, scene) if result in _KEPT),
-            campbell=own,
-        )
+    def _scene_members(self, name: str, blade: BladeSettings, scene: str, changes: Mapping[str, float]) -> dict[str, Settings]:
+        chosen = entry_with(self.settings.scene_designs.entries[scene], changes).scene()
+        design = f"{FOLDER}/{name}"
+        members = {NOMINAL: self._settings(blade, scene, chosen, design)}
+        for member, (other, changed) in self._under_tolerances(blade, scene, changes).items():
+            own = design if other.elastic == blade.elastic else f"member {member} of {design}"
+            members[member] = self._settings(other, scene, changed, own)
+        return members
 
-    def _members(self, name: str, blade: BladeSettings, scene: str, scene_changes: Mapping[str, float]) -> dict[str, Member]:
-        """Members under tolerances, with a model of their own where the blade is another one."""
+    def _settings(self, blade: BladeSettings, scene: str, changed: Scene, design: str) -> Settings:
+        """The settings with a blade and a scene, and results that designs are judged by; `design` is for messages."""
+        name, settings, shape = self.entry.blade, self.settings, blade.definition
+        if isinstance(shape, Shape) and blade != settings.blades[name]:
+            blade = replace(blade, definition=replace(shape, name=f"{name}, {design}"))
+        results = tuple(result for result in settings.results_of(name, scene) if result in _KEPT)
+        chosen = replace(settings.scenes[scene], scene=changed, results=results, stress_history_speeds=())
+        return settings.varied({name: blade}, {scene: chosen})
+
+    def _under_tolerances(
+        self, blade: BladeSettings, scene: str, scene_changes: Mapping[str, float]
+    ) -> dict[str, tuple[BladeSettings, Scene]]:
+        """Blade and scene of each member under tolerances."""
         tolerances, scene_entry = self.entry.tolerances, self.settings.scene_designs.entries[scene]
         if tolerances is None:
             return {}
@@ -145,12 +147,10 @@ class SearchDesigns:
         design = {VariedNumber(SCENE, key): value for key, value in scene_changes.items()}
         nominal = [nominal_value(number, blade, numbers) for number in spreads]
         points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
-        members = {}
-        for member in filter(is_of_sample, points):
-            other, changed = changed_pair(blade, scene_entry, {**design, **drawn(spreads, nominal, points[member])})
-            own = self.model_part(name) if other.elastic == blade.elastic else path_part(f"{FOLDER}/{name}", member)
-            members[member] = Member(other, changed, own)
-        return members
+        return {
+            member: changed_pair(blade, scene_entry, {**design, **drawn(spreads, nominal, points[member])})
+            for member in filter(is_of_sample, points)
+        }
 
 
 def start_value(entry: ShapeKeys, key: str) -> float | None:

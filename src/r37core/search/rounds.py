@@ -1,12 +1,12 @@
-"""round_*.json of a search: which designs a round asks for, and what those before it gave."""
+"""Rounds of a search: which designs a round asks for, and what those before it gave."""
 
+import hashlib
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
-from pathlib import Path
 
-from r37core.base.io import read_json, readable, write_json
-from r37core.base.plain import from_plain, to_plain
+from r37core.base.plain import to_plain
 from r37core.results.closing import counted
 
 from .problem import QUASI_RANDOM, START, Design, SearchChoice, Value, best_first, not_dominated
@@ -20,6 +20,11 @@ class SearchRound:
     new: Mapping[str, tuple[float, ...]]
     tried: Mapping[str, Design] = field(default_factory=dict)
     start: Mapping[str, Value] = field(default_factory=dict)
+
+    @property
+    def digest(self) -> str:
+        """Short hash of all designs and what they gave."""
+        return hashlib.sha256(json.dumps(to_plain(self)).encode()).hexdigest()[:32]
 
 
 def first_round(count: int, choice: SearchChoice) -> SearchRound:
@@ -52,18 +57,6 @@ def round_after(tried: Mapping[str, Design], start: Mapping[str, Value], count: 
 
 def _named(values: list[tuple[float, ...]], before: int) -> dict[str, tuple[float, ...]]:
     return {f"d{before + place:04d}": each for place, each in enumerate(values)}
-
-
-def write_round(finished: SearchRound, file: Path | str) -> None:
-    """Write it, atomically."""
-    write_json(to_plain(finished), file)
-
-
-def read_round(file: Path | str) -> SearchRound:
-    """Read the file of `write_round`; InputFileError when it cannot be read."""
-    content = read_json(file)
-    with readable(file):
-        return from_plain(SearchRound, content)
 
 
 def progress(asked: SearchRound, choice: SearchChoice, number: int) -> str:

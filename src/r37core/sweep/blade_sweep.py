@@ -15,7 +15,7 @@ from r37core.config import Settings
 from r37core.plans.sweep_plan import Rounds, Simulations, Sweep
 from r37core.stress.statistic import Strengths
 
-from .recipe import Recipe, recipe
+from .recipe import Recipe, recipes
 
 CAMPBELL = "campbell_of_blade"
 """Stage of the Campbell diagram, that adaptive speeds begin with."""
@@ -60,7 +60,7 @@ class SharedSpeeds:
 def blade_sweep(
     settings: Settings, blade: str, scene: str, given: Mapping[str, str] | None = None, *, kept: bool = True
 ) -> BladeSweep:
-    """The sweep of a blade in a scene of these settings; `given` and `kept` as of BladeSweep and `recipe`."""
+    """The sweep of a blade in a scene of these settings; `given` and `kept` as of BladeSweep and `recipes`."""
     run, sweep, there = Named(blade=blade, scene=scene), Sweep(settings), given or {}
     simulations, tip_line = Simulations(sweep), settings.scenes[scene].tip_line
     models = ("contact_model", *(["stress_operator"] if "stress" in sweep.results(run) else []))
@@ -74,9 +74,7 @@ def blade_sweep(
 
     return BladeSweep(
         given=there,
-        recipes={
-            stage: recipe(settings, blade, stage, line, kept=kept) for stage, line in lines.items() if stage not in there
-        },
+        recipes=recipes(settings, blade, {stage: line for stage, line in lines.items() if stage not in there}, kept=kept),
         models=models,
         task=task(0.0),
         history_speeds=history,

@@ -19,7 +19,7 @@ from r37core.time_integration.speed_file import read_status
 from r37core.time_integration.speed_job import run_job
 
 from .blade_sweep import BladeSweep, SharedSpeeds
-from .forks import count_simulation
+from .counts import count_simulation
 from .recipe import code_of
 
 Result = TypeVar("Result")
@@ -109,7 +109,7 @@ class _Runs:
 
         def run(file: Path) -> None:
             run_job(text, str(file), task, self.about, *(model for model, _ in self.models), motion=self.motion)
-            count_simulation(self.folder.name, read_status(file))
+            count_simulation(read_status(file))
 
         return kept_file(f"speed_{text}.npz", self._made_of(task), run, self.folder)
 

@@ -1,18 +1,12 @@
-"""Processes of a job that works on several cores, and how many of its simulations are done. Light: consoles import it."""
+"""Processes of a job that works on several cores, which end with it."""
 
 import ctypes
-import json
 import multiprocessing
-import os
 import signal
 import sys
-from collections import Counter
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any
-
-COUNTS = "R37_SIMULATIONS"
-"""Environment variable that names the file with a line for each simulation that a job of this run has done."""
 
 _END_WITH_PARENT = 1
 """Option of Linux: a process gets a signal when the one that forked it ends."""
@@ -32,29 +26,18 @@ def forked_results(cores: int, calls: Sequence[Callable[[], Any]], what: str = "
     forks = min(cores, len(calls))
     if forks <= 1:
         return [call() for call in calls]
+    # forks have the calls, which nothing needs to carry to them
+    _CALLS[:] = calls
     pool = ProcessPoolExecutor(forks, multiprocessing.get_context("fork"), end_with_parent)
     try:
-        return list(pool.map(_called, calls))
+        return list(pool.map(_result, range(len(calls))))
     finally:
         pool.shutdown(cancel_futures=True)
+        _CALLS.clear()
 
 
-def _called(call: Callable[[], Any]) -> Any:
-    return call()
+_CALLS: list[Callable[[], Any]] = []
 
 
-def count_simulation(name: str, status: int) -> None:
-    """Add a simulation to those done, in the sweep of this name and with this status; nothing outside a run of the workflow."""
-    if file := os.environ.get(COUNTS):
-        with open(file, "a", encoding="utf-8") as stream:
-            stream.write(json.dumps([name, int(status)]) + "\n")
-
-
-def counted_simulations() -> Counter[int]:
-    """Number of simulations that jobs have done in this run, by status."""
-    file = os.environ.get(COUNTS)
-    if file is None or not os.path.exists(file):
-        return Counter()
-    with open(file, encoding="utf-8") as stream:
-        # a last line may not be whole yet
-        return Counter(json.loads(line)[1] for line in stream if line.endswith("\n"))
+def _result(number: int) -> Any:
+    return _CALLS[number]()

@@ -83,23 +83,24 @@ class Recipe:
             LOGGER.info("%s: %s", self.blade, shown)
 
 
-def recipe(settings: Settings, blade: str, stage: str, tip_line: str | None = None, *, kept: bool = True) -> Recipe:
-    """The recipe of the file of a stage, by the name of its rule; contact nodes lie on `tip_line`, else as config.yaml says.
+def recipes(settings: Settings, blade: str, tip_lines: Mapping[str, str | None], *, kept: bool = True) -> dict[str, Recipe]:
+    """Recipes of the files of stages, by the names of their rules, each with contact nodes on a line of the tip.
 
-    `kept`: whether the user's cache has a copy of the reduced model.
+    Without a line that of config.yaml counts. `kept`: whether the user's cache has a copy of the reduced model.
     """
-    wildcards = Named(blade=blade, tip_line=tip_line or settings.structure.boundary.tip_line)
     stages = structure_stages(Structure(settings), Provenance(settings))
     imported = _IMPORTED.get(type(settings.blades[blade].definition), {})
 
-    def of(stage: str) -> Recipe:
+    @cache
+    def of(stage: str, tip_line: str) -> Recipe:
         made = stages[imported.get(stage, stage)]
-        inputs = {key: of(other) for key, other in made.reads.items()}
-        values = {key: value for key, value in made.values(wildcards).items() if not isinstance(value, Attributes)}
+        inputs = {key: of(other, tip_line) for key, other in made.reads.items()}
+        params = made.values(Named(blade=blade, tip_line=tip_line))
+        values = {key: value for key, value in params.items() if not isinstance(value, Attributes)}
         values |= {"kept": kept} if "kept" in values else {}
         return Recipe(blade, made.step, made.title, _FILES[stage], inputs, to_plain(values))
 
-    return of(stage)
+    return {stage: of(stage, line or settings.structure.boundary.tip_line) for stage, line in tip_lines.items()}
 
 
 def structure_attributes(settings: Settings, blade: str) -> Attributes:

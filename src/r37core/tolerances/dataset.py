@@ -47,13 +47,14 @@ INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
 
 @dataclass(frozen=True)
 class MemberRun:
-    """A member and its response: `values` of the numbers, NaN for one that its blade or scene does not have."""
+    """A member and its response in the `group` of a file: `values` of the numbers, NaN for one that it does not have."""
 
     blade: str
     scene: str
     member: str
     values: tuple[float, ...]
     file: Path | str
+    group: str | None = None
 
 
 def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.Dataset:
@@ -65,7 +66,7 @@ def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.
     groups: dict[tuple[str, str], list[xr.Dataset]] = {}
     measured: dict[tuple[str, str], dict[str, dict[str, float]]] = {}
     for run in runs:
-        response, pair = read_judged(run.file), (run.blade, run.scene)
+        response, pair = read_judged(run.file, run.group), (run.blade, run.scene)
         with readable(run.file):
             values = _measured(response)
         for name, value in values.items():

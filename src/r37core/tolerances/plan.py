@@ -1,26 +1,31 @@
-"""The plan of the tolerances: members of samples, each with runs of its own, and what is made of them together."""
+"""The plan of the tolerances: members of each blade and scene, run by one job, and what is made of them together."""
 
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
 
+from r37core.base.io import Named, as_list
+from r37core.base.plain import to_plain
 from r37core.base.varied_number import VariedNumber
+from r37core.blade.definition import Shape
 from r37core.config import BladeSettings, Settings
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure
-from r37core.plans.extent import extent_of
-from r37core.plans.member_values import is_of_sample
-from r37core.plans.samples import NOMINAL, Member, Pair, Sample, Sampling, path_part
+from r37core.plans.extension import Extension, Figure, Sampling
+from r37core.plans.extent import Pair, extent_of
+from r37core.plans.provenance import Attributes, Provenance
 from r37core.plans.sweep_plan import Sweep
+from r37core.sweep.blade_sweep import CAMPBELL, blade_sweep, shared_speeds
+from r37core.sweep.recipe import structure_attributes
 
-from .members import SECTION, Members, members_can_be_drawn, members_of
+from .members import SECTION, Member, Members, members_can_be_drawn, members_of
 from .number_ranks import remarks_on_rankings
 
 FOLDER = "tolerances"
 """Folder of the members' files: the extension's name."""
 
 DATASET, TABLE = "<results>/tolerances.nc", "<results>/tolerances.csv"
-RESPONSE_OF_MEMBER = paths.RESPONSE.replace("{member}", path_part(FOLDER, "{member}"))
-_FIRST_ROUND = paths.ROUND.replace("{member}", path_part(FOLDER)).replace("{round}", "0")
+MEMBERS = "<results>/tolerances/{blade}/{scene}/members.nc"
+"""Responses and Campbell diagrams of the members of a blade and scene; the folder has the parts that they are made of."""
 
 _KEPT = ("spectrum", "stress", "static_stress", "fatigue")
 """Results of a scene that its members have, too: what ranges are read off."""
@@ -28,7 +33,7 @@ _KEPT = ("spectrum", "stress", "static_stress", "fatigue")
 
 @dataclass(frozen=True)
 class Tolerances:
-    """Plan of the members that `settings` ask for, and of what is made of them."""
+    """Plan of the members that `settings` ask for, and of what is made of them; methods with `wildcards` as of Sweep."""
 
     settings: Settings
 
@@ -36,66 +41,74 @@ class Tolerances:
     def _members(self) -> Members:
         return members_of(self.settings)
 
-    @cached_property
-    def samples(self) -> dict[Pair, Sample]:
-        """Members by blade and scene: those that alone decide on adaptive speeds, then those for sensitivity indices."""
-        settings, models = self.settings, self._models
-        return {
-            (blade, scene): Sample(
-                members={name: Member(of.blade, of.scene, models[blade][name]) for name, of in members.items()},
-                deciding=[name for name in members if is_of_sample(name)],
-                largest_share=settings.section(SECTION).largest_share,
-                results=tuple(result for result in settings.results_of(blade, scene) if result in _KEPT),
-            )
-            for (blade, scene), members in self._members.all.items()
-        }
+    def _varied(self, wildcards: Any) -> Iterator[tuple[str, Member, Settings]]:
+        """Name of each member of a blade and scene, the member, and the settings with its blade and scene."""
+        settings, blade, scene = self.settings, wildcards.blade, wildcards.scene
+        results = tuple(result for result in settings.results_of(blade, scene) if result in _KEPT)
+        chosen = replace(settings.scenes[scene], results=results, stress_history_speeds=())
+        first: dict[BladeSettings, str] = {}
+        for name, member in self._members.all[blade, scene].items():
+            # members with the same blade have one model
+            own = _named(member.blade, f"{blade}, member {first.setdefault(member.blade.elastic, name)} of {FOLDER}")
+            yield name, member, settings.varied({blade: own}, {scene: replace(chosen, scene=member.scene)})
+
+    def sweeps(self, wildcards: Any, input: Any) -> dict[str, Any]:
+        """Sweep of each member, as plain values: from the models of the `input` where its blade is the nominal one."""
+        nominal = self.settings.blades[wildcards.blade].elastic
+        files = dict(zip(("contact_model", "stress_operator"), as_list(input.models), strict=False))
+        there = {**files, CAMPBELL: str(input.campbell)}
+        sweeps = {}
+        for name, member, settings in self._varied(wildcards):
+            given = there if member.blade.elastic == nominal else {}
+            sweeps[name] = to_plain(blade_sweep(settings, **vars(_run(wildcards)), given=given, kept=False))
+        return sweeps
+
+    def about(self, wildcards: Any) -> Attributes:
+        """Attributes of the files of each member, as JSON."""
+        varied = ((name, Provenance(settings).sweep(wildcards)) for name, _, settings in self._varied(wildcards))
+        return Attributes({name: str(Attributes(made, member=name)) for name, made in varied})
+
+    def structure(self, wildcards: Any) -> Attributes:
+        """Parameters of the models of members that are for messages."""
+        return structure_attributes(self.settings, wildcards.blade)
+
+    def speeds(self, wildcards: Any) -> dict[str, Any]:
+        """Speeds of all members of a blade and scene, as plain values."""
+        share = self.settings.section(SECTION).largest_share
+        return to_plain(shared_speeds(self.settings, **vars(_run(wildcards)), largest_share=share))
+
+    def number(self, wildcards: Any) -> int:
+        """Number of the members of a blade and scene."""
+        return len(self._members.all[wildcards.blade, wildcards.scene])
 
     @property
-    def _models(self) -> dict[str, dict[str, str]]:
-        """Whose model each member has, by blade: of the first of those with the same blade, or the nominal one."""
-        first: dict[str, dict[BladeSettings, str]] = {}
-        models: dict[str, dict[str, str]] = {}
-        for (blade, _), members in self._members.all.items():
-            known = first.setdefault(blade, {self.settings.blades[blade].elastic: NOMINAL})
-            for name, member in members.items():
-                if name not in models.setdefault(blade, {}):
-                    models[blade][name] = known.setdefault(member.blade.elastic, path_part(FOLDER, name))
-        return models
+    def simulations(self) -> dict[Pair, int]:
+        """Largest number of simulations of members, by blade and scene."""
+        share, plans = self.settings.section(SECTION).largest_share, self.settings.speed_plans
+        return {pair: len(members) * plans[pair].speed_count(share) for pair, members in self._members.all.items()}
+
+    @property
+    def pairs(self) -> list[Pair]:
+        """Blades and scenes that have members."""
+        return self._members.pairs
 
     @property
     def runs(self) -> list[dict[str, str]]:
-        """Blade, scene and member of all responses, in the order of the dataset."""
-        every = self.samples.items()
-        return [{"blade": blade, "scene": scene, "member": name} for (blade, scene), of in every for name in of.members]
-
-    @property
-    def runs_of_sample(self) -> list[dict[str, str]]:
-        """Runs of the samples, without members for sensitivity indices alone."""
-        return [run for run in self.runs if is_of_sample(run["member"])]
-
-    @property
-    def campbells_of_sample(self) -> list[str]:
-        """The Campbell diagram of each of them."""
-        models, runs = self._models, self.runs_of_sample
-        return [paths.fill(paths.CAMPBELL, member=models[run["blade"]][run["member"]], blade=run["blade"]) for run in runs]
+        """Blade, scene and name of all members, in the order of the dataset."""
+        every = self._members.all.items()
+        return [{"blade": blade, "scene": scene, "member": name} for (blade, scene), members in every for name in members]
 
     @property
     def nominal(self) -> dict[str, list[str]]:
         """Responses and Campbell diagrams of the nominal runs."""
-        pairs = self._members.pairs
-        runs, blades = paths.run_keys(pairs), paths.of("blade", [blade for blade, _ in pairs])
+        runs, blades = paths.run_keys(self.pairs), paths.of("blade", [blade for blade, _ in self.pairs])
         return {"nominal": paths.filled({paths.RESPONSE: runs}), "nominal_campbells": paths.filled({paths.CAMPBELL: blades})}
 
     @property
-    def adaptive(self) -> paths.Wildcards:
-        """Blades and scenes whose members share rounds of refinement."""
-        return paths.run_keys(pair for pair in self._members.pairs if self.settings.speed_plans[pair].refined)
-
-    @property
     def first_rounds(self) -> list[str]:
-        """First rounds of the members and of the nominal runs beside them: as of Sweep."""
-        nominal = [{**run, "round": "0"} for run in self.adaptive]
-        return paths.filled({_FIRST_ROUND: self.adaptive, paths.ROUND: nominal})
+        """First rounds of the nominal runs: as of Sweep."""
+        adaptive = paths.run_keys(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
+        return paths.filled({paths.ROUND: [{**run, "round": "0"} for run in adaptive]})
 
     @property
     def numbers(self) -> list[str]:
@@ -109,10 +122,19 @@ class Tolerances:
         return [list(every[run["blade"], run["scene"]][run["member"]].values) for run in self.runs]
 
 
+def _run(wildcards: Any) -> Named:
+    return Named(blade=wildcards.blade, scene=wildcards.scene)
+
+
+def _named(blade: BladeSettings, name: str) -> BladeSettings:
+    """The blade with this name in messages about its shape."""
+    shape = blade.definition
+    return replace(blade, definition=replace(shape, name=name)) if isinstance(shape, Shape) else blade
+
+
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The responses of the members, and first rounds where their speeds are adaptive."""
-    planned = sweep.settings.made(Tolerances)
-    return {RESPONSE_OF_MEMBER: planned.runs, _FIRST_ROUND: planned.adaptive}
+    """The members of each blade and scene."""
+    return {MEMBERS: paths.run_keys(members_of(sweep.settings).pairs)}
 
 
 def remarks(settings: Settings) -> list[str]:
@@ -120,7 +142,7 @@ def remarks(settings: Settings) -> list[str]:
     members, entry = members_of(settings), settings.section(SECTION)
     if not members.pairs:
         return []
-    most = extent_of(settings, {FOLDER: settings.made(Tolerances).samples}).members
+    most = extent_of(settings, settings.made(Tolerances).simulations).members
     counted = f"tolerances: {entry.members} members, {most} simulations of theirs at most, beside those of the sweep"
     return [counted, *_without_width(members), *remarks_on_rankings(entry.members, len(members.numbers), entry.sensitivity)]
 
@@ -144,7 +166,7 @@ EXTENSION = Extension(
     name=FOLDER,
     section=SECTION,
     checks=(members_can_be_drawn,),
-    sampling=Sampling(lambda settings: settings.made(Tolerances).samples, ranges=TABLE, dataset=DATASET),
+    sampling=Sampling(lambda settings: settings.made(Tolerances).simulations, ranges=TABLE, dataset=DATASET),
     simulated=simulated,
     targets=lambda sweep: dict.fromkeys((DATASET, TABLE), [{}] if members_of(sweep.settings).pairs else []),
     remarks=remarks,

@@ -1,53 +1,84 @@
-"""Steps of the workflow (docs/architecture.md): what the members of a sample give together."""
+"""Steps of the workflow (docs/architecture.md): members under tolerances, and what they give together."""
 
 import math
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
 from typing import Any
 
-from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
+import xarray as xr
+
+from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset, write_groups
 from r37core.base.io import as_list
 from r37core.base.origin import origin
 from r37core.base.plain import from_plain
 from r37core.results.interactions import InteractionChoice, find_interactions
 from r37core.results.regions import read_judged
 from r37core.results.table_file import write_table
+from r37core.sweep.blade_sweep import CAMPBELL, BladeSweep, SharedSpeeds
+from r37core.sweep.driver import Driver
+from r37core.sweep.forks import forked_results
 
 from .dataset import MemberRun, tolerances_dataset
 from .table import range_table, ranges
 
+_RESPONSE, _CAMPBELL = "{}/response", "{}/campbell"
+"""Groups of a member in the file of its blade and scene."""
+
+
+def run(input: Any, output: Any, params: Any) -> None:
+    """Run the members of a blade and scene. Inputs: campbell (of the nominal blade), models. Output: members (nc).
+
+    Params: sweeps, speeds, structure, about, provenance, cores.
+    """
+    sweeps = {name: from_plain(BladeSweep, sweep) for name, sweep in params.sweeps.items()}
+    folder = Path(output.members).parent
+    structures = folder.parents[1] / ".structures"
+    driver = Driver(folder, structures, params.structure, partial(forked_results, params.cores))
+    responses = driver.run(sweeps, from_plain(SharedSpeeds, params.speeds), input.campbell, params.about)
+
+    def groups() -> Iterator[tuple[str, xr.Dataset]]:
+        for name, response in responses.items():
+            yield _RESPONSE.format(name), read_dataset(response)
+            yield _CAMPBELL.format(name), read_dataset(sweeps[name].file(CAMPBELL, structures, params.structure))
+
+    write_groups(groups(), output.members, params.provenance)
+
 
 def join(input: Any, output: Any, params: Any) -> None:
-    """Join the members' responses. Inputs: responses. Params: members, numbers, values, fidelity. Output: dataset (nc)."""
-    files = as_list(input.responses)
+    """Join the members. Inputs: members, of each of the pairs. Params: pairs, runs, numbers, values, fidelity.
+
+    Output: dataset (nc).
+    """
+    files = dict(zip(map(tuple, params.pairs), as_list(input.members), strict=True))
     runs = (
-        MemberRun(**member, values=tuple(math.nan if value is None else value for value in values), file=file)
-        for member, values, file in zip(params.members, params.values, files, strict=True)
+        MemberRun(
+            **run,
+            values=tuple(math.nan if value is None else value for value in values),
+            file=files[run["blade"], run["scene"]],
+            group=_RESPONSE.format(run["member"]),
+        )
+        for run, values in zip(params.runs, params.values, strict=True)
     )
-    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files))} | origin("Members under tolerances")
-    write_dataset(tolerances_dataset(runs, params.numbers), output.dataset, made)
+    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files.values()))}
+    dataset = tolerances_dataset(runs, params.numbers)
+    write_dataset(dataset, output.dataset, made | origin("Members under tolerances"))
 
 
 def table(input: Any, output: Any, params: Any) -> None:
-    """List interactions with their ranges. Params: members, choice. Output: table (csv).
+    """List interactions with their ranges. Params: pairs, runs, choice. Output: table (csv).
 
-    Inputs: responses and campbells of the members, nominal and nominal_campbells of the nominal runs.
+    Inputs: members, of each of the pairs, and nominal and nominal_campbells of the nominal runs.
     """
     choice = from_plain(InteractionChoice, params.choice)
-
-    def read(responses: Any, campbells: Any) -> Any:
-        for file, campbell in zip(as_list(responses), as_list(campbells), strict=True):
-            response = read_judged(file)
-            yield find_interactions(response, read_dataset(campbell), choice), response["speed"].values[[0, -1]]
-
-    members: dict[tuple[str, str], dict[str, Any]] = {}
-    speeds: dict[tuple[str, str], tuple[float, float]] = {}
-    for member, (interactions, ends) in zip(params.members, read(input.responses, input.campbells), strict=True):
-        pair = member["blade"], member["scene"]
-        members.setdefault(pair, {})[member["member"]] = interactions
-        speeds[pair] = tuple(ends)
-    nominal = read(input.nominal, input.nominal_campbells)
-    rows = [
-        (*pair, row)
-        for pair, (interactions, _) in zip(members, nominal, strict=True)
-        for row in ranges(interactions, members[pair], choice, speeds[pair])
-    ]
+    rows = []
+    inputs = map(as_list, (input.members, input.nominal, input.nominal_campbells))
+    for pair, file, *nominal in zip(map(tuple, params.pairs), *inputs, strict=True):
+        members, speeds = {}, (0.0, math.inf)
+        for name in (run["member"] for run in params.runs if (run["blade"], run["scene"]) == pair):
+            response = read_judged(file, _RESPONSE.format(name))
+            members[name] = find_interactions(response, read_dataset(file, group=_CAMPBELL.format(name)), choice)
+            speeds = float(response["speed"][0]), float(response["speed"][-1])
+        interactions = find_interactions(read_judged(nominal[0]), read_dataset(nominal[1]), choice)
+        rows += [(*pair, row) for row in ranges(interactions, members, choice, speeds)]
     write_table(range_table(rows), output.table)

@@ -1,0 +1,187 @@
+"""Evaluation of the designs of a search: their shapes, models and runs, and the quantities that follow."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from pathlib import Path
+from pkgutil import resolve_name
+from typing import Any
+
+import numpy as np
+
+from r37core.base.dataset_file import read_dataset
+from r37core.base.io import Named, read_json, write_json
+from r37core.base.plain import to_plain
+from r37core.blade.definition import shape_from_plain
+from r37core.config import ConfigError, Settings, operating_range
+from r37core.config.changed_numbers import ImpossibleValueError
+from r37core.config.document import Document
+from r37core.machine_code.kept import kept_file
+from r37core.plans.provenance import Provenance
+from r37core.results.ranking import robustness
+from r37core.results.regions import read_judged
+from r37core.rom.contact_model import read_contact_model
+from r37core.stress.operator import judged_operator, read_stress_operators
+from r37core.sweep.blade_sweep import CAMPBELL, BladeSweep, SharedSpeeds, blade_sweep, shared_speeds
+from r37core.sweep.driver import Driver, RunAll, one_by_one
+from r37core.sweep.recipe import Recipe, code_of, recipes, structure_attributes
+
+from .designs import NOMINAL, choice_of, designs_of
+from .problem import START, Value
+from .quantity import DesignStructure, contact_value, static_stress, structure_value
+
+_STRUCTURE = ("geometry", CAMPBELL, "contact_model", "stress_operator")
+
+
+class Carried:
+    """Settings of a job, which reads them from its copy of config.yaml and the files that this names.
+
+    As a rule's parameter they re-run nothing: what they hold that counts stands next to them.
+    """
+
+    def __init__(self, settings: Settings):
+        self.settings = settings
+
+    def __reduce__(self) -> Any:
+        return _read, (self.settings.documents.config, self.settings.root)
+
+
+def _read(config: Document, root: Path) -> Carried:
+    # models of config.yaml are made of the sections of all extensions, of which this is one
+    return Carried(resolve_name("r37core.product.reading.load_settings")(config, root))
+
+
+class Refused(ValueError):
+    """A design that cannot be built; the message says why."""
+
+
+@dataclass(frozen=True)
+class DesignRuns:
+    """Runs of a design: `structure`, recipes of its own blade, and for each scene the sweeps, that of NOMINAL first."""
+
+    structure: Mapping[str, Recipe]
+    scenes: Mapping[str, Mapping[str, BladeSweep]]
+    speeds: Mapping[str, SharedSpeeds]
+    about: Mapping[str, str]
+    density: float
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Evaluation of the designs of the search of these `settings`, with files in a `folder`, on so many `cores`."""
+
+    settings: Settings
+    folder: Path
+    run_all: RunAll
+    cores: int
+
+    @cached_property
+    def _attributes(self) -> Mapping[str, Any]:
+        return structure_attributes(self.settings, self._blade)
+
+    @property
+    def _blade(self) -> str:
+        return designs_of(self.settings).entry.blade
+
+    @property
+    def _structures(self) -> Path:
+        return self.folder / ".structures"
+
+    def quantities(self, designs: Mapping[str, Sequence[float] | None]) -> list[dict[str, Value] | str]:
+        """Quantities of designs by the values of their variables (None: the start), or why one cannot be built."""
+        self._structures.mkdir(parents=True, exist_ok=True)
+        if len(designs) < self.cores:
+            return [self._quantities(name, values, self.run_all) for name, values in designs.items()]
+        calls = [partial(self._quantities, name, values, one_by_one) for name, values in designs.items()]
+        return list(self.run_all(calls, "designs"))
+
+    def geometry(self, name: str, values: Sequence[float] | None) -> Path:
+        """File with the shape of a design."""
+        return self.runs(name, values).structure["geometry"].file(self._structures, self._attributes)
+
+    def _quantities(self, name: str, values: Sequence[float] | None, run_all: RunAll) -> dict[str, Value] | str:
+        try:
+            runs = self.runs(name, values)
+            made_of = [to_plain((runs.structure, runs.scenes, runs.speeds)), to_plain(choice_of(self.settings).quantities)]
+            made_of += [to_plain(operating_range(self.settings)), code_of("search.steps.search")]
+            (folder := self.folder / name).mkdir(parents=True, exist_ok=True)
+            return read_json(kept_file("quantities.json", made_of, partial(self._measure, name, runs, run_all), folder))
+        except (ConfigError, ImpossibleValueError, Refused) as error:
+            return str(error)
+
+    def runs(self, name: str, values: Sequence[float] | None) -> DesignRuns:
+        """Runs of a design. Raises ConfigError and ImpossibleValueError for one that is impossible."""
+        members, blade = designs_of(self.settings).members(name, values), self._blade
+        nominal = {scene: several[NOMINAL] for scene, several in members.items()}
+        first = next(iter(nominal.values()))
+        kept, material = first.blades[blade] == self.settings.blades[blade], first.blades[blade].material
+        assert material is not None
+        return DesignRuns(
+            structure=recipes(first, blade, dict.fromkeys(_STRUCTURE), kept=kept),
+            scenes={
+                scene: {member: blade_sweep(of, blade, scene, kept=kept) for member, of in several.items()}
+                for scene, several in members.items()
+            },
+            speeds={scene: shared_speeds(of, blade, scene) for scene, of in nominal.items()},
+            about={scene: str(Provenance(of).sweep(Named(blade=blade, scene=scene))) for scene, of in nominal.items()},
+            density=material.density,
+        )
+
+    def _measure(self, name: str, runs: DesignRuns, run_all: RunAll, file: Path) -> None:
+        """Build the design, run it, and write its quantities. Raises Refused where it cannot be built."""
+        if name != START and designs_of(self.settings).blade_varies:
+            self._check_shape(name, runs)
+        made = {stage: part.file(self._structures, self._attributes) for stage, part in runs.structure.items()}
+        operating, quantities = operating_range(self.settings), choice_of(self.settings).quantities
+        highest = self.settings.structure.maximum_speed_rad_s
+        speeds = {quantity.speed or highest for quantity in quantities.values()}
+        stiffening = read_contact_model(made["contact_model"]).rotation_stiffening
+        operator = judged_operator(read_stress_operators(made["stress_operator"]))
+        structure = DesignStructure(
+            volume=float(read_dataset(made["geometry"])["volume"]),
+            density=runs.density,
+            campbell=read_dataset(made[CAMPBELL]),
+            static_stress=static_stress(operator, stiffening, sorted(speeds)),
+        )
+        nominal, members = {}, {}
+        for scene, sweeps in runs.scenes.items():
+            driver = Driver(self.folder / name / scene, self._structures, self._attributes, run_all)
+            about = dict.fromkeys(sweeps, runs.about[scene])
+            first, *others = driver.run(sweeps, runs.speeds[scene], made[CAMPBELL], about).values()
+            nominal[scene] = robustness(read_judged(first), operating=operating)
+            members[scene] = [
+                robustness(member, chance_scatter=False, operating=operating) for member in map(read_judged, others)
+            ]
+        values = {
+            name: contact_value(quantity, nominal, members)
+            if quantity.needs_contact
+            else (structure_value(quantity, structure, highest), 0.0)
+            for name, quantity in quantities.items()
+        }
+        known = {name: [number if math.isfinite(number) else None for number in value] for name, value in values.items()}
+        write_json(known, file)
+
+    def _check_shape(self, name: str, runs: DesignRuns) -> None:
+        """Raise Refused for a shape that cannot be built or meshed, or has no elements where the stress is judged."""
+        # gmsh takes a second to load, which rounds have no use for
+        from r37core.fem.mesh_quality import check_quality, mesh_quality
+        from r37core.mesh.generate import generate_mesh
+
+        level = self.settings.fidelity.mesh
+        region = self.settings.reduction_choice(self._blade).judged_region
+        try:
+            shape = shape_from_plain(runs.structure["geometry"].params["definition"])
+            blade = shape.build(round_edges=self.settings.structure.edges == "round")
+            mesh = generate_mesh(blade, level.nodes, level.layers, level.tip_elements)
+            check_quality(mesh, mesh_quality(mesh), level.minimum_scaled_jacobian)
+            # elements next to contact nodes, which are known with the model, count here
+            if not region.elements(mesh, np.empty(0, dtype=int)):
+                raise ValueError(f"the stress region ({region.description()}) has no elements")
+        except ValueError as error:
+            raise Refused(str(error)) from None
+
+
+def start_runs(settings: Settings) -> DesignRuns:
+    """Runs of the start of the search of these settings."""
+    return Evaluation(settings, Path(), one_by_one, 1).runs(START, None)

@@ -1,0 +1,142 @@
+"""The driver of runs: the workflow's numbers, on any number of processes; nothing that is there is run again."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from functools import partial
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from r37core.adaptive.criterion import RefinementChoice
+from r37core.base.dataset_file import read_dataset, write_groups
+from r37core.base.plain import from_plain, to_plain
+from r37core.base.speeds import SpeedPlan, plan_speeds
+from r37core.stress.statistic import Strengths
+from r37core.sweep import counts, driver
+from r37core.sweep.blade_sweep import BladeSweep, SharedSpeeds
+from r37core.sweep.driver import Driver
+from r37core.sweep.forks import forked_results
+from r37core.time_integration.speed_file import write_speed
+
+CHOICE = RefinementChoice(windows=(), prominence=0.1, largest_share=0.6)
+TASK = json.dumps({"height": 1.0})
+
+
+@pytest.fixture
+def sweep(tmp_path):
+    (tmp_path / "contact.npz").write_bytes(b"a model")
+    given = {"contact_model": str(tmp_path / "contact.npz")}
+    return BladeSweep(given, {}, ("contact_model",), TASK, (), "", np.inf, Strengths())
+
+
+@pytest.fixture
+def run_speeds(monkeypatch, tmp_path):
+    """Speeds that are simulated, in order, by a peak of the given height at 1040 rad/s in place of the time integration."""
+    run = tmp_path / "run.txt"
+
+    def peak(speed, output, task, about, *models, motion=None):
+        with open(run, "a") as stream:
+            stream.write(f"{speed}\n")
+        rms = json.loads(task)["height"] / (1.0 + (float(speed) / 10.0 - 104.0) ** 2)
+        write_speed({"status": np.array(0), "rms": np.full((2, 3), rms)}, output, json.loads(about))
+
+    monkeypatch.setattr(driver, "run_job", peak)
+    monkeypatch.setattr(driver, "write_response", lambda files, speeds, file, **_: file.write_text(json.dumps(list(speeds))))
+    return lambda: run.read_text().split() if run.exists() else []
+
+
+def run(folder, sweeps, entry, run_all=driver.one_by_one, choice=CHOICE):
+    speeds = SharedSpeeds(plan_speeds(entry, 1.0), choice)
+    shaped = folder / "campbell.nc"
+    if not shaped.exists():
+        xr.Dataset({"crossing_speed": (("mode", "engine_order"), np.empty((0, 0)))}).to_netcdf(shaped)
+    made = Driver(folder / "runs", folder / "structures", {}, run_all)
+    return made.run(sweeps, speeds, shaped, dict.fromkeys(sweeps, "{}"))
+
+
+def test_what_is_there_is_not_run_again_and_what_is_damaged_or_of_another_task_is(tmp_path, sweep, run_speeds):
+    speeds = [{"start": 1000, "stop": 1080, "step": 20}]
+    run(tmp_path, {"one": sweep}, speeds)
+    assert run_speeds() == ["1000", "1020", "1040", "1060", "1080"]
+    run(tmp_path, {"one": sweep}, [*speeds, 1090])
+    assert run_speeds()[5:] == ["1090"]
+    (part,) = (tmp_path / "runs/one").glob("speed_1020-*.npz")
+    part.write_bytes(part.read_bytes()[:-1])
+    run(tmp_path, {"one": sweep}, speeds)
+    assert run_speeds()[6:] == ["1020"]
+    other = BladeSweep(**{**vars(sweep), "task": json.dumps({"height": 2.0})})
+    run(tmp_path, {"one": other}, [1000])
+    assert run_speeds()[7:] == ["1000"]
+    # another model under the same name is another one
+    (tmp_path / "contact.npz").write_bytes(b"another model")
+    run(tmp_path, {"one": sweep}, [1000])
+    assert run_speeds()[8:] == ["1000"]
+
+
+def test_sweeps_share_their_speeds_and_a_broken_run_asks_for_the_same_ones(tmp_path, sweep, run_speeds):
+    entry = [{"start": 1000, "stop": 1080, "step": 40, "refine_to": 5}]
+    low = BladeSweep(**{**vars(sweep), "task": json.dumps({"height": 1e-3})})
+    first, second = run(tmp_path, {"a": sweep, "b": low}, entry).values()
+    speeds = json.loads(first.read_text())
+    assert speeds == json.loads(second.read_text()) == sorted(set(speeds)) and len(speeds) > 3
+    done = run_speeds()
+    assert len(done) == 2 * len(speeds)
+    # a round lost one of its runs: this alone is done again
+    next((tmp_path / "runs/b").glob("speed_1040-*.npz")).unlink()
+    run(tmp_path, {"a": sweep, "b": low}, entry)
+    assert run_speeds()[len(done) :] == ["1040"]
+
+
+def test_histories_have_a_task_of_their_own(sweep):
+    kept = BladeSweep(**{**vars(sweep), "history_speeds": (1040.0,), "history_task": "{}"})
+    assert kept.task_at(1040.0) == "{}" and kept.task_at(1000.0) == TASK
+    assert from_plain(BladeSweep, to_plain(kept)) == kept
+    plan = SharedSpeeds(SpeedPlan((1.0,)), CHOICE)
+    assert from_plain(SharedSpeeds, to_plain(plan)) == plan
+
+
+def test_forks_give_results_in_order_and_count_simulations(tmp_path, sweep, run_speeds, monkeypatch):
+    monkeypatch.setenv(counts.COUNTS, str(tmp_path / "counts.txt"))
+    assert counts.counted_simulations().total() == 0
+    run(tmp_path, {"one": sweep}, [1000, 1020, 1040], partial(forked_results, 2))
+    assert sorted(run_speeds()) == ["1000", "1020", "1040"] and counts.counted_simulations() == {0: 3}
+    with pytest.raises(ZeroDivisionError):
+        forked_results(2, [lambda: 1 // 1, lambda: 1 // 0])
+    assert forked_results(2, [os.getpid, os.getpid, lambda: 3])[2] == 3
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux")
+@pytest.mark.parametrize("signal_number", [signal.SIGKILL, signal.SIGTERM])
+def test_forks_end_with_the_process_that_forked_them(tmp_path, signal_number):
+    program = f"""
+import os, time
+from r37core.sweep.forks import forked_results
+
+def call():
+    open(f"{tmp_path}/{{os.getpid()}}", "w").close()
+    time.sleep(60)
+
+forked_results(2, [call, call])
+"""
+    process = subprocess.Popen([sys.executable, "-c", program])
+    end = time.monotonic() + 60
+    while len(found := list(tmp_path.iterdir())) < 2 and time.monotonic() < end:
+        time.sleep(0.05)
+    process.send_signal(signal_number)
+    process.wait()
+    while any(os.path.exists(f"/proc/{file.name}") for file in found) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert len(found) == 2 and not any(os.path.exists(f"/proc/{file.name}") for file in found)
+
+
+def test_groups_of_a_file(tmp_path):
+    parts = {name: xr.Dataset({"x": ("n", [float(number)])}) for number, name in enumerate(("0/response", "1/response"))}
+    write_groups(parts.items(), tmp_path / "members.nc", {"blade": "Ref"})
+    assert read_dataset(tmp_path / "members.nc").attrs["blade"] == "Ref"
+    for name, part in parts.items():
+        xr.testing.assert_identical(read_dataset(tmp_path / "members.nc", group=name).drop_attrs(), part)
