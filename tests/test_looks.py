@@ -17,6 +17,7 @@ from r37core.results.operating_range import OperatingRange
 from r37core.results.response import run_row
 from r37core.stress.recovery import stress_operators
 from r37core.stress.statistic import UNKNOWN
+from r37core.sweep.parts import Parts
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
@@ -76,6 +77,22 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
         used[name] = float(found[name]["used_thickness"].sel(speed=1305.0))
         assert used[name] == row["used_thickness"]
     assert len(set(used.values())) == 4
+
+
+def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
+    """Nor those of a motion that is carried on, which goes on from the last of them."""
+    kept, few = replace(lined, parts=Parts(tmp_path, "lined")), replace(evidence(), operating=OperatingRange(1304.0, 1309.0))
+    expected, found = dict(looks_of(lined, NEEDS, few)), dict(looks_of(kept, NEEDS, few))
+    files = sorted(tmp_path.glob("speed_*.npz"))
+    for file in files[::3]:
+        file.unlink()
+    run, done = further_runs.Simulation.run, []
+    monkeypatch.setattr(further_runs.Simulation, "run", lambda self, *of: done.append(1) or run(self, *of))
+    again = dict(looks_of(kept, NEEDS, few))
+    assert len(done) == len(files[::3])
+    for name, runs in expected.items():
+        xr.testing.assert_identical(found[name], runs)
+        xr.testing.assert_identical(again[name], runs)
 
 
 def test_stress_before_a_run_settles_is_known(contact, model, steel, lined):

@@ -4,9 +4,9 @@ From rest until the motion has settled, also between the sweep's speeds; carried
 friction; with half the step. A requirement that the sweep's runs fail clearly needs none.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any
 
@@ -20,8 +20,8 @@ from r37core.results.variables import AXES, OF_ALL_SPEEDS, VARIABLES
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperators
 from r37core.stress.statistic import Strengths
+from r37core.sweep.parts import Parts
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
-from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import numbers_of_run
@@ -45,6 +45,7 @@ class JudgedBlade:
     """A blade's `model` in a `scene`: time integration, `results` and `kept` as run_speed takes them, and its material.
 
     `yield_stress` (Pa); `stress`: operator of the region that decides, by its name, where stress is among the results.
+    `parts`: which runs are there already.
     """
 
     model: ContactModel
@@ -55,6 +56,7 @@ class JudgedBlade:
     yield_stress: float
     strengths: Strengths
     stress: StressOperators | None = None
+    parts: Parts | None = None
 
     @cached_property
     def long_choice(self) -> IntegrationChoice:
@@ -71,8 +73,9 @@ class JudgedBlade:
     def runs_from_rest(self, speeds: Iterable[float], scene: Scene | None = None, step: float = 1.0) -> xr.Dataset:
         """Runs from rest at speeds (rad/s), in another scene if it is given, with a share of the time `step`."""
         choice = replace(self.long_choice, time_step=step * self.long_choice.time_step)
-        runs = ((speed, Simulation(self.model, speed, scene or self.rising_scene, choice).run()) for speed in speeds)
-        return self._dataset({speed: self._row(run) for speed, run in runs})
+        of = scene or self.rising_scene
+        runs = {speed: partial(self._run, speed, of, choice) for speed in speeds}
+        return self._dataset({speed: self._row(self._numbers(speed, (of, choice), run)) for speed, run in runs.items()})
 
     def carried(self, speeds: Sequence[float]) -> xr.Dataset:
         """The motion carried on from each speed (rad/s) to the next in an unworn lining, from rest at the first one."""
@@ -80,14 +83,26 @@ class JudgedBlade:
         choice = replace(self.long_choice, time_step=step)
         rows: dict[float, dict[str, Any]] = {}
         motion: CarriedMotion | None = None
-        for speed in speeds:
-            run = Simulation(self.model, speed, self.scene.grown, choice).run(motion)
-            motion = None if run.first_diverged is not None else CarriedMotion.ended(run.problem, run.states[0])
-            rows[speed] = self._row(run)
+        for place, speed in enumerate(speeds):
+            run = partial(self._run, speed, self.scene.grown, choice, motion, carried=True)
+            numbers = self._numbers(speed, (self.scene.grown, choice, speeds[:place]), run)
+            rows[speed], motion = self._row(numbers), CarriedMotion.of_arrays(numbers)
         return self._dataset(rows)
 
-    def _row(self, run: FinishedRun) -> dict[str, Any]:
+    def _numbers(self, speed: float, made_of: object, run: Callable[[], dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
+        return run() if self.parts is None else self.parts.numbers(speed, made_of, run)
+
+    def _run(
+        self, speed: float, scene: Scene, choice: IntegrationChoice, motion: CarriedMotion | None = None, carried: bool = False
+    ) -> dict[str, np.ndarray]:
+        """Numbers of a run, and if it is `carried` on and has not diverged the motion at its end."""
+        run = Simulation(self.model, speed, scene, choice).run(motion)
         numbers = numbers_of_run(run, self.results, stress=self.stress, **self.kept)
+        if carried and run.first_diverged is None:
+            numbers |= CarriedMotion.ended(run.problem, run.states[0]).arrays
+        return numbers
+
+    def _row(self, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
         row = run_row(numbers, self.yield_stress, self.strengths)
         if "revolution_von_mises" in numbers:
             # NaN after the end of a run that settled

@@ -1,5 +1,6 @@
 """The steps of requirements: further runs, what lies in the operating range, and the verdict."""
 
+from pathlib import Path
 from typing import Any
 
 from r37core.base.dataset_file import read_dataset, write_dataset
@@ -7,6 +8,7 @@ from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
 from r37core.fem.assembly import mesh_volume
+from r37core.machine_code.kept import content_digest
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.operating_range import OperatingRange
 from r37core.results.regions import read_judged
@@ -14,6 +16,7 @@ from r37core.results.table_file import read_table, write_table
 from r37core.rom.contact_model import read_contact_model
 from r37core.stress.operator import read_stress_operators
 from r37core.stress.statistic import Strengths
+from r37core.sweep.parts import Parts
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import Requirements
@@ -27,6 +30,8 @@ def look(input: Any, output: Any, params: Any) -> None:
 
     Params: scene, choice, results, kept, yield_stress, strengths, requirements, operating, clearance, thickness, provenance.
     """
+    files = [input.model, *([input.stress] if hasattr(input, "stress") else [])]
+    made_of = [params.code, params.results, params.kept, *map(content_digest, files)]
     blade = JudgedBlade(
         read_contact_model(input.model),
         from_plain(Scene, params.scene),
@@ -36,6 +41,7 @@ def look(input: Any, output: Any, params: Any) -> None:
         params.yield_stress,
         from_plain(Strengths, params.strengths),
         dict([next(iter(read_stress_operators(input.stress).items()))]) if hasattr(input, "stress") else None,
+        Parts(Path(output.looks).with_suffix(""), made_of),
     )
     evidence = Evidence(
         judged_part(read_judged(input.response)),

@@ -1,5 +1,6 @@
 """Motion of a blade as a run ends, carried into another run: at another speed, or in another lining."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,6 +17,9 @@ from .step_limit import UnstableStepError
 
 _LARGEST_TURN = 3.0
 """Largest turn of a mode in a step (rad) with which its velocity follows from two displacements."""
+
+_MOTION = "carried_"
+"""Beginning of the names of a motion's arrays, next to the numbers of the run that it ends."""
 
 _KEPT = ("touched", "contact_force", "penetration", "bar_position")
 """Fields that a motion and a state have alike."""
@@ -47,6 +51,17 @@ class CarriedMotion:
         )
         kept = {name: getattr(state, name).copy() for name in _KEPT}
         return cls(displacement, velocity, **kept, wear=state.wear.copy() if keep_wear and state.wear is not None else None)
+
+    @property
+    def arrays(self) -> dict[str, np.ndarray]:
+        """The motion as named arrays, of which `of_arrays` makes it again."""
+        return {f"{_MOTION}{name}": part for name, part in vars(self).items() if part is not None}
+
+    @classmethod
+    def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> "CarriedMotion | None":
+        """The motion among named arrays; None where they have none."""
+        parts = {name.removeprefix(_MOTION): part for name, part in arrays.items() if name.startswith(_MOTION)}
+        return cls(**parts) if parts else None
 
     def put(self, problem: Problem, state: SimulationState) -> None:
         """Put the motion into a state at rest, as far as the speed's modes are stepped."""
