@@ -85,7 +85,7 @@ def test_thinning_keeps_the_largest():
 
 
 def test_contents_are_those_of_the_datasets(datasets, interactions):
-    contents = explorer_contents(datasets, interactions, [("Ref", "abradable")])
+    contents = explorer_contents(datasets, interactions)
     curves = {curve["name"]: curve for curve in contents["curves"]}
     rms = datasets["rms"]["rms_normal"].sel(tip_point="leading_edge")
     np.testing.assert_allclose(unpacked(curves["rms_normal"]["values"]), 1e3 * rms, rtol=1e-6)
@@ -99,7 +99,6 @@ def test_contents_are_those_of_the_datasets(datasets, interactions):
     largest = datasets["spectrum"]["amplitude"].sel(engine_order=slice(1.95, 2.045)).max("engine_order")
     np.testing.assert_allclose(unpacked(contents["spectrum"]["values"])[..., 20], 1e3 * largest, rtol=1e-4)
     assert contents["interactions"][1]["mode"] is None
-    assert contents["shapes"] == [["Ref", "abradable"]]
 
 
 def test_a_blade_called_na_keeps_its_name(interactions, tmp_path):
@@ -116,7 +115,7 @@ def test_a_blade_called_na_keeps_its_name(interactions, tmp_path):
 def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
     contents = explorer_contents({name: datasets[name] for name in ("rms", "campbell")}, interactions.iloc[:0])
     assert contents["spectrum"] is contents["wear"] is contents["history"] is contents["yield_stress"] is None
-    assert (contents["stress_region"], contents["shapes"]) == ({}, [])
+    assert contents["stress_region"] == {}
     write_page(contents, "r37", tmp_path / "explorer.html")
 
 
@@ -168,7 +167,7 @@ def page(request, datasets, interactions, tolerances, ranged, tmp_path_factory):
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
     members = getattr(request, "param", "") == "members"
     given = (datasets | {"members": tolerances}, ranged) if members else (datasets, interactions)
-    contents = explorer_contents(*given, [("Ref", "abradable")])
+    contents = explorer_contents(*given)
     write_page(contents, "r37 <trial>", file)
     with opened(file, viewport={"width": 1500, "height": 1400}) as page:
         page.wait_for_selector("html[data-ready]")
@@ -223,8 +222,6 @@ def test_the_page_loads_without_an_error(page):
     assert page.is_hidden("#ranking")
     page.check("#every")
     assert page.locator("#interactions tbody tr").count() == 2
-    links = page.locator("#interactions a")
-    assert [link.get_attribute("href") for link in links.all()] == ["shapes/Ref.html#scene=abradable&speed=1200"]
 
 
 def test_hover_says_what_the_dataset_has(page, datasets):
@@ -334,7 +331,7 @@ def test_interactions_are_circles_by_danger(page, datasets, interactions, tmp_pa
 @pytest.mark.parametrize("width", [390, 1400])
 def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width):
     """Without scrolling sideways, and with plotly's buttons clear of what is drawn."""
-    contents = explorer_contents(datasets | {"members": tolerances}, ranged, [("Ref", "abradable")])
+    contents = explorer_contents(datasets | {"members": tolerances}, ranged)
     place = "#scene=abradable&quantity=share_of_time_in_contact&all=true"
     with beside(page, contents, tmp_path / "explorer.html", (width, 844), place) as other:
         assert other.evaluate("document.documentElement.scrollWidth") <= width

@@ -134,7 +134,7 @@ def test_a_wanted_result_runs_its_scene_and_a_history_its_speed(project, change,
     assert not (STRUCTURE | {"contact_model"}) & set(jobs)
 
 
-SHAPES = {"whole_blade_model", "mode_shapes", "worst_shapes", "shapes_page", "modes_figure", "worst_shapes_figure", "explorer"}
+SHAPES = {"whole_blade_model", "mode_shapes", "worst_shapes", "modes_figure", "worst_shapes_figure"}
 SIGNALS = {"signals_of_run", "signals_dataset", "spectrogram_figure", "orders_figure", "contact_force_figure"}
 
 
@@ -147,7 +147,7 @@ def test_shapes_run_no_simulation(project):
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}
     overlay(project, "config.yaml", "shapes: { modes: 3 }")
-    assert set(planned_outputs(project)) == SHAPES - {"explorer"} | {"configuration", "crate"}
+    assert set(planned_outputs(project)) == SHAPES | {"configuration", "crate"}
 
 
 def test_signals_run_no_simulation_of_the_sweep(project):

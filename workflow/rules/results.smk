@@ -108,5 +108,4 @@ use rule step as explorer with:
         programs=programs,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         operating=operating,
-        shapes=sweep.runs_with("shapes"),
         parts=parts_hash(page_parts(programs)),

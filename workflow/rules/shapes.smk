@@ -1,8 +1,5 @@
-# Shapes to look at: modes, and the worst instant of each interaction, for scenes with `shapes` among their results.
-from r37core.shapes import PARTS as SHAPE_PARTS
-from r37core.shapes.plan import MODE_SHAPES, PAGE, SECTION as SHAPES, WORST_SHAPES, Shapes
-
-shown_shapes = Shapes(sweep)
+# Modes, and the worst instant of each interaction, of scenes with `shapes` among their results.
+from r37core.shapes.plan import MODE_SHAPES, SECTION as SHAPES, WORST_SHAPES
 
 
 use rule step as mode_shapes with:
@@ -36,18 +33,3 @@ use rule step as worst_shapes with:
         speeds=sweep.speeds,
         interactions=plain(settings.config.interactions),
         material=structure.elastic,
-
-
-use rule step as shapes_page with:
-    input:
-        modes=rules.mode_shapes.output.folder,
-        worst=shown_shapes.worst_shapes,
-    output:
-        page=shown(PAGE, PACKAGE / "shapes/report.rst", "{blade}", "moving shapes"),
-    log:
-        "<logs>/shapes/{blade}_page.log",
-    params:
-        **step("shapes.steps.page"),
-        blade="{blade}",
-        scenes=shown_shapes.scenes,
-        parts=parts_hash(SHAPE_PARTS),

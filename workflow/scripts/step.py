@@ -12,7 +12,7 @@ from r37core.console.failures import printed_warnings, reported, show
 
 def run(params):
     module, function = params.step.rsplit(".", 1)
-    params.address, params.cores = snakemake.report_href, snakemake.threads
+    params.cores = snakemake.threads
     warned = printed_warnings(params.locations) if hasattr(params, "locations") else nullcontext()
     with warned:
         shown = getattr(import_module(module), function)(snakemake.input, snakemake.output, params)

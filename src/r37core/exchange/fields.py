@@ -23,6 +23,8 @@ from r37core.stress.operator import StressOperator, von_mises
 from r37core.time_integration.speed_file import read_speed
 
 _NAMED_AMONG = 8
+REGION_STRESS = "largest von Mises stress of the region (Pa)"
+"""Field data of a .vtu file with the stress at a worst instant."""
 _UPPER = ([0, 1, 2, 0, 1, 2], [0, 1, 2, 1, 2, 0])
 
 
@@ -75,10 +77,15 @@ def write_modes(
         if material is not None:
             stress = nodal_stress(mesh.blocks, mesh.points, np.moveaxis(displacement, 0, 2), material)
             fields |= dict(zip(map(modal_stress, names), von_mises(stress).T, strict=True))
-        notes = {f"frequency of mode {name} (Hz)": f for name, f in zip(names, frequencies, strict=True)}
+        notes = dict(zip(map(modal_frequency, names), frequencies, strict=True))
         files[speed] = f"modes_{exact_text(speed)}"
         _write_fields(shown, fields, notes, files[speed], target)
     _write_collection(files, "modes", target)
+
+
+def modal_frequency(mode: str) -> str:
+    """Name of the field data with a mode's frequency."""
+    return f"frequency of mode {mode} (Hz)"
 
 
 def modal_stress(mode: str) -> str:
@@ -124,7 +131,7 @@ def write_stress(
             "von Mises stress": von_mises(stress),
         }
         files[speed] = f"stress_{exact_text(speed)}"
-        _write_fields(shown, fields, {"largest von Mises stress of the region (Pa)": instant.largest}, files[speed], target)
+        _write_fields(shown, fields, {REGION_STRESS: instant.largest}, files[speed], target)
     _write_collection(files, "stress", target)
 
 

@@ -1,4 +1,4 @@
-"""Pages of one file with data, program and plotly inside, which open offline: explorer.html, and the shapes of a blade."""
+"""The explorer: one page with data, program and plotly inside, which opens offline."""
 
 import hashlib
 import html
@@ -13,10 +13,7 @@ FOLDER = Path(__file__).parent
 _PROGRAMS = ("theme", "words", "ranking", "interactions", "interaction_map", "panels", "explorer")
 
 PARTS = (FOLDER / "explorer.html", FOLDER / "explorer.css", *(FOLDER / f"{name}.js" for name in _PROGRAMS))
-"""Files of the page apart from its data and plotly: body, style, and its program in the order it runs."""
-
-_FRAME = FOLDER / "frame.html"
-"""Frame round the body of every page."""
+"""Files of the page apart from its data and plotly: page, style, and its program in the order it runs."""
 
 
 def page_parts(programs: Sequence[Path | str]) -> tuple[Path, ...]:
@@ -26,19 +23,18 @@ def page_parts(programs: Sequence[Path | str]) -> tuple[Path, ...]:
 
 def parts_hash(parts: Sequence[Path] = PARTS) -> str:
     """Hash of the parts: with it as a rule's parameter an edited part makes the page anew."""
-    return hashlib.sha256(b"\0".join(part.read_bytes() for part in (_FRAME, *parts))).hexdigest()[:16]
+    return hashlib.sha256(b"\0".join(part.read_bytes() for part in parts)).hexdigest()[:16]
 
 
 def write_page(contents: object, title: str, file: Path | str, parts: Sequence[Path] = PARTS) -> None:
-    """Write the page made of `parts` (body, style, programs) and its contents, by default the explorer, atomically."""
+    """Write the page made of `parts` (page, style, programs) and its contents, atomically."""
     # heavy, and rules import this module for its parts
     from plotly.offline import get_plotlyjs
 
-    page, body, style, *programs = (part.read_text(encoding="utf-8") for part in (_FRAME, *parts))
+    page, style, *programs = (part.read_text(encoding="utf-8") for part in parts)
     # "<" would end the script that carries the data, if a name had it
     data = json.dumps(contents, allow_nan=False).replace("<", "\\u003c")
     for mark, text in (
-        ("body", body),
         ("title", html.escape(title)),
         ("style", style),
         ("plotly", get_plotlyjs()),

@@ -45,16 +45,12 @@ ORDERS_PER_STEP = 0.1
 def explorer_contents(
     datasets: Mapping[str, xr.Dataset],
     interactions: pd.DataFrame,
-    shapes: Iterable[Sequence[str]] = (),
-    shapes_in_report: Mapping[str, str] | None = None,
     ranking: pd.DataFrame | None = None,
     operating: OperatingRange | None = None,
 ) -> dict[str, object]:
     """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress, wear and members.
 
-    `shapes`: pairs of blade and scene whose interactions are shown in shapes/<blade>.html beside the page;
-    `shapes_in_report`: where that is in the archive of the report, by blade. `ranking`: the blades of each scene compared,
-    as ranking.csv has them. `operating`: speeds that are shaded.
+    `ranking`: the blades of each scene compared, as ranking.csv has them. `operating`: speeds that are shaded.
     Curves have every speed; maps are thinned, each cell the largest value of what it stands for.
     """
     rms, campbell = datasets["rms"], datasets["campbell"]
@@ -73,8 +69,6 @@ def explorer_contents(
         **interaction_table(sized(as_ranges_bear(interactions), rms)),
         **ranking_rows(ranking),
         "operating": [operating.first, operating.last] if operating else None,
-        "shapes": [list(pair) for pair in shapes],
-        "shapes_in_report": dict(shapes_in_report or {}),
         **({"sample": _sample(datasets["members"])} if "members" in datasets else {}),
     }
 

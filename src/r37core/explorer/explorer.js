@@ -21,8 +21,6 @@
   const SPECTRUM_DECIBELS = 60;
   // width and height that the number of an engine order takes (pixels)
   const NUMBER_SIZE = [16, 12];
-  // the archive of Snakemake's report has each page in a folder of its own
-  const IN_REPORT = /\/data\/raw\/[0-9a-f]+\/[^/]+$/.test(window.location.pathname);
 
   async function unpack(array) {
     const bytes = Uint8Array.from(atob(array.base64), (letter) => letter.charCodeAt(0));
@@ -455,17 +453,6 @@
     draw("stress", traces, plan, false);
   }
 
-  // to the worst instant of an interaction, in the page of its blade, where that was made
-  function shapeLink({ blade, scene, peak_speed_rad_s: speed, status: ended }) {
-    if (ended !== "completed" || !data.shapes.some(([one, other]) => one === blade && other === scene)) return [];
-    const page = IN_REPORT ? encodeURI(data.shapes_in_report[blade]) : `shapes/${encodeURIComponent(blade)}.html`;
-    const href = `${page}#${new URLSearchParams({ scene, speed })}`;
-    const link = Object.assign(document.createElement("a"), { href, textContent: "moves" });
-    link.addEventListener("click", (event) => event.stopPropagation());
-    link.addEventListener("keydown", (event) => event.stopPropagation());
-    return [link];
-  }
-
   const STRESSES = ["max_von_mises_pa", "median_von_mises_pa"];
   const outside = (row, name) => aboveYield(1e-6 * row[name], data.blades.indexOf(row.blade), data.scenes.indexOf(row.scene));
   // a cell of a table: in the unit that its head has
@@ -479,7 +466,6 @@
   const page = {
     state, set, valueText, requirements,
     mark: (row, { name }) => (STRESSES.includes(name) && outside(row, name) ? " *" : "") + (["max_wear_m", "sufficient_thickness_m"].includes(name) && row.worn_through_share > 0 ? " \u2020" : ""),
-    link: data.shapes.length ? shapeLink : null,
   };
 
   function drawTable() {

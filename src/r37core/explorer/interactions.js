@@ -28,7 +28,7 @@ const drawInteractions = (() => {
     return line;
   }
 
-  function lineOf(row, columns, { set, valueText, mark, link }) {
+  function lineOf(row, columns, { set, valueText, mark }) {
     const line = document.createElement("tr");
     line.tabIndex = 0;
     columns.forEach((column) => {
@@ -36,7 +36,6 @@ const drawInteractions = (() => {
       cell.className = column.name;
       cell.textContent = valueText(row, column) + mark(row, column);
     });
-    if (link) line.insertCell().append(...link(row));
     const go = () => set({ blade: row.blade, scene: row.scene, speed: row.peak_speed_rad_s });
     line.addEventListener("click", go);
     line.addEventListener("keydown", (event) => { if (event.key === "Enter") go(); });
@@ -50,7 +49,6 @@ const drawInteractions = (() => {
     if (!box.firstChild) {
       const table = document.createElement("table");
       table.createTHead().append(head(columns, page));
-      if (page.link) table.tHead.rows[0].append(Object.assign(document.createElement("th"), { scope: "col", textContent: "shape" }));
       table.createTBody();
       box.append(table);
     }
