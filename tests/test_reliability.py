@@ -237,7 +237,7 @@ def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
     kept += ["Ref/mesh.vtu", "exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "cases/L50/rom.nc"]
     kept += ["runs/x/wear.nc", "runs/x/L50/a.nc", "runs/x/signals.nc", "runs/x/rom_camber.nc"]
     gone = ["wear.nc", "designs.csv", "signals.nc", "Ref/direct/signals.nc", "figures/designs_Sweep.png"]
-    gone += ["figures/spectrogram_Ref__direct.png", "figures/orders_Ref__direct.pdf", "figures/shapes_Ref.png"]
+    gone += ["figures/contact_force_Ref__direct.png", "figures/contact_force_Ref__direct.pdf", "figures/shapes_Ref.png"]
     gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf", "Ref/direct/speed_901.npz"]
     gone += ["figures/response_L50.png", "figures/response_L50.pdf", "figures/comparison_abradable.pdf"]
     gone += ["figures/wear_Ref__abradable.png"]

@@ -135,7 +135,7 @@ def test_a_wanted_result_runs_its_scene_and_a_history_its_speed(project, change,
 
 
 SHAPES = {"whole_blade_model", "mode_shapes", "worst_shapes", "modes_figure", "worst_shapes_figure"}
-SIGNALS = {"signals_of_run", "signals_dataset", "spectrogram_figure", "orders_figure", "contact_force_figure"}
+SIGNALS = {"signals_of_run", "signals_dataset", "contact_force_figure"}
 
 
 def test_shapes_run_no_simulation(project):

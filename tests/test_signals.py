@@ -1,4 +1,4 @@
-"""Time signals against closed forms: strain gauges, tip timing, engine orders, and records against the runs of the sweep."""
+"""Time signals against closed forms: strain gauges, tip timing, and records against the runs of the sweep."""
 
 from dataclasses import replace
 from itertools import product
@@ -19,9 +19,8 @@ from r37core.figures.style import save
 from r37core.results.joining import join_runs
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.signals.dataset import RUNS, signals_dataset
-from r37core.signals.figures import draw_contact_forces, draw_orders, draw_spectrograms
+from r37core.signals.figures import draw_contact_forces, draw_tip_timing
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
-from r37core.signals.orders import order_tracks, spectrogram, strongest_orders
 from r37core.signals.record import Record, record_signals, revolutions_of
 from r37core.signals.tip_timing import arrival_times
 from r37core.time_integration.simulate import Simulation
@@ -122,52 +121,6 @@ def test_a_tip_that_comes_back_counts_when_it_first_comes():
     assert np.sum(np.diff(np.sign(turned - wanted)) != 0) == 3
     assert arrived[0, 0] == pytest.approx(times[np.argmax(turned >= wanted)], abs=times[1])
     assert np.isnan(arrived[0, 1])
-
-
-@pytest.fixture
-def swelling():
-    """Order 4 that grows from 0 to 2 and order 9 of 0.5, about a mean of 3, over 40 revolutions that begin at the 10th."""
-    turn = 10.0 + np.arange(1, 40 * 100 + 1) / 100
-    rise = (turn - 10.0) / 20.0
-    angle = 2.0 * np.pi * turn
-    return turn, 3.0 + rise * np.cos(4 * angle) + 0.5 * np.sin(9 * angle)
-
-
-def test_spectrogram_of_orders(swelling):
-    turn, signal = swelling
-    orders, revolutions, amplitudes = spectrogram(signal, turn, 100)
-    assert (revolutions[0], revolutions[-1]) == (pytest.approx(14.0, abs=0.6), pytest.approx(46.0, abs=0.6))
-    at = {order: int(np.argmin(np.abs(orders - order))) for order in (0, 4, 6.5, 9)}
-    np.testing.assert_allclose(amplitudes[at[4]], (revolutions - 10.0) / 20.0, atol=0.01)
-    np.testing.assert_allclose(amplitudes[at[9]], 0.5, rtol=1e-5)
-    np.testing.assert_allclose(amplitudes[at[0]], 3.0, rtol=1e-3)
-    assert amplitudes[at[6.5]].max() < 1e-3
-
-
-def test_tracks_of_orders(swelling):
-    turn, signal = swelling
-    revolutions, amplitudes = order_tracks(signal, turn, 100, np.array([4, 9, 12]))
-    np.testing.assert_allclose(amplitudes[0], (revolutions - 10.0) / 20.0, atol=0.01)
-    np.testing.assert_allclose(amplitudes[1], 0.5, atol=0.01)
-    assert amplitudes[2].max() < 0.01
-    np.testing.assert_array_equal(strongest_orders(signal, turn, 100, 2, 20), [4, 9])
-    np.testing.assert_array_equal(strongest_orders(signal - 3.0, turn, 100, 5, 8)[:1], [4])
-    # those below a hundredth of the strongest are left out
-    turn = np.arange(3000) / 100
-    signal = sum(size * np.cos(2.0 * np.pi * order * turn) for order, size in {3: 0.012, 5: 0.009, 7: 1.0, 9: 0.05}.items())
-    np.testing.assert_array_equal(strongest_orders(signal, turn, 100, 10, 20), [3, 7, 9])
-
-
-def test_a_diverged_signal_is_looked_at_as_far_as_it_goes(swelling):
-    turn, signal = swelling
-    cut = np.where(turn < 30.0, signal, np.nan)
-    _, whole, _ = spectrogram(signal, turn, 100)
-    _, part, amplitudes = spectrogram(cut, turn, 100)
-    assert np.isfinite(amplitudes).all()
-    np.testing.assert_array_equal(part, whole[: len(part)])
-    assert part[-1] < 27.0
-    assert spectrogram(np.full(4000, np.nan), turn, 100)[1].size == 0
-    assert order_tracks(np.full(4000, np.nan), turn, 100, np.array([4]))[1].shape == (1, 0)
 
 
 def test_a_free_oscillation_is_recorded(monkeypatch):
@@ -316,24 +269,21 @@ def test_datasets_are_joined_by_run(dataset, tmp_path):
 
 
 def test_signals_are_drawn(dataset, tmp_path):
-    """Two speeds in rows; signals, gauge and tip timing in columns."""
-    spectrograms, orders = draw_spectrograms(dataset, "Ref, abradable"), draw_orders(dataset, "Ref, abradable")
-    assert len([axes for axes in spectrograms.axes if axes.get_title()]) == 3
-    shown = ["normal, leading edge", "tangential, leading edge", "gauge root", "tip timing, leading edge"]
-    assert [axes.get_title() for axes in orders.axes[:4]] == shown
-    (line,) = orders.axes[0].get_lines()
-    assert line.get_label() == "4"
-    np.testing.assert_allclose(line.get_ydata(), 1.0, rtol=1e-3)
-    assert "1B/5\n1200 rad/s, 11459 rpm" in orders.axes[0].get_ylabel()
+    """Two speeds in rows."""
     forces = draw_contact_forces(dataset, "Ref, abradable")
     upper, _, beside, _ = forces.axes
     (line,) = upper.get_lines()
     np.testing.assert_allclose(line.get_ydata(), [1200.0, *[1100.0 + 100.0] * 48, 1100.0], atol=101.0)
     assert np.all(np.diff(line.get_xdata()) > 0.0) and beside.get_ylabel() == "mm"
-    assert "1B/5\n1200 rad/s, 11459 rpm" in upper.get_ylabel()
+    assert upper.get_ylabel() == "1B/5\n1200 rad/s, 11459 rpm\nN"
+    timing = draw_tip_timing(dataset, "Ref, abradable")
+    expected = 1e3 * dataset["arrival_displacement"].sel(speed=900.5, tip_point="leading_edge")
+    lower = timing.axes[1].get_lines()
+    assert [line.get_label() for line in lower] == ["90 degrees", "10 degrees"]
+    for line, probe in zip(lower, expected["probe"].values, strict=True):
+        np.testing.assert_array_equal(line.get_ydata(), expected.sel(probe=probe))
     lost = dataset.assign(contact_force=np.nan * dataset["contact_force"])
     assert draw_contact_forces(lost, "Ref").axes[0].texts
     nothing = signals_dataset({}, {}, {}, [], TIP)
-    empty = [draw(nothing, "Ref, direct") for draw in (draw_orders, draw_spectrograms, draw_contact_forces)]
-    for figure in (spectrograms, orders, forces, *empty):
+    for figure in (forces, timing, *(draw(nothing, "Ref, direct") for draw in (draw_contact_forces, draw_tip_timing))):
         save(figure, tmp_path / "one.png")

@@ -36,29 +36,11 @@ use rule evidence as your_blade_pictures with:
         **evidence("user_code.worked_example"),
 
 
-# signals of Ref with abradable lining, which a scene has where it asks for them; three peaks fit a page
-module signals:
-    snakefile:
-        "../../Snakefile"
-    config:
-        run(
-            "signals",
-            blades=["Ref"],
-            scenes_file="validation/signals.yaml",
-            scenes=["abradable"],
-            signals={"speeds_rad_s": [1002, 1260, 1729]},
-        )
-
-
-use rule * from signals as signals_*
-
-
 # picture of a page -> the figure of a run that it is
 PAGE_PICTURES = {
     "blades": "results/figures/blades.png",
     "interactions": "results/runs/interactions_quadratic/figures/interactions.png",
     "response_Ref": "results/figures/response_Ref.png",
-    "signals": "results/runs/signals/figures/orders_Ref__abradable.png",
     "casing_Ref": "results/runs/elastic_casing/figures/casing_Ref__elastic_abradable.png",
     "rotor": "results/runs/rotors/figures/rotor_Ref__rotor_abradable.png",
     "run_up_rates": "results/runs/run_ups/figures/run_up_rates_abradable.png",

@@ -117,27 +117,6 @@ EXTENSION = Extension(
     targets=lambda sweep: {DATASET: [{}] if _runs(sweep) else []},
     figures=(
         Figure(
-            rule="spectrogram_figure",
-            name="spectrogram_{blade}__{scene}",
-            runs=_runs,
-            draw="signals.figures.draw_spectrograms",
-            files={"signals": SIGNALS_OF_RUN},
-            label="spectrograms",
-            caption="Blade {blade} in scene {scene}: engine orders of the leading edge's motion and of strain gauges over the "
-            "revolutions since the start, at each speed; Hann windows of eight revolutions.",
-        ),
-        Figure(
-            rule="orders_figure",
-            name="orders_{blade}__{scene}",
-            runs=_runs,
-            draw="signals.figures.draw_orders",
-            files={"signals": SIGNALS_OF_RUN},
-            label="engine orders over time",
-            caption="Blade {blade} in scene {scene}: amplitude of the strongest whole engine orders over the revolutions "
-            "since the start, at each speed. Beside them, where there are probes: the leading edge's displacement that tip "
-            "timing tells.",
-        ),
-        Figure(
             rule="contact_force_figure",
             name="contact_force_{blade}__{scene}",
             runs=_runs,
@@ -147,6 +126,16 @@ EXTENSION = Extension(
             caption="Blade {blade} in scene {scene}: normal force on the tip, all contact nodes together, over the casing "
             "angle of its leading edge, at each speed. Grey: clearance of the undeformed leading edge, which lobes make "
             "smaller.",
+        ),
+        Figure(
+            rule="tip_timing_figure",
+            name="tip_timing_{blade}__{scene}",
+            runs=lambda sweep: _runs(sweep) if Signals(sweep).probes else [],
+            draw="signals.figures.draw_tip_timing",
+            files={"signals": SIGNALS_OF_RUN},
+            label="tip timing",
+            caption="Blade {blade} in scene {scene}: tangential displacement of the leading edge that tip timing reports, over "
+            "the revolutions since the start, at each speed; a curve for each probe.",
         ),
     ),
     closing="signals.dataset.closing",
