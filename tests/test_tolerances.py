@@ -1,4 +1,4 @@
-"""Tolerances: the sample, what its members are, their ranges, and Sobol indices against closed forms."""
+"""Tolerances: the sample, what its members are, their ranges, and the ranking of numbers."""
 
 import re
 from dataclasses import replace
@@ -20,7 +20,7 @@ from r37core.base.speeds import RefinedRange
 from r37core.config import ConfigError, Document
 from r37core.config.spread import SpreadEntry
 from r37core.figures import style
-from r37core.plans.member_values import is_of_sample, number_of, sobol_points
+from r37core.plans.member_values import sobol_points
 from r37core.product.leftovers import leftovers
 from r37core.product.reading import read_settings
 from r37core.product.remarks import remarks as remarks_of
@@ -33,23 +33,14 @@ from r37core.tolerances.dataset import MemberRun, tolerances_dataset
 from r37core.tolerances.figures import draw_tolerances
 from r37core.tolerances.members import members_of
 from r37core.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
-from r37core.tolerances.sensitivity import sobol_indices
 from r37core.tolerances.table import _matched, range_table, ranges
 
 
-def test_more_members_change_none_that_are_there_and_those_for_indices_are_made_of_two_samples():
+def test_more_members_change_none_that_are_there():
     few, many = sobol_points(3, 16, 7), sobol_points(3, 32, 7)
     assert all(many[name] == place for name, place in few.items())
-    assert len(many) == 32 * 5 and len(set(many.values())) == len(many)
+    assert list(many) == [str(row) for row in range(32)] and len(set(many.values())) == 32
     assert sobol_points(3, 16, 8)["0"] != few["0"]
-    found = sobol_points(3, 8, 0)
-    assert [name for name in found if is_of_sample(name)] == [str(row) for row in range(8)]
-    for row in range(8):
-        for number in range(3):
-            mixed = found[f"{row}f{number + 1}"]
-            assert number_of(f"{row}f{number + 1}") == number
-            assert mixed[number] == found[f"{row}b"][number]
-            assert [mixed[other] == found[str(row)][other] for other in range(3)] == [other != number for other in range(3)]
 
 
 @pytest.mark.parametrize(
@@ -67,46 +58,9 @@ def test_values_of_a_distribution(tolerance, shares, expected):
     assert [tolerance.value(2.0, share) for share in shares] == pytest.approx(expected, rel=1e-9)
 
 
-def measured(function, numbers, members=2048):
-    return {name: function(*place) for name, place in sobol_points(numbers, members, 3).items()}
-
-
-def test_indices_of_the_ishigami_function():
-    """Closed form: Ishigami and Homma (1990), with a = 7, b = 0.1."""
-
-    def ishigami(*place):
-        x, y, z = (SpreadEntry(between=[-np.pi, np.pi]).value(0.0, share) for share in place)
-        return np.sin(x) + 7.0 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x)
-
-    found = sobol_indices(measured(ishigami, 3), [0, 1, 2], 3)
-    variance = 0.5 + 49.0 / 8.0 + 0.1 * np.pi**4 / 5.0 + 0.01 * np.pi**8 / 18.0
-    alone = [0.5 * (1.0 + 0.1 * np.pi**4 / 5.0) ** 2, 49.0 / 8.0, 0.0]
-    together = 0.01 * np.pi**8 * 8.0 / 225.0
-    np.testing.assert_allclose(found.index[0], np.array(alone) / variance, atol=0.02)
-    np.testing.assert_allclose(found.index[1], np.array([alone[0] + together, alone[1], together]) / variance, atol=0.02)
-    assert np.all((found.low < found.index) & (found.index < found.high))
-    assert found.members == 2048
-
-
-def test_indices_are_the_same_every_time_and_leave_out_what_is_no_number_or_does_not_spread():
-    """Nor is there one of a number that a scene does not have, of a measure that is the same for all, and of no members."""
-    values = measured(lambda x, y: x + 0.5 * y, 2, 64)
-    values["3f2"] = values["40"] = np.nan
-    one, other = (sobol_indices(values, [0, 1], 2) for _ in range(2))
-    assert one.members == 32
-    for name in ("index", "low", "high"):
-        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
-    np.testing.assert_allclose(one.index[1], [0.8, 0.2], atol=0.1)
-    values = {name: value for name, value in measured(lambda x, y, z: x + z, 3, 64).items() if number_of(name) != 1}
-    found = sobol_indices(values, [0, 2], 3)
-    assert np.isnan(found.index[:, 1]).all() and np.isfinite(found.index[:, [0, 2]]).all()
-    for nothing in (sobol_indices(measured(lambda x: 1.0, 1, 16), [0], 1), sobol_indices({}, [0], 2)):
-        assert np.isnan(nothing.index).all() and nothing.members == 0
-
-
 def drawn(function, numbers, members, seed=0):
     """Values of a plain sample and what a function makes of them."""
-    values = np.array([place for name, place in sobol_points(numbers, members, seed).items() if is_of_sample(name)])
+    values = np.array(list(sobol_points(numbers, members, seed).values()))
     return values, function(*values.T)
 
 
@@ -143,15 +97,6 @@ def test_what_few_members_do_not_tell_apart_shares_its_places():
         values = random.random((24, 3)) @ [[1.0, 0.8, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 1.0]]
         measure = values @ [1.0, 0.5, 0.5] + random.random(24)
         np.testing.assert_array_equal(ranking(values * [1.0, -1.0, 1.0], measure).above, ranking(values, measure).above)
-
-
-def test_places_by_total_index():
-    few, many = (sobol_indices(measured(lambda x, y, z: x + 0.9 * y, 3, members), range(3), 3) for members in (32, 2048))
-    np.testing.assert_array_equal(few.places, [[1.0, 1.0, 3.0], [2.0, 2.0, 3.0]])
-    np.testing.assert_array_equal(many.places, [[1.0, 2.0, 3.0], [1.0, 2.0, 3.0]])
-    gap = sobol_indices(measured(lambda x, y, z: x + 0.9 * y, 3, 32), [0, 2], 3)
-    np.testing.assert_array_equal(gap.places, [[1.0, np.nan, 2.0], [1.0, np.nan, 2.0]])
-    assert np.isnan(sobol_indices(measured(lambda x, y: x, 2, 16), [0, 1], 2).places).all()
 
 
 def test_intervals_of_a_ranking_miss_as_seldom_as_said():
@@ -205,13 +150,6 @@ def test_members_have_the_values_of_the_sample(root):
     assert {member.scene.lining.elastic_modulus for member in lined.values()} == {1.0e10, 3.0e10}
 
 
-def test_indices_have_members_for_each_number_that_a_scene_has(root):
-    numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "lining.thickness_m": {"uniform_percent": 5.0}}
-    members = members_of(settings_of(root, {"members": 2, "sensitivity": True, "of_scenes": numbers}))
-    assert list(members.all["Ref", "abradable"]) == ["0", "1", "0b", "1b", "0f1", "1f1", "0f2", "1f2"]
-    assert list(members.all["Ref", "direct"]) == ["0", "1", "0b", "1b", "0f1", "1f1"]
-
-
 def test_a_blade_spreads_in_material_thickness_and_place(root):
     numbers = {"material.youngs_modulus_pa": {"normal_percent": 1.0}, "thickness_percent": {"between": [90.0, 110.0]}}
     numbers |= {"sweep_percent": {"uniform": 10.0}, "lean_deg": {"uniform": 1.0}}
@@ -242,21 +180,20 @@ def test_the_tolerances_of_the_page_and_of_the_file_are_accepted(root):
 
 
 @pytest.mark.parametrize(
-    ("members", "sensitivity", "said"),
+    ("members", "said"),
     [
-        (16, False, ["16 members do not rank the numbers; 32 name the first, 128 tell most apart"]),
-        (64, False, ["64 members name the first of the numbers at best; 128 tell most apart"]),
-        (128, True, []),
-        (16, True, ["16 members do not rank", "Sobol indices of 16 members do not rank the numbers; those of 32 do"]),
+        (16, ["16 members do not rank the numbers; 32 name the first, 128 tell most apart"]),
+        (64, ["64 members name the first of the numbers at best; 128 tell most apart"]),
+        (128, []),
     ],
 )
-def test_a_run_says_when_its_members_rank_nothing(root, members, sensitivity, said):
+def test_a_run_says_when_its_members_rank_nothing(root, members, said):
     numbers = {"friction.coefficient": {"uniform_percent": 5.0}, "damping_ratio": {"uniform_percent": 5.0}}
-    given = {"members": members, "sensitivity": sensitivity, "blades": ["Ref"], "of_scenes": numbers}
+    given = {"members": members, "blades": ["Ref"], "of_scenes": numbers}
     remarks = [one for one in remarks_of(settings_of(root, given)) if "rank" in one or "name the first" in one]
     assert len(remarks) == len(said) and all(f"tolerances: {text}" in one for text, one in zip(said, remarks, strict=True))
     alone = {**given, "of_scenes": {"damping_ratio": numbers["damping_ratio"]}}
-    assert not any("rank" in one for one in remarks_of(settings_of(root, alone)) if "Sobol" not in one)
+    assert not any("rank" in one for one in remarks_of(settings_of(root, alone)))
 
 
 def test_a_number_of_one_value_is_told(root):
@@ -301,7 +238,7 @@ def test_a_number_of_one_value_is_told(root):
         ({"members": 4}, "tolerances: found no numbers; allowed: some under of_scenes or of_blades"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["Rex"]}, "found 'Rex'"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "scenes": ["lined"]}, "found 'lined'"),
-        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "members": 4096, "sensitivity": True}, "simulations of members"),
+        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "members": 4096}, "simulations of members"),
     ],
 )
 def test_what_cannot_be_is_refused_before_the_sweep(root, content, message):
@@ -398,7 +335,6 @@ def test_the_dataset_of_members(tmp_path):
         alone = branch(peaks[str(row)])
         assert found["width_above_yield"][row] == speeds_above_yield(alone).width
         assert found["largest_stress"][row] == pytest.approx(largest_stress(alone)[0])
-    assert not any(str(name).startswith("sobol") for name in found)
 
 
 def test_the_chance_of_passing_yield_has_an_interval(root, tmp_path):
@@ -437,17 +373,12 @@ def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
     ]
     found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable", measure="peak_speed")
     assert found["member"].values.tolist() == list(range(8))
-    assert found["sobol_members"] == 8
-    np.testing.assert_allclose(found["sobol_total"], [0.0, 1.0], atol=0.4)
-    assert found["sobol_total"][0] == 0.0
     assert found["rank_place_low"][1] == found["rank_place_high"][1] == 1.0 and np.isnan(found["rank_place_low"][0])
     assert found["rank_coefficient_low"][1] > 0.0 and found["rank_members"] == 8
-    # so few have indices, and no place by them
-    assert found["sobol_place_low"].isnull().all()
     figure = draw_tolerances(tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable"), branch(1700.0), "Ref")
-    assert len(figure.subfigs) == 3
-    named = [[handle.get_facecolor()[:3] for handle in part.axes[0].get_legend().legend_handles] for part in figure.subfigs[1:]]
-    assert named == 2 * [[to_rgb(colour) for colour in style.COLOURS[:3]]]
+    _, part = figure.subfigs
+    named = [handle.get_facecolor()[:3] for handle in part.axes[0].get_legend().legend_handles]
+    assert named == [to_rgb(colour) for colour in style.COLOURS[:3]]
 
 
 def test_two_scenes_with_other_speeds_and_numbers_stand_in_one_dataset(tmp_path):

@@ -49,7 +49,6 @@ class ToleranceOptions(SweepOptions, total=False):
     of_blades: Mapping[str, Any]
     members: int
     seed: int
-    sensitivity: bool
     largest_share: float
 
 
@@ -144,7 +143,6 @@ def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **o
             `{"friction.coefficient": {"uniform_percent": 5}}`.
         members: Number of members, a power of two.
         seed: Seed of the sample.
-        sensitivity: Whether Sobol indices are computed. For n numbers this runs n + 2 times the members.
         largest_share: Largest share of the finest grid of adaptive speeds that a member runs.
 
     Returns:

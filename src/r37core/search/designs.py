@@ -14,7 +14,7 @@ from r37core.config.section_laws import SECTION_KEYS, neutral_value
 from r37core.config.sections_entry import SectionsEntry
 from r37core.config.shape_keys import SHARES, ShapeKeys
 from r37core.contact.scene import Scene
-from r37core.plans.member_values import drawn, is_of_sample, sobol_points
+from r37core.plans.member_values import drawn, sobol_points
 
 from .problem import Constraint, SearchChoice, SearchVariable
 from .section import SECTION, SearchSection
@@ -149,7 +149,7 @@ class SearchDesigns:
         points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
         return {
             member: changed_pair(blade, scene_entry, {**design, **drawn(spreads, nominal, points[member])})
-            for member in filter(is_of_sample, points)
+            for member in points
         }
 
 

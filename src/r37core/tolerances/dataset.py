@@ -10,7 +10,6 @@ import xarray as xr
 from r37core.base.dataset_file import SPEED_RPM, Variable, about
 from r37core.base.io import readable
 from r37core.base.units import RPM, si_name
-from r37core.plans.member_values import is_of_sample, number_of
 from r37core.results.columns import ENDS
 from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
 from r37core.results.ranking import RANKED_BY, robustness
@@ -19,7 +18,6 @@ from r37core.results.variables import VARIABLES
 from r37core.time_integration.status import RunStatus
 
 from .number_ranks import CONFIDENCE, ranking, share_ends
-from .sensitivity import ORDERS, sobol_indices
 
 QUANTILES = tuple(ENDS.values())
 """Ends and middle of the range that nine tenths of the members lie in."""
@@ -60,20 +58,15 @@ class MemberRun:
 def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.Dataset:
     """Dataset of all members, over (blade, scene, member, speed, number); one response is in memory at a time.
 
-    Of members beside the sample, which are there for the sensitivity indices, only these are kept. Where nothing was run
-    numbers are NaN. Raises InputFileError for a response that cannot be read.
+    Where nothing was run numbers are NaN. Raises InputFileError for a response that cannot be read.
     """
     groups: dict[tuple[str, str], list[xr.Dataset]] = {}
-    measured: dict[tuple[str, str], dict[str, dict[str, float]]] = {}
     for run in runs:
-        response, pair = read_judged(run.file, run.group), (run.blade, run.scene)
+        response = read_judged(run.file, run.group)
         with readable(run.file):
             values = _measured(response)
-        for name, value in values.items():
-            measured.setdefault(pair, {}).setdefault(name, {})[run.member] = value
-        if is_of_sample(run.member):
-            groups.setdefault(pair, []).append(_kept(response, run, numbers, values))
-    parts = [_pair_dataset(pair, members, measured[pair], numbers) for pair, members in groups.items()]
+        groups.setdefault((run.blade, run.scene), []).append(_kept(response, run, numbers, values))
+    parts = [_pair_dataset(pair, members) for pair, members in groups.items()]
     joined = xr.merge(parts, join="outer", compat="no_conflicts", combine_attrs="override")
     joined["status"] = joined["status"].fillna(RunStatus.NOT_RUN).astype("i1")
     joined = joined.assign_coords(speed_rpm=("speed", RPM * joined["speed"].values, SPEED_RPM.attributes))
@@ -103,9 +96,7 @@ def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: 
     return member.assign_coords(number=list(numbers)).expand_dims(member=[int(run.member)])
 
 
-def _pair_dataset(
-    pair: tuple[str, str], members: Sequence[xr.Dataset], measured: Mapping[str, Mapping[str, float]], numbers: Sequence[str]
-) -> xr.Dataset:
+def _pair_dataset(pair: tuple[str, str], members: Sequence[xr.Dataset]) -> xr.Dataset:
     """One blade in one scene."""
     sample = xr.concat(members, "member", join="exact", combine_attrs="override").drop_attrs(deep=False)
     diverged = sample["status"] == RunStatus.DIVERGED
@@ -121,7 +112,7 @@ def _pair_dataset(
         sample[f"{name}_quantile"] = quantiles.assign_attrs(about(units, f"quantiles over the members: {meaning}"))
     if "max_von_mises" in sample:
         sample = sample.assign(_chances(ratio_to_yield(sample) > 1.0))
-    sample = sample.assign(_rankings(sample) | _sensitivities(measured, numbers))
+    sample = sample.assign(_rankings(sample))
     return sample.expand_dims(blade=[pair[0]], scene=[pair[1]])
 
 
@@ -142,39 +133,16 @@ def _rankings(sample: xr.Dataset) -> dict[str, xr.DataArray]:
     """Rank coefficients of INDEXED and the places that they give, from the sample alone."""
     values = sample["value"].transpose("member", "number").values
     rankings = [ranking(values, sample[name].values) for name in INDEXED]
-    sure = f"{CONFIDENCE:.0%} sure"
+    first, last = zip(*(measure.places for measure in rankings), strict=True)
+    sure, by = f"{CONFIDENCE:.0%} sure", "rank coefficients, of numbers that have one beyond zero"
     return {
         "rank_coefficient": _index([measure.coefficient for measure in rankings], "standardized rank coefficient"),
         "rank_coefficient_low": _index([measure.low for measure in rankings], f"lower end of the rank coefficient, {sure}"),
         "rank_coefficient_high": _index([measure.high for measure in rankings], f"upper end of the rank coefficient, {sure}"),
-        **_places("rank", [measure.places for measure in rankings], "rank coefficients, of numbers that have one beyond zero"),
+        "rank_place_low": _index(first, f"first place that the number may have by {by}"),
+        "rank_place_high": _index(last, f"last place that the number may have by {by}"),
         "rank_explained": _index([measure.explained for measure in rankings], "share of the ranks' variance that they explain"),
         "rank_members": _index([measure.members for measure in rankings], "members that the coefficients are made of"),
-    }
-
-
-def _sensitivities(measured: Mapping[str, Mapping[str, float]], numbers: Sequence[str]) -> dict[str, xr.DataArray]:
-    """Sobol indices of INDEXED; nothing without the members for them."""
-    varied = sorted({number for name in measured[INDEXED[0]] if (number := number_of(name)) is not None})
-    if not varied:
-        return {}
-    sobol = [sobol_indices(measured[name], varied, len(numbers)) for name in INDEXED]
-    indices, ends = {}, f"{CONFIDENCE:.0%} of bootstrap samples"
-    for place, (order, meaning) in enumerate(ORDERS.items()):
-        indices[f"sobol_{order}"] = _index([measure.index[place] for measure in sobol], f"{meaning} (Sobol)")
-        indices[f"sobol_{order}_low"] = _index([measure.low[place] for measure in sobol], f"lower end of {ends}: {meaning}")
-        indices[f"sobol_{order}_high"] = _index([measure.high[place] for measure in sobol], f"upper end of {ends}: {meaning}")
-    indices |= _places("sobol", [measure.places for measure in sobol], "total indices")
-    indices["sobol_members"] = _index([measure.members for measure in sobol], "members that the indices are made of")
-    return indices
-
-
-def _places(name: str, ends: Sequence[tuple[np.ndarray, np.ndarray]], of: str) -> dict[str, xr.DataArray]:
-    """First and last place that each number may have."""
-    low, high = zip(*ends, strict=True)
-    return {
-        f"{name}_place_low": _index(low, f"first place that the number may have by {of}"),
-        f"{name}_place_high": _index(high, f"last place that the number may have by {of}"),
     }
 
 

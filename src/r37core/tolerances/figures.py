@@ -17,12 +17,6 @@ from .number_ranks import CONFIDENCE
 _CHANCE = "probability_above_yield"
 _MEASURES = {"peak_speed": "peak speed", "width_above_yield": "width above yield", "largest_stress": "largest stress"}
 
-_SIZES = {
-    "rank_coefficient": ("rank_place", "rank coefficient", "what each number moves"),
-    "sobol_total": ("sobol_place", "Sobol index", "share of the variance, alone and with others"),
-}
-"""Size of a number's part in the spread -> its place in the ranking, label of the axis, title of the panel."""
-
 
 def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> Figure:
     """Band and median of rms and stress over speed with the nominal run, chance of passing yield, where the spread is from."""
@@ -30,9 +24,9 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
         name for name in style.CURVES if f"{name}_quantile" in tolerances and tolerances[f"{name}_quantile"].notnull().any()
     ]
     chance = [_CHANCE] if _CHANCE in tolerances and tolerances[_CHANCE].notnull().any() else []
-    sizes = [size for size in _SIZES if size in tolerances and tolerances[size].notnull().any()]
+    is_ranked = bool(tolerances["rank_coefficient"].notnull().any())
     rows = len(curves) + len(chance)
-    heights = [1.75 * rows + 0.6, *[1.7] * len(sizes)]
+    heights = [1.75 * rows + 0.6, *[1.7] * is_ranked]
     figure = plt.figure(figsize=(style.PAGE, sum(heights)))
     above, *below = figure.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
     panels = above.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
@@ -46,11 +40,8 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
         style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())}, named=True)
     above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
-    for part, size in zip(below, sizes, strict=True):
-        axes, (rank, label, title) = part.subplots(1, 1), _SIZES[size]
-        _numbers(axes, tolerances, size, rank)
-        axes.set_ylabel(label)
-        axes.set_title(f"{title}, {CONFIDENCE:.0%} interval; above: place in the ranking, pale: any")
+    for part in below:
+        _numbers(part.subplots(1, 1), tolerances)
     return figure
 
 
@@ -81,16 +72,16 @@ def _probability(axes: Axes, tolerances: xr.Dataset) -> None:
     axes.set_ylabel("above yield (%)")
 
 
-def _numbers(axes: Axes, tolerances: xr.Dataset, size: str, rank: str) -> None:
-    """Size of each number's part in the spread with its interval, and its place in the ranking above; pale: no place known."""
+def _numbers(axes: Axes, tolerances: xr.Dataset) -> None:
+    """Rank coefficient of each number with its interval, and its place in the ranking above; pale: no place known."""
     numbers = tolerances["number"].values
     width = 0.8 / len(_MEASURES)
-    low, high = (tolerances[f"{rank}_{end}"] for end in ("low", "high"))
+    low, high = (tolerances[f"rank_place_{end}"] for end in ("low", "high"))
     # a number that may have any place has none
-    known = low.notnull() & (high - low + 1 < tolerances[size].notnull().sum("number"))
+    known = low.notnull() & (high - low + 1 < tolerances["rank_coefficient"].notnull().sum("number"))
     for row, measure in enumerate(_MEASURES):
         places = np.arange(len(numbers)) + (row - 0.5 * (len(_MEASURES) - 1)) * width
-        bottom, value, top = (tolerances[f"{size}{end}"].sel(measure=measure).values for end in ("_low", "", "_high"))
+        bottom, value, top = (tolerances[f"rank_coefficient{end}"].sel(measure=measure).values for end in ("_low", "", "_high"))
         clear = known.sel(measure=measure).values
         look: dict[str, Any] = {"color": style.COLOURS[row], "error_kw": {"linewidth": 0.6, "ecolor": "0.3"}}
         for chosen, alpha in ((clear, 0.7), (~clear, 0.15)):
@@ -101,6 +92,8 @@ def _numbers(axes: Axes, tolerances: xr.Dataset, size: str, rank: str) -> None:
         ):
             text = f"{first:.0f}" if first == last else f"{first:.0f}-{last:.0f}"
             axes.annotate(text, (x, max(height, 0.0)), (0, 1), textcoords="offset points", ha="center", fontsize=5)
+    axes.set_ylabel("rank coefficient")
+    axes.set_title(f"what each number moves, {CONFIDENCE:.0%} interval; above: place in the ranking, pale: any")
     axes.axhline(0.0, color="0.3", linewidth=0.5)
     axes.set_xticks(np.arange(len(numbers)), [str(number).replace(".", "\n") for number in numbers], fontsize=6)
     # numbers whose indices are not known have their room, too

@@ -13,7 +13,7 @@ from r37core.config.cross_checks import LARGEST_NUMBER_OF_SIMULATIONS, names_are
 from r37core.config.section import AllOrNames, ExtensionSection
 from r37core.config.spread import MemberCount, Spreads
 from r37core.contact.scene import Scene
-from r37core.plans.member_values import drawn, is_of_sample, number_of, sobol_points
+from r37core.plans.member_values import drawn, sobol_points
 
 
 class ToleranceSection(Spreads):
@@ -23,9 +23,6 @@ class ToleranceSection(Spreads):
         default=32, description="Number of members, a power of two; a larger sample contains the smaller ones"
     )
     seed: int = Field(default=0, ge=0, le=2**31, description="Seed of the sample")
-    sensitivity: bool = Field(
-        default=False, description="Whether Sobol indices are computed; for n numbers this runs n + 2 times the members"
-    )
     blades: AllOrNames = Field(default="all", description="Blades with tolerances")
     scenes: AllOrNames = Field(default="all", description="Scenes with tolerances")
     largest_share: float = Field(
@@ -91,7 +88,7 @@ class Members:
 
     @cached_property
     def all(self) -> dict[tuple[str, str], dict[str, Member]]:
-        """Members by blade and scene, by name: the sample, and what sensitivity indices need beside it.
+        """Members by blade and scene, by name.
 
         Raises ConfigError for a number that is not there, and for a value that is impossible.
         """
@@ -104,10 +101,7 @@ class Members:
     def _run_members(self, blade: str, scene: str) -> dict[str, Member]:
         nominal = self._nominals[blade, scene]
         self._check_ends(blade, scene, nominal)
-        varied = (number for number, value in enumerate(nominal) if value is not None)
-        beside = (None, *varied) if self._entry.sensitivity else ()
-        wanted = [name for name in self._points if is_of_sample(name) or number_of(name) in beside]
-        return {name: self._member(name, blade, scene, nominal) for name in wanted}
+        return {name: self._member(name, blade, scene, nominal) for name in self._points}
 
     def _check_ends(self, blade: str, scene: str, nominal: Sequence[float | None]) -> None:
         """Every value that a bounded number can take at most is possible: more members then meet nothing new."""
@@ -156,13 +150,12 @@ def members_can_be_drawn(settings: Settings) -> None:
     # the configuration that a run keeps has the empty section written out
     if entry != type(entry)() and not members_of(settings).numbers:
         raise documents.config.refusal(path, "no numbers", "some under of_scenes or of_blades")
-    members = entry.members * (len(members_of(settings).numbers) + 2 if entry.sensitivity else 1)
-    number = members * sum(len(settings.speed_plans[pair].certain) for pair in members_of(settings).pairs)
+    number = entry.members * sum(len(settings.speed_plans[pair].certain) for pair in members_of(settings).pairs)
     if number > LARGEST_NUMBER_OF_SIMULATIONS:
         raise documents.config.refusal(
             (*path, "members"),
             f"{number} simulations of members",
-            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run: fewer members, speeds, blades or scenes, or no sensitivity",
+            f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run: fewer members, speeds, blades or scenes",
         )
     # draws them, and refuses what is impossible
     _ = members_of(settings).all

@@ -1,7 +1,4 @@
-"""Which numbers move a measure most, from the sample alone: a straight line through ranks.
-
-Sobol indices take members of their own for each number; docs/tolerances.md#how-many-members has what coefficients tell apart.
-"""
+"""Numbers that move a measure most: a straight line through ranks (docs/tolerances.md#how-many-members)."""
 
 from dataclasses import dataclass
 
@@ -36,14 +33,9 @@ class Ranking:
     @property
     def places(self) -> tuple[np.ndarray, np.ndarray]:
         """First and last place of each number in the ranking by size; NaN for those that are not known."""
-        low, high = places_of(self.above, np.isfinite(self.coefficient))
+        low = 1.0 + self.above.sum(axis=0)
+        high = float(np.isfinite(self.coefficient).sum()) - self.above.sum(axis=1)
         return np.where(self.known, low, np.nan), np.where(self.known, high, np.nan)
-
-
-def places_of(above: np.ndarray, varied: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """First and last place that each number may have, from what is told apart; NaN for those that are not `varied`."""
-    low, high = 1.0 + above.sum(axis=0), float(varied.sum()) - above.sum(axis=1)
-    return np.where(varied, low, np.nan), np.where(varied, high, np.nan)
 
 
 def ranking(values: np.ndarray, measure: np.ndarray) -> Ranking:
@@ -82,11 +74,8 @@ def ranking(values: np.ndarray, measure: np.ndarray) -> Ranking:
 NAMES_THE_FIRST, RANKS = 32, 128
 """Members of which rank coefficients always found the same first number, and those that told most numbers apart."""
 
-SOBOL_RANKS = 32
-"""Members whose Sobol indices have places: of fewer, some that bootstrap samples told apart were the other way round."""
 
-
-def remarks_on_rankings(members: int, numbers: int, sensitivity: bool) -> list[str]:
+def remarks_on_rankings(members: int, numbers: int) -> list[str]:
     """Remarks before a run whose members are too few to rank so many numbers."""
     lines, where = [], "(docs/tolerances.md#how-many-members)"
     if numbers < 2:
@@ -96,9 +85,6 @@ def remarks_on_rankings(members: int, numbers: int, sensitivity: bool) -> list[s
         lines.append(f"tolerances: {members} members {what} {where}")
     elif members < RANKS:
         lines.append(f"tolerances: {members} members name the first of the numbers at best; {RANKS} tell most apart {where}")
-    if sensitivity and members < SOBOL_RANKS:
-        what = f"do not rank the numbers; those of {SOBOL_RANKS} do, as far as they are told apart"
-        lines.append(f"tolerances: Sobol indices of {members} members {what} {where}")
     return lines
 
 

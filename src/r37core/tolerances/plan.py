@@ -144,7 +144,7 @@ def remarks(settings: Settings) -> list[str]:
         return []
     most = extent_of(settings, settings.made(Tolerances).simulations).members
     counted = f"tolerances: {entry.members} members, {most} simulations of theirs at most, beside those of the sweep"
-    return [counted, *_without_width(members), *remarks_on_rankings(entry.members, len(members.numbers), entry.sensitivity)]
+    return [counted, *_without_width(members), *remarks_on_rankings(entry.members, len(members.numbers))]
 
 
 def _without_width(members: Members) -> list[str]:
@@ -180,8 +180,8 @@ EXTENSION = Extension(
             label="tolerances",
             caption="Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, "
             "and the nominal run (dashed). Then the share of the members above yield, with the interval of the chance. Last, "
-            "by how much each number moves three measures, with intervals: rank coefficients, and where asked for Sobol's "
-            "total indices. Above the bars stands the place in the ranking; pale ones have none.",
+            "by how much each number moves three measures, with intervals: rank coefficients. Above the "
+            "bars stands the place in the ranking; pale ones have none.",
         ),
     ),
     closing="tolerances.table.closing",
