@@ -12,10 +12,8 @@ from r37core.rom.region_choice import RegionChoice
 from .declaring import declared_by, si_form
 from .section import Section, refused
 
-Contact = Literal["points", "patches", "area_patches"]
-CONTACT_IN_WORDS = (
-    "Contact acts on mesh nodes (points, as published), on patches of the tip line, or on area_patches of the whole tip face"
-)
+Contact = Literal["points", "patches"]
+CONTACT_IN_WORDS = "Contact acts on mesh nodes (points, as published), or on patches of the tip line"
 
 Kinematics = Literal["linear", "rotating", "quadratic"]
 KINEMATICS_IN_WORDS = "Displacements: linear, as published; rotating, about the rotating equilibrium; or quadratic, large ones"

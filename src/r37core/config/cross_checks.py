@@ -15,9 +15,7 @@ from r37core.base.yaml_file import KeyPath
 from r37core.machine_code.alignment import padded
 from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import (
-    AREA_PATCHES,
     LINEAR,
-    PATCHES,
     POINTS,
     QUADRATIC,
     ROTATING,
@@ -164,19 +162,15 @@ def kinematics_can_be_had(settings: Settings) -> None:
 
 
 def tips_have_room_for_patches(settings: Settings) -> None:
-    """Patches are no finer than the tip's mesh, as far as it is known before it is made, and matrices have no face."""
+    """Patches are no finer than the tip's mesh, as far as it is known before it is made."""
     mesh, document = settings.fidelity.mesh, settings.documents.config
     for name, blade in settings.blades.items():
         for tip_line in dict.fromkeys(scene.tip_line for scene in settings.scenes.values()):
             boundary = settings.reduction_choice(name, tip_line).boundary
-            if boundary.contact == AREA_PATCHES and blade.is_matrices:
-                value = f"{AREA_PATCHES} with the blade '{name}', given by matrices, which say nothing of the tip's face"
-                allowed = "points, or patches of the nodes in its boundary.csv"
-                raise document.refusal(("structure", "boundary", "contact"), value, allowed)
             if boundary.contact == POINTS or not blade.has_profiles:
                 continue
-            # edges of elements between two layers, or on a face, have nodes in their middle; edges inside a layer have none
-            inside = tip_line == "camber" and mesh.layers % 2 and boundary.contact == PATCHES
+            # edges of elements between two layers have nodes in their middle; edges inside a layer have none
+            inside = tip_line == "camber" and mesh.layers % 2
             nodes = mesh.tip_elements + 1 if inside else 2 * mesh.tip_elements + 1
             try:
                 patches_on(boundary, np.linspace(0.0, 1.0, nodes), f"mesh nodes of the tip line '{tip_line}'")

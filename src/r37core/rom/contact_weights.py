@@ -13,10 +13,10 @@ Method; weighted means as in mortar contact, B. I. Wohlmuth, SIAM J. Numer. Anal
 import numpy as np
 import scipy.sparse as sp
 
-from r37core.fem.traces import Trace, chain_trace, edge_traces, face_traces
+from r37core.fem.traces import Trace, chain_trace, edge_traces
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
-from .reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, boundary_nodes, patches_on
+from .reduction_choice import POINTS, BoundaryChoice, boundary_nodes, patches_on
 
 
 def contact_weights(mesh: BladeMesh, choice: BoundaryChoice) -> sp.csr_array:
@@ -27,11 +27,7 @@ def contact_weights(mesh: BladeMesh, choice: BoundaryChoice) -> sp.csr_array:
     if choice.contact == POINTS:
         nodes = boundary_nodes(mesh, choice)
         return sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(mesh.points)))
-    line, tip, chord = mesh.node_set(TIP_LINES[choice.tip_line]), mesh.node_set("tip"), mesh.parameters[:, 0]
-    if choice.contact == AREA_PATCHES and len(line):
-        choice = patches_on(choice, np.unique(np.round(chord[tip], 6)), "mesh nodes, one behind the other, of the tip")
-        members = np.isin(np.arange(len(mesh.points)), tip)
-        return _means(choice, chord, face_traces(mesh.points, mesh.blocks, members))
+    line, chord = mesh.node_set(TIP_LINES[choice.tip_line]), mesh.parameters[:, 0]
     choice = patches_on(choice, chord[line], f"mesh nodes of the tip line '{choice.tip_line}'")
     return _means(choice, chord, _line_traces(mesh, line))
 
@@ -77,7 +73,7 @@ def _line_traces(mesh: BladeMesh, line: np.ndarray) -> list[Trace]:
 
 
 def _means(choice: BoundaryChoice, chord: np.ndarray, traces: list[Trace]) -> sp.csr_array:
-    """Weights of hats along the chord, from integrals over edges or faces; `chord`: of every node."""
+    """Weights of hats along the chord, from integrals over edges; `chord`: of every node."""
     count = choice.most_nodes
     positions, total = choice.chord_positions(count), np.zeros((count, len(chord)))
     for trace in traces:

@@ -18,8 +18,8 @@ class BoundaryError(ValueError):
     """Boundary nodes that the mesh does not have."""
 
 
-POINTS, PATCHES, AREA_PATCHES = "points", "patches", "area_patches"
-"""Kinds of contact nodes: nodes of the mesh, patches of the tip line, or patches of the tip's whole face."""
+POINTS, PATCHES = "points", "patches"
+"""Kinds of contact nodes: nodes of the mesh, or patches of the tip line."""
 
 EVEN, COSINE = "even", "cosine"
 """Spacings of the contact nodes along the chord: equal distances, or smaller ones towards the leading and trailing edge."""
@@ -41,7 +41,7 @@ class BoundaryChoice:
     """Positions of the contact nodes.
 
     With corners, node i of n lies at s = i/(n-1) of the chord; without, at s = (i + 1/2)/n. With a cosine `spacing` that is at
-    (1 - cos(pi s))/2. `contact`: POINTS, PATCHES or AREA_PATCHES; see r37core.rom.contact_weights. A spacing of None is
+    (1 - cos(pi s))/2. `contact`: POINTS or PATCHES; see r37core.rom.contact_weights. A spacing of None is
     usual_spacing; None `nodes` are as many as usual, of patches as many as a tip has room for: see `on`.
     """
 

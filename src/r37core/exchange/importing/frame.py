@@ -19,7 +19,7 @@ def blade_parameters(
     over that to root and tip. Each section (nodes of like span) has a chord, the longest principal axis of its nodes across
     the blade's height, pointing downstream, and a normal, the shortest, from the pressure to the suction side; chord and
     thickness are the place between the section's extremes along them. They serve the names of the modes and pictures; of the
-    mechanics only the weights of area patches, along the chord. `pressure_forward`: whether the pressure side looks towards the
+    mechanics only the weights of patches, along the chord. `pressure_forward`: whether the pressure side looks towards the
     rotation. Raises ImportRefused for a mesh with too few nodes for sections.
     """
     root_distance, _ = cKDTree(points[root]).query(points)

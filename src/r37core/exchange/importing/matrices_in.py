@@ -33,7 +33,7 @@ from r37core.rom.naming import NAMED_MODES
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.rom.reduce import contact_nodes
 from r37core.rom.reduced_model import ReducedModel
-from r37core.rom.reduction_choice import AREA_PATCHES, POINTS, BoundaryChoice, BoundaryError, ReductionChoice
+from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice
 
 from .matrix_file import read_matrix
 from .source import MatricesSource, matrix_files
@@ -141,11 +141,6 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
 def _contact_weights(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice) -> sp.csr_array:
     if choice.contact == POINTS:
         return sp.csr_array(sp.eye_array(len(points)))
-    if choice.contact == AREA_PATCHES:
-        raise BoundaryError(
-            "found area_patches with matrices, which say nothing of the tip's face; allowed: points, or patches of the nodes "
-            "in boundary.csv"
-        )
     return weights_along(points, chord, choice)
 
 
