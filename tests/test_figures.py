@@ -13,7 +13,7 @@ from matplotlib.colors import to_hex
 from matplotlib.text import Text
 from PIL import Image
 
-from r37core.figures import campbell_diagram, comparison, interaction_map, maps, response_curves, style, waterfall
+from r37core.figures import campbell_diagram, comparison, interaction_map, maps, response_curves, style
 from r37core.figures.style import save
 from r37core.product.reporting import FIGURES
 from r37core.results.columns import INTERACTIONS, names
@@ -100,7 +100,6 @@ def drawn(datasets):
     maps_of = {kind: data.sel(scene="abradable") for kind, data in of.items() if kind != "campbell"}
     yield "spectrum", maps.draw_spectral_map(maps_of["spectrum"], of["campbell"], "Ref, abradable")
     yield "wear", maps.draw_wear_map(maps_of["wear"], of["campbell"], "Ref, abradable")
-    yield "waterfall", waterfall.draw_waterfall(maps_of["spectrum"], of["campbell"], "Ref, abradable")
     room = np.linspace(4e-4, 3e-4, len(SPEEDS))[:, None] * [1.0, 0.9, np.nan]
     growing = lined["rms"].assign(clearance=(("blade", "speed", "contact_node"), np.repeat(room[None], len(BLADES), axis=0)))
     yield "clearance", response_curves.draw_clearance(growing, "growing_abradable")
@@ -121,7 +120,7 @@ def test_figures_print_on_a_page_with_letters_to_read_and_have_rpm_beside_every_
 
 @pytest.mark.parametrize(
     "draw, kind, panels",
-    [(maps.draw_spectral_map, "spectrum", 2), (maps.draw_wear_map, "wear", 1), (waterfall.draw_waterfall, "spectrum", 2)],
+    [(maps.draw_spectral_map, "spectrum", 2), (maps.draw_wear_map, "wear", 1)],
 )
 def test_a_map_of_runs_that_all_diverged_says_so(datasets, draw, kind, panels):
     of_scene = datasets[kind].sel(blade="Ref", scene="abradable")
@@ -213,28 +212,6 @@ def test_blades_of_several_materials_have_a_yield_line_each(datasets):
         assert [text.get_text() for text in axes.texts] == texts
 
 
-def test_waterfall_keeps_the_largest_of_each_stretch():
-    speeds = np.linspace(750.0, 2000.0, 1251)
-    largest = np.ones(1251)
-    largest[[3, 700]] = 5.0
-    rows = waterfall.thinned(speeds, largest)
-    assert {3, 700} <= set(rows)
-    assert rows == sorted(rows)
-    assert 12 <= len(rows) <= 25
-    # no line stands on another
-    assert np.diff(speeds[rows]).min() >= 1250.0 / 24
-    assert waterfall.thinned(np.array([900.0]), np.array([1.0])) == [0]
-
-
-def test_waterfall_has_one_scale_for_both_directions(datasets):
-    """A direction ten times as small stands 20 dB lower."""
-    spectra = datasets["spectrum"].sel(blade="Ref", scene="abradable")
-    spectra = spectra.assign(amplitude=0.1 * spectra["amplitude_tangential"])
-    figure = waterfall.draw_waterfall(spectra, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
-    heights = [max(np.ptp(line.get_ydata()) for line in axes.lines if line.get_color() == "0.15") for axes in figure.axes[:2]]
-    assert heights[0] / heights[1] == pytest.approx(2.0 / 3.0)
-
-
 def test_spectral_map_has_every_speed_on_its_own_scale(datasets):
     """Beside the peak, a thousandth of its motion is as bright; how much it is stands above."""
     spectra = datasets["spectrum"].sel(blade="Ref", scene="abradable")
@@ -248,13 +225,11 @@ def test_spectral_map_has_every_speed_on_its_own_scale(datasets):
 
 
 def test_a_mode_has_one_colour_everywhere(datasets):
-    campbell, spectra = datasets["campbell"].sel(blade="Ref"), datasets["spectrum"].sel(blade="Ref", scene="abradable")
-    diagram, fall = campbell_diagram.draw_campbell(campbell, "Ref"), waterfall.draw_waterfall(spectra, campbell, "Ref")
+    diagram = campbell_diagram.draw_campbell(datasets["campbell"].sel(blade="Ref"), "Ref")
     wanted = {line.get_label(): line.get_color() for line in diagram.axes[0].lines if not line.get_label().startswith("_")}
     assert list(wanted) == ["1B", "1T", "2B"]
     assert len(set(wanted.values())) == 3
     assert {line.get_label(): line.get_color() for line in diagram.axes[1].lines}.items() <= wanted.items()
-    assert {text.get_text(): text.get_color() for text in fall.axes[0].texts if text.get_text() in wanted} == wanted
 
 
 def test_stress_above_yield_is_tinted_and_said_to_be_outside_the_linear_model(datasets):

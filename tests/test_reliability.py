@@ -232,7 +232,7 @@ def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
     kept = ["rms.nc", "stress.nc", "spectrum.nc", "campbell.nc", "summary.csv", "configuration.json", "explorer.html"]
     kept += ["report.zip", "notes.csv", "mine.nc", "figures/my_plot.png", "figures/campbell_Ref.pdf", "figures/blades.png"]
     kept += [f"figures/{name}.png" for name in ("response_Ref", "spectrum_Ref__direct", "response", "campbell")]
-    kept += ["figures/comparison_direct.png", "figures/waterfall_Ref__direct.pdf"]
+    kept += ["figures/comparison_direct.png", "figures/comparison_direct.pdf"]
     kept += ["Ref/contact_pressure_edge.npz", "Ref/rom_pressure_edge.nc", "Ref/direct/response.nc", "Ref/direct/speed_900.npz"]
     kept += ["Ref/mesh.vtu", "exports/Ref/mesh.vtu", "exports/Ref/stress_direct/worst.vtu", "cases/L50/rom.nc"]
     kept += ["runs/x/wear.nc", "runs/x/L50/a.nc", "runs/x/signals.nc", "runs/x/rom_camber.nc"]

@@ -147,18 +147,6 @@ FIGURES = (
         "the region of the stress.",
     ),
     Figure(
-        rule="waterfall_figure",
-        name="waterfall_{blade}__{scene}",
-        runs=lambda sweep: run_keys(sweep.drawn_runs("spectrum")),
-        draw="figures.waterfall.draw_waterfall",
-        files={"campbell": ALL_CAMPBELL, "maps": "<results>/spectrum.nc"},
-        label="waterfall",
-        caption="Waterfall of blade {blade} in scene {scene}: spectra of the leading edge's motion, normal to the casing "
-        "(left) and tangential (right), one above the other by speed. Speeds with the largest amplitudes are drawn, as far as "
-        "they lie apart. All heights have one logarithmic scale, 60 dB below the largest amplitude. Dotted: engine orders; "
-        "dashed: frequencies of 1B, 1T and 2B.",
-    ),
-    Figure(
         rule="comparison_figure",
         name="comparison_{scene}",
         runs=lambda sweep: of("scene", sweep.drawn["scene"]),

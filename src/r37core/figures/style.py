@@ -131,17 +131,13 @@ def mark_operating(figure: Figure, operating: OperatingRange) -> None:
     spans = [(operating.first, operating.last, 0.12), *((dwell.start, dwell.stop, 0.2) for dwell in operating.dwell)]
     for axes in figure.axes:
         labels = {panel.get_xlabel() for panel in axes.get_shared_x_axes().get_siblings(axes)}
-        across = labels & {SPEED_LABEL, RUN_UP_LABEL}
-        upward = SPEED_LABEL in {panel.get_ylabel() for panel in axes.get_shared_y_axes().get_siblings(axes)}
+        if not labels & {SPEED_LABEL, RUN_UP_LABEL}:
+            continue
         limits = axes.get_xlim(), axes.get_ylim()
-        marks: list[tuple[Any, Any]] = [(axes.axvspan, axes.axvline)] if across else []
-        if upward:
-            marks.append((axes.axhspan, axes.axhline))
-        for span, line in marks:
-            for begin, end, alpha in spans:
-                span(begin, end, color=COLOURS[4], alpha=alpha, linewidth=0.0, zorder=-0.5)
-            for end in (operating.first, operating.last):
-                line(end, color=COLOURS[4], linewidth=0.9, linestyle="-.")
+        for begin, end, alpha in spans:
+            axes.axvspan(begin, end, color=COLOURS[4], alpha=alpha, linewidth=0.0, zorder=-0.5)
+        for end in (operating.first, operating.last):
+            axes.axvline(end, color=COLOURS[4], linewidth=0.9, linestyle="-.")
         axes.set(xlim=limits[0], ylim=limits[1])
 
 
@@ -153,16 +149,19 @@ def say(axes: Axes, text: str) -> None:
     axes.text(0.5, 0.5, text, ha="center", va="center", transform=axes.transAxes)
 
 
+def empty_figure(text: str) -> Figure:
+    """A small figure with nothing but the reason why it is empty."""
+    figure, axes = plt.subplots(figsize=(4.0, 1.5))
+    say(axes, text)
+    axes.set_axis_off()
+    return figure
+
+
 def rpm_axis(axes: Axes, most_ticks: int = 9) -> None:
     """A second axis above one of speeds in rad/s, in revolutions per minute."""
     above = axes.secondary_xaxis("top", functions=_RPM)
     above.set_xlabel("rpm", fontsize=plt.rcParams["xtick.labelsize"])
     above.xaxis.set_major_locator(MaxNLocator(most_ticks))
-
-
-def rpm_axis_beside(axes: Axes) -> None:
-    """A second axis in revolutions per minute, to the right of an upward axis of speeds in rad/s."""
-    axes.secondary_yaxis("right", functions=_RPM).set_ylabel("rpm", fontsize=7)
 
 
 _RPM = (lambda speed: np.multiply(speed, RPM), lambda turns: np.divide(turns, RPM))
