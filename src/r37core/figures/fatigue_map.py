@@ -18,7 +18,7 @@ from r37core.stress.operator import mapped_region
 from r37core.stress.statistic import Strengths
 
 from .offscreen import look, new_plotter, rendered, without_margins
-from .style import PAGE
+from .style import PAGE, empty_figure
 
 _COLOUR_MAP: Final = "viridis"
 _PIXELS, _HEIGHT = (600, 800), 3.2
@@ -39,11 +39,8 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
     scene. Grey has no stress. Without strengths, or a run that ended, the figure says so.
     """
     if not has_strengths(response) or not response["goodman_share"].notnull().any():
-        figure, axes = plt.subplots(figsize=(4.0, 1.5))
-        axes.set_axis_off()
         missing = "no run that ended" if has_strengths(response) else "no strengths in blades.yaml"
-        axes.text(0.5, 0.5, f"{title}: {missing}", ha="center", va="center")
-        return figure
+        return empty_figure(f"{title}: {missing}")
     strengths = Strengths(float(response["fatigue_strength"]), float(response["ultimate_strength"]))
     shares = strengths.share(response["alternating_stress"].values, response["mean_stress"].values)
     worst = response.isel(speed=int(np.nan_to_num(shares).max(axis=1).argmax()))

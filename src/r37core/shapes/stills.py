@@ -93,18 +93,17 @@ def _stress(grid: Any, entry: dict[str, Any]) -> _Shape:
 
 def _draw(shapes: Sequence[Sequence[_Shape]]) -> Figure:
     """Columns of panels, one below the other; more columns than fit go into further blocks of rows."""
-    views = len(shapes[0]) if shapes else 1
-    blocks = max(1, ceil(len(shapes) / _COLUMNS))
-    rows, columns = blocks * views, max(1, ceil(len(shapes) / blocks))
+    if not shapes:
+        return style.empty_figure("no interaction that ran to its end")
+    views, blocks = len(shapes[0]), ceil(len(shapes) / _COLUMNS)
+    rows, columns = blocks * views, ceil(len(shapes) / blocks)
     size = (style.PAGE * columns / _COLUMNS, rows * _PANEL_HEIGHT)
-    figure, grid = plt.subplots(rows, columns, figsize=size if shapes else (4.0, 1.5), squeeze=False)
+    figure, grid = plt.subplots(rows, columns, figsize=size, squeeze=False)
     for axes in grid.flat:
         axes.set_axis_off()
     for number, column in enumerate(shapes):
         for row, shape in enumerate(column):
             _draw_shape(grid[views * (number // columns) + row, number % columns], shape)
-    if not shapes:
-        grid[0, 0].text(0.5, 0.5, "no interaction that ran to its end", ha="center", va="center")
     return figure
 
 

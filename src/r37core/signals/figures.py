@@ -11,6 +11,8 @@ from matplotlib.figure import Figure
 from r37core.base.units import RPM
 from r37core.figures import style
 
+_NOTHING = "no interaction, no signals"
+
 
 def draw_contact_forces(signals: xr.Dataset, title: str) -> Figure:
     """Normal force on the tip over the casing angle of its leading edge, at every speed (rows) of one blade and scene.
@@ -18,7 +20,7 @@ def draw_contact_forces(signals: xr.Dataset, title: str) -> Figure:
     The last revolution as a line, the range of all in the last half of the run as a band, and the clearance.
     """
     if not signals.sizes["speed"]:
-        return _nothing(title)
+        return style.empty_figure(f"{title}: {_NOTHING}")
     figure, panels = _rows(signals, f"contact force: {title}")
     per_revolution = round(1.0 / float(np.diff(signals["turn"].values[:2])[0]))
     for axes, speed in zip(panels, signals["speed"].values, strict=True):
@@ -34,7 +36,7 @@ def draw_tip_timing(signals: xr.Dataset, title: str) -> Figure:
     A curve for each probe.
     """
     if not signals.sizes["speed"]:
-        return _nothing(title)
+        return style.empty_figure(f"{title}: {_NOTHING}")
     figure, panels = _rows(signals, f"tip timing, leading edge: {title}")
     for axes, speed in zip(panels, signals["speed"].values, strict=True):
         arrivals = 1e3 * signals["arrival_displacement"].sel(speed=speed, tip_point="leading_edge")
@@ -87,10 +89,3 @@ def _label(axes: Axes, run: xr.Dataset, unit: str) -> None:
     speed = float(run["speed"])
     about = (str(run["interaction"].values), f"{speed:g} rad/s, {RPM * speed:.0f} rpm", unit)
     axes.set_ylabel("\n".join(filter(None, about)), fontsize=8)
-
-
-def _nothing(title: str) -> Figure:
-    figure, axes = plt.subplots(figsize=(4.0, 1.5))
-    style.say(axes, f"{title}: no interaction, no signals")
-    axes.set_axis_off()
-    return figure
