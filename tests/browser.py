@@ -16,8 +16,6 @@ import pytest
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 QUIET = ("gpu", "quic", "background-networking", "component-update", "sync")
-SOFTWARE_GRAPHICS = ("--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader")
-"""For pages that draw in three dimensions, without a graphics card."""
 
 LONGEST = 600_000
 """What is waited for (ms), however busy the machine is."""
@@ -51,7 +49,7 @@ def _address():
 
 def _start():
     """Number of a process that is a browser, and its address."""
-    flags = ["--no-sandbox", "--no-first-run", *(f"--disable-{name}" for name in QUIET), *SOFTWARE_GRAPHICS]
+    flags = ["--no-sandbox", "--no-first-run", *(f"--disable-{name}" for name in QUIET)]
     with tempfile.NamedTemporaryFile("w", suffix=".json") as settings:
         json.dump({"executablePath": CHROMIUM, "args": flags}, settings)
         settings.flush()
@@ -61,8 +59,8 @@ def _start():
 
 
 @contextmanager
-def opened(file, viewport, kept=lambda message: True, place="", **more):
-    """The page of a file, at a `place` in it (#...), with more arguments of a page.
+def opened(file, viewport, kept=lambda message: True, **more):
+    """The page of a file, with more arguments of a page.
 
     Its `problems`: errors and warnings of the console that are `kept`, requests to the network.
     """
@@ -82,7 +80,7 @@ def opened(file, viewport, kept=lambda message: True, place="", **more):
         page.on("console", lambda message: note(message.text) if message.type in ("error", "warning") else None)
         page.on("pageerror", lambda error: note(str(error)))
         page.on("request", lambda request: None if request.url.startswith(("file:", "blob:", "data:")) else note(request.url))
-        page.goto(file.as_uri() + place)
+        page.goto(file.as_uri())
         yield page
         # of the connection alone
         browser.close()
