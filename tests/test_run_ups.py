@@ -347,6 +347,13 @@ def test_steps_are_so_short_that_every_mode_tells_its_velocity(contact):
         resolved_problem(contact, 1600.0, scene, replace(choice, shorten=False))
 
 
+def test_steps_that_are_held_do_not_become_shorter_for_ever(contact):
+    """At a low speed steps of as many per sample are too long: that is reported, and no shorter ones are tried."""
+    choice = replace(LONG, shorten=True, steps_per_sample=4)
+    with pytest.raises(UnstableStepError):
+        stable_problem(contact, 50.0, ABRADABLE, choice)
+
+
 def test_a_blade_that_buckles_on_the_way_is_refused_at_once(contact):
     soft = replace(contact, stiffness_per_square=-contact.stiffness_per_square)
     with pytest.raises(BucklingError, match=r"no stable position at 6000 rad/s.*run-ups"):

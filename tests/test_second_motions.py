@@ -7,14 +7,14 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from defaults import IntegrationChoice, Lining
-from integration_cases import ABRADABLE, DIRECT
+from defaults import Casing, IntegrationChoice, Lining, Scene
+from integration_cases import ABRADABLE, DIRECT, oscillator, with_static_modes
 
 from r37core.config import ConfigError, command_line_document
 from r37core.figures.response_curves import draw_response
 from r37core.product.reading import read_settings
 from r37core.results.other_motions import ranking_with_motions, summary_with_motions
-from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, BranchChoice, DwellChoice, SweepChoice
+from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
 from r37core.second_motions.dwelling import (
     HIGH,
     LOW,
@@ -27,22 +27,19 @@ from r37core.second_motions.dwelling import (
     judged,
     random_states,
 )
-from r37core.second_motions.examining import begun_as, branches_of, dwells_of, speeds_dwelt_on
+from r37core.second_motions.examining import begun_as, dwells_of, speeds_dwelt_on
 from r37core.second_motions.figures import draw_overview, draw_second_motions
-from r37core.second_motions.motion_files import SweptStates, dwell_dataset, levels_of, orbit_dataset, write_states
+from r37core.second_motions.motion_files import SweptStates, dwell_dataset, levels_of, write_states
 from r37core.second_motions.panel import contents
-from r37core.second_motions.periodic import PeriodicBlade
 from r37core.second_motions.ranges import MotionLevels, motions_differ
 from r37core.second_motions.sweeping import CarriedSweep
-from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, bifurcation_table, closing, dwell_table, range_table
+from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.motion_kind import KindNumbers
-from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import MotionKind, RunStatus
-from r37core.time_integration.step_limit import UnstableStepError
 
 CHOICE = IntegrationChoice(6.4e-6, 20, 62, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
@@ -135,7 +132,6 @@ def test_after_a_run_that_diverged_the_sweep_starts_from_rest(contact, tmp_path)
     # none of the sweeps' motions is there, and the random ones diverge
     assert [labels["start"] for labels, _ in rows] == [RANDOM, RANDOM]
     assert all(np.isnan(kept.rms).all() for _, kept in rows)
-    assert branches_of(run, several, BranchChoice()) == []
 
 
 def levels(mean, scatter=0.0, clearance=0.0):
@@ -353,7 +349,6 @@ def test_tables_of_ranges_and_dwells(motions):
     assert (row["kind"], row["dwell_speed_rad_s"], row["held_revolutions"]) == ("lasting", 1010.0, np.inf)
     nothing = range_table(motions, dwell_table(dwells()))
     assert nothing["kind"].isna().all()
-    assert bifurcation_table(orbit_dataset([], 248).assign(LABELS)).empty
 
 
 def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
@@ -399,7 +394,7 @@ def test_the_explorer_has_the_swept_blades(motions):
     assert (pair["blade"], pair["ranges"]) == ("Ref", [[1002.5, 1017.5]])
 
 
-def test_dwells_and_branches_of_real_sweeps(contact, tmp_path):
+def test_dwells_of_real_sweeps(contact, tmp_path):
     states, _ = states_of(contact, tmp_path)
     assert levels_of(states).mean.shape == (3, 3)
     carried = sweep_of(contact, UP)
@@ -409,24 +404,6 @@ def test_dwells_and_branches_of_real_sweeps(contact, tmp_path):
     # judged by the motions of a range that is near, if there is one
     differ = levels_of(states).differ.any()
     assert all(np.isfinite(labels["level_high"]) == differ for labels, _ in rows)
-    # this motion is chaotic
-    assert branches_of(carried, states, BranchChoice(points=2)) == []
-
-
-def test_a_blade_with_more_damping_has_a_branch(contact, tmp_path):
-    damped, sweep = replace(GROWING, damping_ratio=0.05), SweepChoice(1300.0, 1306.0, 2.0, revolutions=60)
-    choice = replace(CHOICE, revolutions=60)
-    states, _ = states_of(contact, tmp_path, damped, sweep, choice)
-    run = sweep_of(contact, UP, damped, sweep, choice)
-    ((orbits, events),) = branches_of(run, states, BranchChoice(points=40))
-    assert (orbits[0].speed, orbits[-1].speed) == (1300.0, 1306.0)
-    assert all(orbit.stable for orbit in orbits)
-    assert events == []
-    curve = orbit_dataset([(orbits, events)], CHOICE.samples_per_revolution)
-    np.testing.assert_allclose(curve["period"], 0.5)
-    np.testing.assert_allclose(
-        np.hypot(curve["rms_normal"][0], curve["rms_tangential"][0]), levels_of(states).mean[0, 0], rtol=1e-4
-    )
 
 
 @pytest.mark.parametrize(
@@ -461,6 +438,28 @@ def test_what_cannot_be_swept_is_refused(root, section, message):
     assert message in str(error.value) and "\n" not in str(error.value)
 
 
+@pytest.mark.slow
+def test_sweeps_leave_their_motion_at_the_folds(tmp_path):
+    """A mass that meets a lobe through a second spring. Its folds (rad/s) are those of its branch of periodic motions.
+
+    Once found by pseudo-arc-length continuation.
+    """
+    low, high = 5214.97, 5398.96
+    casing = Casing(0.356e-3, lobes=1, amplitude=1.05, rise_fraction=0.0)
+    choice = IntegrationChoice(2e-6, 300, 124, integrator=EXACT_MODAL)
+    sweep, rms = SweepChoice(5150.0, 5500.0, 5.0, revolutions=300), {}
+    for motion in (UP, DOWN):
+        model = with_static_modes(oscillator(5000.0), 1e-7)
+        files = sweep_of(model, motion, Scene(casing, damping_ratio=0.004), sweep, choice).run(tmp_path / motion)
+        levels = [read_speed(file)["revolution_rms"][-1] for file in files]
+        rms[motion] = np.array(levels if motion == UP else levels[::-1])
+    speeds, differ = np.array(sweep.speeds), np.abs(rms[UP] - rms[DOWN]) > 0.05 * rms[UP]
+    assert speeds[differ][0] == pytest.approx(low, abs=5.0)
+    # just above the fold the motion falls slowly
+    assert speeds[differ][-1] == pytest.approx(high, abs=10.0)
+    assert np.all(differ[(speeds > low + 5.0) & (speeds < high - 5.0)])
+
+
 @pytest.mark.parametrize("motion", [UP, DOWN, REST])
 def test_a_dwell_on_a_new_lining_goes_on_as_the_sweep_did(contact, tmp_path, motion):
     """Its first revolutions are those of the sweep at that speed: the motion belongs to the lining that it has worn."""
@@ -470,20 +469,3 @@ def test_a_dwell_on_a_new_lining_goes_on_as_the_sweep_did(contact, tmp_path, mot
     rms = dwell(begun, state, 100).rms
     expected = read_speed(files[motion][1])["revolution_rms"]
     np.testing.assert_allclose(rms[: len(expected)], expected, rtol=1e-12)
-
-
-def test_branches_of_a_casing_that_is_not_reached_are_none(contact, tmp_path):
-    round_casing = replace(GROWING, casing=replace(GROWING.casing, lobes=0))
-    states, _ = states_of(contact, tmp_path, round_casing)
-    assert branches_of(sweep_of(contact, UP, round_casing), states, BranchChoice()) == []
-
-
-def test_steps_that_are_held_do_not_become_shorter_for_ever(contact):
-    """The step of a branch grows towards lower speeds, until it is unstable: that is said."""
-    blade = PeriodicBlade.stepped(contact, DIRECT, replace(CHOICE, shorten=True), 1990.0)
-    assert blade.lowest_speed < 1990.0
-    with pytest.raises(UnstableStepError):
-        for speed in np.arange(1900.0, 50.0, -100.0):
-            blade.map_at(speed)
-    with pytest.raises(UnstableStepError):
-        stable_problem(contact, 50.0, DIRECT, replace(blade.choice, shorten=True))

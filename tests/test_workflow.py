@@ -134,7 +134,7 @@ def test_second_motions_of_a_finished_run(sweep_copy):
     """Sweeps start from the models that are there; the motion from rest is the run of the sweep; answers have the worst one."""
     (sweep_copy / "config/second_motions.yaml").write_text(
         "second_motions:\n"
-        "  { from_rad_s: 1140, to_rad_s: 1160, step_rad_s: 10, revolutions: 10, branches: { number: 0 },\n"
+        "  { from_rad_s: 1140, to_rad_s: 1160, step_rad_s: 10, revolutions: 10,\n"
         "    dwell: { revolutions: 100, speeds_rad_s: [1145] } }\n"
     )
     given = ("--configfile", "config/config.yaml", "config/second_motions.yaml")

@@ -5,29 +5,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from r37core.base.dataset_file import read_dataset
-from r37core.base.io import scratch_folder
 from r37core.contact.scene import Scene
-from r37core.figures import style
 from r37core.results.other_motions import ranking_with_motions
 from r37core.rom.contact_model import ContactModel, read_contact_model
-from r37core.second_motions.branches import branch_through, events_of
-from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
+from r37core.second_motions.choice import MOTIONS, REST, UP, DwellChoice, SweepChoice
 from r37core.second_motions.examining import dwells_of
-from r37core.second_motions.figures import COLOURS
 from r37core.second_motions.motion_files import SweptStates, dwell_dataset
-from r37core.second_motions.periodic import PeriodicBlade, orbit_after
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import dwell_table
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.motion_kind import MotionKind, kind_of_motion
 from r37core.time_integration.simulate import Simulation
-from r37core.time_integration.speed_file import read_speed
 
 from .configuration import settings_of
 from .pages import write_table
@@ -42,8 +35,6 @@ EVERY = 5
 
 DROP = tuple(np.arange(1338.0, 1359.0, 2.0))
 STEPS = (4.8e-6, 2.4e-6, 1.2e-6)
-DAMPED, FIRST, LAST, START = 0.01, 1100.0, 1420.0, 1200.0
-"""Damping ratio of the curve of Ref, its speeds (rad/s), and the one that it begins at."""
 
 AGAIN = {"CS100": 1195.0, "S50": 1405.0}
 """Blade -> speed (rad/s) of a second motion that is marched again."""
@@ -137,12 +128,10 @@ def _kinds_of(model: ContactModel, states: SweptStates, scene: Scene, choice: In
     return [*(f"{share:.0%}" for share in shares), median]
 
 
-def _scene_and_choice(settings: Any, blade: str, **scene: float) -> tuple[Scene, IntegrationChoice]:
+def _scene_and_choice(settings: Any, blade: str) -> tuple[Scene, IntegrationChoice]:
     """The bare casing with full-grown lobes, and the time integration with nothing recorded."""
-    direct = settings.scenes["direct"].scene
-    grown = replace(direct, casing=replace(direct.casing, rise_fraction=0.0), **scene)
     choice = settings.integration_choice(blade, "direct", 0.0)
-    return grown, replace(choice, snapshots_per_revolution=0, snapshot_revolutions=0)
+    return settings.scenes["direct"].scene.grown, replace(choice, snapshots_per_revolution=0, snapshot_revolutions=0)
 
 
 def switching(input: Any, output: Any, params: Any) -> None:
@@ -184,55 +173,6 @@ def _revolutions(number: float) -> str:
     return "all" if np.isinf(number) else f"{number:.0f}"
 
 
-def folds(input: Any, output: Any, params: Any) -> None:
-    """Ref with more damping: folds of its branch, and where sweeps leave it. Input: model. Outputs: table, picture."""
-    settings, model = settings_of(Path.cwd()), read_contact_model(input.model)
-    grown, choice = _scene_and_choice(settings, "Ref", damping_ratio=DAMPED)
-    blade = PeriodicBlade.stepped(model, grown, choice, START)
-    simulation = Simulation(model, START, grown, blade.choice)
-    state = simulation.start()
-    simulation.advance(state, REVOLUTIONS)
-    orbits = branch_through(blade, orbit_after(blade, simulation, state, 1), FIRST, LAST, 400)
-    events = [event for event in events_of(blade, orbits) if event.speed < 1330.0]
-    rms = {motion: _carried(model, grown, choice, motion) for motion in (UP, DOWN)}
-    speeds = np.array(list(rms[UP]))
-    differ = np.array([abs(rms[UP][speed] - rms[DOWN][speed]) > 0.05 * rms[UP][speed] for speed in speeds])
-    ends = {"high": speeds[differ].max(), "low": speeds[differ].min()}
-    rows = []
-    for end, event in zip(("high", "low"), sorted(events, key=lambda event: -event.speed), strict=True):
-        carried = f"{ends[end]:.0f} to {ends[end] + 1:.0f}" if end == "high" else f"{ends[end] - 1:.0f} to {ends[end]:.0f}"
-        rows.append([f"{'upper' if end == 'high' else 'lower'} fold", f"{event.speed:.2f}", carried])
-    write_table(["Ref, damping ratio 0.01", "branch (rad/s)", "sweeps leave it between (rad/s)"], rows, output.table)
-    figure, axes = plt.subplots(figsize=(style.PAGE, 2.8))
-    curve, sizes = [orbit.speed for orbit in orbits], [1e3 * np.linalg.norm(orbit.rms) for orbit in orbits]
-    unstable = [np.nan if orbit.stable else size for orbit, size in zip(orbits, sizes, strict=True)]
-    axes.plot(curve, sizes, color="0.6", label="periodic motion")
-    axes.plot(curve, unstable, color="0.1", linewidth=2, label="unstable")
-    for motion, marker in ((UP, "^"), (DOWN, "v")):
-        axes.plot(
-            speeds,
-            1e3 * np.array(list(rms[motion].values())),
-            marker,
-            markersize=3,
-            fillstyle="none",
-            color=COLOURS[motion],
-            label=f"carried {motion}",
-        )
-    axes.set(xlabel="speed (rad/s)", ylabel="rms (mm)", title="Ref, bare casing, damping ratio 0.01")
-    axes.legend()
-    style.save(figure, output.picture)
-
-
-def _carried(model: ContactModel, scene: Scene, choice: IntegrationChoice, motion: str) -> dict[float, float]:
-    """Rms (m) at the end of every 1 rad/s about the folds, by ascending speed, carried up or down."""
-    kept = {"spectrum_highest_order": 1, "wear_angles": 1}
-    run = CarriedSweep(model, scene, choice, SweepChoice(1255.0, 1310.0, 1.0, REVOLUTIONS), motion, (), kept)
-    with scratch_folder() as folder:
-        files = run.run(folder)
-        rms = {speed: float(read_speed(file)["revolution_rms"][-1]) for speed, file in zip(run.speeds, files, strict=True)}
-    return dict(sorted(rms.items()))
-
-
 def again(input: Any, output: Any, params: Any) -> None:
     """Two second motions by the plain engine, and with half the step. Inputs: models, states. Output: table."""
     settings, rows = settings_of(Path.cwd()), []
@@ -255,14 +195,6 @@ def again(input: Any, output: Any, params: Any) -> None:
                 state = simulation.start(motion)
                 normal = simulation.advance(state, REVOLUTIONS).samples[:, 0]
                 cells.append(f"{1e3 * np.sqrt(np.mean(normal[len(normal) // 2 :] ** 2)):.4f}")
-        blade = PeriodicBlade.stepped(model, grown, choice, speed)
-        simulation = Simulation(model, speed, grown, blade.choice)
-        motion = up.motion(at)
-        assert motion is not None
-        state = simulation.start(motion)
-        simulation.advance(state, 10 * REVOLUTIONS)
-        kind = kind_of_motion(simulation, state)
-        orbit = orbit_after(blade, simulation, state, max(1, round(2 * kind.period)))
-        rows.append([f"{name}, {speed:.0f} rad/s", *cells, f"{abs(orbit.multipliers[0]):.2f}"])
+        rows.append([f"{name}, {speed:.0f} rad/s", *cells])
     head = [*(f"up: {way}" for way in WAYS), *(f"from rest: {way}" for way in WAYS[:2])]
-    write_table(["normal rms (mm)", *head, "largest multiplier, up"], rows, output.table)
+    write_table(["normal rms (mm)", *head], rows, output.table)

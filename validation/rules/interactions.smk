@@ -20,7 +20,6 @@ CARRIED = {
     "to_rad_s": 2000,
     "step_rad_s": 10,
     "dwell": {"range_speeds": 0},
-    "branches": {"number": 0},
 }
 
 

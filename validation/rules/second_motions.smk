@@ -88,18 +88,6 @@ use rule evidence as second_motions_switching with:
         **evidence("second_motions.switching"),
 
 
-use rule evidence as second_motions_folds with:
-    input:
-        unpack(behind_engine(model=f"{MOTIONS['points']}/Ref/contact_pressure_edge.npz")),
-    output:
-        table=f"{TABLES}/second_motions_folds.csv",
-        picture="docs/second_motions_folds.png",
-    log:
-        "logs/validation/second_motions_folds.log",
-    params:
-        **evidence("second_motions.folds"),
-
-
 use rule evidence as second_motions_harmonic_balance with:
     input:
         unpack(

@@ -1,4 +1,4 @@
-# Motions that a start from rest does not show: sweeps up and down with the state carried on, dwells, branches of periodic motions.
+# Motions that a start from rest does not show: sweeps up and down with the state carried on, and dwells.
 from r37core.second_motions import plan as motions_plan
 
 second_motions = motions_plan.SecondMotions(sweep)
@@ -28,17 +28,6 @@ use rule step as second_motion_dwells with:
         "<logs>/{blade}/{scene}/second_motions_dwells.log",
     params:
         **stage(stages["second_motion_dwells"]),
-
-
-use rule step as second_motion_branches with:
-    input:
-        unpack(second_motions.swept_files),
-    output:
-        orbits=motions_plan.ORBITS,
-    log:
-        "<logs>/{blade}/{scene}/second_motions_orbits.log",
-    params:
-        **stage(stages["second_motion_branches"]),
 
 
 use rule step as second_motions_dataset with:
@@ -71,20 +60,6 @@ use rule step as second_motions_all_dwells with:
         fidelity=settings.fidelity_name,
 
 
-use rule step as second_motions_all_orbits with:
-    input:
-        parts=paths.filled({motions_plan.ORBITS: paths.run_keys(second_motions.bare)}),
-    output:
-        dataset=motions_plan.ALL_ORBITS,
-    log:
-        "<logs>/second_motions_all_orbits.log",
-    params:
-        **step("second_motions.steps.join_parts"),
-        pairs=second_motions.bare,
-        along="orbit",
-        fidelity=settings.fidelity_name,
-
-
 use rule step as second_motions_tables with:
     input:
         dataset=motions_plan.DATASET,
@@ -96,14 +71,3 @@ use rule step as second_motions_tables with:
         "<logs>/second_motions_tables.log",
     params:
         **step("second_motions.steps.tabulate"),
-
-
-use rule step as second_motions_bifurcations with:
-    input:
-        orbits=motions_plan.ALL_ORBITS,
-    output:
-        table=motions_plan.BIFURCATIONS,
-    log:
-        "<logs>/second_motions_bifurcations.log",
-    params:
-        **step("second_motions.steps.tabulate_branches"),

@@ -1,4 +1,4 @@
-"""Numbers of the sweeps, of the dwells, and of the branches of periodic motions."""
+"""Numbers of the sweeps and of the dwells."""
 
 from dataclasses import dataclass, field
 from typing import Annotated
@@ -55,11 +55,3 @@ class DwellChoice:
     starts: Annotated[int, Key("Random states outside of the casing from which more dwells start", ge=0, le=1000)] = 5
     seed: Annotated[int, Key("Seed of the random states", ge=0, le=2**31)] = 0
     speeds: tuple[float, ...] = field(default=())
-
-
-@dataclass(frozen=True)
-class BranchChoice:
-    """How many branches of periodic motions are followed over the speed, and how far."""
-
-    number: Annotated[int, Key("Most branches of periodic motions that are followed", ge=0, le=1000)] = 2
-    points: Annotated[int, Key("Most points of a branch, on each side of where it is found", ge=2, le=100_000)] = 200

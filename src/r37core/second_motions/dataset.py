@@ -1,4 +1,4 @@
-"""second_motions.nc, and the dwells and orbits of all blades and scenes joined."""
+"""second_motions.nc, and the dwells of all blades and scenes joined."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,31 +1,22 @@
-"""Examination of the motions that sweeps have found: dwells where they differ, branches where they recur."""
+"""Examination of the motions that sweeps have found: dwells where they differ."""
 
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from r37core.time_integration.carrying import CarriedMotion
-from r37core.time_integration.motion_kind import RECURS, PhaseSpace, recurrence_of
+from r37core.time_integration.motion_kind import PhaseSpace
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.state import SimulationState
 
-from .branches import Bifurcation, branch_through, events_of, lies_on
-from .choice import DOWN, MOTIONS, UP, BranchChoice, DwellChoice
+from .choice import DOWN, MOTIONS, UP, DwellChoice
 from .dwelling import HIGH, LOW, RANDOM, Dwell, dwell, finish_revolution, random_states
 from .motion_files import SweptStates, levels_of
-from .periodic import NoOrbitError, Orbit, PeriodicBlade, orbit_after
 from .ranges import MotionLevels
 from .sweeping import CarriedSweep
 
 NEAR = 5
 """Steps of the sweeps up to which the motions of a range are looked for at a speed that is dwelt on."""
-
-_SAME = 1e-3
-"""Difference of two rms, as a share, below which an orbit counts as one of a branch."""
-
-_NEARLY = 10.0 * RECURS
-"""Recurrence below which a motion is worth an attempt of Newton's method."""
 
 
 def speeds_dwelt_on(levels: MotionLevels, choice: DwellChoice) -> list[float]:
@@ -91,43 +82,3 @@ def begun_as(
         return simulation, simulation.start(ended)
     rising = Simulation(carried.model, simulation.problem.speed, carried.rising_scene, carried.unrecorded_choice)
     return rising, rising.start()
-
-
-def branches_of(
-    carried: CarriedSweep, states: Mapping[str, SweptStates], choice: BranchChoice
-) -> list[tuple[list[Orbit], list[Bifurcation]]]:
-    """Branches of the periodic motions among those of the sweeps, the largest motions first, with their bifurcations."""
-    levels = levels_of(states)
-    branches: list[tuple[list[Orbit], list[Bifurcation]]] = []
-    order = np.argsort(-levels.mean, axis=None, kind="stable")
-    for row, place in zip(*np.unravel_index(order, levels.mean.shape), strict=True):
-        if len(branches) == choice.number:
-            break
-        speed, motion = float(levels.speeds[place]), states[MOTIONS[row]].motion(int(place))
-        if motion is None or _known(branches, speed, float(levels.mean[row, place])):
-            continue
-        try:
-            blade, orbit = _orbit(carried, speed, motion)
-            if not _known(branches, speed, orbit.size):
-                ends = max(float(levels.speeds[0]), blade.lowest_speed), float(levels.speeds[-1])
-                orbits = branch_through(blade, orbit, *ends, choice.points)
-                branches.append((orbits, events_of(blade, orbits)))
-        except (NoOrbitError, ValueError):
-            continue
-    return branches
-
-
-def _orbit(carried: CarriedSweep, speed: float, motion: CarriedMotion) -> tuple[PeriodicBlade, Orbit]:
-    """The periodic motion that a motion at a speed (rad/s) comes near. Raises NoOrbitError where it does not recur."""
-    blade = PeriodicBlade.stepped(carried.model, carried.grown_scene, carried.unrecorded_choice, speed)
-    simulation = Simulation(carried.model, speed, blade.scene, blade.choice)
-    state = simulation.start(motion)
-    recurrence, periods = recurrence_of(simulation, state)
-    if recurrence > _NEARLY or not state.totals["steps_in_contact"]:
-        raise NoOrbitError("does not recur, or is free")
-    return blade, orbit_after(blade, simulation, simulation.start(motion), periods)
-
-
-def _known(branches: list[tuple[list[Orbit], list[Bifurcation]]], speed: float, rms: float) -> bool:
-    """True if a motion of this rms (m) at a speed (rad/s) is one of the branches that there are."""
-    return any(lies_on(orbits, speed, rms, _SAME) for orbits, _ in branches)

@@ -1,4 +1,4 @@
-"""Files of the sweeps, dwells and branches of one blade and scene."""
+"""Files of the sweeps and dwells of one blade and scene."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -15,10 +15,8 @@ from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
-from .branches import Bifurcation
 from .choice import MOTIONS
 from .dwelling import Dwell
-from .periodic import Orbit
 from .ranges import MotionLevels
 from .sweeping import CARRIED, END_WEAR, carried_of
 
@@ -85,19 +83,6 @@ OF_DWELLS = {
     ),
 }
 
-OF_ORBITS = {
-    "branch": Variable((), "1", "number of the branch", "i4"),
-    "speed": Variable((), "rad s-1", "angular speed of the rotor"),
-    "rms_normal": Variable((), "m", "rms of the leading edge's normal displacement"),
-    "rms_tangential": Variable((), "m", "rms of its tangential displacement"),
-    "peak_normal": Variable((), "m", "largest normal displacement"),
-    "period": Variable((), "1", "period in revolutions"),
-    "multiplier_real": Variable((), "1", "largest Floquet multiplier, real part"),
-    "multiplier_imaginary": Variable((), "1", "largest Floquet multiplier, imaginary part"),
-    "event": Variable((), "1", "what happens just before the orbit", "O"),
-    "event_speed": Variable((), "rad s-1", "speed at which it happens"),
-}
-
 
 def dwell_dataset(dwells: Sequence[tuple[Mapping[str, Any], Dwell]], revolutions: int) -> xr.Dataset:
     """Dataset of the dwells of one blade and scene: labels and levels of each, and what it found."""
@@ -106,26 +91,3 @@ def dwell_dataset(dwells: Sequence[tuple[Mapping[str, Any], Dwell]], revolutions
     values["revolution_rms"] = np.reshape(values["revolution_rms"], (-1, revolutions))
     values["revolution"] = np.arange(1, revolutions + 1)
     return dataset_of(OF_DWELLS, values, {"revolution": replace(AXES["revolution"], dtype="i8")}, {}, ("dwell",))
-
-
-def orbit_dataset(branches: Sequence[tuple[Sequence[Orbit], Sequence[Bifurcation]]], revolution: int) -> xr.Dataset:
-    """Dataset of the orbits of branches, one after another along each, with `revolution` samples in a revolution."""
-    rows = []
-    for branch, (orbits, bifurcations) in enumerate(branches, 1):
-        events = {bifurcation.orbit: bifurcation for bifurcation in bifurcations[::-1]}
-        for place, orbit in enumerate(orbits):
-            event = events.get(place)
-            row = {
-                "branch": branch,
-                "speed": orbit.speed,
-                "rms_normal": orbit.rms[0],
-                "rms_tangential": orbit.rms[1],
-                "peak_normal": orbit.peak,
-                "period": orbit.samples / revolution,
-                "multiplier_real": orbit.multipliers[0].real,
-                "multiplier_imaginary": orbit.multipliers[0].imag,
-                "event": event.event.value if event else "",
-                "event_speed": event.speed if event else np.nan,
-            }
-            rows.append(row)
-    return dataset_of(OF_ORBITS, {name: [row[name] for row in rows] for name in OF_ORBITS}, {}, {}, ("orbit",))

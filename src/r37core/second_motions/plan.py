@@ -21,10 +21,8 @@ from .section import SECTION, SecondMotionSection, pairs_of
 RESPONSE = "<results>/{blade}/{scene}/second_motions_{motion}.nc"
 STATES = "<results>/{blade}/{scene}/second_motions_{motion}.npz"
 DWELLS = "<results>/{blade}/{scene}/second_motions_dwells.nc"
-ORBITS = "<results>/{blade}/{scene}/second_motions_orbits.nc"
 DATASET, TABLE = "<results>/second_motions.nc", "<results>/second_motions.csv"
 ALL_DWELLS, DWELL_TABLE = "<results>/second_motions_dwells.nc", "<results>/second_motions_dwells.csv"
-ALL_ORBITS, BIFURCATIONS = "<results>/second_motions_orbits.nc", "<results>/second_motions_bifurcations.csv"
 
 KEPT = ("stress", "static_stress", "wear", "energy", "casing", "motion_kind")
 """Results of a scene that its sweeps keep, too."""
@@ -42,20 +40,12 @@ class SecondMotions:
         return pairs_of(self.sweep.settings)
 
     @property
-    def bare(self) -> list[tuple[str, str]]:
-        """Pairs whose casing is bare and rigid: their periodic motions are followed."""
-        scenes = {name: chosen.scene for name, chosen in self.sweep.settings.scenes.items()}
-        if not self._section.followed().number:
-            return []
-        return [pair for pair in self.pairs if scenes[pair[1]].lining is None and not scenes[pair[1]].casing.ring]
-
-    @property
     def runs(self) -> paths.Wildcards:
         """Wildcards of all sweeps."""
         return [{**key, "motion": motion} for key in paths.run_keys(self.pairs) for motion in MOTIONS]
 
     def swept_files(self, wildcards: Any) -> dict[str, Any]:
-        """Files that dwells and branches start from."""
+        """Files that dwells start from."""
         states = [paths.fill(STATES, blade=wildcards.blade, scene=wildcards.scene, motion=motion) for motion in MOTIONS]
         return {"model": self.sweep.contact_model(wildcards), "states": states}
 
@@ -76,11 +66,9 @@ class SecondMotions:
             "kept": self.sweep.kept,
             "yield_stress": self.sweep.yield_stress,
         }
-        dwell, branches = {"dwell": to_plain(section.dwells())}, {"branches": to_plain(section.followed())}
         return {
             "second_motion_sweep": Stage("second_motions.steps.carry", common | carried),
-            "second_motion_dwells": Stage("second_motions.steps.dwell", common | dwell),
-            "second_motion_branches": Stage("second_motions.steps.follow", common | branches),
+            "second_motion_dwells": Stage("second_motions.steps.dwell", common | {"dwell": to_plain(section.dwells())}),
         }
 
     @property
@@ -89,18 +77,17 @@ class SecondMotions:
 
 
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The sweeps, dwells and branches themselves."""
+    """The sweeps and dwells themselves."""
     plan = SecondMotions(sweep)
     runs, pairs = plan.runs, paths.run_keys(plan.pairs)
-    return {RESPONSE: runs, STATES: runs, DWELLS: pairs, ORBITS: paths.run_keys(plan.bare)}
+    return {RESPONSE: runs, STATES: runs, DWELLS: pairs}
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """Datasets and tables."""
     plan = SecondMotions(sweep)
     once: paths.Wildcards = [{}] if plan.pairs else []
-    followed: paths.Wildcards = [{}] if plan.bare else []
-    return dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), once) | dict.fromkeys((ALL_ORBITS, BIFURCATIONS), followed)
+    return dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), once)
 
 
 MOST_SPEEDS = 20_000

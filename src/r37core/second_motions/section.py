@@ -8,7 +8,7 @@ from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import AllOrNames, ExtensionSection, Section, Speed, refused
 
-from .choice import STEP, BranchChoice, DwellChoice, SweepChoice
+from .choice import STEP, DwellChoice, SweepChoice
 
 _ENDS = (("from_rad_s", "from_rpm"), ("to_rad_s", "to_rpm"))
 
@@ -20,11 +20,6 @@ class DwellSection(Section):
     speeds_rad_s: list[Speed] = Field(default=[], description="More speeds that are dwelt on")
 
 
-@declared_by(BranchChoice)
-class BranchSection(Section):
-    """Branches of periodic motions, in bare rigid casings."""
-
-
 @declared_by(SweepChoice)
 class SecondMotionSection(Section):
     """Sweeps up and down; none without speeds."""
@@ -32,7 +27,6 @@ class SecondMotionSection(Section):
     blades: AllOrNames = Field(default="all", description="Blades that are swept")
     scenes: AllOrNames = Field(default="all", description="Scenes that are swept; by default those without a rotor")
     dwell: DwellSection = Field(default=DwellSection(), description="Dwells at speeds at which motions differ")
-    branches: BranchSection = Field(default=BranchSection(), description="Branches of periodic motions, in bare rigid casings")
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
@@ -62,10 +56,6 @@ class SecondMotionSection(Section):
     def dwells(self) -> DwellChoice:
         """The dwells that are asked for."""
         return si_form(DwellChoice, self.dwell, speeds=tuple(self.dwell.speeds_rad_s))
-
-    def followed(self) -> BranchChoice:
-        """The branches that are asked for."""
-        return si_form(BranchChoice, self.branches)
 
 
 SECTION: ExtensionSection[SecondMotionSection] = ExtensionSection(

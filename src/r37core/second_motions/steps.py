@@ -1,4 +1,4 @@
-"""Steps of the workflow (docs/architecture.md): sweeps with the state carried on, dwells, branches, their tables."""
+"""Steps of the workflow (docs/architecture.md): sweeps with the state carried on, dwells, their tables."""
 
 import hashlib
 import shutil
@@ -17,12 +17,12 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.stress.operator import read_stress_operators
 from r37core.time_integration.integration_choice import IntegrationChoice
 
-from .choice import DOWN, MOTIONS, BranchChoice, DwellChoice, SweepChoice
+from .choice import DOWN, MOTIONS, DwellChoice, SweepChoice
 from .dataset import second_motions_dataset
-from .examining import branches_of, dwells_of
-from .motion_files import SweptStates, dwell_dataset, orbit_dataset, write_states
+from .examining import dwells_of
+from .motion_files import SweptStates, dwell_dataset, write_states
 from .sweeping import CarriedSweep
-from .tables import bifurcation_table, dwell_table, range_table
+from .tables import dwell_table, range_table
 
 
 def carry(input: Any, output: Any, params: Any) -> None:
@@ -62,16 +62,6 @@ def dwell(input: Any, output: Any, params: Any) -> None:
     write_dataset(dwell_dataset(rows, choice.revolutions), output.dwells, params.provenance)
 
 
-def follow(input: Any, output: Any, params: Any) -> None:
-    """Follow periodic motions over the speed. Inputs: model, states (of all motions). Output: orbits (nc).
-
-    Params: scene, choice, sweep, branches, provenance.
-    """
-    run = _sweep_of(input, params)
-    branches = branches_of(run, _states(input), from_plain(BranchChoice, params.branches))
-    write_dataset(orbit_dataset(branches, run.choice.samples_per_revolution), output.orbits, params.provenance)
-
-
 def join(input: Any, output: Any, params: Any) -> None:
     """Join the sweeps of all blades and scenes. Inputs: responses, states. Output: dataset (nc).
 
@@ -84,7 +74,7 @@ def join(input: Any, output: Any, params: Any) -> None:
 
 
 def join_parts(input: Any, output: Any, params: Any) -> None:
-    """Join dwells, or orbits, of all blades and scenes. Inputs: parts. Output: dataset (nc). Params: pairs, along, fidelity."""
+    """Join dwells of all blades and scenes. Inputs: parts. Output: dataset (nc). Params: pairs, along, fidelity."""
     along, title = Along(rows=params.along, dim=params.along), f"Second motions of rubbing blades: {params.along}s"
     join_runs(as_list(input.parts), params.pairs, along, output.dataset, title, params.fidelity)
 
@@ -94,11 +84,6 @@ def tabulate(input: Any, output: Any, params: Any) -> None:
     verdicts = dwell_table(read_dataset(input.dwells))
     write_table(range_table(read_dataset(input.dataset), verdicts), output.ranges, digits=6)
     write_table(verdicts, output.dwells, digits=6)
-
-
-def tabulate_branches(input: Any, output: Any, params: Any) -> None:
-    """List bifurcations. Input: orbits. Output: table (csv)."""
-    write_table(bifurcation_table(read_dataset(input.orbits)), output.table, digits=9)
 
 
 def _sweep_of(input: Any, params: Any, motion: str = MOTIONS[0]) -> CarriedSweep:

@@ -1,4 +1,4 @@
-"""second_motions.csv, second_motions_dwells.csv and second_motions_bifurcations.csv."""
+"""second_motions.csv and second_motions_dwells.csv."""
 
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,6 @@ from r37core.time_integration.status import MotionKind
 
 from .choice import MOTIONS, REST
 from .dwelling import HIGH, LOW, STARTS, VERDICT, Lasting, judged
-from .periodic import UNIT_CIRCLE
 from .ranges import MotionLevels
 
 _NORMAL = {"rms": "rms normal to the casing", "peak": "largest displacement towards the casing"}
@@ -65,9 +64,6 @@ DWELL_COLUMNS = (
     ),
 )
 """Columns of second_motions_dwells.csv."""
-
-BIFURCATION_COLUMNS = ("blade", "scene", "branch", "event", "speed_rad_s", "rms_normal_m", "period_revolutions", "becomes")
-"""Columns of second_motions_bifurcations.csv."""
 
 _RECURRING = (MotionKind.PERIODIC, MotionKind.MULTIPLE)
 
@@ -152,19 +148,6 @@ def _range_row(
             }
             break
     return row
-
-
-def bifurcation_table(orbits: xr.Dataset) -> pd.DataFrame:
-    """A row for each speed at which a branch of periodic motions becomes stable or unstable; see BIFURCATION_COLUMNS."""
-    frame = orbits.to_dataframe()
-    size = np.hypot(frame["multiplier_real"], frame["multiplier_imaginary"])
-    table = frame.assign(
-        speed_rad_s=frame["event_speed"],
-        rms_normal_m=frame["rms_normal"],
-        period_revolutions=frame["period"],
-        becomes=np.where(size < UNIT_CIRCLE, "stable", "unstable"),
-    )
-    return table.loc[frame["event"] != "", list(BIFURCATION_COLUMNS)]
 
 
 def closing(results: Path) -> str:

@@ -123,20 +123,6 @@ def kind_of_motion(simulation: Simulation, state: SimulationState) -> KindNumber
     return KindNumbers(_kind(exponent, error, recurrence, period), exponent, error, recurrence, period / per_revolution)
 
 
-def recurrence_of(simulation: Simulation, state: SimulationState) -> tuple[float, int]:
-    """How near a motion that goes on from a `state` comes to itself, and after how many periods of the casing (KindNumbers).
-
-    The state is changed. Infinite where it diverges.
-    """
-    space, samples = PhaseSpace(simulation.problem), samples_of_period(simulation.problem)
-    states = [space.coordinates(state)]
-    for part in simulation.parts(state, 2 * MOST_PERIODS * [samples]):
-        if part.diverged:
-            return np.inf, 1
-        states.append(space.coordinates(state))
-    return _recurrence(np.array(states), _size(states[-1]))
-
-
 def kind_numbers(problem: Problem, state: SimulationState, *, diverged: bool) -> dict[str, np.ndarray]:
     """Numbers of the kind of the motion after a run, as its file has them; unknown of one that has `diverged`."""
     motion = KindNumbers(MotionKind.UNKNOWN) if diverged else kind_of_motion(Simulation.build(problem), state)
