@@ -30,7 +30,6 @@ from r37core.second_motions.dwelling import (
 from r37core.second_motions.examining import begun_as, dwells_of, speeds_dwelt_on
 from r37core.second_motions.figures import draw_overview, draw_second_motions
 from r37core.second_motions.motion_files import SweptStates, dwell_dataset, levels_of, write_states
-from r37core.second_motions.panel import contents
 from r37core.second_motions.ranges import MotionLevels, motions_differ
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
@@ -387,11 +386,6 @@ def test_the_last_line_names_no_motion_without_one_from_rest(tmp_path):
     )
     where = "Ref in direct at 1195 rad/s: from rest 0.33, up 1.09 mm (normal rms), 2.40 GPa"
     assert closing(tmp_path) == f"1 range of hysteresis; {where}"
-
-
-def test_the_explorer_has_the_swept_blades(motions):
-    (pair,) = contents(motions)
-    assert (pair["blade"], pair["ranges"]) == ("Ref", [[1002.5, 1017.5]])
 
 
 def test_dwells_of_real_sweeps(contact, tmp_path):

@@ -10,7 +10,7 @@ from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.speed_choice import length_of_run
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure, Panel
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Simulations, Sweep
@@ -164,5 +164,4 @@ EXTENSION = Extension(
     ),
     closing="second_motions.tables.closing",
     look_at=TABLE,
-    panel=Panel(DATASET, "second_motions.panel.contents", "second_motions/panel.js"),
 )
