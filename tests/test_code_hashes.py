@@ -22,7 +22,6 @@ from r37core.product.reading import read_settings
 from r37core.product.reporting import FIGURES, drawing
 from r37core.requirements.plan import Judged
 from r37core.run_ups.plan import RunUps
-from r37core.second_motions.plan import SecondMotions
 
 SCRIPT = "from job import run\nfrom r37core.a import f\n"
 
@@ -164,8 +163,8 @@ def rules(root):
     text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
     settings = read_settings(root)
     structure, made, sweep = Structure(settings), Provenance(settings), Sweep(settings)
-    shared = {**structure_stages(structure, made), **sweep_stages(sweep, made), "run_up": RunUps(sweep).stage(made)}
-    shared |= {**SecondMotions(sweep).stages(made), "looks": Judged(sweep).looks(made)}
+    shared = {**structure_stages(structure, made), **sweep_stages(sweep, made)}
+    shared |= {"run_up": RunUps(sweep).stage(made), "looks": Judged(sweep).looks(made)}
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:
         rule = re.match(r"(?:rule|checkpoint|use rule \w+ as) (\w+)", block)[1]

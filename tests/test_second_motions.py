@@ -15,22 +15,12 @@ from r37core.figures.response_curves import draw_response
 from r37core.product.reading import read_settings
 from r37core.results.other_motions import ranking_with_motions, summary_with_motions
 from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
-from r37core.second_motions.dwelling import (
-    HIGH,
-    LOW,
-    RANDOM,
-    Dwell,
-    Lasting,
-    dwell,
-    finish_revolution,
-    is_high,
-    judged,
-    random_states,
-)
-from r37core.second_motions.examining import begun_as, dwells_of, speeds_dwelt_on
+from r37core.second_motions.dataset import dwell_dataset
+from r37core.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
 from r37core.second_motions.figures import draw_overview, draw_second_motions
-from r37core.second_motions.motion_files import SweptStates, dwell_dataset, levels_of, write_states
+from r37core.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
 from r37core.second_motions.ranges import MotionLevels, motions_differ
+from r37core.second_motions.states import SweptStates, levels_of, write_states
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
 from r37core.time_integration.integrators import EXACT_MODAL
@@ -129,8 +119,8 @@ def test_after_a_run_that_diverged_the_sweep_starts_from_rest(contact, tmp_path)
     run, several = sweep_of(contact, UP, hopeless), dict.fromkeys(MOTIONS, states)
     rows = dwells_of(run, several, DwellChoice(revolutions=100, speeds=(1310.0,), starts=2))
     # none of the sweeps' motions is there, and the random ones diverge
-    assert [labels["start"] for labels, _ in rows] == [RANDOM, RANDOM]
-    assert all(np.isnan(kept.rms).all() for _, kept in rows)
+    assert [row["start"] for row in rows] == [RANDOM, RANDOM]
+    assert all(np.isnan(row["revolution_rms"]).all() for row in rows)
 
 
 def levels(mean, scatter=0.0, clearance=0.0):
@@ -255,10 +245,10 @@ def test_a_dwell_keeps_the_rms_of_every_revolution(contact):
     state, again = simulation.start(), simulation.start()
     kept = dwell(simulation, state, 130)
     motion = simulation.advance(again, 130).samples[:, [0, 2]].reshape(130, -1, 2)
-    np.testing.assert_allclose(kept.rms, np.sqrt(np.sum(np.mean(motion**2, axis=1), axis=1)), rtol=1e-12)
+    np.testing.assert_allclose(kept["revolution_rms"], np.sqrt(np.sum(np.mean(motion**2, axis=1), axis=1)), rtol=1e-12)
     far = simulation.start()
     far.displacement[:] = 10.0
-    assert np.isnan(dwell(simulation, far, 110).rms).all()
+    assert np.isnan(dwell(simulation, far, 110)["revolution_rms"]).all()
 
 
 @pytest.fixture
@@ -309,23 +299,18 @@ def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions
 
 
 def dwells(*rows, revolutions=300):
-    frame = [
-        (
-            {"speed": speed, "level_high": 4e-3, "level_low": 1e-3, "lined": 0, "start": start, "motion": motion},
-            dwell_of(level, revolutions),
-        )
+    levels = {"level_high": 4e-3, "level_low": 1e-3, "lined": 0}
+    kind = KindNumbers(MotionKind.CHAOTIC, 0.5, 0.1, 1.0, 2.0).values
+    found = [
+        {**levels, **kind, "speed": speed, "start": start, "motion": motion, "revolution_rms": np.full(revolutions, level)}
         for speed, start, motion, level in rows
     ]
-    dataset = dwell_dataset(frame, revolutions)
+    dataset = dwell_dataset(found, revolutions)
     labels = {name: ("dwell", np.array(len(rows) * [label], dtype=object)) for name, label in LABELS.items()}
     return dataset.assign(labels)
 
 
 LABELS = {"blade": "Ref", "scene": "direct"}
-
-
-def dwell_of(level, revolutions):
-    return Dwell(np.full(revolutions, level), KindNumbers(MotionKind.CHAOTIC, 0.5, 0.1, 1.0, 2.0))
 
 
 def test_tables_of_ranges_and_dwells(motions):
@@ -393,11 +378,11 @@ def test_dwells_of_real_sweeps(contact, tmp_path):
     assert levels_of(states).mean.shape == (3, 3)
     carried = sweep_of(contact, UP)
     rows = dwells_of(carried, states, DwellChoice(revolutions=100, range_speeds=1, starts=1, speeds=(1310.0,)))
-    assert {labels["start"] for labels, _ in rows} == {HIGH, LOW, RANDOM}
+    assert {row["start"] for row in rows} == {HIGH, LOW, RANDOM}
     assert dwell_dataset(rows, 100).sizes == {"dwell": len(rows), "revolution": 100}
     # judged by the motions of a range that is near, if there is one
     differ = levels_of(states).differ.any()
-    assert all(np.isfinite(labels["level_high"]) == differ for labels, _ in rows)
+    assert all(np.isfinite(row["level_high"]) == differ for row in rows)
 
 
 @pytest.mark.parametrize(
@@ -458,8 +443,8 @@ def test_sweeps_leave_their_motion_at_the_folds(tmp_path):
 def test_a_dwell_on_a_new_lining_goes_on_as_the_sweep_did(contact, tmp_path, motion):
     """Its first revolutions are those of the sweep at that speed: the motion belongs to the lining that it has worn."""
     carried, (states, files) = sweep_of(contact, UP, LINED), states_of(contact, tmp_path, LINED)
-    simulation = Simulation(contact, 1310.0, carried.grown_scene, carried.unrecorded_choice)
+    simulation = Simulation(contact, 1310.0, carried.scene.grown, carried.unrecorded_choice)
     begun, state = begun_as(carried, states, motion, 1, simulation)
-    rms = dwell(begun, state, 100).rms
+    rms = dwell(begun, state, 100)["revolution_rms"]
     expected = read_speed(files[motion][1])["revolution_rms"]
     np.testing.assert_allclose(rms[: len(expected)], expected, rtol=1e-12)

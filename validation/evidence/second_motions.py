@@ -13,9 +13,10 @@ from r37core.base.dataset_file import read_dataset
 from r37core.contact.scene import Scene
 from r37core.results.other_motions import ranking_with_motions
 from r37core.rom.contact_model import ContactModel, read_contact_model
-from r37core.second_motions.choice import MOTIONS, REST, UP, DwellChoice, SweepChoice
-from r37core.second_motions.examining import dwells_of
-from r37core.second_motions.motion_files import SweptStates, dwell_dataset
+from r37core.second_motions.choice import REST, UP, DwellChoice, SweepChoice
+from r37core.second_motions.dataset import dwell_dataset
+from r37core.second_motions.dwelling import dwells_of
+from r37core.second_motions.states import SweptStates, read_states
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import dwell_table
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -137,12 +138,12 @@ def _scene_and_choice(settings: Any, blade: str) -> tuple[Scene, IntegrationChoi
 def switching(input: Any, output: Any, params: Any) -> None:
     """Ref about its published drop: share of time in the high motion, exponents at three steps. Inputs: model, states."""
     settings, model = settings_of(Path.cwd()), read_contact_model(input.model)
-    states = {motion: SweptStates(file) for motion, file in zip(MOTIONS, input.states, strict=True)}
+    states = read_states(input.states)
     speeds = states[UP].speeds
     sweep = SweepChoice(float(speeds[0]), float(speeds[-1]), float(speeds[1] - speeds[0]))
     grown, choice = _scene_and_choice(settings, "Ref")
     dwells = DwellChoice(range_speeds=0, speeds=DROP)
-    rows = dwells_of(CarriedSweep(model, grown, choice, sweep, UP, (), {}), states, dwells)
+    rows = dwells_of(CarriedSweep(model, grown, choice, sweep), states, dwells)
     table = dwell_table(_labelled(dwell_dataset(rows, dwells.revolutions)))
     lines = []
     for _, row in table.iterrows():

@@ -1,8 +1,8 @@
-# Motions that a start from rest does not show: sweeps up and down with the state carried on, and dwells.
+# Motions that a start from rest does not show: sweeps up and down with the state carried on, and dwells. One job a motion.
 from r37core.second_motions import plan as motions_plan
 
-second_motions = motions_plan.SecondMotions(sweep)
-stages |= second_motions.stages(made)
+motion_pairs = motions_plan.pairs_of(settings)
+motion_files = motions_plan.of_motions(motion_pairs)
 
 
 use rule step as second_motion_sweep with:
@@ -14,60 +14,46 @@ use rule step as second_motion_sweep with:
     log:
         "<logs>/{blade}/{scene}/second_motions_{motion}.log",
     wildcard_constraints:
-        motion="up|down|rest",
+        motion="|".join(motions_plan.MOTIONS),
     params:
-        **stage(stages["second_motion_sweep"]),
+        **step("second_motions.steps.carry"),
+        **motions_plan.parameters(sweep),
+        motion=lambda wildcards: wildcards.motion,
+        results=partial(motions_plan.results, sweep),
+        kept=sweep.kept,
+        yield_stress=sweep.yield_stress,
+        provenance=made.sweep,
 
 
 use rule step as second_motion_dwells with:
     input:
-        unpack(second_motions.swept_files),
+        unpack(partial(motions_plan.swept_files, sweep)),
     output:
         dwells=motions_plan.DWELLS,
     log:
         "<logs>/{blade}/{scene}/second_motions_dwells.log",
     params:
-        **stage(stages["second_motion_dwells"]),
-
-
-use rule step as second_motions_dataset with:
-    input:
-        responses=paths.filled({motions_plan.RESPONSE: second_motions.runs}),
-        states=paths.filled({motions_plan.STATES: second_motions.runs}),
-    output:
-        dataset=motions_plan.DATASET,
-    log:
-        "<logs>/second_motions_dataset.log",
-    params:
-        **step("second_motions.steps.join"),
-        runs=second_motions.runs,
-        blades=list(settings.blades),
-        scenes=list(settings.scenes),
-        fidelity=settings.fidelity_name,
-
-
-use rule step as second_motions_all_dwells with:
-    input:
-        parts=paths.filled({motions_plan.DWELLS: paths.run_keys(second_motions.pairs)}),
-    output:
-        dataset=motions_plan.ALL_DWELLS,
-    log:
-        "<logs>/second_motions_all_dwells.log",
-    params:
-        **step("second_motions.steps.join_parts"),
-        pairs=second_motions.pairs,
-        along="dwell",
-        fidelity=settings.fidelity_name,
+        **step("second_motions.steps.dwell"),
+        **motions_plan.parameters(sweep),
+        dwell=to_plain(settings.section(motions_plan.SECTION).dwells()),
+        provenance=made.sweep,
 
 
 use rule step as second_motions_tables with:
     input:
-        dataset=motions_plan.DATASET,
-        dwells=motions_plan.ALL_DWELLS,
+        responses=paths.filled({motions_plan.RESPONSE: motion_files}),
+        states=paths.filled({motions_plan.STATES: motion_files}),
+        dwells=paths.filled({motions_plan.DWELLS: paths.run_keys(motion_pairs)}),
     output:
+        motions=motions_plan.DATASET,
+        dwells=motions_plan.ALL_DWELLS,
         ranges=shown(motions_plan.TABLE, PACKAGE / "second_motions/report.rst", TOGETHER, "second motions"),
-        dwells=motions_plan.DWELL_TABLE,
+        verdicts=motions_plan.DWELL_TABLE,
     log:
         "<logs>/second_motions_tables.log",
     params:
-        **step("second_motions.steps.tabulate"),
+        **step("second_motions.steps.join"),
+        pairs=motion_pairs,
+        blades=list(settings.blades),
+        scenes=list(settings.scenes),
+        fidelity=settings.fidelity_name,

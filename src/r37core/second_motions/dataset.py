@@ -1,18 +1,21 @@
-"""second_motions.nc, and the dwells of all blades and scenes joined."""
+"""second_motions.nc, and the dwells of a blade and scene."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import about, read_dataset
+from r37core.base.dataset_file import Variable, about, dataset_of, read_dataset
 from r37core.results.regions import judged
+from r37core.results.variables import AXES, OF_KIND
 
 from .choice import MOTIONS
-from .motion_files import SweptStates, levels_of
+from .states import SweptStates, levels_of
 
-KEPT = (
+_JOINED = (
     *(f"{kind}_{direction}" for kind in ("rms", "peak") for direction in ("normal", "radial", "tangential")),
     *(f"max_von_mises_{name}" for name in ("ever", "median", "high")),
     "share_of_revolutions_above_yield",
@@ -28,40 +31,59 @@ KEPT = (
 )
 """Variables of the responses that the dataset has, where they have them; it has the leading edge's motion alone."""
 
-OF_ALL = ("yield_stress", "lined")
+_OF_ALL = ("yield_stress", "lined")
 """Variables that are the same at all speeds."""
 
 
-def second_motions_dataset(
-    responses: Mapping[tuple[str, str, str], Path | str],
-    states: Mapping[tuple[str, str, str], Path | str],
-    blades: Sequence[str],
-    scenes: Sequence[str],
-) -> xr.Dataset:
-    """All sweeps, over (blade, scene, motion, speed), by the files of each blade, scene and motion.
+def pair_motions(responses: Sequence[Path | str], states: Mapping[str, SweptStates]) -> xr.Dataset:
+    """The three sweeps of a blade and scene, over (motion, speed), by their responses, in the order of MOTIONS, and states.
 
-    `motion_mean` and `motion_scatter` (m): of the rms of a revolution, normal and tangential together; `differ`, over (blade,
-    scene, speed): whether the motions do. NaN for those of all `blades` and `scenes` that are not swept. Raises InputFileError.
+    `motion_mean` and `motion_scatter` (m): of the rms of a revolution, normal and tangential together; `differ`, over speed: 1
+    where the motions do. Raises InputFileError.
     """
-    pairs = list(dict.fromkeys((blade, scene) for blade, scene, _ in responses))
-    parts = []
-    for blade, scene in pairs:
-        motions = []
-        for motion in MOTIONS:
-            response = judged(read_dataset(responses[blade, scene, motion], {"tip_point": "leading_edge"}))
-            motions.append(response[[name for name in (*KEPT, *OF_ALL) if name in response]].reset_coords(drop=True))
-        over_motions = [str(name) for name in motions[0].data_vars if name not in OF_ALL]
-        part = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=over_motions)
-        levels = levels_of({motion: SweptStates(states[blade, scene, motion]) for motion in MOTIONS})
-        over = ("motion", "speed")
-        mean = np.where(np.isinf(levels.mean), np.nan, levels.mean)
-        part["motion_mean"] = over, mean, about("m", "mean rms of a revolution, normal and tangential together")
-        part["motion_scatter"] = over, levels.scatter, about("m", "standard deviation of the rms of a revolution")
-        compared = np.isin(np.arange(len(MOTIONS)), levels.compared).astype(float)
-        part["compared"] = "motion", compared, about("1", "1 of motions that are compared, 0 of that on another lining")
-        differ = about("1", "1 where two of the compared motions differ by more than they scatter")
-        part["differ"] = ("speed",), levels.differ.astype(float), differ
-        parts.append(part.expand_dims({"blade": [blade], "scene": [scene]}))
+    motions = []
+    for file in responses:
+        response = judged(read_dataset(file, {"tip_point": "leading_edge"}))
+        motions.append(response[[name for name in (*_JOINED, *_OF_ALL) if name in response]].reset_coords(drop=True))
+    over_motions = [str(name) for name in motions[0].data_vars if name not in _OF_ALL]
+    pair = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=over_motions)
+    levels, over = levels_of(states), ("motion", "speed")
+    mean = np.where(np.isinf(levels.mean), np.nan, levels.mean)
+    compared = np.isin(np.arange(len(MOTIONS)), levels.compared).astype(float)
+    differ = about("1", "1 where two of the compared motions differ by more than they scatter")
+    return pair.assign(
+        motion_mean=(over, mean, about("m", "mean rms of a revolution, normal and tangential together")),
+        motion_scatter=(over, levels.scatter, about("m", "standard deviation of the rms of a revolution")),
+        compared=("motion", compared, about("1", "1 of motions that are compared, 0 of that on another lining")),
+        differ=("speed", levels.differ.astype(float), differ),
+    )
+
+
+def joined_motions(pairs: Mapping[tuple[str, str], xr.Dataset], blades: Sequence[str], scenes: Sequence[str]) -> xr.Dataset:
+    """Motions of all `pairs` of blade and scene; NaN of those of `blades` and `scenes` that are not swept."""
+    parts = [pair.expand_dims({"blade": [blade], "scene": [scene]}) for (blade, scene), pair in pairs.items()]
     joined = xr.combine_by_coords(parts, combine_attrs="drop_conflicts")
     assert isinstance(joined, xr.Dataset)
     return joined.reindex(blade=list(blades), scene=list(scenes))
+
+
+OF_DWELLS = {
+    "start": Variable((), "1", "where the dwell starts: in the high, the low or a random motion", "O"),
+    "motion": Variable((), "1", "motion of the sweeps that it starts in, or number of the state", "O"),
+    "speed": Variable((), "rad s-1", "angular speed of the rotor"),
+    "level_high": Variable((), "m", "level of the largest motion of the sweeps there: mean rms of a revolution"),
+    "level_low": Variable((), "m", "level of the smallest motion of the sweeps there"),
+    "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "i1"),
+    **OF_KIND,
+    "revolution_rms": Variable(
+        ("revolution",), "m", "rms of the leading edge's motion, normal and tangential together, in each revolution", "f4"
+    ),
+}
+
+
+def dwell_dataset(dwells: Sequence[Mapping[str, Any]], revolutions: int) -> xr.Dataset:
+    """Dataset of the dwells of one blade and scene, a row each."""
+    values: dict[str, Any] = {name: [dwell[name] for dwell in dwells] for name in OF_DWELLS}
+    values["revolution_rms"] = np.reshape(values["revolution_rms"], (-1, revolutions))
+    values["revolution"] = np.arange(1, revolutions + 1)
+    return dataset_of(OF_DWELLS, values, {"revolution": replace(AXES["revolution"], dtype="i8")}, {}, ("dwell",))

@@ -1,8 +1,6 @@
-"""Dwells: how long motions last at one speed, and which of them random starts come to."""
+"""Dwells: long runs at one speed, from the motions that sweeps have found there and from random states."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from enum import StrEnum
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -13,50 +11,98 @@ from r37core.time_integration.settling import revolution_rms
 from r37core.time_integration.simulate import LEADING_EDGE, Simulation, rest_state
 from r37core.time_integration.state import SimulationState
 
-WINDOW = 20
-"""Revolutions over which the level of a motion is taken, to tell the motions apart."""
-
-SETTLING = 50
-"""Revolutions after a start that do not count."""
+from .choice import DOWN, MOTIONS, UP, DwellChoice
+from .lasting import HIGH, LOW, RANDOM
+from .ranges import MotionLevels
+from .states import SweptStates, levels_of
+from .sweeping import CarriedSweep
 
 AT_ONCE = 100
 """Revolutions that are recorded at a time."""
 
-STARTS = HIGH, LOW, RANDOM = "high", "low", "random"
-"""Where dwells start: in the largest and in the smallest motion of the sweeps, and in random states."""
+NEAR = 5
+"""Steps of the sweeps up to which the motions of a range are looked for at a speed that is dwelt on."""
 
 _SIZES = 0.2, 2.0
 """Sizes of random states, as a share of that of the largest motion."""
 
 
-VERDICT = ("high", "low", "share_of_time_high", "high_revolutions", "low_revolutions", "random_starts_high")
-"""Columns of what becomes of the high and the low motion, the high one's share of the time, and how long each is held.
+def speeds_dwelt_on(levels: MotionLevels, choice: DwellChoice) -> list[float]:
+    """Speeds (rad/s) that are dwelt on, ascending: those that are given, and so many of each range of hysteresis.
 
-Share: of a long time, by the times for which both are held; NaN where neither is left, and of a lined blade. Revolutions: mean
-time until it is left, infinite where it is never left, NaN where it is never there. `random_starts_high`: share of the random
-starts that end in the high one.
-"""
-
-
-class Lasting(StrEnum):
-    """Fate of a motion while the blade dwells: see `judged`."""
-
-    LASTING = "lasting"
-    SWITCHING = "switching"
-    TRANSIENT = "transient"
-    DIVERGED = "diverged"
+    Of these one is the speed at which the motions differ most, the others are spread evenly.
+    """
+    speeds = set(choice.speeds)
+    for part in levels.ranges() if choice.range_speeds else []:
+        spread = np.linspace(part.start, part.stop - 1, choice.range_speeds - 1).round().astype(int)
+        speeds |= set(levels.speeds[[levels.worst(part), *spread]].tolist())
+    return sorted(speeds)
 
 
-@dataclass(frozen=True, eq=False)
-class Dwell:
-    """A dwell: `rms` (m) of each revolution, shape (revolutions,), NaN where it diverged, and the `kind` of its last motion."""
+def dwells_of(carried: CarriedSweep, states: Mapping[str, SweptStates], choice: DwellChoice) -> list[dict[str, Any]]:
+    """Dwells at all speeds that are dwelt on: from the largest and the smallest motion, and from random states.
 
-    rms: np.ndarray
-    kind: KindNumbers
+    Each with its `speed`, its `start`, and the levels of the two motions: those at the nearest speed at which motions differ,
+    NaN where that is more than NEAR steps away.
+    """
+    levels, rows = levels_of(states), []
+    for speed in speeds_dwelt_on(levels, choice):
+        about = {"speed": speed, "lined": int(carried.scene.lining is not None)}
+        about |= _levels_near(levels, speed, NEAR * carried.sweep.step)
+        simulation, size = Simulation(carried.model, speed, carried.scene.grown, carried.unrecorded_choice), 0.0
+        nearest = int(np.argmin(np.abs(levels.speeds - speed)))
+        for start, places in ((HIGH, levels.high), (LOW, levels.low)):
+            motion = MOTIONS[places[nearest]]
+            begun = begun_as(carried, states, motion, nearest, simulation)
+            if begun is not None:
+                size = max(size, float(np.linalg.norm(PhaseSpace(simulation.problem).coordinates(begun[1]))))
+                rows.append({**about, "start": start, "motion": motion, **dwell(*begun, choice.revolutions)})
+        for number, state in enumerate(random_states(simulation.problem, size, choice.starts, choice.seed), 1):
+            finish_revolution(simulation, state)
+            motion = f"random_{number}"
+            rows.append({**about, "start": RANDOM, "motion": motion, **dwell(simulation, state, choice.revolutions)})
+    return rows
 
 
-def dwell(simulation: Simulation, state: SimulationState, revolutions: int) -> Dwell:
-    """Go on by so many `revolutions` from a `state`, which is changed."""
+def _levels_near(levels: MotionLevels, speed: float, distance: float) -> dict[str, float]:
+    """Levels (m) of the largest and the smallest motion at the nearest speed at which motions differ; NaN without one."""
+    distances = np.where(levels.differ, np.abs(levels.speeds - speed), np.inf)
+    place = int(np.argmin(distances))
+    if distances[place] > distance:
+        return {"level_high": np.nan, "level_low": np.nan}
+    return {
+        "level_high": float(levels.mean[levels.high[place], place]),
+        "level_low": float(levels.mean[levels.low[place], place]),
+    }
+
+
+def begun_as(
+    carried: CarriedSweep, states: Mapping[str, SweptStates], motion: str, place: int, simulation: Simulation
+) -> tuple[Simulation, SimulationState] | None:
+    """Simulation and state that a dwell in a motion of the sweeps starts from; None where there is none.
+
+    It goes on where the sweep has left the speed at this place. On a lining that is new at each speed it begins as the sweep
+    did there, since the motion belongs to the lining that it has worn.
+    """
+    kept = states[motion]
+    if carried.scene.lining is None or kept.worn:
+        ended = kept.motion(place)
+        return None if ended is None else (simulation, simulation.start(ended))
+    before = {UP: place - 1, DOWN: place + 1}.get(motion, -1)
+    ended = kept.motion(before) if 0 <= before < len(kept.speeds) else None
+    if ended is not None:
+        return simulation, simulation.start(ended)
+    # its lobes grow as in a run of the pipeline, however long the dwell is
+    scene = carried.scene.rising_over(carried.choice.length_of_rise_fraction)
+    rising = Simulation(carried.model, simulation.problem.speed, scene, carried.unrecorded_choice)
+    return rising, rising.start()
+
+
+def dwell(simulation: Simulation, state: SimulationState, revolutions: int) -> dict[str, Any]:
+    """Go on by so many `revolutions` from a `state`, which is changed: rms (m) of each, and the kind of the last motion.
+
+    NaN from the revolution on in which the motion diverges.
+    """
     per_revolution, rms = simulation.problem.choice.samples_per_revolution, np.full(revolutions, np.nan)
     firsts = range(0, revolutions, AT_ONCE)
     parts = simulation.parts(state, [min(AT_ONCE, revolutions - first) * per_revolution for first in firsts])
@@ -65,8 +111,8 @@ def dwell(simulation: Simulation, state: SimulationState, revolutions: int) -> D
         motion = record.samples[: reached * per_revolution, LEADING_EDGE]
         rms[first : first + reached] = revolution_rms(motion, per_revolution)
         if record.diverged:
-            return Dwell(rms, KindNumbers(MotionKind.UNKNOWN))
-    return Dwell(rms, kind_of_motion(simulation, state))
+            return {"revolution_rms": rms, **KindNumbers(MotionKind.UNKNOWN).values}
+    return {"revolution_rms": rms, **kind_of_motion(simulation, state).values}
 
 
 def random_states(problem: Problem, size: float, number: int, seed: int) -> list[SimulationState]:
@@ -109,78 +155,3 @@ def finish_revolution(simulation: Simulation, state: SimulationState) -> None:
     left = -state.samples % per_revolution
     if left:
         simulation.advance_samples(state, left)
-
-
-def judged(rms: Mapping[str, Sequence[np.ndarray]], high: float, low: float, *, lined: bool) -> dict[str, Any]:
-    """Verdict on motions by the `rms` (m) of each revolution of dwells that start HIGH, LOW and at RANDOM, as VERDICT.
-
-    `high`, `low` (m): their levels. A motion that is left and come back to is switching. One that is left and never come back
-    to is a transient, one that is never left lasts. Random starts count from the first time that they go over to the other
-    motion. A lining does not grow back: a motion of a `lined` blade is lasting if it is held at the end of its dwell.
-    """
-    held = {start: [is_high(each, high, low) for each in several] for start, several in rms.items()}
-    # a motion may be left before the first revolution that counts
-    begun = {HIGH: [np.append(True, part) for part in held[HIGH]], LOW: [np.append(True, ~part) for part in held[LOW]]}
-    ended = [bool(part[-1]) for part in held[RANDOM] if len(part)]
-    lost = {start: not rms[start] or any(np.isnan(each).any() for each in rms[start]) for start in (HIGH, LOW)}
-    if lined:
-        since = {start: [np.logical_and.accumulate(part) for part in several] for start, several in begun.items()}
-        left = {start: sum(int(not part[-1]) for part in several) for start, several in since.items()}
-        back = {start: sum(int(part[-1]) for part in several) == len(several) for start, several in begun.items()}
-        verdicts = {start: Lasting.LASTING if back[start] else Lasting.TRANSIENT for start in begun}
-        first = {start: _held(sum(int(part[1:].sum()) for part in since[start]), left[start]) for start in begun}
-        times = {start: np.inf if back[start] else first[start] for start in begun}
-    else:
-        counted = [*begun[HIGH], *(~part for part in begun[LOW]), *map(_settled, held[RANDOM])]
-        left = {
-            HIGH: sum(int(np.count_nonzero(part[:-1] & ~part[1:])) for part in counted),
-            LOW: sum(int(np.count_nonzero(~part[:-1] & part[1:])) for part in counted),
-        }
-        above = sum(int(part.sum()) for part in counted) - len(begun[HIGH])
-        below = sum(int((~part).sum()) for part in counted) - len(begun[LOW])
-        verdicts = {HIGH: _lasting(left[HIGH], left[LOW]), LOW: _lasting(left[LOW], left[HIGH])}
-        times = {HIGH: _held(above, left[HIGH]), LOW: _held(below, left[LOW])}
-    verdicts |= {start: Lasting.DIVERGED for start, gone in lost.items() if gone}
-    share = np.nan if lined or any(lost.values()) else _share(times[HIGH], times[LOW])
-    values = (verdicts[HIGH], verdicts[LOW], share, times[HIGH], times[LOW], float(np.mean(ended)) if ended else np.nan)
-    return dict(zip(VERDICT, values, strict=True))
-
-
-def _settled(held: np.ndarray) -> np.ndarray:
-    """Motions that a random start holds from its first change on; all of them where it has none."""
-    changes = np.flatnonzero(held[:-1] != held[1:])
-    return held[changes[0] + 1 :] if len(changes) else held
-
-
-def _lasting(left: int, come_back: int) -> Lasting:
-    if not left:
-        return Lasting.LASTING
-    return Lasting.SWITCHING if come_back else Lasting.TRANSIENT
-
-
-def _held(revolutions: int, left: int) -> float:
-    return revolutions / left if left else (np.inf if revolutions else np.nan)
-
-
-def _share(high: float, low: float) -> float:
-    if np.isinf(high) or np.isinf(low):
-        return np.nan if high == low else float(np.isinf(high))
-    return high / (high + low) if high + low > 0.0 else np.nan
-
-
-def is_high(rms: np.ndarray, high: float, low: float) -> np.ndarray:
-    """True where a motion is the high one, revolution by revolution after SETTLING, of dwells by their `rms` (m).
-
-    By the rms of the last WINDOW revolutions: it becomes the high one above two thirds of the way from `low` to `high` (m), on
-    a logarithmic scale, and the low one below a third of it.
-    """
-    rms = rms[np.isfinite(rms)]
-    if len(rms) < SETTLING + WINDOW:
-        return np.zeros(0, dtype=bool)
-    level = np.sqrt(np.convolve(rms**2, np.full(WINDOW, 1.0 / WINDOW), "valid"))[SETTLING:]
-    place = np.log(np.maximum(level, np.finfo(float).tiny) / low) / np.log(high / low)
-    # between the two limits it is what it was before; at first what it is nearer to
-    decided = np.where(place > 2.0 / 3.0, 1, np.where(place < 1.0 / 3.0, 0, -1))
-    decided[0] = int(place[0] > 0.5)
-    last = np.maximum.accumulate(np.where(decided >= 0, np.arange(len(decided)), 0))
-    return decided[last] == 1

@@ -11,7 +11,7 @@ from r37core.figures.response_curves import shade
 from r37core.results.other_motions import swept
 
 from .choice import DOWN, MOTIONS, REST, UP
-from .dwelling import HIGH, LOW, Lasting
+from .lasting import HIGH, LOW, Lasting
 
 COLOURS = {UP: "#D55E00", DOWN: "#0072B2", REST: "0.25"}
 LINES = {UP: "-", DOWN: "-", REST: ":"}

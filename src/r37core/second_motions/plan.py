@@ -1,7 +1,6 @@
 """The plan of the second motions: of which blades and scenes, from what, and which files are made of them."""
 
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from r37core.base.plain import to_plain
@@ -11,8 +10,6 @@ from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.speed_choice import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.provenance import Provenance
-from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Simulations, Sweep
 
 from .choice import MOTIONS
@@ -28,66 +25,38 @@ KEPT = ("stress", "static_stress", "wear", "energy", "casing", "motion_kind")
 """Results of a scene that its sweeps keep, too."""
 
 
-@dataclass(frozen=True)
-class SecondMotions:
-    """Plan of the second motions that a run asks for. Methods with `wildcards` are inputs and parameters of rules."""
+def of_motions(pairs: Iterable[tuple[str, str]]) -> paths.Wildcards:
+    """Wildcards of the sweeps of some pairs of blade and scene, one pair after another."""
+    return [{**key, "motion": motion} for key in paths.run_keys(pairs) for motion in MOTIONS]
 
-    sweep: Sweep
 
-    @cached_property
-    def pairs(self) -> list[tuple[str, str]]:
-        """Pairs of blade and scene."""
-        return pairs_of(self.sweep.settings)
+def swept_files(sweep: Sweep, wildcards: Any) -> dict[str, Any]:
+    """Files that the dwells of a blade and scene start from."""
+    states = paths.filled({STATES: of_motions([(wildcards.blade, wildcards.scene)])})
+    return {"model": sweep.contact_model(wildcards), "states": states}
 
-    @property
-    def runs(self) -> paths.Wildcards:
-        """Wildcards of all sweeps."""
-        return [{**key, "motion": motion} for key in paths.run_keys(self.pairs) for motion in MOTIONS]
 
-    def swept_files(self, wildcards: Any) -> dict[str, Any]:
-        """Files that dwells start from."""
-        states = [paths.fill(STATES, blade=wildcards.blade, scene=wildcards.scene, motion=motion) for motion in MOTIONS]
-        return {"model": self.sweep.contact_model(wildcards), "states": states}
+def results(sweep: Sweep, wildcards: Any) -> list[str]:
+    """Results of a scene that its sweeps keep."""
+    return [each for each in sweep.results(wildcards) if each in KEPT]
 
-    def stages(self, made: Provenance) -> dict[str, Stage]:
-        """Stage of each rule of a blade and scene."""
-        section = self._section
-        common = {
-            "scene": Simulations(self.sweep).plain_scene,
-            # of a run from rest: those of the pipeline
-            "choice": lambda of: to_plain(self.sweep.settings.integration_choice(of.blade, of.scene, 0.0)),
-            # without any speed where there are none, as the rules are there all the same
-            "sweep": to_plain(section.sweep()) if section.asked else None,
-            "provenance": made.sweep,
-        }
-        carried = {
-            "motion": lambda wildcards: wildcards.motion,
-            "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in KEPT],
-            "kept": self.sweep.kept,
-            "yield_stress": self.sweep.yield_stress,
-        }
-        return {
-            "second_motion_sweep": Stage("second_motions.steps.carry", common | carried),
-            "second_motion_dwells": Stage("second_motions.steps.dwell", common | {"dwell": to_plain(section.dwells())}),
-        }
 
-    @property
-    def _section(self) -> SecondMotionSection:
-        return self.sweep.settings.section(SECTION)
+def parameters(sweep: Sweep) -> dict[str, Any]:
+    """Parameters of sweeps and dwells alike."""
+    settings, section = sweep.settings, sweep.settings.section(SECTION)
+    return {
+        "scene": Simulations(sweep).plain_scene,
+        # of a run from rest: those of the pipeline
+        "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
+        # without any speed where there are none, as the rules are there all the same
+        "sweep": to_plain(section.sweep()) if section.asked else None,
+    }
 
 
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The sweeps and dwells themselves."""
-    plan = SecondMotions(sweep)
-    runs, pairs = plan.runs, paths.run_keys(plan.pairs)
-    return {RESPONSE: runs, STATES: runs, DWELLS: pairs}
-
-
-def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """Datasets and tables."""
-    plan = SecondMotions(sweep)
-    once: paths.Wildcards = [{}] if plan.pairs else []
-    return dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), once)
+    pairs = pairs_of(sweep.settings)
+    return {**dict.fromkeys((RESPONSE, STATES), of_motions(pairs)), DWELLS: paths.run_keys(pairs)}
 
 
 MOST_SPEEDS = 20_000
@@ -96,40 +65,42 @@ MOST_SPEEDS = 20_000
 
 def can_be_swept(settings: Settings) -> None:
     """Blades and scenes are there, without rotor or Coriolis force, and the speeds within the model's and not too many."""
-    section, document = settings.section(SECTION), settings.documents.config
+    section, path = settings.section(SECTION), ("second_motions",)
     if not section.asked:
         return
-    names_are_there(settings, ("second_motions",), section)
-    sweep, path = section.sweep(), ("second_motions",)
+    names_are_there(settings, path, section)
+    for at, found, allowed in _refusals(settings, section):
+        raise settings.documents.config.refusal((*path, *at), found, allowed)
+    sweep, scenes = section.sweep(), dict.fromkeys(scene for _, scene in pairs_of(settings))
+    longest = max(sweep.revolutions, section.dwell.revolutions)
+    runs = [length_of_run(settings, name, sweep.first, max(longest, settings.scenes[name].revolutions)) for name in scenes]
+    if runs:
+        slow_run_can_be_done(max(runs, key=lambda run: run.steps), settings, (*path, section.end_keys[0]))
+
+
+def _refusals(settings: Settings, section: SecondMotionSection) -> Iterator[tuple[KeyPath, str, str]]:
+    """Key, value and allowed values of what cannot be swept."""
+    sweep, highest = section.sweep(), settings.structure.maximum_speed_rad_s
+    (first_key, last_key), scenes = section.end_keys, settings.scene_designs.entries
     if settings.structure.coriolis:
-        raise document.refusal(path, "sweeps with structure.coriolis: true", "none; they do not carry the Coriolis force yet")
+        yield (), "sweeps with structure.coriolis: true", "none; they do not carry the Coriolis force yet"
     for scene in [] if section.scenes == "all" else scenes_named(settings, section.scenes):
-        entry = settings.scene_designs.entries[scene]
-        if entry.rotor is not None:
-            raise document.refusal((*path, "scenes"), f"'{scene}', which has a rotor", "scenes of a single blade")
+        if scenes[scene].rotor is not None:
+            yield ("scenes",), f"'{scene}', which has a rotor", "scenes of a single blade"
+        if sweep.worn and scene in settings.scenes and scenes[scene].lining is None:
+            yield ("lining",), f"worn in the scene '{scene}', which has no lining", "new"
     count = (sweep.last - sweep.first) / sweep.step + 1.0
     if count > MOST_SPEEDS:
-        raise document.refusal(path, f"{count:.8g} speeds", f"at most {MOST_SPEEDS}; a larger step has fewer")
-    highest = settings.structure.maximum_speed_rad_s
-    first_key: KeyPath = (*path, "from_rad_s" if section.from_rpm is None else "from_rpm")
-    last_key: KeyPath = (*path, "to_rad_s" if section.to_rpm is None else "to_rpm")
+        yield (), f"{count:.8g} speeds", f"at most {MOST_SPEEDS}; a larger step has fewer"
     if sweep.first < sweep.step:
         allowed = f"from the step on, {sweep.step:g}: the motion is carried on to the next speed"
-        raise document.refusal(first_key, f"{sweep.first:g} rad/s", allowed)
+        yield (first_key,), f"{sweep.first:g} rad/s", allowed
     if sweep.speeds[-1] > highest:
-        raise document.refusal(last_key, f"{sweep.speeds[-1]:g} rad/s", f"up to structure.maximum_speed_rad_s, {highest:g}")
+        yield (last_key,), f"{sweep.speeds[-1]:g} rad/s", f"up to structure.maximum_speed_rad_s, {highest:g}"
     for number, speed in enumerate(section.dwell.speeds_rad_s):
         if not sweep.first <= speed <= sweep.last:
             between = f"speeds of the sweeps, {sweep.first:g} to {sweep.last:g}"
-            raise document.refusal((*path, "dwell", "speeds_rad_s", number), f"{speed:g} rad/s", between)
-    runs = []
-    for _, scene in pairs_of(settings):
-        if sweep.worn and section.scenes != "all" and settings.scenes[scene].scene.lining is None:
-            raise document.refusal((*path, "lining"), f"worn in the scene '{scene}', which has no lining", "new")
-        longest = max(sweep.revolutions, section.dwell.revolutions, settings.scenes[scene].revolutions)
-        runs.append(length_of_run(settings, scene, sweep.first, longest))
-    if runs:
-        slow_run_can_be_done(max(runs, key=lambda run: run.steps), settings, first_key)
+            yield ("dwell", "speeds_rad_s", number), f"{speed:g} rad/s", between
 
 
 EXTENSION = Extension(
@@ -137,7 +108,7 @@ EXTENSION = Extension(
     section=SECTION,
     checks=(can_be_swept,),
     simulated=simulated,
-    targets=targets,
+    targets=lambda sweep: dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), [{}] if pairs_of(sweep.settings) else []),
     offers={"motions": DATASET},
     figures=(
         Figure(

@@ -1,5 +1,6 @@
 """second_motions of config.yaml: motions that a start from rest does not show."""
 
+from itertools import product
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -40,13 +41,19 @@ class SecondMotionSection(Section):
         if self.step_rad_s is not None and self.step_rpm is not None:
             raise refused(("step_rpm",), "step_rad_s and step_rpm", "one of them")
         if self.asked and self.sweep().last < self.sweep().first:
-            raise refused((ends[1][0],), "a speed below the lowest one", "a higher one; both sweeps go through the same speeds")
+            allowed = "a higher one; both sweeps go through the same speeds"
+            raise refused((self.end_keys[1],), "a speed below the lowest one", allowed)
         return self
 
     @property
     def asked(self) -> bool:
         """True if there is something to sweep."""
-        return self.from_rad_s is not None or self.from_rpm is not None
+        return bool(self.end_keys)
+
+    @property
+    def end_keys(self) -> list[str]:
+        """Keys of the lowest and of the highest speed."""
+        return [key for keys in _ENDS for key in keys if getattr(self, key) is not None]
 
     def sweep(self) -> SweepChoice:
         """The sweeps that are asked for."""
@@ -69,11 +76,8 @@ SECTION: ExtensionSection[SecondMotionSection] = ExtensionSection(
 
 def pairs_of(settings: Settings) -> list[tuple[str, str]]:
     """Pairs of blade and scene that are swept; of all scenes those without a rotor."""
-    section = settings.section(SECTION)
+    section, single = settings.section(SECTION), [name for name, each in settings.scenes.items() if each.scene.rotor is None]
     if not section.asked:
         return []
-    single = [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is None]
-    scenes = single if section.scenes == "all" else [n for n in scenes_named(settings, section.scenes) if n in settings.scenes]
-    return [
-        (blade, scene) for blade in blades_named(settings, section.blades) if blade in settings.blade_names for scene in scenes
-    ]
+    blades = [name for name in blades_named(settings, section.blades) if name in settings.blade_names]
+    return list(product(blades, [name for name in scenes_named(settings, section.scenes) if name in single]))

@@ -1,7 +1,7 @@
 """Sweeps through the speeds with the state carried on from each to the next, and the runs from rest beside them."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,7 @@ from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import numbers_of_run
 from r37core.time_integration.status import RunStatus
 
-from .choice import DOWN, REST, SweepChoice
+from .choice import DOWN, REST, UP, SweepChoice
 
 CARRIED = tuple(part.name for part in fields(CarriedMotion) if part.name != "wear")
 """Parts of a CarriedMotion that are kept of every speed."""
@@ -42,9 +42,9 @@ class CarriedSweep:
     scene: Scene
     choice: IntegrationChoice
     sweep: SweepChoice
-    motion: str
-    results: Sequence[str]
-    kept: Mapping[str, Any]
+    motion: str = UP
+    results: Sequence[str] = ()
+    kept: Mapping[str, Any] = field(default_factory=dict)
     stress: StressOperators | None = None
 
     @property
@@ -81,17 +81,7 @@ class CarriedSweep:
             before = Simulation(self.model, speed, self.scene, whole_run).run()
             if before.first_diverged is None:
                 carried = CarriedMotion.ended(before.problem, before.states[0], keep_wear=self.sweep.worn)
-        return self._numbers(Simulation(self.model, speed, self.grown_scene, self.carried_choice).run(carried))
-
-    @property
-    def grown_scene(self) -> Scene:
-        """The scene with lobes that are full-grown from the start."""
-        return self.scene.grown
-
-    @property
-    def rising_scene(self) -> Scene:
-        """The scene with lobes that grow as in a run of the pipeline, however long a run is."""
-        return self.scene.rising_over(self.choice.length_of_rise_fraction)
+        return self._numbers(Simulation(self.model, speed, self.scene.grown, self.carried_choice).run(carried))
 
     @cached_property
     def carried_choice(self) -> IntegrationChoice:

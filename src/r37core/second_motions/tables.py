@@ -14,10 +14,16 @@ from r37core.results.table_file import read_table
 from r37core.time_integration.status import MotionKind
 
 from .choice import MOTIONS, REST
-from .dwelling import HIGH, LOW, STARTS, VERDICT, Lasting, judged
+from .lasting import HIGH, LOW, STARTS, VERDICT, Lasting, judged
 from .ranges import MotionLevels
 
-_NORMAL = {"rms": "rms normal to the casing", "peak": "largest displacement towards the casing"}
+_MOTIONS = {
+    "rms_normal_{}_m": ("rms_normal", "rms normal to the casing"),
+    "peak_normal_{}_m": ("peak_normal", "largest displacement towards the casing"),
+    "median_von_mises_{}_pa": ("max_von_mises_median", "median stress of the later revolutions"),
+    "share_above_yield_{}": ("share_of_revolutions_above_yield", "share of the later revolutions above yield"),
+}
+"""Column of each motion -> its variable of second_motions.nc, and its meaning."""
 
 RANGES = (
     Column("blade", "name of the blade"),
@@ -28,16 +34,8 @@ RANGES = (
     Column("speed_rad_s", "speed at which the motions differ most, by the ratio of their rms"),
     Column("largest_motion", "largest motion at `speed_rad_s`: `up`, `down` or `rest`"),
     *(
-        Column(f"{what}_normal_{motion}_m", f"{meaning} at `speed_rad_s`, motion `{motion}`")
-        for what, meaning in _NORMAL.items()
-        for motion in MOTIONS
-    ),
-    *(
-        Column(f"median_von_mises_{motion}_pa", f"median stress of the later revolutions at `speed_rad_s`, motion `{motion}`")
-        for motion in MOTIONS
-    ),
-    *(
-        Column(f"share_above_yield_{motion}", f"share of the later revolutions above yield at `speed_rad_s`, motion `{motion}`")
+        Column(column.format(motion), f"{meaning} at `speed_rad_s`, motion `{motion}`")
+        for column, (_, meaning) in _MOTIONS.items()
         for motion in MOTIONS
     ),
     Column("dwell_speed_rad_s", "speed of the dwell that decides `kind`"),
@@ -108,31 +106,22 @@ def range_table(motions: xr.Dataset, dwells: pd.DataFrame) -> pd.DataFrame:
             pair = swept(motions.sel(blade=blade, scene=scene))
             levels = MotionLevels.read(pair)
             pair_dwells = dwells[(dwells["blade"] == blade) & (dwells["scene"] == scene)]
-            rows += [_range_row(blade, scene, pair, levels, part, pair_dwells) for part in levels.ranges()]
+            key = {"blade": blade, "scene": scene}
+            rows += [key | _range_row(pair, levels, part, pair_dwells) for part in levels.ranges()]
     return pd.DataFrame(rows, columns=list(RANGE_COLUMNS))
 
 
-def _range_row(
-    blade: str, scene: str, pair: xr.Dataset, levels: MotionLevels, part: slice, dwells: pd.DataFrame
-) -> dict[str, Any]:
+def _range_row(pair: xr.Dataset, levels: MotionLevels, part: slice, dwells: pd.DataFrame) -> dict[str, Any]:
     place, speeds = levels.worst(part), levels.speeds[part]
     worst = pair.isel(speed=place)
     row: dict[str, Any] = {
-        "blade": blade,
-        "scene": scene,
         "from_rad_s": float(speeds[0]),
         "to_rad_s": float(speeds[-1]),
         "speeds": len(speeds),
         "speed_rad_s": float(levels.speeds[place]),
         "largest_motion": MOTIONS[int(levels.high[place])],
     }
-    names = {
-        "rms_normal_{}_m": "rms_normal",
-        "peak_normal_{}_m": "peak_normal",
-        "median_von_mises_{}_pa": "max_von_mises_median",
-        "share_above_yield_{}": "share_of_revolutions_above_yield",
-    }
-    for column, name in names.items():
+    for column, (name, _) in _MOTIONS.items():
         if name in worst:
             row |= {column.format(motion): float(worst[name].sel(motion=motion)) for motion in MOTIONS}
     here = dwells[dwells["speed_rad_s"].between(speeds[0], speeds[-1]) & dwells["high"].notna()]

@@ -1,22 +1,16 @@
-"""Files of the sweeps and dwells of one blade and scene."""
+"""States at the end of each speed of a sweep, in a file for the motions that go on from them."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import xarray as xr
 
-from r37core.base.dataset_file import Variable, dataset_of
 from r37core.base.io import atomic_write, readable
-from r37core.results.variables import AXES, OF_KIND
 from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
 from .choice import MOTIONS
-from .dwelling import Dwell
 from .ranges import MotionLevels
 from .sweeping import CARRIED, END_WEAR, carried_of
 
@@ -38,6 +32,11 @@ class SweptStates:
         """Motion at the end of the speed at this place; None where it diverged."""
         names = ("status", *CARRIED, *([END_WEAR] if self.worn else []))
         return carried_of({name: self._arrays[name][place] for name in names})
+
+
+def read_states(files: Sequence[Path | str]) -> dict[str, SweptStates]:
+    """States of all motions of a blade and scene, in the order of MOTIONS, by motion."""
+    return {motion: SweptStates(file) for motion, file in zip(MOTIONS, files, strict=True)}
 
 
 def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: float, file: Path | str) -> None:
@@ -68,26 +67,3 @@ def levels_of(states: Mapping[str, SweptStates]) -> MotionLevels:
     """Levels of the motions of a blade and scene, by motion."""
     first, rms = states[MOTIONS[0]], {motion: each.rms for motion, each in states.items()}
     return MotionLevels.averaged(first.speeds, rms, float(first.clearance), worn=first.worn)
-
-
-OF_DWELLS = {
-    "start": Variable((), "1", "where the dwell starts: in the high, the low or a random motion", "O"),
-    "motion": Variable((), "1", "motion of the sweeps that it starts in, or number of the state", "O"),
-    "speed": Variable((), "rad s-1", "angular speed of the rotor"),
-    "level_high": Variable((), "m", "level of the largest motion of the sweeps there: mean rms of a revolution"),
-    "level_low": Variable((), "m", "level of the smallest motion of the sweeps there"),
-    "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "i1"),
-    **OF_KIND,
-    "revolution_rms": Variable(
-        ("revolution",), "m", "rms of the leading edge's motion, normal and tangential together, in each revolution", "f4"
-    ),
-}
-
-
-def dwell_dataset(dwells: Sequence[tuple[Mapping[str, Any], Dwell]], revolutions: int) -> xr.Dataset:
-    """Dataset of the dwells of one blade and scene: labels and levels of each, and what it found."""
-    rows = [{**labels, **dwell.kind.values, "revolution_rms": dwell.rms} for labels, dwell in dwells]
-    values: dict[str, Any] = {name: [row[name] for row in rows] for name in OF_DWELLS}
-    values["revolution_rms"] = np.reshape(values["revolution_rms"], (-1, revolutions))
-    values["revolution"] = np.arange(1, revolutions + 1)
-    return dataset_of(OF_DWELLS, values, {"revolution": replace(AXES["revolution"], dtype="i8")}, {}, ("dwell",))
