@@ -17,7 +17,7 @@ from r37core.results.other_motions import ranking_with_motions, summary_with_mot
 from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
 from r37core.second_motions.dataset import dwell_dataset
 from r37core.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
-from r37core.second_motions.figures import draw_overview, draw_second_motions
+from r37core.second_motions.figures import draw_second_motions
 from r37core.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
 from r37core.second_motions.ranges import MotionLevels, motions_differ
 from r37core.second_motions.states import SweptStates, levels_of, write_states
@@ -340,7 +340,6 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
     pair = motions.sel(blade="Ref", scene="direct")
     figure = draw_second_motions(pair, table, "Ref, direct", blade="Ref", scene="direct")
     assert len(figure.axes[0].patches) == 3
-    assert draw_overview(motions.sel(scene="direct"), "direct").axes[0].get_ylabel() == "Ref (mm)"
     rms = xr.Dataset(
         {
             **{f"rms_{name}": (("scene", "speed", "tip_point"), np.ones((1, 5, 1))) for name in ("normal", "tangential")},

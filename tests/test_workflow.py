@@ -138,7 +138,7 @@ def test_second_motions_of_a_finished_run(sweep_copy):
         "    dwell: { revolutions: 100, speeds_rad_s: [1145] } }\n"
     )
     given = ("--configfile", "config/config.yaml", "config/second_motions.yaml")
-    figures = [f"results/figures/second_motions_{name}.png" for name in ("Ref__abradable", "direct")]
+    figures = [f"results/figures/second_motions_{name}.png" for name in ("Ref__abradable", "CS100__direct")]
     tables = [f"results/{name}.csv" for name in ("second_motions_dwells", "ranking", "summary")]
     files = [*figures, *tables, "results/second_motions.nc"]
     assert "rule simulate" not in made_of_all(sweep_copy, files, *given)

@@ -65,24 +65,6 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, b
     return figure
 
 
-def draw_overview(motions: xr.Dataset, title: str) -> Figure:
-    """All blades of a scene: the three motions, one panel for each."""
-    pairs = {blade: swept(motions.sel(blade=blade)) for blade in motions["blade"].values.tolist()}
-    there = {blade: pair for blade, pair in pairs.items() if pair.sizes["speed"]}
-    figure, grid = plt.subplots(
-        max(len(there), 1), 1, figsize=(style.PAGE, 1.2 * max(len(there), 1) + 0.8), sharex=True, squeeze=False
-    )
-    for axes, (blade, pair) in zip(grid[:, 0], there.items(), strict=False):
-        _draw_motions(axes, pair)
-        shade(axes, pair)
-        axes.set_ylabel(f"{blade} (mm)")
-    grid[0, 0].set_title(f"{title}: rms of the leading edge, normal and tangential together")
-    grid[-1, 0].set_xlabel(style.SPEED_LABEL)
-    style.rpm_axis(grid[0, 0])
-    figure.legend(*style.legend_entries(grid[:, 0]), loc="outside lower center", ncols=4)
-    return figure
-
-
 def _draw_motions(axes: Axes, pair: xr.Dataset) -> None:
     for motion in MOTIONS:
         mean, scatter = (1e3 * pair[name].sel(motion=motion) for name in ("motion_mean", "motion_scatter"))

@@ -122,16 +122,6 @@ EXTENSION = Extension(
             "edge, normal and tangential together, with its scatter over the revolutions. Shaded: the motions differ by more "
             "than they scatter. Then the median stress, the largest motion's share of a long time, and Lyapunov exponents.",
         ),
-        Figure(
-            rule="second_motions_overview",
-            name="second_motions_{scene}",
-            runs=lambda sweep: paths.of("scene", dict.fromkeys(scene for _, scene in pairs_of(sweep.settings))),
-            draw="second_motions.figures.draw_overview",
-            files={"motions": DATASET},
-            label="second motions of all",
-            caption="All blades in scene {scene}, carried up and down through the speeds, and from rest. Shaded: the motions "
-            "differ by more than they scatter.",
-        ),
     ),
     closing="second_motions.tables.closing",
     look_at=TABLE,
