@@ -1,6 +1,7 @@
 """Second motions: sweeps that carry the state on, where motions differ, what becomes of them, and the answers with them."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -10,10 +11,14 @@ import yaml
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, DIRECT, oscillator, with_static_modes
 
+from r37core.base.dataset_file import read_dataset
+from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.figures.response_curves import draw_response
 from r37core.product.reading import read_settings
 from r37core.results.other_motions import ranking_with_motions, summary_with_motions
+from r37core.rom.contact_model import write_contact_model
+from r37core.second_motions import steps
 from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
 from r37core.second_motions.dataset import dwell_dataset
 from r37core.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
@@ -414,6 +419,33 @@ def test_what_cannot_be_swept_is_refused(root, section, message):
     with pytest.raises(ConfigError) as error:
         read_settings(root, command_line_document({"second_motions": yaml.safe_load(section)}))
     assert message in str(error.value) and "\n" not in str(error.value)
+
+
+def test_interrupted_dwells_go_on_from_the_next_speed(contact, tmp_path, monkeypatch):
+    states_of(contact, tmp_path)
+    write_contact_model(contact, tmp_path / "contact.npz")
+    choice = DwellChoice(revolutions=100, range_speeds=0, starts=1, speeds=(1300.0, 1310.0))
+    plain = {"scene": GROWING, "choice": CHOICE, "sweep": SWEEP, "dwell": choice}
+    params = SimpleNamespace(code="", provenance={}, **{name: to_plain(value) for name, value in plain.items()})
+    files = SimpleNamespace(model=tmp_path / "contact.npz", states=[tmp_path / f"{motion}.npz" for motion in MOTIONS])
+    asked, most = [], 3
+
+    def dwells_at(run, states, choice):
+        if len(asked) == most:
+            raise KeyboardInterrupt
+        asked.extend(choice.speeds)
+        return dwells_of(run, states, choice)
+
+    monkeypatch.setattr(steps, "dwells_of", dwells_at)
+    steps.dwell(files, SimpleNamespace(dwells=tmp_path / "whole.nc"), params)
+    output = SimpleNamespace(dwells=tmp_path / "parts.nc")
+    with pytest.raises(KeyboardInterrupt):
+        steps.dwell(files, output, params)
+    most = None
+    steps.dwell(files, output, params)
+    assert asked == [1300.0, 1310.0, 1300.0, 1310.0]
+    xr.testing.assert_equal(*(read_dataset(tmp_path / f"{name}.nc") for name in ("whole", "parts")))
+    assert not list(tmp_path.glob("*.parts"))
 
 
 @pytest.mark.slow

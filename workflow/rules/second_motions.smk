@@ -2,7 +2,7 @@
 from r37core.second_motions import plan as motions_plan
 
 motion_pairs = motions_plan.pairs_of(settings)
-motion_files = motions_plan.of_motions(motion_pairs)
+motion_files = motions_plan.motion_keys(motion_pairs)
 
 
 use rule step as second_motion_sweep with:

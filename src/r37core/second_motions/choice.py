@@ -1,6 +1,6 @@
 """Numbers of the sweeps and of the dwells."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Annotated
 
 from r37core.base.declared import Key, speed_keys
@@ -54,4 +54,4 @@ class DwellChoice:
     ] = 3
     starts: Annotated[int, Key("Random states outside of the casing from which more dwells start", ge=0, le=1000)] = 5
     seed: Annotated[int, Key("Seed of the random states", ge=0, le=2**31)] = 0
-    speeds: tuple[float, ...] = field(default=())
+    speeds: tuple[float, ...] = ()

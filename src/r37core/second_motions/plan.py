@@ -25,14 +25,14 @@ KEPT = ("stress", "static_stress", "wear", "energy", "casing", "motion_kind")
 """Results of a scene that its sweeps keep, too."""
 
 
-def of_motions(pairs: Iterable[tuple[str, str]]) -> paths.Wildcards:
+def motion_keys(pairs: Iterable[tuple[str, str]]) -> paths.Wildcards:
     """Wildcards of the sweeps of some pairs of blade and scene, one pair after another."""
     return [{**key, "motion": motion} for key in paths.run_keys(pairs) for motion in MOTIONS]
 
 
 def swept_files(sweep: Sweep, wildcards: Any) -> dict[str, Any]:
     """Files that the dwells of a blade and scene start from."""
-    states = paths.filled({STATES: of_motions([(wildcards.blade, wildcards.scene)])})
+    states = paths.filled({STATES: motion_keys([(wildcards.blade, wildcards.scene)])})
     return {"model": sweep.contact_model(wildcards), "states": states}
 
 
@@ -56,7 +56,7 @@ def parameters(sweep: Sweep) -> dict[str, Any]:
 def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The sweeps and dwells themselves."""
     pairs = pairs_of(sweep.settings)
-    return {**dict.fromkeys((RESPONSE, STATES), of_motions(pairs)), DWELLS: paths.run_keys(pairs)}
+    return {**dict.fromkeys((RESPONSE, STATES), motion_keys(pairs)), DWELLS: paths.run_keys(pairs)}
 
 
 MOST_SPEEDS = 20_000
@@ -69,8 +69,8 @@ def can_be_swept(settings: Settings) -> None:
     if not section.asked:
         return
     names_are_there(settings, path, section)
-    for at, found, allowed in _refusals(settings, section):
-        raise settings.documents.config.refusal((*path, *at), found, allowed)
+    for key, found, allowed in _refusals(settings, section):
+        raise settings.documents.config.refusal((*path, *key), found, allowed)
     sweep, scenes = section.sweep(), dict.fromkeys(scene for _, scene in pairs_of(settings))
     longest = max(sweep.revolutions, section.dwell.revolutions)
     runs = [length_of_run(settings, name, sweep.first, max(longest, settings.scenes[name].revolutions)) for name in scenes]

@@ -1,15 +1,20 @@
 """Steps of the workflow (docs/architecture.md): a sweep with the state carried on, dwells, and the join of all of them."""
 
-import hashlib
 import shutil
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
+
+import xarray as xr
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list
 from r37core.base.origin import origin
 from r37core.base.plain import from_plain
+from r37core.base.speeds import exact_text
 from r37core.contact.scene import Scene
+from r37core.machine_code.kept import content_digest, kept_file
 from r37core.results.joining import Along, join_runs
 from r37core.results.response import write_response
 from r37core.results.table_file import write_table
@@ -19,8 +24,8 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import DOWN, MOTIONS, DwellChoice, SweepChoice
 from .dataset import dwell_dataset, joined_motions, pair_motions
-from .dwelling import dwells_of
-from .states import read_states, write_states
+from .dwelling import dwells_of, speeds_dwelt_on
+from .states import levels_of, read_states, write_states
 from .sweeping import CarriedSweep
 from .tables import dwell_table, range_table
 
@@ -32,8 +37,9 @@ def carry(input: Any, output: Any, params: Any) -> None:
     """
     stress = read_stress_operators(input.stress) if hasattr(input, "stress") else None
     run = CarriedSweep(*_swept(input, params), params.motion, params.results, params.kept, stress)
-    parts = Path(f"{output.states}.parts")
-    files, speeds = run.run(_folder_of_same(parts, input, params)), run.sweep.speeds
+    parts, speeds = Path(f"{output.states}.parts"), run.sweep.speeds
+    made_by = [params.motion, params.results, params.kept]
+    files = run.run(parts, [made_by, _made_of(params, input.model, *([input.stress] if stress else []))])
     ascending = files[::-1] if params.motion == DOWN else files
     write_response(
         ascending,
@@ -50,11 +56,21 @@ def carry(input: Any, output: Any, params: Any) -> None:
 def dwell(input: Any, output: Any, params: Any) -> None:
     """Dwell where motions differ. Inputs: model, states (of all motions). Output: dwells (nc).
 
-    Params: scene, choice, sweep, dwell, provenance.
+    Params: scene, choice, sweep, dwell, provenance, code. Dwells that were interrupted go on from the next speed.
     """
-    choice = from_plain(DwellChoice, params.dwell)
-    rows = dwells_of(CarriedSweep(*_swept(input, params)), read_states(input.states), choice)
-    write_dataset(dwell_dataset(rows, choice.revolutions), output.dwells, params.provenance)
+    run, states, choice = CarriedSweep(*_swept(input, params)), read_states(input.states), from_plain(DwellChoice, params.dwell)
+    made_of, parts = [params.dwell, _made_of(params, input.model, *input.states)], Path(f"{output.dwells}.parts")
+    parts.mkdir(parents=True, exist_ok=True)
+
+    def write(speed: float, file: Path) -> None:
+        rows = dwells_of(run, states, replace(choice, range_speeds=0, speeds=(speed,)))
+        write_dataset(dwell_dataset(rows, choice.revolutions), file, {})
+
+    speeds = speeds_dwelt_on(levels_of(states), choice)
+    files = [kept_file(f"{exact_text(speed)}.nc", made_of, partial(write, speed), parts) for speed in speeds]
+    dwells = [read_dataset(file) for file in files] or [dwell_dataset([], choice.revolutions)]
+    write_dataset(xr.concat(dwells, "dwell"), output.dwells, params.provenance)
+    shutil.rmtree(parts, ignore_errors=True)
 
 
 def join(input: Any, output: Any, params: Any) -> None:
@@ -81,16 +97,6 @@ def _swept(input: Any, params: Any) -> tuple[ContactModel, Scene, IntegrationCho
     return read_contact_model(input.model), scene, choice, from_plain(SweepChoice, params.sweep)
 
 
-def _folder_of_same(parts: Path, input: Any, params: Any) -> Path:
-    """Folder for the speeds of a sweep in `parts`, which has those of one that was interrupted.
-
-    Those of other code, inputs or parameters are removed.
-    """
-    made_by = [params.code, params.motion, params.scene, params.choice, params.sweep, params.results, params.kept]
-    files = [getattr(input, name) for name in ("model", "stress") if hasattr(input, name)]
-    inputs = [hashlib.sha256(Path(file).read_bytes()).hexdigest() for file in files]
-    made_of = hashlib.sha256(repr([made_by, inputs]).encode()).hexdigest()[:16]
-    for other in parts.glob("*"):
-        if other.name != made_of:
-            shutil.rmtree(other, ignore_errors=True)
-    return parts / made_of
+def _made_of(params: Any, *inputs: str) -> list[Any]:
+    """All that sweeps and dwells of a blade and scene follow from: code, parameters and the content of the inputs."""
+    return [params.code, params.scene, params.choice, params.sweep, *map(content_digest, inputs)]

@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from r37core.contact.scene import Scene
+from r37core.machine_code.kept import kept_file
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperators
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
@@ -52,20 +53,22 @@ class CarriedSweep:
         """Speeds (rad/s) in the order of the sweep."""
         return self.sweep.speeds[::-1] if self.motion == DOWN else self.sweep.speeds
 
-    def run(self, folder: Path) -> list[Path]:
+    def run(self, folder: Path, made_of: object = None) -> list[Path]:
         """Run all speeds; returns the file of each, in the order of the speeds.
 
-        Files that are in the `folder` are of a run that was interrupted, which goes on after the last of them.
+        A sweep that was interrupted goes on from its files in the `folder`. `made_of`: all that they follow from.
         """
         folder.mkdir(parents=True, exist_ok=True)
-        files = [folder / f"{place}.npz" for place in range(len(self.speeds))]
-        done = next((place for place, file in enumerate(files) if not file.exists()), len(files))
-        carried = carried_of(read_speed(files[done - 1])) if done else None
-        for speed, file in zip(self.speeds[done:], files[done:], strict=True):
-            numbers = self.run_from_rest(speed) if self.motion == REST else self.run_on(speed, carried)
-            carried = carried_of(numbers)
-            write_speed(numbers, file, {})
+        files: list[Path] = []
+        for place, speed in enumerate(self.speeds):
+            write = partial(self._write, speed, files[-1] if files else None)
+            files.append(kept_file(f"{place}.npz", made_of, write, folder))
         return files
+
+    def _write(self, speed: float, before: Path | None, file: Path) -> None:
+        """Write the file of a speed (rad/s), to which the motion is carried from that of the speed `before`."""
+        carried = carried_of(read_speed(before)) if before else None
+        write_speed(self.run_from_rest(speed) if self.motion == REST else self.run_on(speed, carried), file, {})
 
     def run_from_rest(self, speed: float) -> dict[str, np.ndarray]:
         """Numbers of the run at a speed (rad/s) as the sweep of the pipeline has it: from rest, with lobes that grow."""
