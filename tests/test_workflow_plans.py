@@ -13,7 +13,6 @@ from r37core.base.speeds import SpeedPlan
 from r37core.config import ConfigError, command_line_document
 from r37core.config.speed_choice import most_runs
 from r37core.contact.scene import Scene
-from r37core.estimate import plan as estimate
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
@@ -24,6 +23,7 @@ from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.plan import RunUps
 from r37core.tolerances.members import members_of
 from r37core.tolerances.plan import RESPONSE_OF_MEMBER, Tolerances
+from r37core.trials import estimate
 
 PLACES = {"blades": ["Ref", "L50"], "scenes": ["abradable", "direct"]}
 
@@ -72,7 +72,7 @@ def refining(root, tmp_path):
 
 def test_speeds_of_all_rounds_are_reduced_and_a_round_reads_what_the_one_before_asked_for(refining):
     """The estimate of their number is their share."""
-    assert estimate.values(refining.settings, {})["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
+    assert estimate.values(refining.settings, {}, None)["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
     names = [file.rsplit("_", 1)[1] for file in refining.speed_files(REF)]
     assert names == ["900.npz", "925.npz", "950.npz", "1000.npz"]
     with pytest.raises(KeyError):
