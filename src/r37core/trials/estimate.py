@@ -43,7 +43,7 @@ def _case(settings: Settings, blade: str, scene: str) -> Case:
         blade,
         chosen.tip_line,
         chosen.scene,
-        settings.integration_choice(blade, scene, speeds[0], history_speeds=()),
+        settings.integration_choice(blade, scene, 0.0),
         speeds,
         results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
         material=settings.blades[blade].material,

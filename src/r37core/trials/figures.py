@@ -3,7 +3,6 @@
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.figures import style
@@ -45,24 +44,19 @@ def draw_tradeoff(table: pd.DataFrame) -> Figure:
     figure, panels = plt.subplots(1, len(scenes), figsize=size, sharey=True, squeeze=False)
     for axes, scene in zip(panels[0], scenes, strict=True):
         for number, (parameter, cases) in enumerate(table[table["scene"] == scene].groupby("parameter", sort=False)):
-            _draw_cases(axes, str(parameter), cases, "osv^Dx+"[number % 7])
+            error, is_level = np.maximum(cases["error_rms_normal"], _FLOOR), parameter == LEVEL
+            marker = "*" if is_level else "osv^Dx+"[number % 7]
+            label, markersize = str(parameter).replace("_", " "), 11 if is_level else 5
+            axes.loglog(cases["cpu_s"], error, marker, label=label, markersize=markersize)
+            for x, y, name in zip(cases["cpu_s"], error, cases["value"], strict=True) if is_level else ():
+                if np.isfinite(x * y):
+                    axes.annotate(str(name), (x, y), fontsize=7, xytext=(4, 4), textcoords="offset points")
         # names of levels stand to the right of their marks
         axes.margins(x=0.15)
         axes.set(xlabel="CPU s per run", title=scene)
     panels[0, 0].set_ylabel("relative error of the mean normal rms at the peak")
     figure.legend(*style.legend_entries(panels[0]), loc="outside lower center", ncols=5)
     return figure
-
-
-def _draw_cases(axes: Axes, parameter: str, cases: pd.DataFrame, marker: str) -> None:
-    error = np.maximum(cases["error_rms_normal"], _FLOOR)
-    is_level = parameter == LEVEL
-    marker, size = ("*", 11) if is_level else (marker, 5)
-    axes.loglog(cases["cpu_s"], error, marker, label=parameter.replace("_", " "), markersize=size)
-    if is_level:
-        for x, y, name in zip(cases["cpu_s"], error, cases["value"], strict=True):
-            if np.isfinite(x * y):
-                axes.annotate(str(name), (x, y), fontsize=7, xytext=(4, 4), textcoords="offset points")
 
 
 def draw_growth(table: pd.DataFrame, growth: pd.DataFrame) -> Figure:

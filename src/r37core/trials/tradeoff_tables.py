@@ -215,17 +215,13 @@ def exponent_of(values: np.ndarray, costs: np.ndarray) -> float:
 def closing(results: Path) -> str:
     """The recommended level, and which parameters were left out."""
     levels, attributes = read_table(results / "tradeoff_levels.csv"), read_dataset(results / "tradeoff.nc").attrs
-    said = ["no levels were compared"] if levels.empty else [_advice(levels)]
-    if attributes["left_out"]:
-        said.append(f"left out: {attributes['left_out']}")
-    return "; ".join(said)
-
-
-def _advice(levels: pd.DataFrame) -> str:
-    best = levels[levels["recommended"] == "yes"]
-    within = f"within the tolerance of {100 * levels['tolerance'].iloc[0]:g}%"
+    left_out = f"; left out: {attributes['left_out']}" if attributes["left_out"] else ""
+    if levels.empty:
+        return f"no levels were compared{left_out}"
+    best, first = levels[levels["recommended"] == "yes"], levels.iloc[0]
+    within = f"within the tolerance of {100 * first['tolerance']:g}%"
     if best.empty:
         nearest = f"{100 * levels['error'].min():.1f}%"
-        return f"no level is {within}: the best differs by {nearest} from {levels['reference'].iloc[0]}"
+        return f"no level is {within}: the best differs by {nearest} from {first['reference']}{left_out}"
     row = best.iloc[0]
-    return f"cheapest level {within} of {row['reference']}: {row['level']}, {100 * row['error']:.1f}%"
+    return f"cheapest level {within} of {row['reference']}: {row['level']}, {100 * row['error']:.1f}%{left_out}"
