@@ -19,7 +19,7 @@ from workflow_runs import copy_project, overlay, snakemake
 
 import r37
 from r37.command import main
-from r37core.base.dataset_file import read_dataset, write_dataset
+from r37core.base.dataset_file import write_dataset
 from r37core.base.io import Named
 from r37core.base.plain import from_plain, to_plain
 from r37core.config import ConfigError, command_line_document, read_document
@@ -97,15 +97,14 @@ def test_a_crossing_that_is_not_there_is_named(tmp_path, order, named):
         steps.run(Named(campbell=str(tmp_path / "campbell.nc")), Named(response="case.nc"), Named(case=case))
 
 
-def test_a_run_that_diverged_has_no_stress_at_instants(contact, model, steel, tmp_path):
+def test_a_run_that_diverged_has_no_stress_at_instants(contact, model, steel):
     choice = replace(CHOICE, snapshots_per_revolution=62).recorded
     case = case_of(choice, replace(DIRECT, divergence_limit=1e-6), results=("stress", "instants"), material=steel)
-    runner.run_case(case, contact, {"box": box_operator(model, steel)}, tmp_path / "case.nc")
-    response = read_dataset(tmp_path / "case.nc")
+    response = runner.run_case(case, contact, {"box": box_operator(model, steel)})
     assert response["status"].values.all() and response["max_von_mises_of_instant"].isnull().all()
 
 
-def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact, tmp_path, monkeypatch):
+def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact, monkeypatch):
     """A step far beyond the sampling instants is shortened to them: half of it would be shortened to the same.
 
     Each speed may have modes, and with them a program, of its own.
@@ -123,9 +122,7 @@ def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact,
     run_speed = runner.run_speed
     monkeypatch.setattr(runner, "simulation_of", prepared)
     monkeypatch.setattr(runner, "run_speed", simulated)
-    for name, half in (("case", False), ("half", True)):
-        runner.run_case(replace(case, half_step=half), contact, None, tmp_path / f"{name}.nc")
-    taken = [read_dataset(tmp_path / f"{name}.nc")["time_step"].values for name in ("case", "half")]
+    taken = [runner.run_case(replace(case, half_step=half), contact, None)["time_step"].values for half in (False, True)]
     np.testing.assert_allclose(taken[0], 2.0 * np.pi / np.array([1495.0, 1500.0]) / 620)
     np.testing.assert_allclose(taken[1], 0.5 * taken[0], rtol=1e-12)
 
@@ -166,23 +163,15 @@ def test_a_blade_that_is_not_run_asks_for_nothing(root, preset):
     assert tradeoff.not_varied(settings) == ""
 
 
-@pytest.fixture
-def judged(contact, tmp_path):
-    """The row of a case in the table, run with its own step and with half of it."""
-
-    def judge_case(case):
-        responses = {}
-        for name, half in (("lobes_5__direct", False), ("lobes_5__direct__half_step", True)):
-            runner.run_case(replace(case, half_step=half), contact, None, tmp_path / f"{name}.nc")
-            responses[name] = read_dataset(tmp_path / f"{name}.nc")
+def test_judging_a_case(contact, monkeypatch):
+    def judged(case):
+        """The row in the table, of runs with the case's own step and with half of it."""
+        responses = {"lobes_5__direct": case, f"lobes_5__direct{HALF_STEP}": replace(case, half_step=True)}
+        responses = {name: runner.run_case(each, contact, None) for name, each in responses.items()}
         (row,) = stability_tables.tables(responses)["table"].to_dict("records")
         assert (row["what"], row["value"], row["scene"]) == ("lobes", "5", "direct")
         return row
 
-    return judge_case
-
-
-def test_judging_a_case(judged, monkeypatch):
     assert judged(case_of())["outcome"] == "accurate"
     diverged = judged(case_of(scene=replace(DIRECT, divergence_limit=1e-6)))
     assert diverged["outcome"] == "diverged"

@@ -3,7 +3,7 @@
 import math
 import resource
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 import xarray as xr
 
-from r37core.base.dataset_file import about, write_dataset
+from r37core.base.dataset_file import about
 from r37core.results.regions import read_judged
 from r37core.results.response import write_response
 from r37core.rom.contact_model import ContactModel
@@ -49,19 +49,13 @@ def peak_memory() -> float:
     return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
 
 
-def run_case(
-    case: Case, model: ContactModel, recovery: StressOperators | None, output: Path, costs: Mapping[str, float] | None = None
-) -> None:
-    """Run a case with speeds in rad/s; `costs` (s, bytes) become attributes of its response.
-
-    The response of a case that a time step or a model refuses is a `refusal`.
-    """
+def run_case(case: Case, model: ContactModel, recovery: StressOperators | None) -> xr.Dataset:
+    """The response of a case with speeds in rad/s, or the refusal of one that a time step or a model refuses."""
     with TemporaryDirectory() as folder:
         try:
-            response = _response(case, model, recovery, Path(folder))
+            return _response(case, model, recovery, Path(folder))
         except ValueError as error:
-            response = refusal(str(error))
-    write_dataset(response, output, {"blade": case.blade, **(costs or {})})
+            return refusal(str(error))
 
 
 def _response(case: Case, model: ContactModel, recovery: StressOperators | None, folder: Path) -> xr.Dataset:

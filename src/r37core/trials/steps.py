@@ -21,7 +21,6 @@ from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model
 from r37core.rom.reduction_choice import BoundaryError, ReductionChoice
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
-from r37core.stress.operator import StressOperators
 from r37core.stress.recovery import stress_operators
 
 from .case import Case
@@ -73,14 +72,12 @@ def run(input: Any, output: Any, params: Any) -> None:
     if case.crossing:
         speed = crossing_speed(read_dataset(files["campbell"]), case)
         case = replace(case, speeds=tuple(float(share * speed) for share in case.speeds))
-
-    def recovery() -> StressOperators | None:
-        wanted = "stress" in case.results and case.material
-        return stress_operators(read_reduced_model(files["rom"]), wanted) if wanted else None
-
     read, costs["reading_cpu_s"], _ = timed(lambda: read_contact_model(files["contact"]))
-    operators, costs["recovery_cpu_s"], _ = timed(recovery)
-    run_case(case, read, operators, output.response, costs)
+    material = case.material if "stress" in case.results else None
+    operators, costs["recovery_cpu_s"], _ = timed(
+        lambda: stress_operators(read_reduced_model(files["rom"]), material) if material else None
+    )
+    write_dataset(run_case(case, read, operators), output.response, {"blade": case.blade, **costs})
 
 
 def crossing_speed(campbell: xr.Dataset, case: Case) -> float:
