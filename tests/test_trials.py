@@ -27,7 +27,7 @@ from r37core.config.fidelity import recommended_level
 from r37core.plans.extent import extent_of, extents
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.extensions import beside
+from r37core.product.extensions import simulations_of_members
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.trials import estimate, estimate_tables, runner, stability, stability_tables, steps, tradeoff
@@ -206,7 +206,7 @@ def test_the_estimate_is_of_a_sample_of_each_blade_and_scene(root):
     settings = read_settings(root, command_line_document(changes))
     cases = estimate.cases(settings)
     assert list(cases) == ["Ref__abradable", "Ref__direct", "L50__abradable", "L50__direct"]
-    assert estimate.values(settings, {}, None)["runs"]["Ref__abradable"] == 1251
+    assert estimate.values(settings, {})["runs"]["Ref__abradable"] == 1251
     speeds = cases["Ref__abradable"].speeds
     assert len(speeds) == 25 and np.mean(speeds) == pytest.approx(1375.0, abs=1.0)
     few = read_settings(root, command_line_document(changes | {"speeds": [900, 1234.5]}))
@@ -218,10 +218,10 @@ def test_the_estimate_and_the_check_count_the_same_simulations(root, tmp_path, c
     ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
     (file := tmp_path / "members.yaml").write_text(f"tolerances: {{ members: 4, {ranges} }}\n")
     settings = read_settings(root, read_document(tmp_path, "members.yaml"))
-    counted = extents(settings, beside(settings))
-    runs = estimate.values(settings, beside(settings), None)["runs"]
+    members = simulations_of_members(settings)
+    counted, runs = extents(settings, members), estimate.values(settings, members)["runs"]
     assert runs == {"__".join(place): extent.at_most for place, extent in counted.items()}
-    whole = extent_of(settings, beside(settings))
+    whole = extent_of(settings, members)
     assert whole.at_most == whole.most + whole.members > whole.most > whole.certain
     assert main(["check", str(root / "config/config.yaml"), str(file)]) == 0
     told, cost = capsys.readouterr().out, whole.cpu_time(settings.fidelity.measured.cpu_s_per_run)
@@ -309,7 +309,7 @@ def test_there_is_a_case_for_every_value_and_it_varies_what_it_is_called(setting
     assert {"level", *tradeoff.PARAMETERS} == set(tradeoff.Parameters.model_fields) == set(varied)
     assert len(files) == len(settings.scenes) * sum(len(entry.values) for entry in varied.values())
     assert "<results>/tradeoff/exact_modal_step/8e-07__direct.nc" in files
-    assert tradeoff.not_varied(settings) == "" and tradeoff.values(settings, {}, None)["references"]["level"] == "reference"
+    assert tradeoff.not_varied(settings) == "" and tradeoff.values(settings, {})["references"]["level"] == "reference"
     lined, direct = (cases[f"level/{settings.fidelity_name}__{scene}"] for scene in ("abradable", "direct"))
     assert cases["bars/300__abradable"].scene.lining.bars == 300 and cases["bars/300__direct"] == direct
     exact = replace(lined.choice, time_step=8e-7, integrator="exact_modal", shorten=False)
@@ -332,7 +332,7 @@ def test_a_parameter_of_the_model_changes_its_own_part_of_the_name(root):
 
 def test_speeds_of_a_case_ascend_and_the_tables_know_their_places(settings):
     """Off resonance lies below the crossing: the last of the places comes first in a response."""
-    shares, places = tradeoff.cases(settings)["bars/300__direct"].speeds, tradeoff.values(settings, {}, None)["places"]
+    shares, places = tradeoff.cases(settings)["bars/300__direct"].speeds, tradeoff.values(settings, {})["places"]
     assert list(shares) == sorted(set(shares))
     wanted = settings.section(tradeoff.SECTION).places.shares
     assert {name: [shares[row] for row in rows] for name, rows in places.items()} == wanted

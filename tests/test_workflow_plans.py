@@ -72,7 +72,7 @@ def refining(root, tmp_path):
 
 def test_speeds_of_all_rounds_are_reduced_and_a_round_reads_what_the_one_before_asked_for(refining):
     """The estimate of their number is their share."""
-    assert estimate.values(refining.settings, {}, None)["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
+    assert estimate.values(refining.settings, {})["runs"]["Ref__abradable"] == max(3, int(0.2 * 21))
     names = [file.rsplit("_", 1)[1] for file in refining.speed_files(REF)]
     assert names == ["900.npz", "925.npz", "950.npz", "1000.npz"]
     with pytest.raises(KeyError):

@@ -1,4 +1,5 @@
 # Single runs next to the sweep, and their tables. Not part of all_blades: snakemake tradeoff, stability or estimate
+from r37core.product.extensions import simulations_of_members
 from r37core.trials.case import MODEL_NAME
 from r37core.trials.plan import MODEL_FILES, PRESETS, RESPONSE, Trials
 
@@ -57,6 +58,6 @@ for name, preset in PRESETS.items():
             **step("trials.steps.report", f"trials.{name}_tables"),
             module=f"r37core.trials.{name}_tables",
             reasons=partial(trials.reasons, name),
-            values=partial(preset.values, settings, samples) if hasattr(preset, "values") else {},
+            values=lambda wildcards, preset=preset: preset.values(settings, simulations_of_members(settings)),
         script:
             "../scripts/step.py"

@@ -15,7 +15,8 @@ PRESETS = {each.EXTENSION.name: each for each in (estimate, tradeoff, stability)
 """Command -> its module, in the order of their sections in docs/configuration.md.
 
 It has `cases`, a function of the settings that gives each case by its name, or the reason why this run cannot have it; and
-`TABLES`, files that the function `tables` of the module `{command}_tables` makes of the responses and of `values`.
+`TABLES`, files that the function `tables` of the module `{command}_tables` makes of the responses and of `values`, a function
+of the settings and of the largest number of simulations of members by blade and scene.
 """
 
 EXTENSIONS = tuple(preset.EXTENSION for preset in PRESETS.values())

@@ -3,13 +3,14 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import product
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field
 
 from r37core.config import Settings
 from r37core.config.section import AllOrNames, ExtensionSection, refused
 from r37core.plans.extension import Extension, Figure
+from r37core.plans.extent import Pair
 from r37core.plans.paths import Wildcards
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
@@ -88,6 +89,11 @@ def cases(settings: Settings) -> dict[str, Case | str]:
                 if isinstance(case, Case):
                     planned[f"{name}{HALF_STEP}"] = replace(case, half_step=True)
     return planned
+
+
+def values(settings: Settings, members: Mapping[Pair, int]) -> dict[str, Any]:
+    """Nothing but the responses."""
+    return {}
 
 
 TABLES = {"table": "<results>/stability.csv"}

@@ -14,6 +14,7 @@ from r37core.config.fidelity import TimeStep
 from r37core.config.section import ExtensionSection, LeftOut, Name, Section, Unique, left_out, refused
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
+from r37core.plans.extent import Pair
 from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
@@ -201,7 +202,7 @@ def not_varied(settings: Settings) -> str:
     return "; ".join(f"{', '.join(name for name in missing if reasons[name] == why)}, because {why}" for why in several)
 
 
-def values(settings: Settings, beside: Mapping[str, Any], wildcards: Any) -> dict[str, Any]:
+def values(settings: Settings, members: Mapping[Pair, int]) -> dict[str, Any]:
     """Places of the speeds, reference values, and what the tables and the dataset report of the run."""
     places, base = settings.section(SECTION).places, BaseCase(settings, SECTION)
     rows = {name: [places.every_share.index(share) for share in shares] for name, shares in places.shares.items()}
