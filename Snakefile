@@ -32,7 +32,6 @@ include: "workflow/rules/structure.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
-include: "workflow/rules/cases.smk"
 include: "workflow/rules/extensions.smk"
 include: "workflow/rules/crate.smk"
 

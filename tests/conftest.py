@@ -54,7 +54,7 @@ class Terminal(io.StringIO):
         return True
 
 
-LONGEST = ("workflow", "assess", "time_integration", "python", "slurm", "runs", "python_calls", "refined_runs", "tradeoff")
+LONGEST = ("workflow", "assess", "time_integration", "python", "slurm", "runs", "python_calls", "refined_runs", "trials")
 LONGEST += ("search_calls", "your_blade", "native", "examples", "explorer", "reruns", "edge", "elastic_casing")
 """Files that take a minute. The second needs other programs than the first, which makes the sweep that others wait for."""
 

@@ -48,7 +48,7 @@ def test_a_stranger_adds_a_capability_by_the_page_alone(root, sweep_copy):
         file.write_text(code)
     registry = sweep_copy / REGISTRY
     text = registry.read_text()
-    registry.write_text(re.sub(r"(_FOLDERS = \(\n)", rf"\g<1>{line}", text))
+    registry.write_text(re.sub(r"(FOLDERS = \(\n)", rf"\g<1>{line}", text))
     assert len(registry.read_text().splitlines()) == len(text.splitlines()) + 1
 
     # it is part of all_blades; only the records of the configuration and of the tables are made again

@@ -176,7 +176,7 @@ def rules(root):
             found[rule] = ("step", f"r37core.{steps[0]}")
     drawn = {figure.rule: f"r37core.{figure.draw.rpartition('.')[0]}" for figure in FIGURES}
     found |= {rule: ("step", "r37core.figures.steps.draw", module) for rule, module in drawn.items()}
-    return found | {"case": ("step", "r37core.cases.steps.run")}
+    return found | {"tables": ("step", "r37core.trials.steps.report", "r37core.trials.tradeoff_tables")}
 
 
 def test_every_rule_of_a_step_names_one_that_is_there(rules):
@@ -207,7 +207,7 @@ def test_every_rule_runs_again_for_the_modules_of_its_closure_and_no_other(root,
     # none of the main job's rules runs again for another setting or plan
     plans = {root / f"src/r37core/{module}" for module in ("config/settings.py", "plans/sweep_plan.py")}
     having = {script[-1].split(".")[1] for script in scripts if plans & closures[script]}
-    assert plans <= set(modules) and having <= {"search", "tolerances", "tradeoff"}
+    assert plans <= set(modules) and having <= {"search", "tolerances", "trials"}
     for edited in modules:
 
         def of_edited(file, function, edited=edited):
@@ -249,7 +249,7 @@ for line in sys.stdin:
 """Answers code with the files of our package that it loads; other packages are there before, which takes longer."""
 
 STEPS_LOADED = ("time_integration.speed_job.prepare", "results.steps.response", "fem.steps.mesh", "results.steps.summary")
-STEPS_LOADED += ("time_integration.speed_job.simulate", "tradeoff.steps.report", "run_ups.steps.record", "exports.steps.stress")
+STEPS_LOADED += ("time_integration.speed_job.simulate", "trials.steps.run", "run_ups.steps.record", "exports.steps.stress")
 
 
 @pytest.mark.slow
@@ -273,18 +273,18 @@ def test_stages_do_not_share_more_than_they_need(root):
     """A new figure re-runs no simulation, a new time integration no mesh, and the models of the configuration neither."""
     code = CodeHashes(root / "src", root / "workflow/scripts")
     for name, others in {
-        "r37core.fem.steps.mesh": {"time_integration", "contact", "results", "figures", "cases", "config", "workflow"},
+        "r37core.fem.steps.mesh": {"time_integration", "contact", "results", "figures", "trials", "config", "workflow"},
         "r37core.time_integration.speed_job.simulate": {
             "mesh",
             "fem",
             "blade",
             "results",
             "figures",
-            "cases",
+            "trials",
             "config",
             "workflow",
         },
-        "r37core.results.steps.response": {"figures", "cases", "config", "workflow"},
-        "r37core.cases.steps.run": {"config", "workflow"},
+        "r37core.results.steps.response": {"figures", "trials", "config", "workflow"},
+        "r37core.trials.steps.run": {"config", "workflow"},
     }.items():
         assert not others & {file.parent.name for file in code.closure(name)}, name

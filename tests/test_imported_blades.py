@@ -11,7 +11,6 @@ from workflow_runs import overlay
 
 from r37core.base.plain import to_plain
 from r37core.blade.definition import BladeDefinition
-from r37core.cases.plan import Cases, shape_of_model
 from r37core.config import ConfigError
 from r37core.exchange.importing.source import MatricesSource, MeshSource
 from r37core.exchange.orientation import OURS
@@ -25,8 +24,8 @@ from r37core.plans.sweep_plan import Simulations, Sweep
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.signals.plan import Signals
-from r37core.stability import plan as stability
-from r37core.tradeoff import plan as tradeoff
+from r37core.trials import stability, tradeoff
+from r37core.trials.plan import Trials
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}
 AXES = {"length_unit": "mm", "rotor_axis": [1, 0, 0], "radial": [0, 0, 1], "rotation": "positive"}
@@ -238,21 +237,20 @@ def test_what_is_varied_of_matrices(settings_with):
     """The model is the run's own, and there is no stress."""
     settings = settings_with(MATRICES)
     model = ["mesh_nodes", "boundary_nodes", "fixed_interface_modes", "stress_instants", "stress_region"]
-    assert tradeoff.left_out(settings) == f"{', '.join(model)}, because Fan is given by matrices"
-    cases = Cases(settings, "tradeoff", tradeoff.cases)
-    inputs = cases.inputs(SimpleNamespace(case="revolutions/25__direct"))
+    assert tradeoff.not_varied(settings) == f"{', '.join(model)}, because Fan is given by matrices"
+    inputs = Trials(settings).inputs(SimpleNamespace(preset="tradeoff", case="revolutions/25__direct"))
     assert inputs == {"contact": "<results>/Fan/contact_pressure_edge.npz", "campbell": "<results>/Fan/campbell.nc"}
     extremes = stability.cases(settings)
-    assert extremes["mesh_nodes_500__direct"].refused == "Fan is given by matrices"
-    assert extremes["lobes_5__direct"].scene is not None
+    assert extremes["mesh_nodes_500__direct"] == "Fan is given by matrices"
+    assert extremes["lobes_5__direct"].model == "pressure_edge"
 
 
 def test_what_is_varied_of_a_mesh(settings_with):
     settings = settings_with(MESH)
-    assert tradeoff.left_out(settings) == "mesh_nodes, because Fan is given by a mesh"
+    assert tradeoff.not_varied(settings) == "mesh_nodes, because Fan is given by a mesh"
     case = SimpleNamespace(blade="Fan", model=tradeoff.cases(settings)["bars/300__direct"].model.name)
-    assert shape_of_model(case) == {"mesh": "<results>/Fan/mesh.vtu"}
-    assert stability.cases(settings)["mesh_nodes_500__direct"].refused == "Fan is given by a mesh"
+    assert Trials(settings).shape(case) == {"mesh": "<results>/Fan/mesh.vtu"}
+    assert stability.cases(settings)["mesh_nodes_500__direct"] == "Fan is given by a mesh"
 
 
 def test_plan_of_exports(three):

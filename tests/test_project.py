@@ -22,7 +22,7 @@ from packaging.utils import canonicalize_name
 import r37
 from r37core import __version__
 from r37core.base.io import FILE_ATTRIBUTES
-from r37core.product.extensions import EXTENSIONS
+from r37core.product.extensions import FOLDERS
 
 LAYERS = [
     "base",
@@ -38,7 +38,7 @@ LAYERS = [
     "adaptive",
     "exchange",
 ]
-LAYERS += ["config", "plans", "figures", "explorer", "cases", *(extension.name for extension in EXTENSIONS)]
+LAYERS += ["config", "plans", "figures", "explorer", *FOLDERS]
 LAYERS += ["product", "console"]
 
 
@@ -184,8 +184,7 @@ def test_one_name_one_thing(root):
     twice = {name for name, number in classes.items() if number > 1}
     assert len(twice) < 5, twice
     files = [*modules.values(), *(root / "workflow/scripts").glob("*.py")]
-    extensions = {extension.name for extension in EXTENSIONS}
-    named_by_folder = [file for file in files if file.parent.name in extensions]
+    named_by_folder = [file for file in files if file.parent.name in FOLDERS]
     of_folders = ("__init__.py", "steps.py")
     stems = Counter(file.stem for file in files if file.name not in of_folders and file not in named_by_folder)
     twice = {stem for stem, number in stems.items() if number > 1}
@@ -214,13 +213,13 @@ def test_no_modules_import_each_other_in_a_circle(root):
 
 def test_an_extension_is_one_place(root):
     """Its folder, its file of rules and its line in the registry: nothing else in the package or the workflow knows it."""
-    for extension in EXTENSIONS:
-        assert (root / f"workflow/rules/{extension.name}.smk").exists()
+    for folder in FOLDERS:
+        assert (root / f"workflow/rules/{folder}.smk").exists()
         for file in [*(root / "src/r37core").rglob("*.py"), *(root / "workflow/rules").glob("*.smk"), root / "Snakefile"]:
-            own = file.parent.name == extension.name or file.name in (f"{extension.name}.smk", "extensions.py")
+            own = file.parent.name == folder or file.name in (f"{folder}.smk", "extensions.py")
             names = imports_of(file) if file.suffix == ".py" else re.findall(r"^from ([\w.]+) import", file.read_text(), re.M)
             if not own:
-                assert not [name for name in names if name.startswith(f"r37core.{extension.name}.")], file
+                assert not [name for name in names if name.startswith(f"r37core.{folder}.")], file
 
 
 VAGUE, MOST_VAGUE = ("found", "one", "given"), 1

@@ -13,7 +13,6 @@ from r37core.base.speeds import SpeedPlan
 from r37core.config import ConfigError, command_line_document
 from r37core.config.speed_choice import most_runs
 from r37core.contact.scene import Scene
-from r37core.estimate import plan as estimate
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
@@ -24,6 +23,7 @@ from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.plan import RunUps
 from r37core.tolerances.members import members_of
 from r37core.tolerances.plan import RESPONSE_OF_MEMBER, Tolerances
+from r37core.trials import estimate
 
 PLACES = {"blades": ["Ref", "L50"], "scenes": ["abradable", "direct"]}
 

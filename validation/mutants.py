@@ -45,7 +45,7 @@ TESTS = {
     "rom/craig_bampton.py": "test_rom.py",
     "config/rotor_section.py": "test_rotor_section.py",
     "base/speeds.py": "test_results.py test_config.py",
-    "cases/runner.py": "test_cases.py",
+    "trials/": "test_trials.py",
     "time_integration/integrators.py": "test_time_integration.py test_contact_steps.py test_initial_motion.py",
     "time_integration/gyroscopic.py": "test_coriolis.py",
     "time_integration/jump_plan.py": "test_jumps.py",

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from r37core.stability.steps import ACCURATE, COLUMNS, DEGRADED, DIVERGED, OUTCOMES, REFUSED
+from r37core.trials.stability_tables import ACCURATE, COLUMNS, DEGRADED, DIVERGED, OUTCOMES, REFUSED
 
 from .pages import write_table
 

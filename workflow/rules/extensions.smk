@@ -1,9 +1,12 @@
 # Rules of each extension, and one more that makes all of it and nothing else: snakemake run_ups
-from r37core.product.extensions import EXTENSIONS
+from r37core.product.extensions import EXTENSIONS, FOLDERS
+
+for folder in FOLDERS:
+
+    include: f"{folder}.smk"
+
 
 for extension in EXTENSIONS:
-
-    include: f"{extension.name}.smk"
 
     rule:
         name:

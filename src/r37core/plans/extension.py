@@ -88,12 +88,12 @@ class Sampling:
 class Extension:
     """One capability: a folder of this package, a file of rules, and a line in the registry.
 
-    `name`: of the folder, of the rule that makes all of it, and of its section of config.yaml.
+    `name`: of the folder, of the rule that makes all of it, and of its section of config.yaml. A folder may have `EXTENSIONS`
+    in place of one, each with a name of its own, which share its file of rules.
     `section`: that section; none without one.
     `checks`: what no model of the section alone can check; each raises ConfigError.
     `sampling`: members that it has run next to the sweep, and what is made of them.
     `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
-    `cases`: runs of one blade beside the sweep (r37core.cases), by name.
     `targets`: what is made of them; part of all_blades unless `made_on_request`.
     `offers`: files among the targets that other rules take where a run makes them. `motions`: a dataset of more motions at a
     speed than that from rest (results/other_motions.py), for summary, ranking and the figures of the response; `verdict`: a
@@ -112,7 +112,6 @@ class Extension:
     checks: tuple[Callable[[Settings], None], ...] = ()
     sampling: Sampling | None = None
     simulated: Targets = lambda _: {}
-    cases: Callable[[Settings], Mapping[str, Any]] | None = None
     targets: Targets = lambda _: {}
     offers: Mapping[Literal["motions", "run_ups", "verdict"], str] = field(default_factory=dict)
     remarks: Callable[[Settings], list[str]] = lambda _: []

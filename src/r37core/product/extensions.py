@@ -1,12 +1,13 @@
 """The registry of the extensions: a capability is one folder of this package, one file of rules, and one line here."""
 
 from importlib import import_module
+from itertools import chain
 
 from r37core.config import Settings
 from r37core.plans.extension import Extension, Sampling
 from r37core.plans.extent import Pair
 
-_FOLDERS = (
+FOLDERS = (
     "exports",
     "shapes",
     "signals",
@@ -17,14 +18,18 @@ _FOLDERS = (
     "requirements",
     "tolerances",
     "search",
-    "estimate",
-    "tradeoff",
-    "stability",
+    "trials",
 )
 """Folders of the extensions, in the order of their sections in docs/configuration.md."""
 
-EXTENSIONS: tuple[Extension, ...] = tuple(import_module(f"r37core.{folder}.plan").EXTENSION for folder in _FOLDERS)
-"""All extensions."""
+
+def _declared(folder: str) -> tuple[Extension, ...]:
+    plan = import_module(f"r37core.{folder}.plan")
+    return plan.EXTENSIONS if hasattr(plan, "EXTENSIONS") else (plan.EXTENSION,)
+
+
+EXTENSIONS: tuple[Extension, ...] = tuple(chain.from_iterable(map(_declared, FOLDERS)))
+"""All extensions: one of each folder, or several that share its rules."""
 
 
 def simulations_of_members(settings: Settings) -> dict[Pair, int]:

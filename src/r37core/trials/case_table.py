@@ -1,21 +1,18 @@
-"""The table of cases: a row for each, from which the tables of the extensions follow."""
+"""The table of cases: a row for each, from which the tables of the presets follow."""
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.base.dataset_file import read_dataset
-from r37core.base.io import as_list
+from r37core.base.dataset_file import SPEED
 
 
-def read_cases(input: Any, output: Any) -> dict[str, xr.Dataset]:
-    """Responses of all cases by name. Input: cases, their files, in the folder that is called like the output `table`."""
-    folder = Path(output.table).with_suffix("")
-    return {str(Path(file).relative_to(folder).with_suffix("")): read_dataset(file) for file in as_list(input.cases)}
+def refusal(reason: str) -> xr.Dataset:
+    """A response without speeds, whose attribute `refused` has the reason, without its remedies."""
+    return xr.Dataset(coords={"speed": ("speed", np.empty(0), SPEED.attributes)}, attrs={"refused": reason.split(";")[0]})
 
 
 def case_table(responses: Mapping[str, xr.Dataset], numbers: Callable[[xr.Dataset], Mapping[str, Any]]) -> pd.DataFrame:

@@ -1,8 +1,8 @@
 """A case: what one job runs, as plain data. Light: the workflow imports it."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass, replace
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import astuple, dataclass
+from typing import Self
 
 from r37core.contact.scene import Scene
 from r37core.fem.material import Material
@@ -11,40 +11,40 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 HALF_STEP = "__half_step"
 """End of the name of a case that is another one with half its time step."""
 
+LEVEL = "level"
+"""The parameter that changes everything at once: the fidelity level."""
+
 OWN_MESH = 0
 """Number of nodes that stands for the mesh of the run, as for a blade of another program."""
 
 
 @dataclass(frozen=True)
 class ModelChoice:
-    """A model of a blade made for some cases: nodes of the mesh (or OWN_MESH) and of the tip line, fixed-interface modes.
+    """A model of a blade made for some cases, with the tip line and contact of the run.
 
-    - `boundary_nodes`: number of contact nodes, 0 for as many as the mesh has room for by default.
+    - `nodes`: of the mesh, or OWN_MESH. `boundary_nodes`: 0 for as many as the mesh has room for by default.
     - `stress_region`: `whole` blade or `submesh`, the regions of this run, where stress is recovered.
-    - `tip_ends`: contact nodes reach the `corners` of the tip line, or lie `inside`.
     """
 
     nodes: int
     boundary_nodes: int
     fixed_interface_modes: int
     stress_region: str
-    tip_line: str
-    tip_ends: str
 
     @property
     def name(self) -> str:
         """Folder of the model."""
         return "_".join(map(str, astuple(self)))
 
+    @classmethod
+    def named(cls, name: str) -> Self:
+        """The choice of this name."""
+        nodes, boundary_nodes, modes, region = name.split("_")
+        return cls(int(nodes), int(boundary_nodes), int(modes), region)
 
-MODEL_NAME = r"\d+_\d+_\d+_(submesh|whole)_(pressure_edge|camber|suction_edge)_(corners|inside)"
+
+MODEL_NAME = r"\d+_\d+_\d+_(submesh|whole)"
 """Pattern of ModelChoice.name."""
-
-
-def model_of_name(name: str) -> ModelChoice:
-    """The choice of this name."""
-    nodes, boundary_nodes, modes, region, *line, ends = name.split("_")
-    return ModelChoice(int(nodes), int(boundary_nodes), int(modes), region, "_".join(line), ends)
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,6 @@ class Case:
     """A blade's model in one scene at some speeds, and what is kept of them.
 
     - `model`: made for the case, or this run's own on the tip line of this name.
-    - `scene`: None where the case is refused; `refused` has the reason.
     - `speeds`: rad/s, ascending. With a `crossing` they are shares of its speed in the Campbell diagram of the run.
     - `crossing`: mode and engine order; without an order the one at the highest speed.
     - `results`: as of a scene, and `instants`, the stress at each instant of the last revolution.
@@ -64,7 +63,7 @@ class Case:
 
     blade: str
     model: ModelChoice | str
-    scene: Scene | None
+    scene: Scene
     choice: IntegrationChoice
     speeds: tuple[float, ...]
     results: tuple[str, ...]
@@ -74,25 +73,7 @@ class Case:
     history_speeds: tuple[float, ...] = ()
     share_of_limit: float | None = None
     half_step: bool = False
-    refused: str = ""
 
     def __post_init__(self) -> None:
         if list(self.speeds) != sorted(set(self.speeds)):
             raise ValueError(f"speeds of a case: found {self.speeds}; allowed: ascending, none twice")
-
-    def changed(self, changes: Mapping[str, Any]) -> "Case":
-        """The case with the fields at dotted paths changed; a part that it does not have stays away."""
-        case = self
-        for path, value in changes.items():
-            case = _changed(case, path.split("."), value)
-        return case
-
-
-def _changed(part: Any, path: Sequence[str], value: Any) -> Any:
-    if not path:
-        return value
-    # a bare casing has no lining, matrices have no model but their own
-    if part is None or isinstance(part, str):
-        return part
-    first, *rest = path
-    return replace(part, **{first: _changed(getattr(part, first), rest, value)})

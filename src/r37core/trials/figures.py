@@ -1,16 +1,14 @@
-"""The figures of the trade-off."""
+"""Figures of the presets."""
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from r37core.figures import style
 
-from .errors import QUANTITIES
-from .plan import LEVEL
-from .tables import costs_of
+from .case import LEVEL
+from .tradeoff_tables import QUANTITIES, costs_of
 
 _FLOOR = 1e-7
 """Smallest error that is drawn: the reference has none."""
@@ -46,24 +44,19 @@ def draw_tradeoff(table: pd.DataFrame) -> Figure:
     figure, panels = plt.subplots(1, len(scenes), figsize=size, sharey=True, squeeze=False)
     for axes, scene in zip(panels[0], scenes, strict=True):
         for number, (parameter, cases) in enumerate(table[table["scene"] == scene].groupby("parameter", sort=False)):
-            _draw_cases(axes, str(parameter), cases, "osv^Dx+"[number % 7])
+            error, is_level = np.maximum(cases["error_rms_normal"], _FLOOR), parameter == LEVEL
+            marker = "*" if is_level else "osv^Dx+"[number % 7]
+            label, markersize = str(parameter).replace("_", " "), 11 if is_level else 5
+            axes.loglog(cases["cpu_s"], error, marker, label=label, markersize=markersize)
+            for x, y, name in zip(cases["cpu_s"], error, cases["value"], strict=True) if is_level else ():
+                if np.isfinite(x * y):
+                    axes.annotate(str(name), (x, y), fontsize=7, xytext=(4, 4), textcoords="offset points")
         # names of levels stand to the right of their marks
         axes.margins(x=0.15)
         axes.set(xlabel="CPU s per run", title=scene)
     panels[0, 0].set_ylabel("relative error of the mean normal rms at the peak")
     figure.legend(*style.legend_entries(panels[0]), loc="outside lower center", ncols=5)
     return figure
-
-
-def _draw_cases(axes: Axes, parameter: str, cases: pd.DataFrame, marker: str) -> None:
-    error = np.maximum(cases["error_rms_normal"], _FLOOR)
-    is_level = parameter == LEVEL
-    marker, size = ("*", 11) if is_level else (marker, 5)
-    axes.loglog(cases["cpu_s"], error, marker, label=parameter.replace("_", " "), markersize=size)
-    if is_level:
-        for x, y, name in zip(cases["cpu_s"], error, cases["value"], strict=True):
-            if np.isfinite(x * y):
-                axes.annotate(str(name), (x, y), fontsize=7, xytext=(4, 4), textcoords="offset points")
 
 
 def draw_growth(table: pd.DataFrame, growth: pd.DataFrame) -> Figure:
@@ -82,4 +75,39 @@ def draw_growth(table: pd.DataFrame, growth: pd.DataFrame) -> Figure:
         axes.set_visible(False)
     if growth.empty:
         figure.text(0.5, 0.5, "no parameter was varied over three values", ha="center")
+    return figure
+
+
+COLOURS = {"accurate": "#009E73", "degraded": "#E69F00", "diverged": "#D55E00", "refused": "0.7", "unsound": "#000000"}
+"""Outcome -> colour."""
+
+
+def draw_stability(table: pd.DataFrame) -> Figure:
+    """The outcome of every value of every extreme, one panel per scene."""
+    names, scenes = list(table["what"].unique()), list(table["scene"].unique())
+    height = 0.8 + 0.26 * len(names)
+    figure, panels = plt.subplots(1, len(scenes), figsize=(style.PAGE, height), sharey=True, squeeze=False)
+    places = table.groupby(["scene", "what"]).cumcount()
+    for axes, scene in zip(panels[0], scenes, strict=True):
+        for outcome, colour in COLOURS.items():
+            rows = table[(table["scene"] == scene) & (table["outcome"] == outcome)]
+            heights = [names.index(name) for name in rows["what"]]
+            axes.scatter(places[rows.index], heights, marker="s", s=70, color=colour, label=outcome)
+            for x, y, value in zip(places[rows.index], heights, rows["value"], strict=True):
+                axes.annotate(f"{value:g}", (x, y), xytext=(7, 0), textcoords="offset points", fontsize=5.5, va="center")
+        axes.set(title=scene, xticks=[], xlim=(-0.5, places.max() + 1.0), ylim=(len(names) - 0.5, -0.5))
+        axes.set_yticks(range(len(names)), [name.replace("_", " ") for name in names])
+        axes.grid(False)
+    figure.legend(*style.legend_entries(panels[0]), loc="outside lower center", ncols=len(COLOURS))
+    return figure
+
+
+def draw_estimate(table: pd.DataFrame) -> Figure:
+    """A bar for each part of the cost, and one for all."""
+    figure, axes = plt.subplots(figsize=(style.COLUMN, 1.8))
+    bars = axes.barh(table["part"], table["core_hours"])
+    axes.bar_label(bars, fmt="%.3g", fontsize=6, padding=2)
+    axes.margins(x=0.2)
+    axes.invert_yaxis()
+    axes.set(xlabel="core hours", title=f"{table['simulations'].iloc[0]} simulations")
     return figure

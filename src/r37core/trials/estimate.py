@@ -1,16 +1,17 @@
-"""estimate of config.yaml, and its plan: some of the speeds of each blade and scene, evenly spread."""
+"""The preset estimate: some of the speeds of each blade and scene of the sweep, evenly spread."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from pydantic import Field
 
-from r37core.cases.case import Case
 from r37core.config import Settings
 from r37core.config.section import ExtensionSection, Section
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.extent import Pair, extents
 from r37core.time_integration.speed_run import OF_RUNS
+
+from .case import Case
 
 
 class EstimateSection(Section):
@@ -27,27 +28,22 @@ class EstimateSection(Section):
 
 SECTION = ExtensionSection("estimate", EstimateSection, EstimateSection())
 
-TABLE = "<results>/estimate.csv"
 
-
-def sample(speeds: Sequence[float], every: int) -> list[float]:
-    """Every so many of the speeds, each from the middle of the part it stands for."""
-    return list(speeds[min(every // 2, len(speeds) - 1) :: every])
-
-
-def cases(settings: Settings) -> dict[str, Case]:
+def cases(settings: Settings) -> dict[str, Case | str]:
     """A case for each blade and scene."""
     return {"__".join(pair): _case(settings, *pair) for pair in settings.speed_plans}
 
 
 def _case(settings: Settings, blade: str, scene: str) -> Case:
-    chosen = settings.scenes[scene]
-    speeds = tuple(sample(settings.speed_plans[blade, scene].certain, settings.section(SECTION).every))
+    chosen, every = settings.scenes[scene], settings.section(SECTION).every
+    certain = settings.speed_plans[blade, scene].certain
+    # each from the middle of the part that it stands for
+    speeds = certain[min(every // 2, len(certain) - 1) :: every]
     return Case(
         blade,
         chosen.tip_line,
         chosen.scene,
-        settings.integration_choice(blade, scene, settings.structure.maximum_speed_rad_s),
+        settings.integration_choice(blade, scene, 0.0),
         speeds,
         results=tuple(kind for kind in settings.results_of(blade, scene) if kind in OF_RUNS),
         material=settings.blades[blade].material,
@@ -66,21 +62,22 @@ def values(settings: Settings, members: Mapping[Pair, int]) -> dict[str, Any]:
     }
 
 
+TABLES = {"table": "<results>/estimate.csv"}
+
 EXTENSION = Extension(
     name="estimate",
     section=SECTION,
-    cases=cases,
-    targets=lambda _: {TABLE: [{}]},
+    targets=lambda _: {TABLES["table"]: [{}]},
     figures=(
         Figure(
             rule="estimate_figure",
             name="estimate",
-            draw="estimate.figures.draw_estimate",
-            files={"table": TABLE},
+            draw="trials.figures.draw_estimate",
+            files=TABLES,
             label="cost of the sweep",
             caption="Core hours of the whole sweep, projected from a sample of its runs, by what they are spent on.",
         ),
     ),
-    closing="estimate.steps.closing",
+    closing="trials.estimate_tables.closing",
     made_on_request=True,
 )

@@ -1,4 +1,4 @@
-"""Steps of the workflow (docs/architecture.md): the cost of a whole sweep, projected from a sample of its runs."""
+"""The table of the estimate: the cost of a whole sweep, projected from a sample of its runs."""
 
 import os
 import statistics
@@ -11,15 +11,15 @@ from typing import Any
 import pandas as pd
 import xarray as xr
 
-from r37core.cases.table import case_table, read_cases
 from r37core.results.closing import counted
-from r37core.results.table_file import read_table, write_table
+from r37core.results.table_file import read_table
+
+from .case_table import case_table
 
 
-def report(input: Any, output: Any, params: Any) -> None:
-    """Project the cost. Inputs: cases, their responses. Output: table (csv). Params: values."""
-    costs = projected_costs(case_table(read_cases(input, output), numbers), start_up=time_start_up(), **params.values)
-    write_table(costs, output.table, digits=6)
+def tables(responses: Mapping[str, xr.Dataset], **values: Any) -> dict[str, pd.DataFrame]:
+    """The projected cost; `values` as of estimate.values."""
+    return {"table": projected_costs(case_table(responses, numbers), start_up=time_start_up(), **values)}
 
 
 _IMPORTS = "import r37core.time_integration.speed_run, r37core.time_integration.speed_file"
@@ -34,9 +34,9 @@ def numbers(response: xr.Dataset) -> dict[str, float]:
 
 
 def time_start_up() -> float:
-    """CPU seconds of an interpreter that does the imports of a job and ends: the median of seven."""
+    """CPU seconds of an interpreter that does the imports of a job and ends: the median of three."""
     spent = []
-    for _ in range(7):
+    for _ in range(3):
         before = os.times()
         subprocess.run([sys.executable, "-c", _IMPORTS], check=True)
         after = os.times()

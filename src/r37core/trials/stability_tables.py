@@ -1,4 +1,4 @@
-"""Steps of the workflow (docs/architecture.md): outcomes at extremes, each a real run judged by another with half its step."""
+"""The table of extremes: their outcomes, each a real run judged by another with half its step."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -8,12 +8,13 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from r37core.cases.case import HALF_STEP
-from r37core.cases.table import case_table, energy_share, read_cases
 from r37core.results.closing import counted
 from r37core.results.measures import leading_edge, motion
-from r37core.results.table_file import read_table, write_table
+from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus
+
+from .case import HALF_STEP
+from .case_table import case_table, energy_share
 
 ACCURATE, DEGRADED, DIVERGED, REFUSED, UNSOUND = OUTCOMES = ("accurate", "degraded", "diverged", "refused", "unsound")
 """Accurate: half the step gives the same mean rms within ACCURATE_WITHIN; degraded: it does not; diverged: the run reports it,
@@ -87,18 +88,15 @@ def closing(results: Path) -> str:
 COLUMNS = ("what", "value", "scene", "outcome", "detail", "time_step_s", "rms_m", "share_in_contact")
 
 
-def report(input: Any, output: Any, params: Any) -> None:
-    """Judge every extreme. Inputs: cases, their responses. Output: table (csv)."""
-    cases = case_table(read_cases(input, output), numbers).to_dict("index")
+def tables(responses: Mapping[str, xr.Dataset]) -> dict[str, pd.DataFrame]:
+    """The outcome of every extreme."""
+    cases = case_table(responses, numbers).to_dict("index")
     rows = []
     for name in [name for name in cases if not name.endswith(HALF_STEP)]:
-        outcome, detail = judge(cases[name], cases[f"{name}{HALF_STEP}"])
-        rows.append({**words(name), **cases[name], "outcome": outcome, "detail": detail})
-    write_table(pd.DataFrame(rows, columns=list(COLUMNS)), output.table, digits=6)
-
-
-def words(name: str) -> dict[str, str]:
-    """Columns of the table from the name of a case: what is extreme, its value and the scene."""
-    extreme, _, scene = name.partition("__")
-    what, _, value = extreme.rpartition("_")
-    return {"what": what, "value": value, "scene": scene}
+        outcome, detail = judge(cases[name], cases.get(f"{name}{HALF_STEP}", {}))
+        # the name has what is extreme, its value and the scene
+        extreme, _, scene = name.partition("__")
+        what, _, value = extreme.rpartition("_")
+        words = {"what": what, "value": value, "scene": scene}
+        rows.append({**words, **cases[name], "outcome": outcome, "detail": detail})
+    return {"table": pd.DataFrame(rows, columns=list(COLUMNS))}

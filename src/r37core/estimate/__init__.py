@@ -1,1 +1,0 @@
-"""Cost of a whole sweep: a sample of its runs, timed."""

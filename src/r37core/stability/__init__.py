@@ -1,1 +1,0 @@
-"""Extremes of the configuration: each is run with its own step and with half of it."""
