@@ -11,7 +11,7 @@ LOCK := envs/lock.txt
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint $(LOCK)
 
 .DEFAULT_GOAL := help
-.PHONY: help all_blades campbell report test test-fast test-slurm mutants lint validation test-validation site tutorial setup lock clean clean-results
+.PHONY: help all_blades campbell report test test-fast mutants lint validation test-validation site tutorial setup lock clean clean-results
 
 help: ## this list
 	@awk -F ': .*## ' '/^[a-z][a-z_-]*:.*## / {printf "make %-14s %s\n", $$1, $$2}' Makefile
@@ -32,11 +32,6 @@ test: $(VENV)/.ready ## all tests
 
 test-fast: $(VENV)/.ready ## the tests that neither run Snakemake nor build larger models
 	$(BIN)/python -m pytest -q -m 'not slow' $(SPREAD)
-
-# needs root, and installs Slurm where there is apt-get
-test-slurm: $(VENV)/.ready ## parts of a sweep on a Slurm of one node, which the test starts
-	sh envs/slurm.sh
-	R37_SLURM=1 $(BIN)/python -m pytest tests/test_slurm.py
 
 # a sample, and what they missed; MUTANTS='results/stress_recovery.py --each 20' for one module
 mutants: $(VENV)/.ready ## whether the tests notice small changes of the code: about half an hour

@@ -29,7 +29,7 @@ os.environ["SOURCE_DATE_EPOCH"] = "1000000000"
 
 CHECKOUT = Path(__file__).parent.parent
 CONFIGURATION = Path(__file__).parent / "config"
-DELIVERED = ("cluster", "docs", "envs", "examples", "profiles", "workflow", "pyproject.toml", "CITATION.cff")
+DELIVERED = ("docs", "envs", "examples", "profiles", "workflow", "pyproject.toml", "CITATION.cff")
 DELIVERED += ("Makefile", "MANIFEST.in", "Snakefile", "CHANGELOG.md", "CONTRIBUTING.md", "README.md")
 DELIVERED += ("codemeta.json", ".zenodo.json", "CODE_OF_CONDUCT.md", ".pre-commit-config.yaml")
 
@@ -54,7 +54,7 @@ class Terminal(io.StringIO):
         return True
 
 
-LONGEST = ("workflow", "assess", "time_integration", "python", "slurm", "runs", "python_calls", "refined_runs", "trials")
+LONGEST = ("workflow", "assess", "time_integration", "python", "runs", "python_calls", "refined_runs", "trials")
 LONGEST += ("search_calls", "your_blade", "native", "examples", "explorer", "reruns", "edge", "elastic_casing")
 """Files that take a minute. The second needs other programs than the first, which makes the sweep that others wait for."""
 

@@ -17,8 +17,10 @@ from r37core.console.executor import Executor
 CLUSTER = ("--workflow-profile", "profiles/cluster", "--executor", "cluster-generic", "--cluster-generic-submit-cmd", "sh")
 
 
-def test_the_profile_has_the_keys_of_the_usual_one(root):
-    usual, cluster = (yaml.safe_load((root / f"profiles/{name}/config.yaml").read_text()) for name in ("default", "cluster"))
+def test_the_profiles_have_the_keys_of_the_usual_one(root):
+    names = ("default", "node", "cluster")
+    usual, node, cluster = (yaml.safe_load((root / f"profiles/{name}/config.yaml").read_text()) for name in names)
+    assert node == usual | {"cores": "all"}
     assert usual.pop("executor") == "warm"
     assert cluster | usual == cluster
 

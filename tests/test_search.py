@@ -22,7 +22,7 @@ from r37core.product.reading import read_settings
 from r37core.rom.region_choice import RegionChoice
 from r37core.search import rounds
 from r37core.search.dataset import BLADES_HEADER, search_dataset, search_table, write_entries
-from r37core.search.plan import Search, choice_of, designs_of, is_asked
+from r37core.search.plan import Search, choice_of, designs_of
 from r37core.search.problem import Constraint, Design, SearchChoice, SearchVariable
 from r37core.search.proposal import first_designs
 from r37core.search.quantity import DesignStructure, Quantity, contact_value, structure_value
@@ -102,14 +102,6 @@ def test_what_cannot_be_searched_is_refused_in_one_line(folder, changes, message
     with pytest.raises(ConfigError, match=rf"^config/config.yaml:\d+: .*{message}") as refusal:
         read_settings(folder)
     assert "\n" not in str(refusal.value)
-
-
-def test_a_part_of_the_blades_has_a_search_where_it_has_the_start(folder):
-    overlay(folder, "config.yaml", "{ blades: [Ref, Free], run: { part: 1/2 } }")
-    assert not is_asked(read_settings(folder))
-    overlay(folder, "config.yaml", "{ run: { part: 2/2 }, search: { objectives: { lined: { scenes: [nope] } } } }")
-    with pytest.raises(ConfigError, match=r"lined.scenes: found 'nope'"):
-        read_settings(folder)
 
 
 def test_all_designs_may_be_of_the_first_round(folder):

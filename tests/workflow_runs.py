@@ -110,8 +110,7 @@ def copy_odd_project(root, to):
     project = to / NAME
     project.mkdir()
     copy_project(root, project)
-    for name in ("Makefile", "pyproject.toml", "cluster/sweep.sbatch"):
-        (project / name).parent.mkdir(exist_ok=True)
+    for name in ("Makefile", "pyproject.toml"):
         (project / name).write_text((root / name).read_text())
     venv.create(project / ".venv", symlinks=True)
     packages = next((project / ".venv").glob("lib/python*/site-packages"))
@@ -120,9 +119,9 @@ def copy_odd_project(root, to):
     return project
 
 
-def run_in_odd_project(folder, *command, **environment):
+def run_in_odd_project(folder, *command):
     """What the command prints. It may run nothing that stands in the folder's name."""
-    environment = _environment(folder) | {"R37_FULL_LOG": ""} | environment
+    environment = _environment(folder) | {"R37_FULL_LOG": ""}
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert not list(folder.parent.rglob("EXECUTED"))

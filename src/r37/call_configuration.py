@@ -70,7 +70,7 @@ class Configuration:
         """Checked settings of these `keys` on top of this configuration; a message names the `caller` as its place.
 
         `blades_above`, `scenes_above`: changes on top of these files. What the configuration says of a run counts if it is
-        taken `whole`, but for a name of the run and a part of it. Raises ConfigError.
+        taken `whole`, but for its section run. Raises ConfigError.
         """
         left_out = {"run", *(_SPEEDS if keys.keys() & set(_SPEEDS) else ())} if whole else set(_OF_A_RUN)
         content = {key: value for key, value in self.document.content.items() if key not in left_out}

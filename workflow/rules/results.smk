@@ -14,7 +14,7 @@ use rule step as configuration with:
         merged=settings.merged(),
 
 
-# all that lies in the folders of the blades: what runs on several machines at once make (docs/cluster.md), and a rule for --batch
+# all that lies in the folders of the blades, which jobs of a cluster make (docs/cluster.md)
 rule responses:
     input:
         expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),

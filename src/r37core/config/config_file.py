@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
-from pydantic import AfterValidator, Field, create_model, model_validator
+from pydantic import Field, create_model, model_validator
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
 from r37core.contact.scene import Scene
@@ -176,31 +175,11 @@ class OperatingSection(Section):
         return si_form(OperatingRange, self, dwell=tuple(si_form(OperatingDwell, dwell) for dwell in self.dwell))
 
 
-def _check_part(part: str) -> str:
-    if re.fullmatch(r"[1-9]\d{0,5}/[1-9]\d{0,5}", part):
-        number, parts = map(int, part.split("/"))
-        if number <= parts:
-            return part
-    raise refused((), repr(part), "a number of a part and how many there are, as in 2/7")
-
-
-Part = Annotated[str, AfterValidator(_check_part)]
-
-
 class Run(Section):
-    """Folder of the results, and part of the blades."""
+    """Folder of the results, and the file that stands for the code."""
 
     name: Name | LeftOut = left_out("Name of the run, whose results go to results/runs/<name>")
-    part: Part | LeftOut = left_out("Part of the blades for `snakemake responses` on several machines, such as 2/7")
     engine: FileName | LeftOut = left_out("File in place of the code: its changes alone make results out of date")
-
-    def part_blades(self, names: list[str]) -> list[str]:
-        """The blades of this part, all without one; no two parts share one, and their numbers differ by one at most."""
-        if self.part is None:
-            return names
-        number, parts = map(int, self.part.split("/"))
-        first, last = ((number - 1) * len(names)) // parts, (number * len(names)) // parts
-        return names[first:last]
 
 
 class Config(Section):

@@ -59,7 +59,7 @@ def simulations_can_be_planned(settings: Settings) -> None:
     number = sum(len(plan.certain) for plan in settings.speed_plans.values())
     if number > LARGEST_NUMBER_OF_SIMULATIONS:
         planned = f"{number} simulations of {len(settings.blade_names)} blades in {len(settings.scene_names)} scenes"
-        allowed = f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run; more in parts (run.part, docs/cluster.md)"
+        allowed = f"at most {LARGEST_NUMBER_OF_SIMULATIONS} in one run; more in several, with a run.name each"
         raise settings.documents.config.refusal(("speeds",), planned, allowed)
 
 

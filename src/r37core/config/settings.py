@@ -92,16 +92,11 @@ class Settings:
 
     @cached_property
     def blade_names(self) -> list[str]:
-        """Blades that config.yaml chooses, of a family all of its designs, as far as they are in this run's part.
+        """Blades that config.yaml chooses, of a family all of its designs.
 
-        Raises ConfigError for a name that is not in the file, and where the part has none.
+        Raises ConfigError for a name that is not in the file.
         """
-        several = _chosen(self, "blades", self.designs)
-        names = self.config.run.part_blades(several)
-        if not names:
-            part = f"{self.config.run.part} of {len(several)} blades"
-            raise self.documents.config.refusal(("run", "part"), part, f"at most {len(several)} parts")
-        return names
+        return _chosen(self, "blades", self.designs)
 
     @cached_property
     def blades(self) -> dict[str, BladeSettings]:

@@ -25,7 +25,7 @@ from r37core.plans.extent import extent_of
 from r37core.product.closing import closing_lines
 from r37core.product.extensions import simulations_of_members
 from r37core.product.reading import settings_of_run
-from r37core.product.remarks import check_asked, check_part, lines_of_extensions, remarks, replaced_level, source_folder
+from r37core.product.remarks import check_asked, lines_of_extensions, remarks, replaced_level, source_folder
 
 from . import failures, lock
 from .caller import Caller
@@ -57,7 +57,6 @@ class Console:
     def start(self) -> None:
         """Check the targets, before the first job."""
         with _refused(self.refusal):
-            check_part(self.settings, self.workflow.dag_settings.targets)
             check_asked(self.settings, self.workflow.dag_settings.targets)
         if self.workflow.local_exec:
             # Snakemake keeps to a number of jobs per second by timers, one more for every job that ends while others wait: a

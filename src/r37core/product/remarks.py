@@ -69,20 +69,6 @@ def _look_at(extension: Extension, files: list[Path], results: Path) -> Path:
 CONFIGURATION = "configuration.json"
 """File in the folder of the results with what the run was made with."""
 
-RESPONSES = "responses"
-"""The rule that makes what lies in the folders of the blades, and nothing of all blades together."""
-
-
-def check_part(settings: Settings, targets: Collection[str]) -> None:
-    """ConfigError for a part of the blades with other targets: datasets of a part would replace those of all blades."""
-    part = settings.config.run.part
-    if part is not None and set(targets) != {RESPONSES}:
-        raise ConfigError(
-            f"run.part: found {part} with the target {', '.join(sorted(targets)) or 'all_blades'}; "
-            f"allowed: the target {RESPONSES}, as in: "
-            f"snakemake {RESPONSES} --config run='{{part: {part}}}'; then all_blades without a part"
-        )
-
 
 def replaced_level(settings: Settings) -> list[str]:
     """A line for the user when the results that lie there were made with another fidelity level."""

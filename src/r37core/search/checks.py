@@ -13,7 +13,7 @@ from r37core.config.messages import did_you_mean, single_line
 from r37core.config.shape_keys import SHARES, ShapeKeys
 from r37core.rom.naming import mode_names
 
-from .designs import SearchDesigns, choice_of, designs_of, is_asked
+from .designs import SearchDesigns, choice_of, designs_of
 from .gaussian_processes import SearchPackageMissing, library
 from .quantity import FATIGUE_MEASURES, IN_OPERATION
 from .section import SECTION
@@ -22,7 +22,7 @@ from .section import SECTION
 def search_can_be_run(settings: Settings) -> None:
     """The blade, the scenes and the variables are there, and the library is installed that proposes designs."""
     entry, document = settings.section(SECTION), settings.documents.config
-    if entry is None or (settings.config.run.part is not None and not is_asked(settings)):
+    if entry is None:
         return
     if entry.blade not in settings.blade_names:
         raise document.refusal(("search", "blade"), f"'{entry.blade}'", f"one that is run ({', '.join(settings.blade_names)})")

@@ -55,10 +55,8 @@ class Members:
 
         Raises ConfigError where numbers are given and no blade and scene that is run has any of them.
         """
-        settings, nominals = self._settings, self._nominals
-        pairs = [pair for pair, nominal in nominals.items() if any(value is not None for value in nominal)]
-        # a part of the blades may have none
-        if self.numbers and not pairs and settings.config.run.part is None:
+        pairs = [pair for pair, nominal in self._nominals.items() if any(value is not None for value in nominal)]
+        if self.numbers and not pairs:
             named, (blades, scenes) = ", ".join(number.key for number in self.numbers), self._chosen
             run = f"{', '.join(blades)} in {', '.join(scenes)}"
             raise self._refusal((), f"none of its numbers ({named}) in {run}", "blades and scenes that are run and have some")
