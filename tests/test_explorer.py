@@ -11,11 +11,13 @@ from browser import opened
 from explorer_cases import BLADES, SCENES, SPEEDS, beside, interaction_rows, sweep
 from workflow_runs import copy_project, overlay, planned
 
-from r37core.explorer import FOLDER, page_parts, write_page
+from r37core.config import command_line_document
+from r37core.explorer import write_page
 from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
+from r37core.plans.sweep_plan import Sweep
+from r37core.product.reading import load_settings
+from r37core.product.targets import linked_figures
 from r37core.results.table_file import read_table
-from r37core.rotors.panel import rotor_contents
-from r37core.rotors.plan import EXTENSION
 from r37core.time_integration.status import RunStatus
 
 datasets = pytest.fixture(scope="module")(sweep)
@@ -141,24 +143,6 @@ def test_contents_have_the_members_of_a_sample(datasets, interactions, tolerance
         assert np.isposinf(band[1, :, 2]).all()
         assert np.isposinf(members[1, 60:, 3]).all()
         assert np.isfinite(members[1, :60, 3]).all()
-
-
-@pytest.fixture
-def rotors():
-    """Two in the lining: of three places, the second one empty, of which the second run diverged; and of four blades."""
-    axes = {"blade_number": [1, 2, 3, 4], "span": [2, 4, 6], "nodal_diameter": [-1, 0, 1, 2]}
-    values = 1e-4 * np.array([[1.0, np.nan, 3.0, np.nan], [np.nan] * 4, [4.0, 1.0, 2.0, 3.0]])
-    growth = values[:, :, None] * np.array([1.0, 2.0, np.nan])
-    growth[2, :, 2] = 5e-4
-    data = {
-        "blade_rms": (("run", "blade_number"), values),
-        "blade_maximum": (("run", "blade_number", "span"), growth),
-        "blade_angle": (("run", "blade_number"), np.where(np.isnan(values[[0, 0, 2]]), np.nan, 0.5)),
-        "leader": ("run", np.array([3, 1, 1])),
-        "nodal_diameter_share": (("run", "nodal_diameter"), np.array([[0.5, 0.2, 0.3, np.nan], [np.nan] * 4, [0, 0, 0, 1]])),
-    }
-    runs = {"speed": [900.0, 1000.25, 900.0], "blade": ["Ref", "Ref", "L<50>"], "scene": ["abradable"] * 3}
-    return xr.Dataset(data, axes | {name: ("run", values) for name, values in runs.items()})
 
 
 @pytest.fixture(scope="module")
@@ -445,23 +429,21 @@ def test_the_spectrum_shows_every_speed_on_its_own_scale(page, datasets):
     assert "mm" in page.evaluate("document.getElementById('spectrum').data[0].text[3][1]")
 
 
-def test_rotors_have_panels_in_their_scenes(page, datasets, interactions, rotors, tmp_path):
-    assert page.locator("#rotor_map").count() == 0
-    contents = explorer_contents(datasets, interactions) | {"panels": {"rotors": rotor_contents(rotors)}}
-    place, parts = "#blade=Ref&scene=abradable&speed=900", page_parts([FOLDER.parent / EXTENSION.panel.program])
-    with beside(page, contents, tmp_path / "explorer.html", place=place, parts=parts) as other:
-        panels = [f"#rotor_{name}" for name in ("map", "leader", "growth", "waves")]
-        assert all(map(other.is_visible, panels))
-        (cells,) = other.evaluate("[document.getElementById('rotor_map').data[0].z]")
-        assert cells[1] == [None, None] and cells[2] == [pytest.approx(np.log10(0.3), abs=1e-4), None]
-        assert "blade 3 leads<br>0.3 mm" in other.evaluate("document.getElementById('rotor_leader').data[0].text[0]")
-        growth = [(curve["name"], curve["x"]) for curve in traces(other, "rotor_growth")]
-        assert growth == [("blade 3", [2, 4]), ("blade 1", [2, 4]), ("median of all", [2, 4])]
-        np.testing.assert_allclose(traces(other, "rotor_waves")[0]["y"], [50.0, 20.0, 30.0], rtol=1e-4)
-        choose(other, speed="1000.25")
-        assert traces(other, "rotor_waves")[0]["y"] == [0.0, 0.0, 0.0]
+def test_figures_of_extensions_are_linked_where_they_belong(page, datasets, interactions, root, tmp_path):
+    """Those of the chosen blade and scene, and those of several; a run without any has no line of them."""
+    assert page.text_content("#figures") == ""
+    scenes = command_line_document({"abradable": {"rotor": {"blades": 2}, "results": ["stress"]}})
+    search = {"blade": "Ref", "variables": {"thickness_percent": [90, 110]}, "objectives": {"direct": {"scenes": ["direct"]}}}
+    changes = {"blades": ["Ref", "S50"], "scenes": ["abradable", "direct"], "fidelity": "draft", "search": search}
+    settings = load_settings(command_line_document(changes), root, scenes_above=scenes)
+    contents = explorer_contents(datasets, interactions) | {"figures": linked_figures(Sweep(settings))}
+    with beside(page, contents, tmp_path / "explorer.html", place="#blade=Ref&scene=abradable&speed=900") as other:
+        links = other.locator("#figures a")
+        files = [f"figures/{name}.png" for name in ("rotor_Ref__abradable", "search_designs", "search_slices")]
+        assert [link.get_attribute("href") for link in links.all()] == files
+        assert links.all_text_contents() == ["rotors: rotor", "search: designs", "search: slices"]
         choose(other, scene="direct")
-        assert not any(map(other.is_visible, panels)) and "Rotor" not in other.text_content("#missing")
+        assert links.all_text_contents() == ["search: designs", "search: slices"]
 
 
 def test_a_diverged_run_is_marked(page, datasets, interactions, tmp_path):
@@ -615,12 +597,11 @@ def test_table_has_the_range_of_the_peak(page):
 
 
 @pytest.mark.slow
-def test_the_page_is_made_of_members_and_rotors_where_there_are_some(root, tmp_path):
+def test_the_page_is_made_of_members_where_there_are_some(root, tmp_path):
     """Only the page needs the members' dataset: the table of interactions is made of another file."""
     copy_project(root, tmp_path)
-    assert not {"tolerances_dataset", "rotors_dataset"} & set(planned(tmp_path, "results/explorer.html"))
-    overlay(tmp_path, "scenes.yaml", "{ abradable: { rotor: { blades: 2 }, results: [stress] }, direct: { rotor: null } }")
+    assert "tolerances_dataset" not in planned(tmp_path, "results/explorer.html")
     ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
     overlay(tmp_path, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], scenes: [direct], {ranges} }}")
-    assert {"tolerances_dataset", "rotors_dataset"} <= set(planned(tmp_path, "results/explorer.html"))
+    assert "tolerances_dataset" in planned(tmp_path, "results/explorer.html")
     assert "tolerances_dataset" not in planned(tmp_path, "results/summary.csv")

@@ -6,21 +6,13 @@ from functools import cache
 import numpy as np
 import pytest
 import xarray as xr
-from test_explorer import unpacked
 from test_rotor import CHOICE, KEPT, LINED_RING, RING, SPEED, STEEP, a_blade, rotor_of, run, samples
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import Named
-from r37core.config import command_line_document
-from r37core.plans import paths
-from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import load_settings
-from r37core.results.joining import join_runs
 from r37core.results.table_file import read_table
-from r37core.rotors.dataset import RUNS, rotor_dataset, rotor_table
+from r37core.rotors.dataset import rotor_dataset, rotor_table
 from r37core.rotors.figures import draw_rotor
-from r37core.rotors.panel import MOST_SPANS, rotor_contents
-from r37core.rotors.plan import EXTENSION, remarks, rotor_runs
 from r37core.rotors.steps import join, rotor_of_run
 from r37core.stress.operator import StressOperator
 from r37core.time_integration.kept_numbers import KEPT as KEPT_DIRECTIONS
@@ -213,13 +205,16 @@ def test_the_leader_moves_most_in_both_directions_together():
     np.testing.assert_allclose(numbers["nodal_diameter_share"], found["nodal_diameter_share"], rtol=1e-12)
 
 
+SPANS = 41
+
+
 def a_rotor(rms, stress=None, status=None, leader=None):
     """rotor.nc at speeds of 900, 910, ... rad/s, of blades 1, 3, 5, ...; stresses in GPa and in a yield stress of 1 GPa.
 
     The motion in spans of two revolutions is a tenth of the rms, two tenths and so on.
     """
     rms, numbers = np.array(rms, dtype=float), 1 + 2 * np.arange(len(rms[0]))
-    speeds, spans = 900.0 + 10.0 * np.arange(len(rms)), np.arange(1, MOST_SPANS + 2)
+    speeds, spans = 900.0 + 10.0 * np.arange(len(rms)), np.arange(1, SPANS + 1)
     by_blade, one = ("speed", "blade_number"), np.ones(len(numbers))
     data = {
         "blade_rms": (by_blade, rms),
@@ -296,7 +291,7 @@ def test_the_figure_shows_all_blades_and_names_those_that_move_most():
     names = [line.get_label() for line in growth.lines]
     assert names[2:] == ["blade 9", "blade 5", "blade 1"] and all(name.startswith("_") for name in names[:2])
     for line, size in zip(growth.lines, (2.0, 1.0, 5.0, 4.0, 3.0), strict=True):
-        np.testing.assert_allclose(line.get_ydata(), 0.1 * size * np.arange(1, MOST_SPANS + 2))
+        np.testing.assert_allclose(line.get_ydata(), 0.1 * size * np.arange(1, SPANS + 1))
     assert 0.0 < growth.lines[0].get_linewidth() < growth.lines[2].get_linewidth() and "at 900 rad/s" in growth.get_xlabel()
     assert [bar.get_height() for bar in waves.patches] == pytest.approx([10.0, 20.0, 70.0])
     assert [bar.get_x() + 0.5 * bar.get_width() for bar in waves.patches] == pytest.approx([-1.0, 0.0, 1.0])
@@ -316,65 +311,3 @@ def test_the_figure_of_one_speed_or_without_stress_has_lines():
     lost = a_rotor([[np.nan, np.nan]], None, [1], [3])
     figure = draw_rotor(lost, "Ref")
     assert figure.axes[0].lines[-1].get_ydata().tolist() == [0.0]
-
-
-def joined(files, file):
-    join_runs(list(files.values()), files, RUNS, file, "Rotors", "draft")
-    return read_dataset(file)
-
-
-def test_the_panel_shows_the_growth_of_the_blades_that_move_most(tmp_path):
-    lost = [np.nan] * 5
-    many = a_rotor([[3.0, 1.0, 4.0, 2.0, 5.0], lost], [[0.5, 2.0, 3.0, 0.1, 0.2], lost], [0, 1], [9, 3])
-    files = files_of(tmp_path, {"many": many, "few": a_rotor([[1.0, 2.0]])})
-    contents = {rotor["scene"]: rotor for rotor in rotor_contents(joined(files, tmp_path / "rotor.nc"))}
-    rotor = contents["many"]
-    assert (rotor["blade"], rotor["numbers"], rotor["diameters"]) == ("Ref", [1, 3, 5, 7, 9], [-1, 0, 1])
-    np.testing.assert_allclose(unpacked(rotor["rms"]), 1e3 * many["blade_rms"], rtol=1e-4)
-    np.testing.assert_array_equal(unpacked(rotor["speeds"]), [900.0, 910.0])
-    np.testing.assert_array_equal(unpacked(rotor["largest"]), [[9, 5, 1], [1, 3, 5]])
-    np.testing.assert_array_equal(unpacked(rotor["leader"]), [9, 3])
-    np.testing.assert_array_equal(unpacked(rotor["above_yield"]), [2, np.nan])
-    np.testing.assert_allclose(unpacked(rotor["shares"]), [[10, 20, 70], [np.nan] * 3], rtol=1e-4)
-    # neighbouring spans are joined: the last one has no neighbour
-    assert rotor["spans"] == [*range(4, 2 * MOST_SPANS + 1, 4), 2 * MOST_SPANS + 2]
-    growth = unpacked(rotor["growth"])
-    assert growth.shape == (2, 4, MOST_SPANS // 2 + 1) and np.isnan(growth[1]).all()
-    np.testing.assert_allclose(growth[0, :, 0], 0.2 * 1e3 * np.array([5.0, 4.0, 3.0, 3.0]), rtol=1e-4)
-    np.testing.assert_allclose(growth[0, :, -1], 0.1 * 1e3 * (MOST_SPANS + 1) * np.array([5.0, 4.0, 3.0, 3.0]), rtol=1e-4)
-    # another blade shape in the same scene
-    both = joined(files | {("S100", "many"): files["Ref", "few"]}, tmp_path / "rotor.nc")
-    assert [(rotor["blade"], rotor["numbers"]) for rotor in rotor_contents(both)][1:] == [("Ref", [1, 3]), ("S100", [1, 3])]
-    rotor = contents["few"]
-    assert rotor["numbers"] == [1, 3] and unpacked(rotor["largest"]).tolist() == [[3, 1]]
-    assert np.isnan(unpacked(rotor["above_yield"])).all()
-
-
-@pytest.mark.parametrize("diverged", [[0, 1, 0], [1, 1, 1]])
-@pytest.mark.parametrize("stressed", [True, False])
-def test_speeds_that_diverged_are_crosses_in_the_figure(diverged, stressed):
-    lost = np.where(np.array(diverged)[:, None] > 0, np.nan, [[1.0, 2.0]])
-    rotor = a_rotor(lost, lost if stressed else None, diverged, [3, 3, 1])
-    figure = draw_rotor(rotor, "Ref")
-    (crosses,) = (line for line in figure.axes[0].lines if line.get_label() == "diverged")
-    np.testing.assert_array_equal(crosses.get_xdata(), 900.0 + 10.0 * np.flatnonzero(diverged))
-    np.testing.assert_array_equal(crosses.get_ydata(), np.array([3, 3, 1])[np.array(diverged) > 0])
-    told = f"\n{sum(diverged)} of 3 speeds diverged"
-    most = 1 - min(diverged)
-    assert figure.axes[1].get_title() == (f"at most {most} of 2 blades above yield at one speed{told}" if stressed else "")
-
-
-def test_a_rotor_has_a_dataset_a_table_and_figures_where_there_is_one(root):
-    chosen = {"blades": ["Ref", "S100"], "scenes": ["abradable", "direct"], "fidelity": "draft"}
-    sweep = Sweep(load_settings(chosen, root))
-    assert not rotor_runs(sweep) and remarks(sweep.settings) == []
-    assert not any(EXTENSION.all_targets(sweep).values())
-    above = command_line_document({"abradable": {"rotor": {"blades": 5, "missing": [2]}, "results": ["stress"]}})
-    sweep = Sweep(load_settings(chosen, root, scenes_above=above))
-    assert rotor_runs(sweep) == [("Ref", "abradable"), ("S100", "abradable")]
-    figures = {
-        f"<results>/figures/rotor_{{blade}}__{{scene}}.{suffix}": paths.run_keys(rotor_runs(sweep)) for suffix in ("png", "pdf")
-    }
-    assert EXTENSION.all_targets(sweep) == {"<results>/rotor.nc": [{}], "<results>/rotors.csv": [{}]} | figures
-    (remark,) = remarks(sweep.settings)
-    assert remark.startswith("scene 'abradable': 4 blades on one lining cost as many times a single one")

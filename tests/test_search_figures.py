@@ -5,8 +5,7 @@ import pytest
 import xarray as xr
 
 from r37core.base.units import shown_unit
-from r37core.search.figures import draw_designs, draw_slices
-from r37core.search.panel import broken_key
+from r37core.search.figures import broken_key, draw_designs, draw_slices
 
 KEYS = ("sweep_lean.1.sweep_cm", "stagger_deg.tip")
 UNITS = {"lined": "rad s-1", "stress": "Pa", "mass": "kg"}

@@ -18,6 +18,7 @@ from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep
 from r37core.product.extensions import sampling_of
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
+    linked_figures,
     offered,
     panels,
     simulated,

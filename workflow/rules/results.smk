@@ -108,4 +108,5 @@ use rule step as explorer with:
         programs=programs,
         title=f"r37 {settings.config.run.name or ''}".strip(),
         operating=operating,
+        figures=linked_figures(sweep),
         parts=parts_hash(page_parts(programs)),

@@ -194,6 +194,20 @@
       ? `Not computed for ${state.blade} in ${state.scene}: ${titles.join(", ")}.${history}` : "";
   }
 
+  // the archive of Snakemake's report has each file in a folder of its own, and lists the figures itself
+  const IN_REPORT = /\/data\/raw\/[0-9a-f]+\/[^/]+$/.test(window.location.pathname);
+
+  // figures of extensions: those of the chosen blade and scene, and those of several
+  function drawFigures() {
+    const isHere = ({ blade = state.blade, scene = state.scene }) => !IN_REPORT && blade === state.blade && scene === state.scene;
+    const links = (data.figures ?? []).filter(isHere).flatMap(({ extension, label, file }) => [
+      Object.assign(document.createElement("a"), {
+        href: `figures/${encodeURIComponent(file)}`, textContent: `${extension.replaceAll("_", " ")}: ${label}`,
+      }), " ",
+    ]);
+    document.getElementById("figures").replaceChildren(...(links.length ? ["Further figures: ", ...links] : []));
+  }
+
   function drawCampbell() {
     const blade = bladeIndex();
     const top = Math.max(...frequency.row(blade, Math.min(5, campbell.modes.length - 1)).filter(Number.isFinite)) * 1.05;
@@ -514,6 +528,7 @@
       }],
     }), ["blade", "scene", "unit"]],
     stress: [drawStress, ["blade", "scene", "speed"]],
+    figures: [drawFigures, ["blade", "scene"]],
   };
   const drawn = {};
 

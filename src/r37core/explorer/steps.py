@@ -16,16 +16,16 @@ from .contents import explorer_contents
 def explorer(input: Any, output: Any, params: Any) -> None:
     """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
 
-    Params: title, operating (the range, or None); panels: extension -> function that gives what its panels show of the input
-    that is called like it; programs: files that draw them.
+    Params: title, figures (of extensions, linked), operating (the range, or None); panels: extension -> function that gives what
+    its panels show of the input that is called like it; programs: files that draw them.
     """
     files = dict(input.items())
     panels = {name: resolve_name(function)(_read(files.pop(name))) for name, function in params.panels.items()}
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_judged(file) for kind, file in files.items()}
     operating = params.operating and from_plain(OperatingRange, params.operating)
-    contents = explorer_contents(datasets, interactions, ranking, operating)
-    write_page(contents | {"panels": panels}, params.title, output.page, page_parts(params.programs))
+    contents = explorer_contents(datasets, interactions, ranking, operating) | {"panels": panels, "figures": params.figures}
+    write_page(contents, params.title, output.page, page_parts(params.programs))
 
 
 def _read(file: str) -> Any:

@@ -51,6 +51,16 @@ def offered(what: Literal["motions", "run_ups", "verdict"], sweep: Sweep) -> dic
     return {what: files[0]} if files else {}
 
 
+def linked_figures(sweep: Sweep) -> list[dict[str, str]]:
+    """Figures of the extensions that the explorer links: extension, label, file in figures/, and blade and scene if of one."""
+    figures = ((each.name, figure) for each in EXTENSIONS if not each.made_on_request for figure in each.figures)
+    return [
+        {"extension": name, "label": figure.label.format(**run), **run, "file": f"{figure.name.format(**run)}.png"}
+        for name, figure in figures
+        for run in figure.runs(sweep)
+    ]
+
+
 def panels(sweep: Sweep) -> dict[str, Panel]:
     """Extension -> its panel, of those that have one in this run."""
     declared = ((extension, extension.panel) for extension in EXTENSIONS if extension.panel)

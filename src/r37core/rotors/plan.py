@@ -3,7 +3,7 @@
 from r37core.config import Settings
 from r37core.contact.scene import Rotor
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure, Panel
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.sweep_plan import Sweep
 
 ROTOR_OF_RUN = "<results>/{blade}/{scene}/rotor.nc"
@@ -47,5 +47,4 @@ EXTENSION = Extension(
         ),
     ),
     closing="rotors.dataset.closing",
-    panel=Panel(DATASET, "rotors.panel.rotor_contents", "rotors/panel.js"),
 )

@@ -14,7 +14,6 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from r37core.base.units import shown_unit
 from r37core.figures import style
 
-from .panel import broken_key, unit_label
 from .problem import START
 
 _START_LOOK: dict[str, Any] = {"color": "0.15", "marker": "s", "markersize": 5, "linestyle": "none", "zorder": 5}
@@ -26,6 +25,9 @@ _MOST_NAMED = 8
 
 _MOST_COLUMNS = 5
 """Panels of slices beside each other."""
+
+_LONGEST_KEY = 14
+"""Characters of a key in one line."""
 
 
 class _Objective(NamedTuple):
@@ -97,7 +99,7 @@ def _objective(search: xr.Dataset, name: str) -> _Objective:
     objective_data = search.sel(objective=name)
     unit, factor = shown_unit(objective_data["objective_unit"].item())
     values, scatter = (factor * objective_data[f"objective_{part}"].values for part in ("value", "scatter"))
-    return _Objective(unit_label(str(name), unit), values, scatter)
+    return _Objective(f"{name} ({unit})" if unit else str(name), values, scatter)
 
 
 def _title(search: xr.Dataset) -> str:
@@ -255,3 +257,9 @@ def _limits(values: np.ndarray) -> tuple[float, float]:
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
     room = 0.12 * (high - low) or 0.1 * abs(high) or 1.0
     return low - room, high + room
+
+
+def broken_key(key: str) -> str:
+    """A dotted key; a long one with its last part in a second line."""
+    before, dot, last = key.rpartition(".")
+    return key if len(key) <= _LONGEST_KEY or not dot else f"{before}.\n{last}"

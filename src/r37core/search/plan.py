@@ -8,7 +8,7 @@ from r37core.blade.profile_tables import stacking_table_rows
 from r37core.config import Settings, plain
 from r37core.config.speed_choice import most_runs
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure, Panel
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.sweep_plan import Sweep
 
 from .checks import search_can_be_run
@@ -147,5 +147,4 @@ EXTENSION = Extension(
         ),
     ),
     closing="search.dataset.closing",
-    panel=Panel(DATASET, "search.panel.search_contents", "search/panel.js"),
 )
