@@ -154,7 +154,7 @@ def test_signals_run_no_simulation_of_the_sweep(project):
     """At named speeds they are runs of their own; a gauge more runs those again and makes the model of the whole blade."""
     overlay(project, "config.yaml", "signals: { speeds_rad_s: [1151.5] }")
     jobs = planned_outputs(project)
-    assert set(jobs) == SIGNALS | {"configuration", "crate"}
+    assert set(jobs) == SIGNALS | {"configuration", "crate", "explorer"}
     assert jobs["signals_of_run"] == per_run("signals.nc")
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}
