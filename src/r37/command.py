@@ -1,4 +1,4 @@
-"""The command r37: a folder for a study, a Campbell diagram, a response, a look at a configuration, without writing Python.
+"""The command r37: a folder for a study, a Campbell diagram, a look at a configuration, without writing Python.
 
 The calls are imported when they are first used, so that a word that computes nothing answers at once.
 """
@@ -14,7 +14,7 @@ import tempfile
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import r37
 
@@ -64,30 +64,15 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="r37", description="blade-tip rubbing in a compressor")
     parser.set_defaults(quiet=False)
     parser.add_argument("--version", action="version", version=f"r37 {r37.__version__}", help="print the version and end")
-    parser.add_argument(
-        "--print-completion", action=_Completion, metavar="SHELL", help="print completions for bash, zsh, tcsh or fish"
-    )
     commands = parser.add_subparsers(required=True, metavar="command")
-    level = argparse.ArgumentParser(add_help=False)
-    level.add_argument("--config", help="a config.yaml in place of the shipped one")
-    common = argparse.ArgumentParser(add_help=False, parents=[level])
-    common.add_argument("--blades", help="a blades.yaml in place of the configuration's")
-    common.add_argument("--fidelity", help="an accuracy level in place of the configuration's")
-    common.add_argument("--output", type=Path, help="netCDF file to write the dataset to")
-    common.add_argument("--quiet", action="store_true", help="say nothing of the stages")
-    diagram = commands.add_parser("campbell", parents=[common], help="natural frequencies and crossings of a blade")
+    diagram = commands.add_parser("campbell", help="natural frequencies and crossings of a blade")
     diagram.set_defaults(run=_campbell)
-    response = commands.add_parser("simulate", parents=[common], help="response of a blade in a scene")
-    response.set_defaults(run=_simulate)
     diagram.add_argument("blade", help="its name, or a blades.yaml: each blade of it")
-    response.add_argument("blade")
-    response.add_argument("scene")
-    response.add_argument("speeds", nargs="+", type=float, metavar="speed", help="rad/s, or rpm with --rpm")
-    response.add_argument("--rpm", action="store_true", help="the speeds are revolutions per minute")
-    for word in ("blades", "scenes"):
-        listed = commands.add_parser(word, parents=[level], help=f"names of the {word}")
-        listed.add_argument("file", nargs="?", help=f"a {word}.yaml in place of the configuration's")
-        listed.set_defaults(run=_names, listed=word)
+    diagram.add_argument("--config", help="a config.yaml in place of the shipped one")
+    diagram.add_argument("--blades", help="a blades.yaml in place of the configuration's")
+    diagram.add_argument("--fidelity", help="an accuracy level in place of the configuration's")
+    diagram.add_argument("--output", type=Path, help="netCDF file to write the dataset to")
+    diagram.add_argument("--quiet", action="store_true", help="say nothing of the stages")
     check = commands.add_parser("check", help="validate a configuration, and count its simulations")
     check.set_defaults(run=_check)
     check.add_argument("config", nargs="*", help="a config.yaml and files of changes on top; without any the shipped one")
@@ -97,26 +82,14 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-class _Completion(argparse.Action):
-    def __call__(self, parser: argparse.ArgumentParser, _: Any, shell: Any, *__: Any) -> None:
-        import shtab
-
-        if shell not in shtab.SUPPORTED_SHELLS:
-            parser.error(f"--print-completion: found {shell!r}; allowed: {', '.join(shtab.SUPPORTED_SHELLS)}")
-        print(shtab.complete(parser, shell))
-        parser.exit()
-
-
-def _names(options: argparse.Namespace) -> None:
-    print("\n".join(getattr(r37, options.listed)(file=options.file, config=options.config)))
-
-
 def _init(options: argparse.Namespace) -> None:
     r37.init(options.folder)
     print(f"{options.folder}: edit config/, then, in that folder: snakemake all_blades --cores 2")
 
 
 def _campbell(options: argparse.Namespace) -> None:
+    from r37core.base.dataset_file import write_dataset
+
     is_file = options.blade.endswith((".yaml", ".yml"))
     if is_file and options.blades is not None:
         raise r37.ConfigError(f"--blades: found {options.blades} beside the file {options.blade}; allowed: one of them")
@@ -132,8 +105,9 @@ def _campbell(options: argparse.Namespace) -> None:
             print(name)
         chosen = r37.blade(name, file=file, config=options.config)
         dataset = r37.campbell(chosen, fidelity=options.fidelity, config=options.config)
-        _show(_campbell_table(dataset))
-        _write(dataset, options.output)
+        print(_campbell_table(dataset).to_string(float_format=lambda number: f"{number:.6g}", na_rep=""))
+        if options.output is not None:
+            write_dataset(dataset, options.output)
 
 
 def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
@@ -148,31 +122,6 @@ def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
     texts = [[f"{order}: {speed:.6g}" for order, speed in of.items()] for of in crossings]
     table["crosses engine orders at (rad/s)"] = [", ".join(of[:5]) or "none" for of in texts]
     return table
-
-
-def _simulate(options: argparse.Namespace) -> None:
-    import pandas as pd
-
-    from r37core.base.units import RAD_S
-    from r37core.results.regions import judged
-    from r37core.time_integration.status import RunStatus
-
-    _check_output(options.output)
-    chosen = r37.blade(options.blade, file=options.blades, config=options.config)
-    unit = "rpm" if options.rpm else "rad/s"
-    speeds = [RAD_S[unit] * speed for speed in options.speeds]
-    dataset = r37.sweep(chosen, options.scene, speeds, fidelity=options.fidelity, config=options.config)
-    edge, rad_s = dataset.sel(tip_point="leading_edge"), dataset["speed"].values
-    table = pd.DataFrame(index=pd.Index(rad_s / RAD_S[unit], name=f"speed ({unit})"))
-    if options.rpm:
-        table["speed (rad/s)"] = rad_s
-    table["rms, normal (mm)"] = 1e3 * edge["rms_normal"].values
-    table["rms, tangential (mm)"] = 1e3 * edge["rms_tangential"].values
-    if "max_von_mises" in dataset:
-        table["largest von Mises (MPa)"] = 1e-6 * judged(dataset)["max_von_mises"].values
-    table["status"] = [RunStatus(int(status)).text for status in dataset["status"].values]
-    _show(table)
-    _write(dataset, options.output)
 
 
 def _check(options: argparse.Namespace) -> None:
@@ -200,10 +149,6 @@ def _check(options: argparse.Namespace) -> None:
         print(remark)
 
 
-def _show(table: pd.DataFrame) -> None:
-    print(table.to_string(float_format=lambda number: f"{number:.6g}", na_rep=""))
-
-
 def _check_output(file: Path | None) -> None:
     """ConfigError for a file that cannot be written, before what takes minutes."""
     if file is None:
@@ -219,10 +164,3 @@ def _check_output(file: Path | None) -> None:
             pass
     except OSError as error:
         raise r37.ConfigError(f"--output: found {file}, which cannot be written ({error.strerror}); {allowed}") from None
-
-
-def _write(dataset: xr.Dataset, file: Path | None) -> None:
-    from r37core.base.dataset_file import write_dataset
-
-    if file is not None:
-        write_dataset(dataset, file)
