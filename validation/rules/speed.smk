@@ -44,17 +44,6 @@ use rule evidence as speed_steps with:
         **evidence("speed.steps"),
 
 
-use rule evidence as speed_plain_loop with:
-    input:
-        unpack(behind_engine(model="results/Ref/contact_pressure_edge.npz")),
-    output:
-        table=f"{TABLES}/speed_plain_loop.csv",
-    log:
-        "logs/validation/speed_plain_loop.log",
-    params:
-        **evidence("plain_loop.ratio"),
-
-
 use rule evidence as speed_growth with:
     input:
         unpack(behind_engine(*accuracy_runs)),
