@@ -254,14 +254,16 @@ REFUSED = {
     r'found 36; .*rotor.blades": 36': call("rotor", "Ref", "abradable", [9], rotor=36),
     "results: found signal with a rotor": call("rotor", "Ref", "abradable", [9], rotor={"blades": 2}, results=["signal"]),
     r"vary: found \[50\]; allowed: keys of blades.yaml and their values": call("designs", "Ref", "direct", [9], vary=[50]),
-    "of_scenes: found 'friction'; allowed: dotted keys and how each spreads": call(
+    "of_scenes: found 'friction'; allowed: mapping of names, each with mapping with the keys uniform_percent": call(
         "tolerances", "Ref", "direct", [9], of_scenes="friction"
     ),
     "r37.tolerances: tolerances.of_scenes.friction: found friction; allowed: a number of the scenes": call(
         "tolerances", "Ref", "direct", [9], of_scenes={"friction": {"uniform_percent": 5}}
     ),
     r"run_ups: found \{\}; allowed: names and": call("run_ups", "Ref", "direct", {}),
-    "run_ups.slow: found 3; allowed: the keys of a run-up": call("run_ups", "Ref", "direct", {"slow": 3}),
+    "run_ups.slow: found 3; allowed: mapping with the keys blades, scenes, from_rad_s": call(
+        "run_ups", "Ref", "direct", {"slow": 3}
+    ),
     "r37.run_up: run_ups.run_up.to_rad_s: found nothing; allowed: one of to_rad_s, to_rpm, crossing": call(
         "run_up", "Ref", "direct", from_rad_s=100
     ),

@@ -94,11 +94,11 @@ def test_a_design_of_a_scene_is_that_scene(config):
     [
         (
             {"variables": ["stagger_deg"]},
-            r"variables: found \['stagger_deg'\]; allowed: dotted keys of blades.yaml, or scene.KEY",
+            r"search.variables: found \['stagger_deg'\]; allowed: mapping of names, .* list of number",
         ),
-        ({"objectives": "lined"}, "objectives: found 'lined'; allowed: names and what is read off, as in"),
-        ({"constraints": 3}, "constraints: found 3; allowed: names and what is kept"),
-        ({"tolerances": 5}, "tolerances: found 5; allowed: of_scenes, of_blades and members"),
+        ({"objectives": "lined"}, "search.objectives: found 'lined'; allowed: mapping of names, .* with the keys measure"),
+        ({"constraints": 3}, "search.constraints: found 3; allowed: mapping of names, .* with the keys measure, scenes"),
+        ({"tolerances": 5}, "search.tolerances: found 5; allowed: mapping with the keys of_scenes, of_blades, members"),
         (
             {"variables": {"casing.clearance_m": [1, 2]}},
             "unknown key casing.clearance_m; .* in a search as scene.casing.clearance_m",

@@ -68,6 +68,12 @@ def plain_value(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
+def keys_of_its_own(options: Mapping[str, Any], common: type) -> dict[str, Any]:
+    """Options of a call that are keys of its section of config.yaml, plain: those that are given and not in `common`."""
+    own = {name: value for name, value in options.items() if name not in common.__annotations__ and value is not None}
+    return plain_value(own)
+
+
 def finite(several: Iterable[Any], key: str) -> list[Any]:
     """The items of what may have no end. Raises ConfigError for more than there can be speeds."""
     items = list(islice(several, LARGEST_NUMBER + 1))

@@ -4,6 +4,7 @@ import inspect
 import re
 import textwrap
 from collections.abc import Callable, Iterable
+from typing import Any, get_args
 
 _NAMES = "Names, or the results of `r37.{}`; changed ones need a `name`."
 
@@ -36,10 +37,11 @@ _ERRORS = """Raises:
 _SECTION = re.compile(r"\n\n(?=(?:Args|Returns|Raises|Examples):\n)")
 
 
-def complete_docstring(call: Callable[..., object], arguments: Iterable[str]) -> str:
+def complete_docstring(call: Callable[..., object], arguments: Iterable[str], section: Any = None) -> str:
     """Docstring of a call, with descriptions of all its arguments in their order, and with the sections Returns and Raises.
 
-    Where its own docstring leaves one out, these are the descriptions above, a figure, and the usual errors.
+    Where its own docstring leaves one out, these are the descriptions above or those of the keys of a `section` of
+    config.yaml, a figure, and the usual errors.
     """
     if call.__doc__ is None:
         # python -OO
@@ -48,11 +50,30 @@ def complete_docstring(call: Callable[..., object], arguments: Iterable[str]) ->
     own = {section.partition(":")[0]: section for section in sections}
     entries = re.split(r"\n(?=    \S)", own.get("Args", ""))[1:]
     described = {name: entry for entry in entries for name in re.findall(r"\w+", entry.partition(":")[0])}
-    own["Args"] = "\n".join(["Args:", *dict.fromkeys(described.get(name) or _entry(name) for name in arguments)])
+    texts = {**_key_descriptions(section), **_DESCRIPTIONS}
+    own["Args"] = "\n".join(["Args:", *dict.fromkeys(described.get(name) or _entry(name, texts[name]) for name in arguments)])
     usual = {"Returns": _FIGURE, "Raises": _ERRORS}
     return "\n\n".join([purpose, *(own.get(title) or usual[title] for title in ("Args", "Returns", "Raises", "Examples"))])
 
 
-def _entry(name: str) -> str:
-    text, indent = f"{name}: {_DESCRIPTIONS[name]}", 4 * " "
+def _key_descriptions(section: Any) -> dict[str, str]:
+    """Keys of a section, with their declared descriptions and defaults, and the keys of sections in them."""
+    return {} if section is None else {name: _key_description(field) for name, field in section.model_fields.items()}
+
+
+def _key_description(field: Any) -> str:
+    inside = _keys_inside(field.annotation)
+    default = f" (default {field.default!r})" if isinstance(field.default, int | float | str) else ""
+    return f"{field.description}{default}{'; keys: ' if inside else ''}{', '.join(inside)}."
+
+
+def _keys_inside(kind: Any) -> list[str]:
+    """Keys of the sections that a value of this type is or holds."""
+    if hasattr(kind, "model_fields"):
+        return [*kind.model_fields]
+    return [key for part in get_args(kind) for key in _keys_inside(part)]
+
+
+def _entry(name: str, description: str) -> str:
+    text, indent = f"{name}: {description}", 4 * " "
     return textwrap.fill(text, 120, initial_indent=indent, subsequent_indent=2 * indent, break_long_words=False)

@@ -13,13 +13,14 @@ from r37core.base.io import Named, scratch_folder
 from r37core.config import ConfigError
 from r37core.run_ups.dataset import write_run_ups
 from r37core.run_ups.plan import RUN_UP, RunUps
+from r37core.run_ups.section import RunUpEntry
 
-from .arguments import mapping
+from .arguments import keys_of_its_own, plain_value
 from .calculation import Calculation
 from .call_settings import Call, OneOptions, call_of
 from .choices import BladeChoice, SceneChoice
 from .runs import RunOptions, run_of
-from .stages import checked_call
+from .stages import checked_call, checked_call_of
 
 
 class RunUpOptions(OneOptions, total=False):
@@ -38,19 +39,9 @@ class RunUpOptions(OneOptions, total=False):
     lining: str
 
 
-@checked_call
+@checked_call_of(RunUpEntry)
 def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack[RunUpOptions]) -> xr.Dataset:
     """Run-up, or run-down, of a blade in a scene, as one run of run_ups.nc.
-
-    Args:
-        from_rad_s, to_rad_s: First and last speed (rad/s). A lower last one makes a run-down.
-        from_rpm, to_rpm: The same in revolutions per minute.
-        crossing: Speeds about a crossing of the blade's own Campbell diagram, in place of numbers, as shares of its speed
-            above it: `{"mode": "1B", "engine_order": 4, "first": -0.015, "last": 0.07}`.
-        rate_rad_s2, rate_rpm_s, revolutions: Rate of the speed's change (rad/s², rpm/s), or the number of revolutions that
-            it takes. One of them is given.
-        revolutions_before, revolutions_after: Revolutions at the first speed, while the lobes grow, and at the last one.
-        lining: "new", or "worn" by the same run-up before.
 
     Returns:
         Over `revolution`: `speed` (rad/s), `maximum_normal` (m), `max_von_mises` (Pa) and others.
@@ -64,8 +55,7 @@ def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack
         >>> bool(run.speed[-1] > run.speed[0])
         True
     """
-    entry = {key: value for key, value in options.items() if key not in OneOptions.__annotations__ and value is not None}
-    call = _call("r37.run_up", blade, scene, {"run_up": entry}, options)
+    call = _call("r37.run_up", blade, scene, {"run_up": keys_of_its_own(options, OneOptions)}, options)
     call.tell_remarks()
     with scratch_folder() as folder:
         calculation = Calculation(call.settings, folder, 1)
@@ -115,8 +105,7 @@ def _call(
     caller: str, blade: BladeChoice | str, scene: SceneChoice | str, several: Mapping[str, Any], options: Mapping[str, Any]
 ) -> Call:
     """The call of these run-ups of a blade in a scene."""
-    entries = {name: mapping(entry, f"run_ups.{name}", "the keys of a run-up") for name, entry in several.items()}
-    call = call_of(caller, [blade], [scene], {"run_ups": entries}, options)
+    call = call_of(caller, [blade], [scene], {"run_ups": plain_value(several)}, options)
     # a run-up's own speeds are checked by its section
     return replace(call, keys={**call.keys, "speeds": [call.base.checked.structure.maximum_speed_rad_s]})
 

@@ -99,7 +99,12 @@ def arguments_of(call: Callable[..., object]) -> list[str] | None:
     return names
 
 
-def checked_call(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+def checked_call_of(section: Any) -> Callable[[Callable[Arguments, Result]], Callable[Arguments, Result]]:
+    """checked_call of a call that takes keys of a `section` of config.yaml, whose declarations describe them."""
+    return lambda call: checked_call(call, section)
+
+
+def checked_call(call: Callable[Arguments, Result], section: Any = None) -> Callable[Arguments, Result]:
     """The call, with its stages told, a complete docstring, and a TypeError for an unknown keyword argument that lists all."""
     named = arguments_of(call) or []
 
@@ -113,5 +118,5 @@ def checked_call(call: Callable[Arguments, Result]) -> Callable[Arguments, Resul
         with stages():
             return call(*arguments, **keywords)
 
-    checked.__doc__ = complete_docstring(call, named or inspect.signature(call).parameters)
+    checked.__doc__ = complete_docstring(call, named or inspect.signature(call).parameters, section)
     return checked

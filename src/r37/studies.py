@@ -16,21 +16,15 @@ from r37core.plans.paths import fill
 from r37core.rotors.plan import ROTOR_OF_RUN
 from r37core.search.designs import FOLDER
 from r37core.search.plan import BEST, DATASET, TABLE
+from r37core.search.section import SearchSection
+from r37core.tolerances.members import ToleranceSection
 
-from .arguments import Speeds, mapping, plain_value, speed_keys
+from .arguments import Speeds, keys_of_its_own, mapping, plain_value, speed_keys
 from .call_settings import call_of, chosen_scene, names_of_their_own, several
 from .choices import BladeChoice, SceneChoice
 from .run_results import RunResults
 from .runs import Blades, Scenes, SweepOptions, named_call, run_of
-from .stages import checked_call
-
-_SPREAD = 'dotted keys and how each spreads, as in {"friction.coefficient": {"uniform_percent": 5}}'
-_BOUNDS = 'dotted keys of blades.yaml, or scene.KEY of scenes.yaml, and their bounds, as in {"stagger_deg.tip": [-3, 3]}'
-_MAPPINGS = {
-    "objectives": 'names and what is read off, as in {"lined": {"scenes": ["abradable"]}}',
-    "constraints": 'names and what is kept, as in {"mass": {"measure": "mass_kg", "at_most_percent": 100}}',
-    "tolerances": 'of_scenes, of_blades and members, as in {"of_scenes": {"friction.coefficient": {"uniform_percent": 5}}}',
-}
+from .stages import checked_call, checked_call_of
 
 
 class DesignOptions(SweepOptions, total=False):
@@ -134,16 +128,9 @@ def designs(
     return run_of(call, options)
 
 
-@checked_call
+@checked_call_of(ToleranceSection)
 def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **options: Unpack[ToleranceOptions]) -> RunResults:
     """Effect of uncertain numbers: the results of a sample of members that is drawn from their distributions.
-
-    Args:
-        of_scenes, of_blades: Dotted key -> distribution of the number, as in
-            `{"friction.coefficient": {"uniform_percent": 5}}`.
-        members: Number of members, a power of two.
-        seed: Seed of the sample.
-        largest_share: Largest share of the finest grid of adaptive speeds that a member runs.
 
     Returns:
         As of `r37.compare`, with the dataset and the table tolerances, and with ranges in `summary`.
@@ -157,13 +144,11 @@ def tolerances(blades: Blades, scenes: Scenes, speeds: Speeds | None = None, **o
         >>> results["tolerances"].sizes["member"]
         2
     """
-    section = {name: plain_value(value) for name, value in options.items() if name not in SweepOptions.__annotations__}
-    for name in ("of_scenes", "of_blades"):
-        section[name] = mapping(section.get(name, {}), name, _SPREAD)
+    section = keys_of_its_own(options, SweepOptions)
     return run_of(named_call("r37.tolerances", blades, scenes, speeds, options, {"tolerances": section}), options)
 
 
-@checked_call
+@checked_call_of(SearchSection)
 def search(
     blade: BladeChoice | str,
     scenes: Scenes,
@@ -180,20 +165,6 @@ def search(
             `name`.
         scenes: Names, or the results of `r37.scene`; changed ones need a `name`. Objectives and constraints name those that
             count.
-        variables: Dotted key of blades.yaml -> lowest and highest value, as in
-            `{"stagger_deg.tip": [-3, 3], "sweep_percent": [0, 100]}`; with `scene.` before it a key of scenes.yaml, as in
-            `{"scene.lining.thickness_m": [0.001, 0.005]}`.
-        objectives: Name -> a number to minimise: `{"lined": {"scenes": ["abradable"]}}` for the integral over speed of the
-            share of revolutions above yield, or another `measure`; with a `quantile` under tolerances.
-        constraints: Name -> a limit: `{"first": {"measure": "frequency_hz", "mode": "1B", "at_least_percent": 98}}`.
-        designs: Number of designs that are run.
-        first: Number of the first designs, which come from a quasi-random sequence.
-        batch: Number of designs in a round, which run in parallel.
-        method: "surrogate", or "quasi_random" for comparison.
-        seed: Seed of the search.
-        tolerances: `{"of_scenes": ..., "of_blades": ..., "members": 16}` about every design, for objectives with a
-            quantile.
-        best: Number of best designs that are written as entries and STEP files.
 
     Returns:
         The dataset and the table search: every design and the start. Its method `best_values` has the values of the best
@@ -215,12 +186,10 @@ def search(
         >>> r37.blade("Ref", name="Better", **results.best_values()).label
         'Better'
     """
-    own = {name: value for name, value in options.items() if name not in SweepOptions.__annotations__ and value is not None}
-    entry = {"objectives": objectives, **own}
-    entry |= {name: mapping(entry[name], name, allowed) for name, allowed in _MAPPINGS.items() if name in entry}
     call = named_call("r37.search", blade, scenes, speeds, options)
     (chosen,) = call.blades
-    section = {"blade": chosen.name, "variables": mapping(variables, "variables", _BOUNDS), **plain_value(entry)}
+    section = {"blade": chosen.name, "variables": plain_value(variables), "objectives": plain_value(objectives)}
+    section |= keys_of_its_own(options, SweepOptions)
     return run_of(replace(call, keys={FOLDER: section, **call.keys}), options, (DATASET, TABLE, BEST))
 
 

@@ -97,6 +97,9 @@ def describe(part: Mapping[str, Any], schema: Mapping[str, Any]) -> str:
         words[0] = f"list of {describe(inner, schema) if 'properties' in inner else inner.get('type', 'values')}"
     if "properties" in part:
         words[0] = f"mapping with the keys {', '.join(part['properties'])}"
+    elif named := [*part.get("patternProperties", {}).values(), part.get("additionalProperties")][0]:
+        several = {"anyOf", "oneOf"} & _resolved(named, schema).keys()
+        words = ["mapping of names", *words[1:], *([] if several else [f"each with {describe(named, schema)}"])]
     return ", ".join(words)
 
 

@@ -96,9 +96,11 @@ class SearchSection(Section):
         description="Lowest and highest value of numeric keys of the entry, such as stagger_deg.tip: [-3, 3], and of the "
         "scenes that have the number, such as scene.lining.thickness_m: [0.001, 0.005]"
     )
-    objectives: ByName[ObjectiveSection] = Field(description="Numbers to minimise, by name; several give a Pareto front")
+    objectives: ByName[ObjectiveSection] = Field(
+        description="Numbers to minimise, by name, such as lined: {scenes: [abradable]}; several give a Pareto front"
+    )
     constraints: Annotated[dict[Name, ConstraintSection], AfterValidator(check_names)] = Field(
-        default={}, description="Limits, by name"
+        default={}, description="Limits, by name, such as first: {measure: frequency_hz, mode: 1B, at_least_percent: 98}"
     )
     designs: int = Field(default=60, ge=2, le=2000, description="Number of designs to run")
     first: int = Field(default=16, ge=2, le=2000, description="Number of first designs, from a quasi-random sequence")
