@@ -33,7 +33,6 @@ include: "workflow/rules/sweep.smk"
 include: "workflow/rules/results.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/extensions.smk"
-include: "workflow/rules/crate.smk"
 
 
 # what r37.run makes
@@ -52,5 +51,4 @@ rule all_blades:
         rules.configuration.output,
         rules.summary.output,
         rules.explorer.output,
-        rules.crate.output,
         paths.filled(targets(sweep)),

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.slow
 SPEEDS = ("750", "1150", "1550")
 
 # what follows any change of a simulation
-DATASETS = {"configuration", "crate", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview"}
+DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview"}
 DATASETS |= {"spectrum_figure", "wear_figure", "comparison_figure", "ranking", "ranking_figure"}
 DATASETS |= {"interactions_figure"}
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "reduced_model", "campbell_of_blade", "campbell_figure"}
@@ -142,24 +142,24 @@ def test_shapes_run_no_simulation(project):
     """Asked for, they are made of what is there and nothing follows; the model of the whole blade serves all of a blade's."""
     overlay(project, "scenes.yaml", "abradable: { results: [spectrum, signal, stress, wear, energy, shapes] }")
     jobs = planned_outputs(project)
-    assert set(jobs) == SHAPES | {"configuration", "crate"}
+    assert set(jobs) == SHAPES | {"configuration"}
     assert jobs["worst_shapes"] == {f"shapes/{blade}/stress_abradable" for blade in BLADES}
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}
     overlay(project, "config.yaml", "shapes: { modes: 3 }")
-    assert set(planned_outputs(project)) == SHAPES | {"configuration", "crate"}
+    assert set(planned_outputs(project)) == SHAPES | {"configuration"}
 
 
 def test_signals_run_no_simulation_of_the_sweep(project):
     """At named speeds they are runs of their own; a gauge more runs those again and makes the model of the whole blade."""
     overlay(project, "config.yaml", "signals: { speeds_rad_s: [1151.5] }")
     jobs = planned_outputs(project)
-    assert set(jobs) == SIGNALS | {"configuration", "crate", "explorer"}
+    assert set(jobs) == SIGNALS | {"configuration", "explorer"}
     assert jobs["signals_of_run"] == per_run("signals.nc")
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}
     overlay(project, "config.yaml", "signals: { gauges: { root: { chord: 0.5, span: 0.1, side: suction } } }")
-    assert set(planned_outputs(project)) == SIGNALS | {"configuration", "crate", "whole_blade_model"}
+    assert set(planned_outputs(project)) == SIGNALS | {"configuration", "whole_blade_model"}
     overlay(project, "config.yaml", "signals: { blades: [Ref], speeds_rad_s: interactions }")
     assert planned_outputs(project)["signals_of_run"] == per_run("signals.nc", blades=["Ref"])
 

@@ -1,6 +1,5 @@
 """Steps of the workflow (docs/architecture.md): Campbell diagrams, responses, the datasets and tables of all blades."""
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,6 @@ from r37core.stress.statistic import Strengths
 from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
 from .columns import IN_REGION
-from .crate import crate
 from .datasets import response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
 from .operating_range import OperatingRange
@@ -31,11 +29,6 @@ from .table_file import write_table
 def configuration(input: Any, output: Any, params: Any) -> None:
     """Keep what a run is made with. Params: merged. Output: configuration (json)."""
     write_json(params.merged, output.configuration)
-
-
-def describe(input: Any, output: Any, params: Any) -> None:
-    """Say what lies in the folder of the results and what made it. Inputs: files. Output: crate (json)."""
-    write_json(crate(as_list(input.files), Path(output.crate).parent), output.crate)
 
 
 def campbell_of_blade(input: Any, output: Any, params: Any) -> None:
