@@ -9,7 +9,6 @@ import pytest
 import xarray as xr
 from browser import opened
 from explorer_cases import BLADES, SCENES, SPEEDS, beside, interaction_rows, sweep
-from workflow_runs import copy_project, overlay, planned
 
 from r37core.config import command_line_document
 from r37core.explorer import write_page
@@ -22,32 +21,6 @@ from r37core.time_integration.status import RunStatus
 
 datasets = pytest.fixture(scope="module")(sweep)
 interactions = pytest.fixture(scope="module")(interaction_rows)
-
-MEMBERS = 66
-
-
-@pytest.fixture(scope="module")
-def tolerances():
-    """66 members in the lining, at speeds of their own, with two of the quantities.
-
-    Ref's begin later; of the other blade's, all diverge at one speed and some at the next.
-    """
-    speeds = np.array([850.0, 950.0, 1000.25, 1050.0, 1100.0])
-    status = np.zeros((2, 2, MEMBERS, 5), dtype="i1")
-    status[:, 1], status[0, :, :, 0] = RunStatus.NOT_RUN, RunStatus.NOT_RUN
-    status[1, 0, :, 2], status[1, 0, 60:, 3] = RunStatus.DIVERGED, RunStatus.DIVERGED
-    values = 1e-4 * np.arange(1.0, 6.0) + 1e-6 * np.arange(MEMBERS)[:, None] + np.array([0.0, 1e-3])[:, None, None, None]
-    # whether a run that diverged has a number is its own affair
-    values = np.where(status == RunStatus.NOT_RUN, np.nan, values)
-    axes = {"blade": BLADES, "scene": SCENES, "member": np.arange(MEMBERS), "speed": speeds}
-    made = xr.Dataset({"status": (list(axes), status)}, axes)
-    ended = made["status"] != RunStatus.DIVERGED
-    for name, factor in {"rms_normal": 1.0, "max_von_mises": 1e12}.items():
-        made[name] = (list(axes), factor * values)
-        spread = made[name].where(ended, np.inf)
-        quantiles = spread.quantile([0.05, 0.5, 0.95], "member", method="inverted_cdf", skipna=False)
-        made[f"{name}_quantile"] = quantiles.where(ended.any("member"))
-    return made
 
 
 @pytest.fixture(scope="module")
@@ -121,45 +94,16 @@ def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
     write_page(contents, "r37", tmp_path / "explorer.html")
 
 
-def test_contents_have_the_members_of_a_sample(datasets, interactions, tolerances):
-    contents = explorer_contents(datasets | {"members": tolerances}, interactions)
-    found = contents.pop("sample")
-    assert contents == explorer_contents(datasets, interactions)
-    assert found["pairs"] == [["Ref", "abradable"], ["L<50>", "abradable"]]
-    assert found["members"] == [66, 66]
-    assert found["numbers"] == list(range(64))
-    np.testing.assert_array_equal(unpacked(found["speeds"]), tolerances["speed"])
-    assert list(found["curves"]) == ["rms_normal", "max_von_mises"]
-    for name, factor in {"rms_normal": 1e3, "max_von_mises": 1e-6}.items():
-        band, members = (unpacked(found["curves"][name][part]) for part in ("band", "members"))
-        assert (band.shape, members.shape) == ((2, 3, 5), (2, 64, 5))
-        both = tolerances.sel(scene="abradable")
-        expected = factor * both[f"{name}_quantile"].transpose("blade", "quantile", "speed").values
-        np.testing.assert_allclose(np.delete(band, 2, axis=2), np.delete(expected, 2, axis=2), rtol=1e-6)
-        np.testing.assert_allclose(members[0], factor * both[name][0, :64], rtol=1e-6)
-        # not run, diverged
-        assert np.isnan(band[0, :, 0]).all()
-        assert np.isposinf(band[1, 2, 3])
-        assert np.isposinf(band[1, :, 2]).all()
-        assert np.isposinf(members[1, 60:, 3]).all()
-        assert np.isfinite(members[1, :60, 3]).all()
-
-
 @pytest.fixture(scope="module")
-def page(request, datasets, interactions, tolerances, ranged, tmp_path_factory):
-    """The page in headless Chromium, with members where a test asks for them; a message in its console is an error."""
+def page(datasets, interactions, tmp_path_factory):
+    """The page in headless Chromium; a message in its console is an error."""
     file = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    members = getattr(request, "param", "") == "members"
-    given = (datasets | {"members": tolerances}, ranged) if members else (datasets, interactions)
-    contents = explorer_contents(*given)
+    contents = explorer_contents(datasets, interactions)
     write_page(contents, "r37 <trial>", file)
     with opened(file, viewport={"width": 1500, "height": 1400}) as page:
         page.wait_for_selector("html[data-ready]")
         yield page
         assert page.problems == []
-
-
-with_members = pytest.mark.parametrize("page", ["members"], indirect=True)
 
 
 def choose(page, **state):
@@ -193,12 +137,9 @@ def hover(page, plot, curve, point):
 
 
 def test_the_page_loads_without_an_error(page):
-    """And without members nothing speaks of them."""
     choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
     assert page.problems == []
     assert [one["name"] for one in traces(page, "response")] == ["abradable", "direct", "direct diverged"]
-    assert not any(page.is_visible(f"#{name}") or f"{name}=" in page.url for name in ("band", "members"))
-    assert "members" not in page.inner_text("body")
     assert page.title() == "r37 <trial>"
     assert page.locator(".js-plotly-plot").count() == 6
     assert page.is_visible("#stress")
@@ -313,9 +254,9 @@ def test_interactions_are_circles_by_danger(page, datasets, interactions, tmp_pa
 
 
 @pytest.mark.parametrize("width", [390, 1400])
-def test_it_fits_the_screen(page, datasets, tolerances, ranged, tmp_path, width):
+def test_it_fits_the_screen(page, datasets, ranged, tmp_path, width):
     """Without scrolling sideways, and with plotly's buttons clear of what is drawn."""
-    contents = explorer_contents(datasets | {"members": tolerances}, ranged)
+    contents = explorer_contents(datasets, ranged)
     place = "#scene=abradable&quantity=share_of_time_in_contact&all=true"
     with beside(page, contents, tmp_path / "explorer.html", (width, 844), place) as other:
         assert other.evaluate("document.documentElement.scrollWidth") <= width
@@ -508,100 +449,12 @@ def test_table_keys_and_clicks_move_the_speed(page):
     assert "1000.3 rad/s" in page.text_content("#now")
 
 
-@with_members
-def test_band_and_members_are_switched(page):
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false")
-    curves = ["abradable", "direct", "direct diverged"]
-
-    def drawn():
-        return [one["name"] for one in traces(page, "response")]
-
-    assert page.is_checked("#band")
-    assert not page.is_checked("#members")
-    assert drawn() == ["band", "median", *curves]
-    page.get_by_label("first 64 of 66 members").check()
-    assert drawn() == ["band", "median", "members", *curves]
-    page.get_by_label("band").uncheck()
-    assert drawn() == ["members", *curves]
-    choose(page, blade="Ref", quantity="rms_normal", members="true", band="true")
-    assert drawn() == ["band", "median", "members", *curves]
-    page.locator("h1").click()
-    page.keyboard.press("m")
-    page.keyboard.press("t")
-    assert drawn() == curves
-    page.keyboard.press("t")
-    # of a quantity that the members do not have there is nothing to switch
-    page.select_option("#quantity", "peak_normal")
-    assert drawn() == curves
-    assert page.is_disabled("#band")
-    assert page.is_disabled("#members")
-
-
-@with_members
-def test_a_band_has_the_ends_that_the_dataset_has(page, tolerances):
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false", members="true")
-    band, median, members = traces(page, "response")[:3]
-    low, middle, high = 1e3 * tolerances["rms_normal_quantile"].sel(blade="Ref", scene="abradable")[:, 1:]
-    np.testing.assert_allclose(band["y"][:-1], [*low, *high[::-1]], rtol=1e-6)
-    np.testing.assert_allclose(median["y"], middle, rtol=1e-6)
-    # each line and the gap after it
-    assert len(members["y"]) == 64 * 5
-    text = hover(page, "response", 0, 1)
-    assert text.startswith("Ref, abradable1000.3 rad/s, 9551.7 rpmband of 66 members5%: 0.303 mmmedian: 0.332 mm95%: 0.362 mm")
-    text = hover(page, "response", 2, 5 * 7 + 3)
-    assert text.startswith("Ref, abradable1100 rad/s, 10504 rpm0.507 mmmember 7")
-
-
-@with_members
-def test_a_band_of_members_that_diverged(page):
-    """Its upper end is above all that has a number; where all diverged it has a gap."""
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="true", band="true")
-    assert [one["name"] for one in traces(page, "response")] == ["band", "median"] * 2 + BLADES
-    band, median = traces(page, "response")[2:4]
-    assert [y is None for y in band["y"]] == 2 * [False, False, False, False, True]
-    # low at 1050 and 1100, high at 1100 and 1050
-    assert band["y"][5:7] == pytest.approx([1.403, 1.503])
-    assert band["y"][7] == pytest.approx(1.562)
-    assert 1.562 < band["y"][8] < 2.0
-    assert median["y"][2] is None
-    assert hover(page, "response", 2, 5).startswith("L<50>, abradable1050 rad/s, 10027 rpm")
-    assert "95%: diverged" in page.text_content("#response .hovertext")
-    assert "median: 1.432 mm" in page.text_content("#response .hovertext")
-
-
-@with_members
-def test_the_legend_hides_a_curve_with_its_band(page):
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="true", members="false")
-    page.locator("#response .legendtoggle").nth(0).click()
-    hidden = (
-        "() => document.getElementById('response').data.filter(one => one.visible === 'legendonly').map(one => one.legendgroup)"
-    )
-    page.wait_for_function(f"() => ({hidden})().length === 3")
-    page.uncheck("#band")
-    assert page.evaluate(hidden) == ["Ref"]
-    page.locator("#response .legendtoggle").nth(0).click()
-    page.wait_for_function(f"() => ({hidden})().length === 0")
-    page.check("#band")
-
-
-@with_members
-def test_table_has_the_range_of_the_peak(page):
-    choose(page, blade="Ref", scene="abradable", quantity="rms_normal", speed="900", unit="rad/s", all="false", every="true")
-    titles = page.locator("#interactions th").all_text_contents()
+def test_table_has_the_range_of_the_peak(page, datasets, ranged, tmp_path):
+    with beside(page, explorer_contents(datasets, ranged), tmp_path / "explorer.html", place="#every=true") as other:
+        titles = other.locator("#interactions th").all_text_contents()
+        rows = [line.locator("td").all_text_contents() for line in other.locator("#interactions tbody tr").all()]
     at = titles.index("peak speed, 5% (rad/s)")
     ranges = [f"peak speed, {end} (rad/s)" for end in ("5%", "median", "95%")]
     assert titles[at - 1 : at + 4] == ["peak speed (rad/s)", *ranges, "members (%)"]
-    rows = [line.locator("td").all_text_contents() for line in page.locator("#interactions tbody tr").all()]
     assert rows[0][at : at + 4] == ["1150", "1200", "1210", "75"]
     assert rows[1][at : at + 4] == [""] * 4
-
-
-@pytest.mark.slow
-def test_the_page_is_made_of_members_where_there_are_some(root, tmp_path):
-    """Only the page needs the members' dataset: the table of interactions is made of another file."""
-    copy_project(root, tmp_path)
-    assert "tolerances_dataset" not in planned(tmp_path, "results/explorer.html")
-    ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
-    overlay(tmp_path, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], scenes: [direct], {ranges} }}")
-    assert "tolerances_dataset" in planned(tmp_path, "results/explorer.html")
-    assert "tolerances_dataset" not in planned(tmp_path, "results/summary.csv")

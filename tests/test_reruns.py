@@ -139,10 +139,10 @@ SIGNALS = {"signals_of_run", "signals_dataset", "contact_force_figure"}
 
 
 def test_shapes_run_no_simulation(project):
-    """Asked for, they are made of what is there and nothing follows; the model of the whole blade serves all of a blade's."""
+    """Asked for, they are made of what is there and the page links them; the model of the whole blade serves all of a blade's."""
     overlay(project, "scenes.yaml", "abradable: { results: [spectrum, signal, stress, wear, energy, shapes] }")
     jobs = planned_outputs(project)
-    assert set(jobs) == SHAPES | {"configuration"}
+    assert set(jobs) == SHAPES | {"configuration", "explorer"}
     assert jobs["worst_shapes"] == {f"shapes/{blade}/stress_abradable" for blade in BLADES}
     snakemake(project, "all_blades", "--cores", "2")
     assert planned_outputs(project) == {}

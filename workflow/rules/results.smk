@@ -93,7 +93,6 @@ programs = [str(PACKAGE / panel.program) for panel in shown_panels.values()]
 use rule step as explorer with:
     input:
         **datasets,
-        **({"members": sampling.dataset} if sampling else {}),
         **{name: panel.dataset for name, panel in shown_panels.items()},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],

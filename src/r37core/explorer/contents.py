@@ -16,7 +16,6 @@ from r37core.results.interaction_sizes import sized
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranges import as_ranges_bear
 from r37core.results.variables import VARIABLES
-from r37core.time_integration.status import RunStatus
 
 CURVES = (
     ("rms", "rms_normal"),
@@ -34,9 +33,6 @@ CURVES = (
 MOST_SPEEDS = 400
 """Speeds of a map; beyond it neighbours are joined by their maximum. Curves keep every speed."""
 
-MOST_MEMBERS = 64
-"""Members with curves of their own, the first of the sample: a sample too, because it grows by doubling. The band is of all."""
-
 MOST_ANGLES = 180
 ORDERS_PER_STEP = 0.1
 """Width of a spectrum's bins in engine orders; a bin has the largest amplitude in it."""
@@ -48,7 +44,7 @@ def explorer_contents(
     ranking: pd.DataFrame | None = None,
     operating: OperatingRange | None = None,
 ) -> dict[str, object]:
-    """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress, wear and members.
+    """All that the page needs. `datasets`: campbell, rms and, where computed, spectrum, stress and wear.
 
     `ranking`: the blades of each scene compared, as ranking.csv has them. `operating`: speeds that are shaded.
     Curves have every speed; maps are thinned, each cell the largest value of what it stands for.
@@ -69,7 +65,6 @@ def explorer_contents(
         **interaction_table(sized(as_ranges_bear(interactions), rms)),
         **ranking_rows(ranking),
         "operating": [operating.first, operating.last] if operating else None,
-        **({"sample": _sample(datasets["members"])} if "members" in datasets else {}),
     }
 
 
@@ -146,32 +141,6 @@ def _wear(wear: xr.Dataset, rms: xr.Dataset) -> dict[str, object]:
     """Wear (mm) over the angle (degrees) round the casing."""
     starts = bin_starts(wear.sizes["angle"], MOST_ANGLES)
     return _map(_like(wear, rms)["wear"], "angle", starts, np.degrees(wear["angle"].values[starts]))
-
-
-def _sample(sample: xr.Dataset) -> dict[str, object]:
-    """Bands and members' curves, over the members' own speeds, of the pairs of blade and scene that have members."""
-    members = (sample["status"] != RunStatus.NOT_RUN).any("speed").sum("member").stack(pair=("blade", "scene"))
-    members = members[members > 0]
-    return {
-        "pairs": [[str(name) for name in pair] for pair in members["pair"].values],
-        "members": members.values.tolist(),
-        "numbers": sample["member"].values[:MOST_MEMBERS].tolist(),
-        "speeds": packed(sample["speed"].values, 64),
-        "curves": {name: _spread(sample, members["pair"], name) for _, name in CURVES if f"{name}_quantile" in sample},
-    }
-
-
-def _spread(sample: xr.Dataset, pairs: xr.DataArray, name: str) -> dict[str, object]:
-    """Band (pair, quantile, speed) and members (pair, member, speed) of a curve; infinite: diverged, NaN: not run."""
-    factor = _described(sample[name])[1]
-    drawn = sample.isel(member=slice(MOST_MEMBERS))
-    members = drawn[name].where(drawn["status"] != RunStatus.DIVERGED, np.inf)
-    band = sample[f"{name}_quantile"].where((sample["status"] != RunStatus.DIVERGED).any("member"), np.inf)
-
-    def packed_pairs(values: xr.DataArray, axis: str) -> dict[str, object]:
-        return packed(factor * values.stack(pair=("blade", "scene")).sel(pair=pairs).transpose("pair", axis, "speed").values)
-
-    return {"band": packed_pairs(band, "quantile"), "members": packed_pairs(members, "member")}
 
 
 def packed(values: np.ndarray, bits: int = 32) -> dict[str, object]:

@@ -50,14 +50,14 @@
   }
 
   const { values: speeds } = await unpack(data.speeds);
-  const [status, campbell, curves, yieldStress, history, sample] = await Promise.all(
-    [data.status, data.campbell, data.curves, data.yield_stress, data.history, data.sample].map(unpackAll),
+  const [status, campbell, curves, yieldStress, history] = await Promise.all(
+    [data.status, data.campbell, data.curves, data.yield_stress, data.history].map(unpackAll),
   );
   const { frequency, crossing, speeds: { values: campbellSpeeds } } = campbell;
   const maps = await unpackAll({ spectrum: data.spectrum, wear: data.wear });
 
   // and what they are where the address does not say
-  const SWITCHES = { all: false, every: false, ...(sample && { band: true, members: false }) };
+  const SWITCHES = { all: false, every: false };
   const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", sort: "", ...SWITCHES };
 
   const bladeIndex = () => data.blades.indexOf(state.blade);
@@ -292,79 +292,12 @@
     return [line, found];
   }
 
-  // places of the speeds that members of a pair ran at: the values of others are NaN
-  const ranOfMembers = (values) => sample.speeds.values.map((_, at) => at).filter((at) => !Number.isNaN(values[at]));
-  // a line, with gaps where runs diverged
-  const lineOfMembers = (places, values) => ({
-    x: shown(places.map((at) => sample.speeds.values[at])), y: places.map((at) => (Number.isFinite(values[at]) ? values[at] : null)),
-  });
-
-  // edges of the band, place and value, with gaps where its lower end diverged; an upper end that did is above all else
-  function edges(places, low, high) {
-    const top = 1.1 * Math.max(...[...low, ...high].filter(Number.isFinite));
-    const areas = [[]];
-    places.forEach((at) => { if (Number.isFinite(low[at])) areas[areas.length - 1].push(at); else areas.push([]); });
-    return areas.filter((area) => area.length).flatMap((area) => [
-      ...area.map((at) => [at, low[at]]), ...area.map((at) => [at, Math.min(high[at], top)]).reverse(), [area[0], null],
-    ]);
-  }
-
-  // the band, and the median in it
-  function bandTraces(pair, curve, say, { colour, uid, ...look }) {
-    const [low, median, high] = [0, 1, 2].map((number) => sample.curves[curve.name].band.row(pair, number));
-    const value = (number) => (number === Infinity ? "diverged" : quantityText(number, curve.unit));
-    const text = (at) => `${say(at)}<br>band of ${sample.members[pair]} members`
-      + `<br>5%: ${value(low[at])}<br>median: ${value(median[at])}<br>95%: ${value(high[at])}`;
-    const places = ranOfMembers(low);
-    const edge = edges(places, low, high);
-    return [
-      {
-        ...look, x: shown(edge.map(([at]) => sample.speeds.values[at])), y: edge.map(([, y]) => y), text: edge.map(([at]) => text(at)),
-        name: "band", uid: `${uid}-band`, fill: "toself", hoveron: "points", fillcolor: `${colour}2b`,
-        line: { color: `${colour}66`, width: 0.5 },
-      },
-      {
-        ...look, ...lineOfMembers(places, median), text: places.map(text), name: "median", uid: `${uid}-median`,
-        line: { color: colour, width: 1, dash: "dot" },
-      },
-    ];
-  }
-
-  // all members' lines in one trace, with a gap between them
-  function memberTrace(pair, curve, say, { colour, uid, ...look }) {
-    const { members } = sample.curves[curve.name];
-    const said = sample.speeds.values.map((_, at) => say(at));
-    const points = sample.numbers.flatMap((number, row) => {
-      const values = members.row(pair, row);
-      const places = ranOfMembers(values);
-      const { x, y } = lineOfMembers(places, values);
-      return [...places.map((at, index) => [x[index], y[index], `${said[at]}<br>${quantityText(values[at], curve.unit)}<br>member ${number}`]),
-        [null, null, null]];
-    });
-    const [x, y, text] = [0, 1, 2].map((column) => points.map((point) => point[column]));
-    return { ...look, x, y, text, name: "members", uid: `${uid}-members`, line: { color: `${colour}70`, width: 0.7 } };
-  }
-
-  // what lies below the curve of a blade and scene: band and members, as far as they are there and wanted
-  function spreadTraces(curve, blade, scene, given) {
-    if (!sample?.curves[curve.name]) return [];
-    const pair = sample.pairs.findIndex(([one, other]) => one === data.blades[blade] && other === data.scenes[scene]);
-    if (pair < 0) return [];
-    const say = (at) => `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(sample.speeds.values[at])}`;
-    const look = { ...given, mode: "lines", showlegend: false, hoverinfo: "text" };
-    return [
-      ...(state.band ? bandTraces(pair, curve, say, look) : []),
-      ...(state.members ? [memberTrace(pair, curve, say, look)] : []),
-    ];
-  }
-
   function drawResponse() {
     const curve = curves.find((one) => one.name === state.quantity);
     const scene = sceneIndex();
     const blades = state.all ? data.blades.map((_, number) => number) : [bladeIndex()];
     const scenes = state.all ? [scene] : data.scenes.map((_, number) => number);
     const traces = [];
-    const below = [];
     const crosses = [];
     blades.forEach((blade) => scenes.forEach((number) => {
       const places = ran(blade, number);
@@ -375,12 +308,8 @@
       const rank = state.all ? blade : number;
       const name = state.all ? data.blades[blade] : data.scenes[number];
       const colour = colourOf(rank);
-      // a click on the legend hides a curve with its band and members, and for plotly each stays itself when others come and go
-      const together = { legendgroup: name, uid: `curve-${rank}` };
-      below.push(...spreadTraces(curve, blade, number, { ...together, colour }));
       traces.push({
         x: shown(places.map((at) => speeds[at])), y: places.map((at) => values[at]), name, mode: "lines+markers", hoverinfo: "text",
-        ...(sample && together),
         line: { color: colour, dash: DASHES[Math.floor(rank / COLOURS.length) % DASHES.length], width: 1.5 },
         marker: { size: 4, symbol: MARKERS[Math.floor(rank / COLOURS.length) % MARKERS.length] },
         text: places.map((at) => pointText(curve, blade, number, at)),
@@ -388,17 +317,17 @@
       if (lost.length) {
         crosses.push({
           x: shown(lost.map((at) => speeds[at])), mode: "markers", name: `${name} diverged`,
-          marker: { symbol: "x", size: 9, color: colour }, hoverinfo: "text", ...(sample && { uid: `${together.uid}-diverged` }),
+          marker: { symbol: "x", size: 9, color: colour }, hoverinfo: "text",
           text: lost.map((at) => pointText(curve, blade, number, at)),
         });
       }
     }));
     // above all that has a number: nothing is worse
-    const top = 1.08 * [...below, ...traces].flatMap(({ y }) => y).filter(Number.isFinite).reduce((most, y) => Math.max(most, y), 0) || 1;
+    const top = 1.08 * traces.flatMap(({ y }) => y).filter(Number.isFinite).reduce((most, y) => Math.max(most, y), 0) || 1;
     traces.push(...crosses.map((cross) => ({ ...cross, y: cross.x.map(() => top) })));
     const plan = layout(speedAxis(), axis(broken(labelText(curve)), { automargin: true, title: { text: broken(labelText(curve)), font: { size: 12 } } }));
-    if (state.quantity === "max_von_mises" && yieldStress) markStress(plan, [...below, ...traces], blades, scene);
-    draw("response", [...below, ...traces], plan);
+    if (state.quantity === "max_von_mises" && yieldStress) markStress(plan, traces, blades, scene);
+    draw("response", traces, plan);
   }
 
   // `marks`: speeds that are marked above the map, with a name, a look and a text
@@ -508,7 +437,6 @@
     for (const name of ["blade", "scene", "quantity", "unit"]) document.getElementById(name).value = state[name];
     document.getElementById("speed").value = digits(state.speed * factor());
     for (const name of Object.keys(SWITCHES)) document.getElementById(name).checked = state[name];
-    for (const name of ["band", "members"]) document.getElementById(name).disabled = !sample?.curves[state.quantity];
     const told = new URLSearchParams(Object.entries(state).map(([name, value]) => [name, String(value)]));
     window.history.replaceState(null, "", `#${told}`);
   }
@@ -516,7 +444,7 @@
   // a plot, and what of the state it shows beside the cursor
   const DRAWINGS = {
     campbell: [drawCampbell, ["blade", "unit"]],
-    response: [drawResponse, ["blade", "scene", "quantity", "unit", "all", "band", "members"]],
+    response: [drawResponse, ["blade", "scene", "quantity", "unit", "all"]],
     spectrum: [() => drawMap("spectrum", {
       title: "engine order", unit: "dB below the largest at that speed", say: sayAmplitude, colorscale: MAGMA, scaled: decibels,
     }), ["blade", "scene", "unit"]],
@@ -600,7 +528,6 @@
     s: () => set({ scene: next(data.scenes, state.scene, 1) }), u: () => set({ unit: state.unit === "rpm" ? "rad/s" : "rpm" }),
     q: () => set({ quantity: next(curves.map((one) => one.name), state.quantity, 1) }), a: () => set({ all: !state.all }),
     i: () => set({ every: !state.every }),
-    ...(sample && { t: () => set({ band: !state.band }), m: () => set({ members: !state.members }) }),
   };
 
   function listen() {
@@ -617,7 +544,6 @@
     });
     for (const name of Object.keys(SWITCHES)) {
       const box = document.getElementById(name);
-      box.closest("label").hidden = false;
       box.addEventListener("change", (event) => set({ [name]: event.target.checked }));
     }
     document.getElementById("controls").addEventListener("submit", (event) => event.preventDefault());
@@ -665,12 +591,6 @@
   const about = Object.entries(data.about).map(([name, value]) => `${name} ${value}`).join(", ");
   document.getElementById("about").append(` ${about}. Maps show the largest amplitude within 0.1 engine orders, and the largest`
     + " wear within two degrees; beyond 400 speeds neighbours are joined. Curves have every speed.");
-  if (sample) {
-    const [kept, most] = [sample.numbers.length, Math.max(...sample.members)];
-    document.getElementById("members").after(kept < most ? ` first ${kept} of ${most} members` : " members");
-    document.getElementById("about").append(" Nine tenths of the members lie in a band, half of them below its dotted line."
-      + " Keys: t band, m members.");
-  }
   listen();
   set({ ...strongest(), ...fromAddress() });
   document.documentElement.dataset.ready = PLOTS.join(" ");
