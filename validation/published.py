@@ -43,9 +43,6 @@ INTERACTIONS = (
 BLADES = tuple(row.blade for row in INTERACTIONS if row.engine_order == 4)
 VARIANTS = BLADES[1:]
 
-MESH_NODES = 20_657
-"""Of the paper's mesh."""
-
 DIRECT_PEAK = 1344.0
 """Speed of direct contact's largest rms; one rad/s above it the response has dropped."""
 

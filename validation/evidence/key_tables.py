@@ -121,12 +121,9 @@ class _FileKeys:
 
     def of_kind(self, model: Schema) -> str:
         """One table of an entry's keys, under the heading of its kind."""
-        name = model["title"]
-        again = self._shown.again(name, model, self._file, AllowedValues(self.schema))
-        self._shown.add(name, Shown(self._file, f"{KINDS[name][0].lower()}{KINDS[name][1:]}", model))
-        rows = [_line(row) for key in _without_rpm(again.own) for row in self._rows(key, model["properties"][key], model)]
-        text = f"It has the {again.text}, and:\n\n" if again.text else ""
-        return "\n".join([f"### {KINDS[name]}\n\n{text}{_HEAD}", *rows])
+        keys = _without_rpm(model["properties"])
+        rows = [_line(row) for key in keys for row in self._rows(key, model["properties"][key], model)]
+        return "\n".join([f"### {KINDS[model['title']]}\n\n{_HEAD}", *rows])
 
     def _rows(self, path: str, part: Schema, parent: Schema, inherited: str = "") -> Iterator[_Row]:
         """The row of a key, and those of the keys in it."""
@@ -144,7 +141,7 @@ class _FileKeys:
         yield _Row(", ".join(names), "; ".join(filter(None, [default, values.of(part)])), meanings)
         for name, where, model in inner:
             self._shown.add(name, Shown(self._file, f"`{where.removesuffix('[]')}`", model))
-            for inside in _without_rpm(again[name].own):
+            for inside in () if again[name].text else _without_rpm(model["properties"]):
                 yield from self._rows(f"{where}.{inside}", model["properties"][inside], model, unit)
 
 

@@ -3,15 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from .allowed_values import AllowedValues, Schema
-
-_FEWEST = 2
-"""Common keys from which on a table refers to another one."""
-
-_FEWEST_MORE = 4
-"""Further common keys from which on it refers to one more."""
 
 
 @dataclass(frozen=True)
@@ -25,13 +19,9 @@ class Shown:
 
 @dataclass(frozen=True)
 class Again:
-    """Keys of a model that another table has: that table, their names (all keys where empty), what they are here.
-
-    `own`: keys that need rows.
-    """
+    """Words for the table that has the keys of a model, empty where they need rows of their own, and for what they are here."""
 
     text: str = ""
-    own: list[str] = field(default_factory=list)
     section: str = "section"
 
 
@@ -54,14 +44,7 @@ class ShownModels:
         alike = next((shown for shown in of_file if _descriptions(shown.model) == _descriptions(model)), None)
         if alike:
             return Again(f"keys of {alike.place}", section=f"section of {_other_values(model, alike.model, values)}")
-        own, texts, fewest = list(model["properties"]), [], _FEWEST
-        while True:
-            common = {shown.place: [key for key in _common(model, shown.model) if key in own] for shown in of_file}
-            likest = max(common, key=lambda place: len(common[place]), default="")
-            if not likest or len(common[likest]) < fewest:
-                return Again(", the ".join(texts), own)
-            texts.append(f"keys {', '.join(f'`{key}`' for key in common[likest])} of {likest}")
-            own, fewest = [key for key in own if key not in common[likest]], _FEWEST_MORE
+        return Again()
 
 
 def _descriptions(model: Schema) -> Mapping[str, object]:
@@ -74,13 +57,3 @@ def _other_values(model: Schema, other: Schema, values: AllowedValues) -> str:
     """Allowed values of the keys that differ from those of another model."""
     parts = {key: part for key, part in model["properties"].items() if part != other["properties"][key]}
     return "; ".join(dict.fromkeys(values.of(part).rsplit(": ", 1)[-1] for part in parts.values()))
-
-
-def _common(model: Schema, other: Schema) -> list[str]:
-    """Keys that two models have with the same row."""
-    needed, needed_there = (set(schema.get("required", ())) for schema in (model, other))
-    return [
-        key
-        for key, part in model["properties"].items()
-        if other["properties"].get(key) == part and (key in needed) == (key in needed_there)
-    ]

@@ -148,8 +148,7 @@ class SearchDesigns:
         nominal = [nominal_value(number, blade, numbers) for number in spreads]
         points = sobol_points(len(spreads), tolerances.members, self.entry.seed)
         return {
-            member: changed_pair(blade, scene_entry, {**design, **drawn(spreads, nominal, points[member])})
-            for member in points
+            member: changed_pair(blade, scene_entry, {**design, **drawn(spreads, nominal, points[member])}) for member in points
         }
 
 
