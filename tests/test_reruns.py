@@ -139,7 +139,7 @@ SIGNALS = {"signals_of_run", "signals_dataset", "contact_force_figure"}
 
 
 def test_shapes_run_no_simulation(project):
-    """Asked for, they are made of what is there and the page links them; the model of the whole blade serves all of a blade's."""
+    """Asked for, they are made of what is there, and the page links them; one model of the whole blade serves all."""
     overlay(project, "scenes.yaml", "abradable: { results: [spectrum, signal, stress, wear, energy, shapes] }")
     jobs = planned_outputs(project)
     assert set(jobs) == SHAPES | {"configuration", "explorer"}

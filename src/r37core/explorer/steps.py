@@ -16,8 +16,8 @@ from .contents import explorer_contents
 def explorer(input: Any, output: Any, params: Any) -> None:
     """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
 
-    Params: title, figures (of extensions, linked), operating (the range, or None); panels: extension -> function that gives what
-    its panels show of the input that is called like it; programs: files that draw them.
+    Params: title, figures (of extensions, linked), operating (the range, or None); panels: extension -> function that gives
+    what its panels show of the input that is called like it; programs: files that draw them.
     """
     files = dict(input.items())
     panels = {name: resolve_name(function)(_read(files.pop(name))) for name, function in params.panels.items()}
