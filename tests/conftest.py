@@ -208,18 +208,7 @@ def contact(model):
 
 
 @pytest.fixture(scope="session")
-def compiled(root, tmp_path_factory):
-    """The programs of the small sweep, made in one process.
-
-    After the first one, another of the same layout takes half of its time or less; in jobs, each takes as long as the first.
-    """
-    from shared_sweep import compile_programs, made_once
-
-    made_once(tmp_path_factory, "compiled", lambda folder: compile_programs(root, folder))
-
-
-@pytest.fixture(scope="session")
-def small_sweep(root, compiled, tmp_path_factory):
+def small_sweep(root, tmp_path_factory):
     """The project after the one real sweep of this test run, to be read: see `sweep_copy` and `structure_copy`."""
     from shared_sweep import made_once, make_sweep
 

@@ -5,13 +5,6 @@ import shutil
 
 from workflow_runs import copy_finished, copy_project, snakemake
 
-from r37core.fem.matrices import assemble
-from r37core.mesh.generate import generate_mesh
-from r37core.product.reading import read_settings
-from r37core.rom.reduce import reduce_blade
-from r37core.rom.reduced_model import contact_model
-from r37core.time_integration.simulate import Simulation
-
 
 def made_once(tmp_path_factory, name, make):
     """A folder that `make(folder)` has filled, in one process of a test run; the others wait for it."""
@@ -44,16 +37,3 @@ def copy_structure(sweep, to):
         for file in filter(lambda inner: inner.is_dir(), entry.iterdir()) if of_blade else [entry]:
             shutil.rmtree(file) if file.is_dir() else file.unlink()
     return to
-
-
-def compile_programs(root, folder):
-    """Those of the small sweep, in this process."""
-    copy_project(root, folder)
-    settings = read_settings(folder)
-    level, blade = settings.fidelity.mesh, settings.blades["Ref"]
-    mesh = generate_mesh(blade.definition.build(round_edges=True), level.nodes, level.layers, level.tip_elements)
-    reduced = reduce_blade(mesh, assemble(mesh, blade.material), settings.reduction_choice("Ref"), blade.material)
-    model = contact_model(reduced, "pressure_edge")
-    for name, scene in settings.scenes.items():
-        choice = settings.integration_choice("Ref", name, 1150.0)
-        Simulation(model, 1150.0, scene.scene, choice)

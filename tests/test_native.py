@@ -17,6 +17,7 @@ from integration_cases import DIRECT, bits_of_programs, random_model, with_stati
 
 from r37core.base.plain import to_plain
 from r37core.machine_code import kept, native
+from r37core.machine_code.alignment import LANES, NUMBER_BYTES, address_of, aligned_zeros
 from r37core.machine_code.native import ObjectCodeError, Sources, cached_object, load_function, object_code
 from r37core.time_integration.compiled import engine as compiled
 from r37core.time_integration.compiled.layout import MODAL_ROWS, Kind, capacity_of, constants_record, integration_record
@@ -212,10 +213,21 @@ def test_constants_of_a_speed_begin_with_its_rows_of_modes():
 
 
 def test_kinds_are_few_and_told_apart():
-    """With central differences nothing is coupled by the Coriolis force, nor of second order, and not both: see Problem."""
+    """With central differences nothing is coupled by the Coriolis force: see Problem."""
     kinds = [Kind(*flags) for flags in product((True, False), repeat=len(Kind._fields))]
     assert len({repr((capacity_of(88, nodes), kind)) for kind in kinds for nodes in (8, 15)}) == 2 * len(kinds)
-    assert len([kind for kind in kinds if kind.published + kind.coriolis + kind.quadratic <= 1]) <= 16
+    assert len([kind for kind in kinds if kind.published + kind.coriolis <= 1]) <= 6
+
+
+def test_an_address_of_vectors_is_that_of_an_array_without_gaps_on_their_boundary():
+    """Numbers may begin anywhere; a vector that does not begin on a boundary ends the process."""
+    array = aligned_zeros((4, 2 * LANES))
+    for part in (array, array[1:], array[:1, LANES:]):
+        assert address_of(part) == part.ctypes.data
+    for part in (array[:, :LANES], array[0, 1:]):
+        with pytest.raises(ValueError, match="needed: without gaps, from a multiple of 64 bytes on"):
+            address_of(part)
+    assert address_of(array[0, 1:], NUMBER_BYTES) == array.ctypes.data + NUMBER_BYTES
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-LANES = 8
-"""Numbers that the compiled time integration handles at once (r37core.machine_code.lanes)."""
+LANES, NUMBER_BYTES = 8, 8
+"""Numbers that the compiled time integration handles at once (r37core.machine_code.lanes), and bytes of each."""
 
-_VECTOR_BYTES = 8 * LANES
+_VECTOR_BYTES = NUMBER_BYTES * LANES
 
 Field = tuple[str, object, tuple[int, ...]]
 """Name, dtype and shape of a field of a record."""
@@ -40,6 +40,16 @@ def aligned_zeros(shape: tuple[int, ...], kind: np.dtype | type = np.float64) ->
     buffer = np.zeros(size + _VECTOR_BYTES, dtype=np.uint8)
     start = -buffer.ctypes.data % _VECTOR_BYTES
     return buffer[start : start + size].view(kind).reshape(shape)
+
+
+def address_of(array: np.ndarray, boundary: int = _VECTOR_BYTES) -> int:
+    """Address of an array that a program loads vectors from, or plain numbers if its `boundary` is NUMBER_BYTES.
+
+    Raises ValueError if it begins elsewhere, or has gaps: the program would end the process without a message.
+    """
+    if array.ctypes.data % boundary or not array.flags.c_contiguous:
+        raise ValueError(f"an array at {array.ctypes.data:#x}; needed: without gaps, from a multiple of {boundary} bytes on")
+    return array.ctypes.data
 
 
 def aligned_copy(array: np.ndarray, length: int) -> np.ndarray:

@@ -14,7 +14,6 @@ from r37core.contact.node_sweeps import open_gaps, set_laws, sweep_nodes, wear_b
 from r37core.machine_code.alignment import LANES
 from r37core.machine_code.lanes import bits_of, first_bit, flags_of, inlined, largest_of_lanes, load, numbers_at, store
 
-from .layout import LINED
 from .steps import bar_at, friction_response, leave_casing, node_lanes, set_friction_of_listed, wear_bar
 
 
@@ -43,11 +42,11 @@ def press_contact(m, place):
             # from the forces a step ago
             store(c.pressure, g, np.where(flags_of(c.found[g // LANES]), -load(m.force, g), 0.0))
         count = joined
-        set_laws(c, count, m.lining, LINED)
-        if not LINED and c.settles_at_once == 0:
+        set_laws(c, count, m.lining, m.lined)
+        if m.lined == 0 and c.settles_at_once == 0:
             violation = press_bare_casing(m, count)
         else:
-            violation = sweep_nodes(c, count, largest_gap, thickness, LINED)
+            violation = sweep_nodes(c, count, largest_gap, thickness, m.lined)
     if count == 0:
         release_contact(m)
         return False
@@ -99,7 +98,7 @@ def list_beyond(m, count, place):
             bit = bits & -bits
             bits &= bits - 1
             k = g + first_bit(bit)
-            if LINED:
+            if m.lined != 0:
                 c.bar[k] = bar_at(m, k, place)
                 c.wear[k] = numbers_at(m.call.wear)[c.bar[k]]
                 # it may be clear of what is left of its bar
@@ -130,13 +129,13 @@ def keep_forces(m, count):
         store(m.friction_force, (1, g), normal * load(m.friction_share, (1, g)))
         pressed = bits_of(normal < 0.0)
         any_pressed |= pressed
-        touching = wear_bars(c, g, m.lining) if LINED else pressed
+        touching = wear_bars(c, g, m.lining) if m.lined != 0 else pressed
         onsets = touching & ~m.touched[g // LANES]
         m.touched[g // LANES] = touching
         while onsets:
             m.totals.casing_hits += 1.0
             onsets &= onsets - 1
-    if LINED:
+    if m.lined != 0:
         for j in range(count):
             k = c.listed[j]
             wear_bar(m, k, c.bar[k], c.wear[k])

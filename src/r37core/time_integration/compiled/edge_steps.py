@@ -10,7 +10,7 @@ from r37core.contact.laws import displaced_position, lobe_shape
 from r37core.machine_code.alignment import LANES
 from r37core.machine_code.lanes import bits_of, inlined, integers_at, largest_of_lanes, load, numbers_at, spread, store
 
-from .layout import CORIOLIS, EXACT_GAP, LINED, MERIDIONAL, NORMAL, PUBLISHED, TANGENTIAL
+from .layout import CORIOLIS, EXACT_GAP, MERIDIONAL, NORMAL, PUBLISHED, TANGENTIAL
 from .steps import list_pressed, mode_lanes, node_lanes
 
 NEAR = 0.8
@@ -36,7 +36,7 @@ def measure_edge(m, place, lobes):
 @inlined
 def _near_the_casing(m):
     """True where a contact node is so far into the lining that the edge may pass the casing; without a lining it is."""
-    if LINED:
+    if m.lined != 0:
         near = 0
         for g in range(0, node_lanes(m), LANES):
             # what is left to the casing

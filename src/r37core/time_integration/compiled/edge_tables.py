@@ -4,7 +4,7 @@ from typing import Protocol
 
 import numpy as np
 
-from r37core.machine_code.alignment import LANES, aligned_zeros, padded
+from r37core.machine_code.alignment import LANES, NUMBER_BYTES, address_of, aligned_zeros, padded
 
 from ..problem import Problem
 from .layout import Kind
@@ -84,8 +84,10 @@ class EdgeTables:
     def put_into(self, record: np.void) -> None:
         """Put sizes and addresses into the record of the edge."""
         record["few"], record["groups"], record["width"], record["near"] = self._few, self._groups, self._width, self._near
-        for name in ("rows", "flexibility", "clearance", "radius", "theta", "table", "steps", "shares"):
-            record[name] = getattr(self, name).ctypes.data
+        for name in ("rows", "flexibility", "clearance"):
+            record[name] = address_of(getattr(self, name))
+        for name in ("radius", "theta", "table", "steps", "shares"):
+            record[name] = address_of(getattr(self, name), NUMBER_BYTES)
 
 
 def _grouped(values: np.ndarray, lanes: int) -> np.ndarray:

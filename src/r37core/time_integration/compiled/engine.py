@@ -7,6 +7,7 @@ from typing import Self
 
 import numpy as np
 
+from r37core.machine_code.alignment import NUMBER_BYTES, address_of
 from r37core.machine_code.native import Sources, cached_object, load_function
 
 from ..integration_choice import revolutions_at_once
@@ -86,7 +87,6 @@ class Passage:
         if self._grid.choice.second_order:
             engine.put(force=state.contact_force[NORMAL], friction_force=state.contact_force[TANGENTIAL:])
         addresses = {
-            "constants": engine.constants,
             "speed_indices": self._schedule.speed_indices,
             "lasting": self._schedule.samples,
             "ends": self._ends,
@@ -96,7 +96,8 @@ class Passage:
             "snapshots": self._snapshots,
         }
         for name, array in addresses.items():
-            m["call"][name] = 0 if array is None else array.ctypes.data
+            m["call"][name] = 0 if array is None else address_of(array, NUMBER_BYTES)
+        m["call"]["constants"] = address_of(engine.constants)
         self._samples_at, self._snapshots_at = int(m["call"]["samples"]), int(m["call"]["snapshots"])
         # steps are counted from the last pass of angle 0 on
         m["samples_before_snapshots"] = self._grid.samples_before_snapshots + passed

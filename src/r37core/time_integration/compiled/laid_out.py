@@ -10,7 +10,7 @@ import numpy as np
 from r37core.contact.casing import rise_rate
 from r37core.contact.ring import RingMotion
 from r37core.contact.scene import Friction, Lining
-from r37core.machine_code.alignment import LANES, aligned_copy, aligned_zeros, padded
+from r37core.machine_code.alignment import LANES, NUMBER_BYTES, address_of, aligned_copy, aligned_zeros, padded
 
 from ..integrators import CENTRAL_DIFFERENCE
 from ..jump_numbers import NEVER
@@ -19,7 +19,7 @@ from ..problem import Problem
 from ..quadratic_motion import QuadraticMotion
 from ..segments import Segments
 from .edge_tables import EdgeTables
-from .layout import LINING, NORMAL, Capacity, Kind, capacity_of, constants_record, integration_record
+from .layout import LINING, MODAL_ROWS, NORMAL, Capacity, Kind, capacity_of, constants_record, integration_record
 
 _ROWS_AT_ONCE = 2**17
 """Steps whose casing is computed at once."""
@@ -57,13 +57,8 @@ class LaidOutProblem:
             self.capacity = Capacity(*map(max, self.capacity, beside.capacity))
         coriolis = problem.blade.complex_modes is not None
         follows_sliding = scene.friction is not None and scene.friction.vector
-        self.kind = kind = Kind(
-            published=choice.integrator == CENTRAL_DIFFERENCE,
-            lined=scene.lining is not None,
-            exact_gap=scene.exact_gap,
-            coriolis=coriolis,
-            quadratic=problem.contact.quadratic is not None,
-        )
+        self.kind = kind = Kind(choice.integrator == CENTRAL_DIFFERENCE, scene.exact_gap, coriolis)
+        self._flags = {"lined": scene.lining is not None, "quadratic": problem.contact.quadratic is not None}
         self._take_room(before)
         self._lay_out(problem)
         if problem.casing.ring is not None:
@@ -80,7 +75,7 @@ class LaidOutProblem:
         if segments.increments is None:
             self._edge = EdgeTables(problem, kind, self)
             self._edge.put_into(self.record[0]["edge"])
-        self.put(jumping=segments.jumps is not None, follows_sliding=follows_sliding)
+        self.put(jumping=segments.jumps is not None, follows_sliding=follows_sliding, **self._flags)
         self.constants = self._table_of(segments)
         self.take(0)
 
@@ -93,12 +88,16 @@ class LaidOutProblem:
         m["call"]["speed_index"] = speed_index
 
     def _take_room(self, before: LaidOutProblem | None) -> None:
-        sizes = (self.capacity, self.kind, self._nodes, self._modes, self.mode_lanes)
-        if before is not None and sizes == (before.capacity, before.kind, before._nodes, before._modes, before.mode_lanes):
+        if before is not None and self._shape == before._shape:
             self.record, self._corners = before.record, before._corners
         else:
             self.record, self._corners = aligned_zeros((1,), integration_record(self.capacity)), {}
-        self.addresses = np.array([self.record.ctypes.data], dtype=np.uint64)
+        self.addresses = np.array([address_of(self.record)], dtype=np.uint64)
+
+    @property
+    def _shape(self) -> tuple[Any, ...]:
+        """What the room of a record depends on, and the parts of it that are filled."""
+        return self.capacity, self.kind, self._flags, self._nodes, self._modes, self.mode_lanes
 
     def _table_of(self, segments: Segments) -> np.ndarray:
         """The segments as they stand in the record, shape (segments,)."""
@@ -166,6 +165,8 @@ class LaidOutProblem:
         # a node that only pads the vector must neither sit on the axis nor cancel a pivot
         m["radius"] = m["flight"]["towards"] = m["problem"]["diagonal"] = 1.0
         m["contact"]["lanes"] = m["problem"]["lanes"] = self._node_lanes
+        others = constants_record(*self.capacity).itemsize // NUMBER_BYTES - MODAL_ROWS * self.capacity.modes
+        m["call"]["other_constants"] = others
         # every node may touch
         m["problem"]["among"] = -1
         self.put_modes(
@@ -213,9 +214,9 @@ class LaidOutProblem:
             m["casing"][name] = number
         kept = None if before is None else before._tables
         self._tables = kept if kept is not None and kept.fits(problem) else _CasingTables(problem, self._node_lanes)
-        m["call"]["casing_shape"] = self._tables.shape.ctypes.data
+        m["call"]["casing_shape"] = address_of(self._tables.shape)
         if problem.choice.jumps:
-            m["call"]["nearest_casing"] = self._tables.nearest.ctypes.data
+            m["call"]["nearest_casing"] = address_of(self._tables.nearest)
             lengths, flight = jump_lengths(problem.grid.steps_per_sample), m["flight"]
             flight["lengths"] = NEVER
             flight["lengths"][: len(lengths)] = lengths

@@ -20,17 +20,14 @@ from ..state import TOTALS
 class Kind(NamedTuple):
     """Kind of a program: constants of its functions, so that what a scene lacks is not in its program.
 
-    Only what changes a loop over modes or nodes is one of these; the rest of a scene is numbers of the record.
-    `published`: the integrator is central_difference, whose forces correct the prediction; else they are those at t_n, see
-    contact_steps. `lined`, `exact_gap`: see Scene. `coriolis`: modes are complex, see r37core.time_integration.gyroscopic.
-    `quadratic`: displacements are of second order, see r37core.time_integration.quadratic_motion.
+    What costs a run hardly anything where it is absent is a flag of the record instead: one program more takes longer to make
+    than it saves. `published`: the integrator is central_difference, whose forces correct the prediction; else they are those
+    at t_n, see contact_steps. `exact_gap`: see Scene. `coriolis`: modes are complex, see r37core.time_integration.gyroscopic.
     """
 
     published: bool
-    lined: bool
     exact_gap: bool
     coriolis: bool
-    quadratic: bool
 
     @property
     def constants(self) -> dict[str, bool]:
@@ -38,7 +35,7 @@ class Kind(NamedTuple):
         return {name.upper(): value for name, value in self._asdict().items()}
 
 
-PUBLISHED = LINED = EXACT_GAP = CORIOLIS = QUADRATIC = False
+PUBLISHED = EXACT_GAP = CORIOLIS = False
 """Placeholders of a kind's constants: each program has its own (r37core.machine_code.program_constants)."""
 
 NORMAL, TANGENTIAL, MERIDIONAL = range(3)
@@ -200,6 +197,8 @@ CALL = aligned_record(
     _fields("casing_shape nearest_casing wear samples snapshots", kind=np.int64),
     # constants of all speeds; speed and blocks of each segment; motion at its ends, and largest wear by then
     _fields("constants speed_indices lasting ends worn", kind=np.int64),
+    # number of a speed's constants that are not of modes
+    _fields("other_constants", kind=np.int64),
 )
 """Arguments of a call of the program."""
 
@@ -258,6 +257,8 @@ def integration_record(capacity: Capacity) -> np.dtype:
         _fields("pairs number_of_outputs nodes", kind=np.int64),
         # whether it jumps, and the direction of friction follows the sliding
         _fields("jumping follows_sliding", kind=np.int64),
+        # whether there is a lining; whether displacements are of second order, see time_integration.quadratic_motion
+        _fields("lined quadratic", kind=np.int64),
         _fields("steps_per_revolution steps_per_block samples_before_snapshots samples_per_snapshot", kind=np.int64),
         _fields("call", kind=CALL),
     )

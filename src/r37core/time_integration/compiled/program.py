@@ -19,7 +19,7 @@ from ..jump_numbers import COARSE, STRIDES
 from .contact_steps import press_contact, release_contact
 from .edge_steps import measure_edge
 from .jump_steps import bound_amplitudes, choose_jump, jump_ahead, turn_jump, turn_step
-from .layout import EXACT_GAP, LINED, MODAL_ROWS, PUBLISHED, QUADRATIC, Capacity, Kind, constants_record, integration_record
+from .layout import EXACT_GAP, PUBLISHED, Capacity, Kind, integration_record
 from .quadratic_steps import begin_quadratic, follow_quadratic, push_quadratic
 from .segment_steps import begin_segment, end_segment
 from .steps import (
@@ -123,7 +123,7 @@ def _fly(addresses, blades):
         if not PUBLISHED and m.follows != 0:
             sum_pushes(m)
             pushed = True
-        if QUADRATIC:
+        if m.quadratic != 0:
             push_quadratic(m)
             pushed = True
     return pushed
@@ -153,12 +153,12 @@ def _share_pushes(addresses, blades):
 def _push(m, counted):
     """Push a blade and the casing, whose work is `counted` with one of them."""
     work, lost, casing = load(m.block_work, 0), load(m.block_loss, 0), _first_of_casing(m)
-    if QUADRATIC or m.follows != 0:
+    if m.quadratic != 0 or m.follows != 0:
         work, lost = push_lanes(m, 0, casing, work, lost)
     work_of_both, lost_of_both = push_lanes(m, casing, mode_lanes(m), work, lost)
     if counted:
         work, lost = work_of_both, lost_of_both
-    if QUADRATIC:
+    if m.quadratic != 0:
         work = follow_quadratic(m, work)
     store(m.block_work, 0, work)
     store(m.block_loss, 0, lost)
@@ -168,24 +168,25 @@ def _push(m, counted):
 def _meet(m, place, lobes):
     """The forces on a blade after a step; returns whether it is beyond the lining or casing."""
     beyond = measure_exact_gaps(m, place, lobes) if EXACT_GAP else measure_gaps(m, place, lobes)
-    if PUBLISHED and beyond:
+    if not beyond:
+        if not PUBLISHED and m.follows != 0:
+            release_contact(m)
+            m.follows = 0
+        else:
+            leave_casing(m)
+        if m.lined != 0:
+            follow_gaps(m, m.problem.gap, place)
+    elif PUBLISHED:
         work, lost = meet(m, place, load(m.block_work, 0), load(m.block_loss, 0))
         store(m.block_work, 0, work)
         store(m.block_loss, 0, lost)
         measure_edge(m, place, lobes)
-    elif beyond:
+    else:
         m.follows = int(press_contact(m, place))
         if m.follows != 0:
             measure_edge(m, place, lobes)
-        if LINED:
+        if m.lined != 0:
             follow_gaps(m, m.contact.opened, place)
-    elif not PUBLISHED and m.follows != 0:
-        release_contact(m)
-        m.follows = 0
-    else:
-        leave_casing(m)
-    if LINED and not beyond:
-        follow_gaps(m, m.problem.gap, place)
     return beyond
 
 
@@ -228,12 +229,12 @@ def _integrate(addresses, blades):
         if place == 0 or begins:
             # so that a run stopped after a revolution goes on with the same bits
             busy, bounded, first_stride = False, False, shortest
-            if QUADRATIC:
+            if first.quadratic != 0:
                 for b in range(blades):
                     begin_quadratic(pointed_at(addresses[b]))
             if not PUBLISHED:
                 busy = _find_forces(addresses, blades)
-            if LINED:
+            if first.lined != 0:
                 busy |= _any_pressing(addresses, blades)
                 measured = busy
         _begin_block(addresses, blades)
@@ -253,7 +254,7 @@ def _integrate(addresses, blades):
                     remaining *= first.flight.decay[stride]
                     position += first.flight.lengths[stride]
                     continue
-            if LINED and not measured:
+            if first.lined != 0 and not measured:
                 _measure(addresses, blades, place + position, first.casing.amplitude * (1.0 - remaining))
                 measured = True
             position += 1
@@ -293,8 +294,7 @@ def _integrate(addresses, blades):
 def compile_integration(capacity: Capacity, kind: Kind) -> bytes:
     """Object code of `advance(records, count)`: a function of the records' addresses that returns the blocks of steps done."""
     records = types.CPointer(types.CPointer(numba.from_dtype(integration_record(capacity))))
-    others = constants_record(*capacity).itemsize // 8 - MODAL_ROWS * capacity.modes
-    integrate = specialised(_integrate, kind.constants | {"OTHERS": others})
+    integrate = specialised(_integrate, kind.constants)
     # the loop itself, not a function around it: what a compiled function calls was optimised and emitted once already
     advance = numba.cfunc(types.int64(records, types.int64), **OPTIONS)(integrate.py_func)
     return object_code(advance.inspect_llvm(), advance.native_name, "advance")

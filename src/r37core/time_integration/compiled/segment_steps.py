@@ -9,9 +9,6 @@ from r37core.machine_code.lanes import inlined, integers_at, load, numbers_at, n
 from .layout import MODAL_ROWS, NORMAL
 from .steps import mode_lanes
 
-OTHERS = 0
-"""Number of a speed's constants that are not of modes: a constant of each program (r37core.machine_code.program_constants)."""
-
 
 @inlined
 def begin_segment(m, segment):
@@ -30,11 +27,11 @@ def take_speed(m, index):
         displacement_share = load(m.speed.increment_by_displacement, i) * load(m.u, i)
         store(m.increment, i, (load(m.increment, i) - displacement_share) * load(m.speed.velocity_by_increment, i))
     own, table, modes, most = numbers_of(m), numbers_at(m.call.constants), mode_lanes(m), len(m.u)
-    first = index * (MODAL_ROWS * modes + OTHERS)
+    first = index * (MODAL_ROWS * modes + m.call.other_constants)
     for row in range(MODAL_ROWS):
         for i in range(0, modes, LANES):
             store(own, row * most + i, load(table, first + row * modes + i))
-    for i in range(0, OTHERS, LANES):
+    for i in range(0, m.call.other_constants, LANES):
         store(own, MODAL_ROWS * most + i, load(table, first + MODAL_ROWS * modes + i))
     for k in range(m.nodes):
         m.problem.diagonal[k] = m.speed.coupling[NORMAL, k, k]

@@ -28,7 +28,7 @@ from r37core.machine_code.lanes import (
     sums_of_lanes,
 )
 
-from .layout import CORIOLIS, EXACT_GAP, LINED, MERIDIONAL, NORMAL, OF_MODES, OF_NODES, PUBLISHED, TANGENTIAL
+from .layout import CORIOLIS, EXACT_GAP, MERIDIONAL, NORMAL, OF_MODES, OF_NODES, PUBLISHED, TANGENTIAL
 
 FEW_NODES = 3
 """Largest number of nodes whose friction is set one by one."""
@@ -495,12 +495,12 @@ def kick_complex_modes(m, i, push, increment_push, work, lost):
 @inlined
 def meet(m, place, work, lost):
     """Do a step in which nodes are beyond the lining or casing; adds work, doubled, and loss."""
-    if LINED:
+    if m.lined != 0:
         # which the forces are about to open
         follow_gaps(m, m.problem.gap, place)
     for g in range(0, node_lanes(m), LANES):
         store(m.force, g, 0.0)
-    if not LINED or press_lining(m, place):
+    if m.lined == 0 or press_lining(m, place):
         press_casing(m)
     else:
         leave_casing(m)
