@@ -28,7 +28,7 @@ RunAll = Callable[[Sequence[Call], str], Sequence[Any]]
 """Gives the results of calls, in their order, on whatever processes; raises what one raises. The text says what they make."""
 
 SIMULATIONS = "simulations"
-"""What most calls make."""
+"""Text of the calls that simulate."""
 
 
 def one_by_one(calls: Sequence[Call], what: str = "") -> list[Any]:
