@@ -93,7 +93,7 @@ programs = [str(PACKAGE / panel.program) for panel in shown_panels.values()]
 use rule step as explorer with:
     input:
         **datasets,
-        **{name: panel.dataset for name, panel in shown_panels.items()},
+        **{name: panel.table for name, panel in shown_panels.items()},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         ranking=rules.ranking.output[0],

@@ -17,17 +17,12 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
 
     Params: title, figures (of extensions, linked), operating (the range, or None); panels: extension -> function that gives
-    what its panels show of the input that is called like it; programs: files that draw them.
+    what its panels show of the table that is called like it; programs: files that draw them.
     """
     files = dict(input.items())
-    panels = {name: resolve_name(function)(_read(files.pop(name))) for name, function in params.panels.items()}
+    panels = {name: resolve_name(function)(read_table(files.pop(name))) for name, function in params.panels.items()}
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_judged(file) for kind, file in files.items()}
     operating = params.operating and from_plain(OperatingRange, params.operating)
     contents = explorer_contents(datasets, interactions, ranking, operating) | {"panels": panels, "figures": params.figures}
     write_page(contents, params.title, output.page, page_parts(params.programs))
-
-
-def _read(file: str) -> Any:
-    """A table or a dataset."""
-    return read_table(file) if file.endswith(".csv") else read_judged(file)

@@ -19,14 +19,14 @@ Targets = Callable[[Sweep], dict[str, Wildcards]]
 
 @dataclass(frozen=True)
 class Panel:
-    """Panel of an extension in the explorer of a run that has its dataset.
+    """Panel of an extension in the explorer of a run that has its table.
 
-    `dataset`: that one file among the targets, a dataset or a table; `shown`: whether a run that makes it has the panel.
+    `table`: that one file among the targets; `shown`: whether a run that makes it has the panel.
     `contents`: function of what it holds, as `folder.module.function`, that gives what JSON can carry.
     `program`: file of this package that draws it (`explorer/panels.js`).
     """
 
-    dataset: str
+    table: str
     contents: str
     program: str
     shown: Callable[[Sweep], bool] = lambda _: True

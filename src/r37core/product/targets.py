@@ -64,4 +64,4 @@ def linked_figures(sweep: Sweep) -> list[dict[str, str]]:
 def panels(sweep: Sweep) -> dict[str, Panel]:
     """Extension -> its panel, of those that have one in this run."""
     declared = ((extension, extension.panel) for extension in EXTENSIONS if extension.panel)
-    return {each.name: panel for each, panel in declared if each.targets(sweep)[panel.dataset] and panel.shown(sweep)}
+    return {each.name: panel for each, panel in declared if each.targets(sweep)[panel.table] and panel.shown(sweep)}
