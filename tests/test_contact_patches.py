@@ -9,6 +9,7 @@ import scipy.linalg as la
 from box_mesh import box_mesh
 from defaults import BoundaryChoice, IntegrationChoice, MatricesSource
 from integration_cases import ABRADABLE, DIRECT
+from integration_runs import ENGINES
 
 import r37
 from r37core.config import ConfigError, command_line_document
@@ -28,7 +29,6 @@ from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import BoundaryError, boundary_located
 from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integrators import EXACT_MODAL
-from r37core.time_integration.simulate import Simulation
 
 EVEN = {"spacing": "even"}
 PATCHES = BoundaryChoice("pressure_edge", 4, True, "patches", "even")
@@ -179,8 +179,8 @@ def test_no_energy_is_made(patched, scene):
     """Forces on patches, coupled through the mesh between them: the balance closes, in either engine, and both agree."""
     model, choice = contact_model(patched, "pressure_edge"), IntegrationChoice(3.2e-6, 3, 62, integrator=EXACT_MODAL)
     samples = []
-    for engine in ("compiled", "reference"):
-        simulation = Simulation(model, 1600.0, scene, replace(choice, engine=engine))
+    for simulation_class in ENGINES.values():
+        simulation = simulation_class(model, 1600.0, scene, choice)
         state = simulation.start()
         samples.append(simulation.advance_samples(state, 3 * 62).samples)
         work, loss = simulation.work(state), state.totals["loss"]

@@ -74,7 +74,6 @@ class TimeIntegration(Section):
     revolutions: Any = DECLARED
     speed_step_rad_s: Speed = Field(description="Step of speed ranges without one")
     integrator: Any = DECLARED
-    engine: Any = DECLARED
     until: Any = DECLARED
     highest_frequency_hz: Any = DECLARED
     stress_instants: int = Field(default=62, ge=1, le=10000, description="Stress evaluations per revolution")
