@@ -23,7 +23,6 @@ from r37core.fem.stress import nodal_stress
 from r37core.product.reading import load_settings
 from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model, write_contact_model
-from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rotation import BucklingError, rotation_amplitudes, shapes_of_rotation
 from r37core.run_ups import revolutions
@@ -85,8 +84,8 @@ def test_a_bar_on_the_axis_is_stretched_as_in_closed_form():
 
 
 @pytest.mark.parametrize("spin_softening", [False, True])
-def test_shapes_of_a_few_speeds_give_the_displacement_at_any(mesh, matrices, choice, steel, spin_softening):
-    model = reduce_blade(mesh, matrices, replace(choice, spin_softening=spin_softening, recover_whole_blade=True), steel)
+def test_shapes_of_a_few_speeds_give_the_displacement_at_any(matrices, reduced, spin_softening):
+    model = reduced(spin_softening=spin_softening, recover_whole_blade=True)
     per_square = matrices.geometric_stiffness() + (matrices.spin_softening() if spin_softening else 0.0 * matrices.mass())
     load = matrices.centrifugal_load[matrices.free_nodes].ravel()
     for speed in (200.0, 900.0, 1730.0, 2000.0):

@@ -110,13 +110,13 @@ def test_exact_gap_is_the_distance_from_the_cone():
 
 
 @pytest.fixture(scope="module")
-def forward_swept(settings, choice):
+def forward_swept(settings, boundary, reduction):
     from r37core.fem.matrices import assemble
     from r37core.mesh.generate import generate_mesh
 
     blade = settings.blades["S100"]
     mesh = generate_mesh(blade.definition.build(round_edges=True), nodes=2500, layers=1, tip_elements=14)
-    return reduce_blade(mesh, assemble(mesh, blade.material), choice, blade.material)
+    return reduce_blade(mesh, assemble(mesh, blade.material), blade.material, boundary, reduction, {})
 
 
 def test_sweep_closes_the_normal_clearance_of_bending_and_opens_the_radial_one(model, forward_swept):

@@ -17,6 +17,7 @@ from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Scene
 from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import LINEAR, POINTS, BoundaryChoice, ReductionChoice
+from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .bases import chain_of_bases
@@ -180,21 +181,29 @@ class Settings:
             "blades": to_plain(self.blades),
         }
 
-    def reduction_choice(self, blade: str, tip_line: str | None = None) -> ReductionChoice:
-        """Parameters of a blade's reduced model, with contact nodes on `tip_line` or on that of config.yaml.
-
-        Its basis is computed at rest, at half the maximum speed and at the maximum speed.
-        """
-        structure, section = self.structure, self.structure.boundary
-        boundary = si_form(BoundaryChoice, section, tip_line=tip_line or section.tip_line, contact=self.contact_of(blade))
+    def reduction_choice(self, blade: str) -> ReductionChoice:
+        """Reduction of a blade: its basis is computed at rest, at half the maximum speed and at the maximum speed."""
+        structure = self.structure
         speeds = (0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s)
-        regions = chosen_regions(structure.stress_regions) | dict(self.blades[blade].stress_regions)
         more = {"kinematics": self.kinematics_of(blade), **dict(self.fidelity.reduction)}
-        return si_form(ReductionChoice, structure, boundary=boundary, speeds=speeds, stress_regions=regions, **more)
+        return si_form(ReductionChoice, structure, speeds=speeds, **more)
+
+    def boundary_choice(self, blade: str, tip_line: str | None = None) -> BoundaryChoice:
+        """Contact nodes of a blade, on `tip_line` or on that of config.yaml."""
+        section = self.structure.boundary
+        return si_form(BoundaryChoice, section, tip_line=tip_line or section.tip_line, contact=self.contact_of(blade))
+
+    def stress_regions(self, blade: str) -> dict[str, RegionChoice]:
+        """Regions of a blade where stress is looked for."""
+        return chosen_regions(self.structure.stress_regions) | dict(self.blades[blade].stress_regions)
+
+    def judged_region(self, blade: str) -> RegionChoice:
+        """Region of a blade that decides."""
+        return next(iter(self.stress_regions(blade).values()))
 
     def contact_nodes(self, blade: str, tip_elements: int) -> int:
         """Number of a blade's contact nodes on a tip of so many elements; 0 where the mesh of another program decides it."""
-        boundary = self.reduction_choice(blade).boundary
+        boundary = self.boundary_choice(blade)
         if not self.blades[blade].has_profiles:
             return boundary.nodes or 0
         return boundary.on(np.linspace(0.0, 1.0, 2 * tip_elements + 1)).most_nodes
