@@ -66,7 +66,7 @@ class ReferenceEngine:
             reached, bounded = go_on([self], [state], [part], [0])
             state.samples += reached
             schedule.ends[segment, 1] = state.displacement, state.increment
-            schedule.wear[segment] = 0.0 if state.wear is None else state.wear.max()
+            schedule.wear[segment] = state.wear.max(initial=0.0)
             if not bounded:
                 break
         return state.samples - first
@@ -82,7 +82,7 @@ class ReferenceEngine:
     def begin(self, motion, n, state):
         """Go on from a motion at t_n: where no node presses the lining, the gaps are those of this speed."""
         self._turn(n)
-        if state.wear is not None and not (state.contact_force.any() or np.any(state.penetration > 0.0)):
+        if state.wear.size and not (state.contact_force.any() or np.any(state.penetration > 0.0)):
             gap, theta = self.gap(self.motion.displacement(motion), n)
             state.penetration[:], state.bar_position[:] = -gap, theta / (2.0 * np.pi) * state.wear.shape[1]
 
@@ -199,7 +199,7 @@ class ReferenceEngine:
         """
         lining, nodes = self.problem.scene.lining, range(len(gap))
         opening = -np.einsum("dk,dkg->gk", directions, self.flexibility)
-        bars = [] if wear is None else [bar_of(theta[k], k, wear) for k in nodes]
+        bars = [bar_of(theta[k], k, wear) for k in nodes if lining is not None]
         worn = [wear[bar] for bar in bars]
         pressure, touching = np.zeros(len(gap)), np.zeros(len(gap), dtype=bool)
         for _ in range(MOST_SWEEPS):

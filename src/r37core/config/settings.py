@@ -14,7 +14,7 @@ import numpy as np
 from r37core.base.plain import to_plain
 from r37core.base.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.base.yaml_file import KeyPath
-from r37core.contact.scene import Scene
+from r37core.contact.scene import Lining, Scene
 from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import LINEAR, POINTS, BoundaryChoice, ReductionChoice
 from r37core.rom.region_choice import RegionChoice
@@ -197,6 +197,11 @@ class Settings:
         """Regions of a blade where stress is looked for."""
         return chosen_regions(self.structure.stress_regions) | dict(self.blades[blade].stress_regions)
 
+    @property
+    def linings(self) -> dict[str, Lining]:
+        """Lining of each scene that has one."""
+        return {name: chosen.scene.lining for name, chosen in self.scenes.items() if chosen.scene.lining}
+
     def judged_region(self, blade: str) -> RegionChoice:
         """Region of a blade that decides."""
         return next(iter(self.stress_regions(blade).values()))
@@ -230,7 +235,7 @@ class Settings:
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
         chosen = self.scenes[scene]
-        everything = self.fidelity.time_integration.choice(chosen.scene.lining is not None)
+        everything = self.fidelity.time_integration.choice(chosen.scene)
         stress = "stress" in self.results_of(blade, scene)
         history = speed in chosen.stress_history_speeds
         choice = replace(everything, revolutions=chosen.revolutions, until_settled=chosen.until_settled)
@@ -278,7 +283,7 @@ def operating_range(settings: Settings) -> OperatingRange | None:
 
 def direct_on_points(settings: Settings) -> tuple[list[str], list[str]]:
     """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
-    scenes = [name for name in settings.scene_names if settings.scene_designs.entries[name].lining is None]
+    scenes = [name for name in settings.scene_names if name not in settings.linings]
     meshed = [name for name, blade in settings.blades.items() if not blade.is_matrices]
     blades = [name for name in meshed if settings.contact_of(name) == POINTS]
     return (scenes, blades) if scenes and blades else ([], [])

@@ -43,7 +43,7 @@ def length_of_run(settings: Settings, scene: str, speed: float, revolutions: flo
     """Length of a run in a scene at a speed (rad/s), with the level's revolutions unless they are given."""
     steps, chosen = settings.fidelity.time_integration, settings.scenes[scene].scene
     blades = 1 if chosen.rotor is None else len(chosen.rotor.numbers)
-    step = steps.largest_step(chosen.lining is not None)
+    step = steps.largest_step(chosen)
     return RunLength(speed, steps.revolutions if revolutions is None else revolutions, blades, step)
 
 

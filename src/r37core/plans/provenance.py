@@ -57,7 +57,7 @@ class Provenance:
 
     def _sweep_of(self, blade: str, scene: str) -> Attributes:
         chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration
-        step = steps.largest_step(chosen.scene.lining is not None)
+        step = steps.largest_step(chosen.scene)
         return Attributes(
             self._structure(blade),
             scene=scene,

@@ -78,7 +78,6 @@ class RunUpIntegration:
         self._simulation: Simulation | None = None
         self.state = rest_state(self._problem(self.intervals[0].speed))
         if wear is not None:
-            assert self.state.wear is not None
             self.state.wear[:] = wear
         self.velocity = np.zeros(len(self.state.displacement))
         self.energy = self.stiffness_work = 0.0

@@ -57,8 +57,6 @@ class RotorSimulation:
         """All blades at rest, in an unworn lining, or in one in which the longest have cut their way."""
         states = [simulation.start() for simulation in self.blades]
         casings = [simulation.problem.casing for simulation in self.blades]
-        if self.problem.scene.lining is None:
-            return states
         unworn = np.zeros((len(casings[0].tip.radius), casings[0].bars))
         shared = unworn + np.max([casing.initial_wear for casing in casings], axis=0)
         for state, casing in zip(states, casings, strict=True):

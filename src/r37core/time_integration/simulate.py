@@ -18,7 +18,7 @@ from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
 from .segments import Segments, own_segment
-from .settling import Ending, has_settled, parts_of_run, revolution_rms, wear_of
+from .settling import Ending, has_settled, parts_of_run, revolution_rms
 from .state import Schedule, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
@@ -88,11 +88,11 @@ class Simulation:
         risen = problem.casing.rise_time / (problem.grid.steps_per_revolution * problem.grid.time_step)
         parts, out = parts_of_run(choice), self.room(0, choice.revolutions * per_revolution)
         done, settled, growth, steps, rms = 0, False, 0.0, 0.0, np.empty(0)
-        wear, contact = wear_of(state).copy(), float(state.totals["steps_in_contact"])
+        wear, contact = state.wear.copy(), float(state.totals["steps_in_contact"])
         for part in self.parts(state, [count * per_revolution for count in parts], out):
             done += len(part.samples)
-            growth, steps = float(np.max(wear_of(state) - wear)), float(state.totals["steps_in_contact"]) - contact
-            wear, contact = wear_of(state).copy(), contact + steps
+            growth, steps = float(np.max(state.wear - wear, initial=0.0)), float(state.totals["steps_in_contact"]) - contact
+            wear, contact = state.wear.copy(), contact + steps
             if choice.until_settled and not part.diverged:
                 rms = np.concatenate([rms, revolution_rms(part.samples[:, LEADING_EDGE], per_revolution)])
                 settled = has_settled(rms, parts[-1], growth, risen)
@@ -179,8 +179,8 @@ class Simulation:
 def rest_state(problem: Problem) -> SimulationState:
     """A blade at rest, in an unworn lining, or in one that it has cut its way into."""
     directions, nodes, modes = problem.contact.displacement_operator.shape
-    wear = None if problem.scene.lining is None else np.zeros((nodes, problem.casing.bars))
-    if wear is not None and problem.scene.casing.changes_with_speed:
+    wear = np.zeros((nodes, problem.casing.bars))
+    if problem.scene.casing.changes_with_speed:
         wear += problem.casing.initial_wear
     motion, places = (np.zeros(modes), np.zeros(modes)), (np.zeros(nodes), np.zeros(nodes))
     state = SimulationState(*motion, wear, np.zeros(nodes, dtype=bool), np.zeros((directions, nodes)), *places)
