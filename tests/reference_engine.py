@@ -7,7 +7,7 @@ in the frame that does not turn.
 """
 
 import numpy as np
-from reference_motion import MotionWithCasing, blade_motion
+from reference_motion import MotionWithCasing, motion_of
 
 from r37core.contact.casing import casing_axes
 from r37core.run_ups.integration import RunUpIntegration
@@ -29,15 +29,14 @@ class ReferenceEngine:
     def __init__(self, problem, segments, before=None, beside=None):
         self.problem, self._segments = problem, segments
         self._blade_rows, self._edge_rows = (rows_of(each, problem) for each in (problem.contact, problem.edge.motion))
+        self.step = self._pushed_step if problem.choice.second_order else self._step
         self._turn(0)
-        self.flexibility = problem.contact.contact_flexibility
         self.take(0)
 
     def take(self, speed_index):
         """Go on at this one of the speeds."""
         self._speed_index, recursion = speed_index, self._segments.recursion[speed_index]
-        blade = blade_motion(self.problem, recursion)
-        self.motion = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
+        self.motion = motion_of(self.problem, recursion)
         self.clearance = self._segments.clearance[speed_index]
         # a revolution has as many steps at every speed
         faster = self._segments.speeds[speed_index] / self.problem.speed
@@ -97,15 +96,11 @@ class ReferenceEngine:
             out.snapshots[kept] = numbers
         return bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit))
 
-    def step(self, before, n, state, force):
-        """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing.
+    def _step(self, before, n, state, _):
+        """Motion at t_n from that at t_{n-1}, by forces that correct the prediction of t_n.
 
-        `force`: modal forces at t_{n-1}, of forces at t_n; those of the state, and of other blades in an elastic casing.
+        Changes wear, totals and the nodes on the casing.
         """
-        return self._pushed_step(before, n, state, force) if self.problem.choice.second_order else self._step(before, n, state)
-
-    def _step(self, before, n, state):
-        """Step with forces that correct the prediction of t_n."""
         lining = self.problem.scene.lining
         self._turn(n)
         predicted = self.motion.flown(before)
@@ -131,7 +126,7 @@ class ReferenceEngine:
         return self._modal(state.contact_force)
 
     def _pushed_step(self, before, n, state, force):
-        """Step under the modal forces at t_{n-1}; the state gets those on the nodes at t_n."""
+        """The same under modal forces at t_{n-1}, in an elastic casing of all blades; the state gets those at t_n."""
         after, slid = self.motion.pushed(self.motion.flown(before), force), self.motion.slid(before)
         self._turn(n)
         gap, theta = self.gap(self.motion.displacement(after), n)
@@ -198,7 +193,7 @@ class ReferenceEngine:
         round-off.
         """
         lining, nodes = self.problem.scene.lining, range(len(gap))
-        opening = -np.einsum("dk,dkg->gk", directions, self.flexibility)
+        opening = -np.einsum("dk,dkg->gk", directions, self.problem.contact.contact_flexibility)
         bars = [bar_of(theta[k], k, wear) for k in nodes if lining is not None]
         worn = [wear[bar] for bar in bars]
         pressure, touching = np.zeros(len(gap)), np.zeros(len(gap), dtype=bool)

@@ -187,15 +187,6 @@ class CoupledMotion:
         return float(work), float(0.5 * (kicked @ self._energy @ kicked - after @ self._energy @ after))
 
 
-def blade_motion(problem, recursion):
-    """Motion of a problem's blade."""
-    if problem.contact.quadratic is not None:
-        return QuadraticMotionOfModes(problem, recursion)
-    if problem.blade.complex_modes is not None:
-        return CoupledMotion(problem, recursion)
-    return RealMotion(problem.blade.modes, recursion)
-
-
 class MotionWithCasing:
     """A blade's motion, and beside it that of an elastic casing: u and d of its modes in the frame that does not turn.
 
@@ -273,3 +264,14 @@ class MotionWithCasing:
             return work + own.energy(*after[1]) - own.energy(u, d) + lost, loss + lost
         moved = d + after[1][1]
         return work + float(0.5 * casing_force @ moved), loss + float(own.loss @ moved**2)
+
+
+def motion_of(problem, recursion):
+    """Motion of a problem's blade, and of its elastic casing."""
+    if problem.contact.quadratic is not None:
+        blade = QuadraticMotionOfModes(problem, recursion)
+    elif problem.blade.complex_modes is not None:
+        blade = CoupledMotion(problem, recursion)
+    else:
+        blade = RealMotion(problem.blade.modes, recursion)
+    return blade if problem.casing.ring is None else MotionWithCasing(blade, problem, recursion)
