@@ -33,7 +33,8 @@ def model(input: Any, output: Any, params: Any) -> None:
     """Mesh, assemble and reduce for some cases. Input: geometry or mesh. Outputs: rom, contact, cost.
 
     The cost has CPU and wall time (s) and memory (bytes), or the reason why the mesh cannot have the boundary nodes: the other
-    files are empty then. Params: choice (nodes of a mesh that is generated, boundary, reduction, stress_regions), material, provenance.
+    files are empty then. Params: choice (nodes of a mesh that is generated, boundary, reduction, stress_regions), material,
+    provenance.
     """
     choice, material = params.choice, from_plain(Material, params.material)
     boundary = from_plain(BoundaryChoice, choice["boundary"])
@@ -59,7 +60,7 @@ def model(input: Any, output: Any, params: Any) -> None:
         return
     write_json({"cpu_s": cpu, "wall_s": wall, "peak_memory_bytes": peak_memory()}, output.cost)
     write_reduced_model(reduced, output.rom, params.provenance)
-    write_contact_model(contact_model(reduced, reduction.boundary.tip_line), output.contact)
+    write_contact_model(contact_model(reduced, boundary.tip_line), output.contact)
 
 
 def run(input: Any, output: Any, params: Any) -> None:
