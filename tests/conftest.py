@@ -165,39 +165,48 @@ def matrices(mesh, steel):
 
 
 @pytest.fixture(scope="session")
-def choice(settings):
+def boundary(settings):
+    return settings.boundary_choice("Ref")
+
+
+@pytest.fixture(scope="session")
+def reduction(settings):
     return settings.reduction_choice("Ref")
 
 
 @pytest.fixture(scope="session")
-def model(mesh, matrices, choice, steel):
+def reduced(mesh, matrices, steel, settings, boundary, reduction):
+    """Reduced models of the mesh; `others`: numbers of another reduction."""
     from r37core.rom.reduce import reduce_blade
 
-    return reduce_blade(mesh, matrices, choice, steel)
+    def model(boundary=boundary, regions=None, **others):
+        regions = regions or settings.stress_regions("Ref")
+        return reduce_blade(mesh, matrices, steel, boundary, replace(reduction, **others), regions)
+
+    return model
 
 
 @pytest.fixture(scope="session")
-def whole(mesh, matrices, choice, steel):
+def model(reduced):
+    return reduced()
+
+
+@pytest.fixture(scope="session")
+def whole(reduced):
     """The reduced model that gives the displacement of every node."""
-    from r37core.rom.reduce import reduce_blade
-
-    return reduce_blade(mesh, matrices, replace(choice, recover_whole_blade=True), steel)
+    return reduced(recover_whole_blade=True)
 
 
 @pytest.fixture(scope="session")
-def displaced(mesh, matrices, choice, steel):
+def displaced(reduced):
     """The reduced model with displacements of second order, of every node."""
-    from r37core.rom.reduce import reduce_blade
-
-    return reduce_blade(mesh, matrices, replace(choice, kinematics="quadratic", recover_whole_blade=True), steel)
+    return reduced(kinematics="quadratic", recover_whole_blade=True)
 
 
 @pytest.fixture(scope="session")
-def turning(mesh, matrices, choice, steel):
+def turning(reduced):
     """The reduced model with the Coriolis force."""
-    from r37core.rom.reduce import reduce_blade
-
-    return reduce_blade(mesh, matrices, replace(choice, coriolis=True), steel)
+    return reduced(coriolis=True)
 
 
 @pytest.fixture(scope="session")

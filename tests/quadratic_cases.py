@@ -29,11 +29,10 @@ def beam_model(along_axis=False, start=0.0, maximum=20.0, kinematics="quadratic"
     """Reduced model of a thin beam that stands out from the axis, bending along theta or, if asked for, along the axis."""
     width, height = (WIDTH, THICKNESS) if along_axis else (THICKNESS, WIDTH)
     mesh = box_mesh(LENGTH, width, height, (16, 1, 1), origin=(start, -width / 2, -height / 2), element="hexahedron20")
-    boundary = BoundaryChoice(nodes=2)
     regions = {"all": RegionChoice(minimum_span=0.05)}
     speeds = (0.0, 0.5 * maximum, maximum)
-    choice = ReductionChoice(boundary, speeds, regions, 10, kinematics=kinematics, quadratic_modes=modes)
-    return reduce_blade(mesh, assemble(mesh, SOFT_SIDEWAYS), choice, SOFT_SIDEWAYS)
+    reduction = ReductionChoice(speeds, 10, kinematics=kinematics, quadratic_modes=modes)
+    return reduce_blade(mesh, assemble(mesh, SOFT_SIDEWAYS), SOFT_SIDEWAYS, BoundaryChoice(nodes=2), reduction, regions)
 
 
 def free_blade(model, speed, **changes):

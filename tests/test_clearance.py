@@ -11,6 +11,7 @@ from box_mesh import box_mesh
 from box_operator import box_operator
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, LINING, random_model, with_static_modes
+from integration_runs import ENGINES, RUN_UPS, whole_run
 
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, checked_scene
@@ -22,7 +23,6 @@ from r37core.fem.stress import nodal_stress
 from r37core.product.reading import load_settings
 from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model, write_contact_model
-from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rotation import BucklingError, rotation_amplitudes, shapes_of_rotation
 from r37core.run_ups import revolutions
@@ -32,7 +32,6 @@ from r37core.run_ups.schedule import RunUp
 from r37core.stress.operator import von_mises
 from r37core.time_integration.clearance import NoRoomError, check_room, clearances, growth
 from r37core.time_integration.problem import Problem
-from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.speed_run import run_speed
 
@@ -57,11 +56,10 @@ def moved(nodes, size=2e-5, stiffening=(0.0, 2e-7), blade=random_blade):
     return replace(blade(nodes), rotation_shapes=shapes, rotation_stiffening=np.array(stiffening))
 
 
-def run_of(model, scene, choice=SHORT):
+def run_of(model, scene, choice=SHORT, engine="compiled"):
     """Samples and totals of a run at 1000 rad/s."""
-    simulation = Simulation(model, 1000.0, scene, choice)
-    state = simulation.start()
-    return simulation.advance(state, choice.revolutions).samples, state.totals
+    _, state, record = whole_run(model, 1000.0, scene, choice, engine=engine)
+    return record.samples, state.totals
 
 
 def assert_alike(found, expected, within):
@@ -86,8 +84,8 @@ def test_a_bar_on_the_axis_is_stretched_as_in_closed_form():
 
 
 @pytest.mark.parametrize("spin_softening", [False, True])
-def test_shapes_of_a_few_speeds_give_the_displacement_at_any(mesh, matrices, choice, steel, spin_softening):
-    model = reduce_blade(mesh, matrices, replace(choice, spin_softening=spin_softening, recover_whole_blade=True), steel)
+def test_shapes_of_a_few_speeds_give_the_displacement_at_any(matrices, reduced, spin_softening):
+    model = reduced(spin_softening=spin_softening, recover_whole_blade=True)
     per_square = matrices.geometric_stiffness() + (matrices.spin_softening() if spin_softening else 0.0 * matrices.mass())
     load = matrices.centrifugal_load[matrices.free_nodes].ravel()
     for speed in (200.0, 900.0, 1730.0, 2000.0):
@@ -170,7 +168,7 @@ def test_compiled_engine_is_the_reference(scene, integrator):
     blade = random_blade if integrator == "exact_modal" else random_model
     model, choice = moved(5, size=4e-5, blade=blade), replace(SHORT, time_step=6e-7, integrator=integrator, revolutions=1)
     assert np.ptp(clearances(model, scene, np.array([1000.0]))) > 1e-5
-    runs = [run_of(model, scene, replace(choice, engine=engine)) for engine in ("compiled", "reference")]
+    runs = [run_of(model, scene, choice, engine) for engine in ENGINES]
     (found, totals), (expected, expected_totals) = runs
     assert totals["steps_in_contact"] == expected_totals["steps_in_contact"] > 0
     assert_alike(found, expected, 1e-7)
@@ -197,11 +195,11 @@ def test_energy_closes_where_the_tip_is_pressed_in():
     np.testing.assert_array_equal(kept["clearance"], Problem(model, 1000.0, scene, SHORT).casing.clearance)
 
 
-@pytest.mark.parametrize("engine", ["compiled", "reference"])
+@pytest.mark.parametrize("engine", ENGINES)
 def test_a_tip_in_the_lining_of_a_round_casing_lies_still(engine):
     """It has cut its way before: the lining is worn by as much as each node reaches into it, and presses nothing."""
     scene = growing(NARROW, clearance=0.0, lobes=0)
-    simulation = Simulation(moved(4, size=5e-5), 1000.0, scene, replace(SHORT, time_step=2e-6, engine=engine))
+    simulation = ENGINES[engine](moved(4, size=5e-5), 1000.0, scene, replace(SHORT, time_step=2e-6))
     state = simulation.start()
     assert not simulation.advance(state, 1).samples.any()
     depth = np.maximum(-simulation.problem.casing.clearance, 0.0)
@@ -224,11 +222,11 @@ def test_a_tip_inside_of_the_casing_is_refused():
         Problem(model, 1000.0, replace(lined, lining=replace(LINING, thickness=1e-6)), SHORT)
 
 
-@pytest.mark.parametrize("engine", ["compiled", "reference"])
+@pytest.mark.parametrize("engine", ENGINES)
 def test_at_one_speed_a_run_up_is_the_run_at_that_speed(engine):
-    model, choice = moved(3), replace(SHORT, time_step=2e-6, engine=engine)
-    expected, _ = run_of(model, growing(NARROW), choice)
-    integration = RunUpIntegration(model, growing(NARROW), choice, RunUp(1000.0, 1000.0, 1.0, 1, 1, worn=False))
+    model, choice = moved(3), replace(SHORT, time_step=2e-6)
+    expected, _ = run_of(model, growing(NARROW), choice, engine)
+    integration = RUN_UPS[engine](model, growing(NARROW), choice, RunUp(1000.0, 1000.0, 1.0, 1, 1, worn=False))
     np.testing.assert_array_equal(np.concatenate([stage.samples for stage in integration.segments()]), expected)
 
 

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, AT_ONCE, DIRECT, model_of_node
-from integration_runs import whole_run
+from integration_runs import ENGINES, whole_run
+from reference_engine import ReferenceSimulation
 
 from r37core.contact.casing import casing_axes
 from r37core.results.campbell import campbell_diagram, dynamic_clearance
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.initial_motion import InitialMotion
-from r37core.time_integration.simulate import Simulation
 
 ANGLE = np.radians(-15.24)
 
@@ -36,12 +36,12 @@ def test_axes_of_the_cone():
     assert casing_axes(np.array([0.0, 0.0, 1.0]), ANGLE)[2] > 0.0
 
 
-@pytest.mark.parametrize("engine", ["compiled", "reference"])
+@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(("cone_angle", "touches"), [(None, False), (0.0, True)])
 def test_a_node_sliding_along_the_cone_does_not_touch(engine, cone_angle, touches):
     """It swings by far more than the clearance along its meridian; a cylinder would be hit."""
     scene = Scene(Casing(1e-4, lobes=0, cone_angle=cone_angle), damping_ratio=0.0)
-    simulation = Simulation(moving_along([MERIDIAN], [5e3]), 1000.0, scene, IntegrationChoice(1e-6, 1, 62, engine=engine))
+    simulation = ENGINES[engine](moving_along([MERIDIAN], [5e3]), 1000.0, scene, IntegrationChoice(1e-6, 1, 62))
     state = simulation.start()
     state.displacement[:] = 2e-3
     simulation.advance(state, 1)
@@ -84,7 +84,7 @@ def test_exact_and_linear_gap_differ_by_the_square_of_the_motion(contact):
         gaps = []
         for exact in (False, True):
             scene = Scene(replace(AT_ONCE, clearance=size * 0.356e-3), exact_gap=exact)
-            simulation = Simulation(contact, speed, scene, IntegrationChoice(1e-7, 1, 62, engine="reference"))
+            simulation = ReferenceSimulation(contact, speed, scene, IntegrationChoice(1e-7, 1, 62))
             shape = simulation.problem.blade.modes[:, 0] + 0.3 * simulation.problem.blade.modes[:, 1]
             shape *= size * 1e-3 / np.abs(contact.displacement_operator @ shape).max()
             gaps.append(simulation.engine.gap(shape, step)[0])
@@ -97,7 +97,7 @@ def test_exact_gap_is_the_distance_from_the_cone():
     radial, tangential, axial = 2e-3, 1.5e-2, 4e-3
     model = moving_along([(1, 0, 0), (0, 1, 0), (0, 0, 1)], [1e3, 2e3, 3e3])
     casing = Casing(1e-3, lobes=3, width=0.2, rise_fraction=0.0)
-    simulation = Simulation(model, 1000.0, Scene(casing, exact_gap=True), IntegrationChoice(1e-6, 1, 62, engine="reference"))
+    simulation = ReferenceSimulation(model, 1000.0, Scene(casing, exact_gap=True), IntegrationChoice(1e-6, 1, 62))
     gap, theta = simulation.engine.gap(np.array([radial, tangential, axial]), simulation.problem.grid.steps_per_revolution)
     point = np.array([0.25 + radial, tangential, axial])
     radius, angle = np.hypot(point[0], point[1]), np.arctan2(point[1], point[0])
@@ -110,13 +110,13 @@ def test_exact_gap_is_the_distance_from_the_cone():
 
 
 @pytest.fixture(scope="module")
-def forward_swept(settings, choice):
+def forward_swept(settings, boundary, reduction):
     from r37core.fem.matrices import assemble
     from r37core.mesh.generate import generate_mesh
 
     blade = settings.blades["S100"]
     mesh = generate_mesh(blade.definition.build(round_edges=True), nodes=2500, layers=1, tip_elements=14)
-    return reduce_blade(mesh, assemble(mesh, blade.material), choice, blade.material)
+    return reduce_blade(mesh, assemble(mesh, blade.material), blade.material, boundary, reduction, {})
 
 
 def test_sweep_closes_the_normal_clearance_of_bending_and_opens_the_radial_one(model, forward_swept):

@@ -9,6 +9,7 @@ import scipy.linalg as la
 from box_mesh import box_mesh
 from defaults import BoundaryChoice, IntegrationChoice, MatricesSource
 from integration_cases import ABRADABLE, DIRECT
+from integration_runs import ENGINES
 
 import r37
 from r37core.config import ConfigError, command_line_document
@@ -22,13 +23,12 @@ from r37core.fem.matrices import assemble
 from r37core.fem.traces import edge_traces
 from r37core.plans.provenance import structure_hash
 from r37core.product.reading import read_settings
-from r37core.rom.contact_weights import contact_weights, mean_positions, weights_along
-from r37core.rom.reduce import mean_fields, reduce_blade
+from r37core.rom.contact_weights import contact_along, mean_fields, mean_positions, tip_contact
+from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.reduction_choice import BoundaryError, boundary_located
 from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integrators import EXACT_MODAL
-from r37core.time_integration.simulate import Simulation
 
 EVEN = {"spacing": "even"}
 PATCHES = BoundaryChoice("pressure_edge", 4, True, "patches", "even")
@@ -43,22 +43,22 @@ def bar(count=12, element="hexahedron20", height=0.012, across=2, along=8):
 
 
 @pytest.fixture(scope="module")
-def patched(mesh, matrices, choice, steel):
+def patched(reduced):
     """The reference blade on a coarse mesh, on five patches."""
-    return reduce_blade(mesh, matrices, replace(choice, boundary=replace(PATCHES, nodes=5)), steel)
+    return reduced(replace(PATCHES, nodes=5))
 
 
 @pytest.fixture(scope="module")
-def every(mesh, matrices, choice, steel):
+def every(mesh, reduced):
     """The same blade on all nodes of its edge."""
     count = len(mesh.node_set("tip_pressure_edge"))
-    return reduce_blade(mesh, matrices, replace(choice, boundary=BoundaryChoice("pressure_edge", count, True)), steel)
+    return reduced(BoundaryChoice("pressure_edge", count, True))
 
 
 @pytest.mark.parametrize("tip_line", ["pressure_edge", "camber", "suction_edge"])
 @pytest.mark.parametrize(("count", "corners"), [(1, True), (2, True), (5, True), (5, False)])
 def test_weights_are_means(mesh, tip_line, count, corners):
-    weights = contact_weights(mesh, BoundaryChoice(tip_line, count, corners, "patches", "even"))
+    weights = tip_contact(mesh, BoundaryChoice(tip_line, count, corners, "patches", "even")).weights
     assert weights.shape == (count, len(mesh.points))
     np.testing.assert_allclose(weights.sum(axis=1), 1.0, atol=1e-14)
     chord, span, thickness = (weights @ mesh.parameters).T
@@ -72,7 +72,7 @@ def test_hats_on_a_straight_tip(element):
     """Mean places are those of hats: inside at their positions, of the half ones at a third of their width."""
     mesh = bar(element=element)
     with_corners, without = (
-        contact_weights(mesh, replace(PATCHES, corners=corners)) @ mesh.parameters[:, 0] for corners in (True, False)
+        tip_contact(mesh, replace(PATCHES, corners=corners)).weights @ mesh.parameters[:, 0] for corners in (True, False)
     )
     np.testing.assert_allclose(with_corners, [1 / 9, 1 / 3, 2 / 3, 8 / 9], atol=1e-12)
     # at the ends half a hat and a piece of one height: (1/8 * 1/16 + 1/8 * (1/8 + 1/12)) / (1/4) of the chord
@@ -92,7 +92,7 @@ def test_loads_are_consistent(element):
 
 def test_rigid_motion_and_moments(mesh):
     """A patch moves as the mean of its nodes does, and its force has the same resultant and no moment about that mean."""
-    weights = contact_weights(mesh, PATCHES)
+    weights = tip_contact(mesh, PATCHES).weights
     shift, turn = np.array([1e-3, 2e-3, -3e-3]), np.array([0.4, -0.2, 0.3])
     moved = mean_fields(weights, (shift + np.cross(turn, mesh.points))[:, :, None])[:, :, 0]
     means = weights @ mesh.points
@@ -120,7 +120,7 @@ def test_places_lie_on_the_cone_of_the_tip_and_coordinates_are_the_means(patched
 
 def test_static_response_to_patches_is_exact_and_reciprocal(mesh, matrices, patched):
     """Displacements of patches under forces on patches, against the full model; the matrix is symmetric."""
-    weights = contact_weights(mesh, replace(PATCHES, nodes=5))[:, matrices.free_nodes]
+    weights = tip_contact(mesh, replace(PATCHES, nodes=5)).weights[:, matrices.free_nodes]
     spread = np.kron(weights.toarray(), np.eye(3))
     exact = spread @ matrices.solve_at_rest(np.ascontiguousarray(spread.T))
     reduced = la.inv(patched.stiffness)[:15, :15]
@@ -132,7 +132,7 @@ def test_against_a_model_with_all_nodes_of_the_edge(mesh, patched, every):
     """The same means of a model that keeps every node: frequencies, static and dynamic flexibility of the patches."""
     line = mesh.node_set("tip_pressure_edge")
     np.testing.assert_array_equal(every.contact_nodes.nodes, line)
-    weights = contact_weights(mesh, replace(PATCHES, nodes=5))[:, line]
+    weights = tip_contact(mesh, replace(PATCHES, nodes=5)).weights[:, line]
     rows = mean_fields(weights, every.contact_nodes.basis).reshape(15, -1)
     np.testing.assert_allclose(patched.modes(1500.0, 10)[0], every.modes(1500.0, 10)[0], rtol=3e-4)
     for speed, frequency in ((0.0, 0.0), (1500.0, 0.0), (1500.0, 2e4), (2000.0, 6e4)):
@@ -142,18 +142,18 @@ def test_against_a_model_with_all_nodes_of_the_edge(mesh, patched, every):
         np.testing.assert_allclose(of_patches, of_every, atol=2e-3 * np.abs(of_every).max())
 
 
-def test_a_beam_of_one_patch_bends_as_a_beam(choice):
+def test_a_beam_of_one_patch_bends_as_a_beam(reduction):
     """One patch over the whole edge: the deflection of Timoshenko's cantilever, F L^3/(3 E I) + F L/(kappa G A)."""
     mesh = bar(4, height=0.012)
     boundary = BoundaryChoice("pressure_edge", 1, True, "patches")
-    reduced = reduce_blade(mesh, assemble(mesh, BEAM), replace(choice, boundary=boundary, speeds=(0.0,)), BEAM)
+    reduced = reduce_blade(mesh, assemble(mesh, BEAM), BEAM, boundary, replace(reduction, speeds=(0.0,)), {})
     found = la.inv(reduced.stiffness)[2, 2]
     area, inertia = 0.03 * 0.012, 0.03 * 0.012**3 / 12.0
     beam = 0.1**3 / (3.0 * 2.1e11 * inertia) + 0.1 / (5.0 / 6.0 * 2.1e11 / 2.0 * area)
     assert found == pytest.approx(beam, rel=0.005)
 
 
-def test_patches_depend_little_on_the_mesh_and_points_much(choice):
+def test_patches_depend_little_on_the_mesh_and_points_much(reduction):
     """Flexibility of a corner beyond that of the whole bar, on meshes twice and four times as fine along and across the tip."""
     own = {"points": [], "patches": []}
     for count, across in ((6, 1), (12, 2), (24, 4)):
@@ -162,8 +162,8 @@ def test_patches_depend_little_on_the_mesh_and_points_much(choice):
 
         def flexibility(boundary, mesh=mesh, matrices=matrices):
             # static, and so that of any number of modes
-            few = replace(choice, boundary=boundary, speeds=(0.0,), fixed_interface_modes=1)
-            return la.inv(reduce_blade(mesh, matrices, few, STEEL).stiffness)[0, 0]
+            few = replace(reduction, speeds=(0.0,), fixed_interface_modes=1)
+            return la.inv(reduce_blade(mesh, matrices, STEEL, boundary, few, {}).stiffness)[0, 0]
 
         whole = flexibility(BoundaryChoice("pressure_edge", 1, True, "patches"))
         for contact, values in own.items():
@@ -179,8 +179,8 @@ def test_no_energy_is_made(patched, scene):
     """Forces on patches, coupled through the mesh between them: the balance closes, in either engine, and both agree."""
     model, choice = contact_model(patched, "pressure_edge"), IntegrationChoice(3.2e-6, 3, 62, integrator=EXACT_MODAL)
     samples = []
-    for engine in ("compiled", "reference"):
-        simulation = Simulation(model, 1600.0, scene, replace(choice, engine=engine))
+    for simulation_class in ENGINES.values():
+        simulation = simulation_class(model, 1600.0, scene, choice)
         state = simulation.start()
         samples.append(simulation.advance_samples(state, 3 * 62).samples)
         work, loss = simulation.work(state), state.totals["loss"]
@@ -189,9 +189,9 @@ def test_no_energy_is_made(patched, scene):
     np.testing.assert_allclose(samples[0], samples[1], atol=1e-7 * np.abs(samples[1]).max())
 
 
-def test_the_stress_region_leaves_out_every_element_that_contact_acts_on(mesh, matrices, choice, steel):
+def test_the_stress_region_leaves_out_every_element_that_contact_acts_on(mesh, reduced):
     everywhere = {"everywhere": RegionChoice(excluded_layers=1)}
-    model = reduce_blade(mesh, matrices, replace(choice, boundary=PATCHES, stress_regions=everywhere), steel)
+    model = reduced(PATCHES, everywhere)
     assert not set(model.stress_regions["everywhere"].nodes.nodes) & set(mesh.node_set("tip_pressure_edge"))
 
 
@@ -207,9 +207,9 @@ def directory(mesh, matrices, patched, tmp_path_factory):
     return folder
 
 
-def test_patches_of_full_matrices(directory, patched, choice):
+def test_patches_of_full_matrices(directory, patched, reduction):
     """Nodes on the line, and no elements: hats of straight pieces, on a coarse mesh within a percent of the elements' own."""
-    again = import_matrices(MatricesSource(str(directory), OURS), replace(choice, boundary=replace(PATCHES, nodes=5)))
+    again = import_matrices(MatricesSource(str(directory), OURS), replace(PATCHES, nodes=5), reduction)
     assert len(again.singular_values) == len(patched.singular_values)
     np.testing.assert_allclose(again.modes(1000.0, 8)[0], patched.modes(1000.0, 8)[0], rtol=1e-4)
     found, ours = (la.inv(model.stiffness)[:15, :15] for model in (again, patched))
@@ -217,14 +217,14 @@ def test_patches_of_full_matrices(directory, patched, choice):
     np.testing.assert_allclose(again.contact_chord, patched.contact_chord, atol=0.02)
 
 
-def test_patches_of_reduced_matrices_keep_every_motion(every, choice, tmp_path):
+def test_patches_of_reduced_matrices_keep_every_motion(every, reduction, tmp_path):
     """A small model on all nodes of the edge, taken with other coordinates: its modes are the same, its patches means."""
     write_reduced_matrices(every, SPEEDS, tmp_path)
-    again = import_matrices(MatricesSource(str(tmp_path), OURS), replace(choice, boundary=PATCHES))
+    again = import_matrices(MatricesSource(str(tmp_path), OURS), PATCHES, reduction)
     assert again.size == every.size
     np.testing.assert_allclose(again.modes(1500.0)[0][:40], every.modes(1500.0)[0][:40], rtol=1e-7)
     chord = np.linspace(0.0, 1.0, len(every.contact_nodes.nodes))
-    weights = weights_along(every.contact_nodes.points, chord, PATCHES)
+    weights = contact_along(every.contact_nodes.points, chord, PATCHES).weights
     rows = mean_fields(weights, every.contact_nodes.basis).reshape(12, -1)
     np.testing.assert_allclose(again.contact_nodes.basis.reshape(12, -1)[:, :12], np.eye(12), atol=1e-8)
     flexibility = rows @ la.solve(every.stiffness, rows.T)
@@ -250,18 +250,18 @@ def test_patches_are_shorter_towards_the_edges_and_as_many_as_the_tip_has_room_f
 def test_more_patches_than_the_edge_has_nodes_for(mesh, count):
     found = rf"found {count} contact patches on the 29 mesh nodes of the tip line 'pressure_edge'; allowed: at most 15 "
     with pytest.raises(BoundaryError, match=rf"{found}\(structure\.boundary\.nodes\), because .*; or contact: points, or a"):
-        contact_weights(mesh, replace(PATCHES, nodes=count))
+        tip_contact(mesh, replace(PATCHES, nodes=count))
 
 
-def test_matrices_without_the_nodes_for_patches(mesh, matrices, model, directory, choice, tmp_path):
+def test_matrices_without_the_nodes_for_patches(model, reduction, tmp_path):
     write_reduced_matrices(model, SPEEDS, tmp_path)
     source = MatricesSource(str(tmp_path), OURS)
     message = r"found 8 contact patches on the 8 nodes of boundary\.csv; allowed: at most 4 .* or contact: points"
     with pytest.raises(BoundaryError, match=message):
-        import_matrices(source, replace(choice, boundary=replace(PATCHES, nodes=8)))
+        import_matrices(source, replace(PATCHES, nodes=8), reduction)
     single = replace(PATCHES, nodes=1)
     with pytest.raises(BoundaryError, match=r"on the 1 nodes .* allowed: none .* because a patch is made of two or more"):
-        weights_along(np.array([[0.25, 0.0, 0.0]]), np.array([0.5]), single)
+        contact_along(np.array([[0.25, 0.0, 0.0]]), np.array([0.5]), single)
 
 
 BLADES = """
@@ -289,7 +289,7 @@ def settings_with(config_copy):
 
 def test_a_blade_has_the_contact_and_kinematics_of_its_base(settings_with, config_copy):
     def chosen(settings):
-        return {name: settings.reduction_choice(name).boundary.contact for name in settings.blades}
+        return {name: settings.boundary_choice(name).contact for name in settings.blades}
 
     settings, point_contact = settings_with(), settings_with({"contact": "points"})
     own = dict.fromkeys(("Mine", "Sweep_5", "Sweep_10", "Alone"), "patches") | {"Kept": "points", "Like": "points"}

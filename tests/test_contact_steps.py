@@ -7,6 +7,7 @@ import pytest
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 from integration_cases import DIRECT, ELASTIC, NARROW, SCENES, oscillator, random_model, with_static_modes
 from integration_runs import ENGINES, assert_close, assert_same_record, assert_same_state, assert_stable, times, whole_run
+from reference_engine import ReferenceSimulation
 from scipy.integrate import solve_ivp
 
 from r37core.time_integration import problem as problem_module
@@ -66,12 +67,12 @@ STOPS = np.random.default_rng(1).uniform([0.2e-3, 1e-8], [0.6e-3, 1e-7], (20, 2)
 """Places (m) of a rigid stop, and flexibilities (m/N) of what meets it: errors of many tell their order."""
 
 
-def bouncing(step, stop, flexibility, revolutions, **others):
+def bouncing(step, stop, flexibility, revolutions, engine="compiled"):
     """A mass that swings on its spring from START into a rigid stop, which a static mode of this flexibility meets first."""
     model = with_static_modes(oscillator(FREQUENCY), flexibility)
     scene = Scene(Casing(stop, lobes=0), damping_ratio=0.0)
-    choice = replace(LONG, time_step=step, revolutions=revolutions, samples_per_revolution=50, **others)
-    simulation = Simulation(model, 1000.0, scene, choice)
+    choice = replace(LONG, time_step=step, revolutions=revolutions, samples_per_revolution=50)
+    simulation = ENGINES[engine](model, 1000.0, scene, choice)
     state = simulation.start()
     state.displacement[:] = START
     # u(-h) of what moves off from rest
@@ -156,8 +157,8 @@ def test_work_of_the_contact_forces_is_that_of_forces_times_paths(contact, scene
     """
     every, steps_at_once = 2000, 10
     choice = replace(LONG, time_step=2e-6, samples_per_revolution=every, snapshots_per_revolution=every)
-    choice = replace(choice, snapshot_revolutions=choice.revolutions, engine="reference")
-    simulation = Simulation(contact, 1600.0, scene, choice)
+    choice = replace(choice, snapshot_revolutions=choice.revolutions)
+    simulation = ReferenceSimulation(contact, 1600.0, scene, choice)
     problem, state = simulation.problem, simulation.start()
     assert problem.grid.steps_per_sample == 1
     rows = problem.contact.operator_at_rest.reshape(3 * len(contact.theta), -1) @ problem.contact.state_shapes
@@ -346,8 +347,8 @@ def test_static_modes_let_go_of_the_casing(contact, name):
     lining = replace(NARROW.lining, thickness=1e-5, elastic_modulus=20e6, plastic_modulus=5e6)
     scene = replace(NARROW, lining=lining) if name == "worn" else DIRECT
     choice, found = replace(EVERY, time_step=8e-7, samples_per_revolution=248, snapshots_per_revolution=248), []
-    for engine in ENGINES:
-        simulation = Simulation(contact, 6000.0, scene, replace(choice, engine=engine))
+    for simulation_class in ENGINES.values():
+        simulation = simulation_class(contact, 6000.0, scene, choice)
         state = simulation.start()
         if scene.lining:
             state.wear[:] = lining.thickness

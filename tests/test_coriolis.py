@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 from defaults import Casing, Friction, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, ELASTIC, NARROW, SCENES, model_of_node, random_model, with_static_modes
-from integration_runs import assert_close, assert_same_record, assert_same_state, assert_stable, both_engines, times, whole_run
+from integration_runs import (
+    ENGINES,
+    assert_close,
+    assert_same_record,
+    assert_same_state,
+    assert_stable,
+    both_engines,
+    times,
+    whole_run,
+)
+from reference_motion import CoupledMotion
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -20,7 +30,6 @@ from r37core.time_integration import step_limit
 from r37core.time_integration.gyroscopic import LARGEST_TURN
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem, UnstableStepError
-from r37core.time_integration.reference.motion import CoupledMotion
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.step_checks import pressed_ratio
 from r37core.trials import stability, tradeoff
@@ -59,12 +68,13 @@ def moving(simulation, displacement, velocity):
 
 
 @pytest.mark.parametrize("jumps", [True, False])
-@pytest.mark.parametrize("engine", ["compiled", "reference"])
+@pytest.mark.parametrize("engine", ENGINES)
 def test_foucault_pendulum(jumps, engine):
     """In the fixed frame it is a plain oscillator; the rotor's frame turns under it, hundreds of turns."""
     frequency, speed = 5000.0, 1300.0
-    choice = replace(CHOICE, time_step=2e-5, revolutions=300 if engine == "compiled" else 10, jumps=jumps, engine=engine)
-    simulation = Simulation(with_static_modes(pendulum([frequency, frequency], per_square=-1.0), STATIC), speed, FREE, choice)
+    choice = replace(CHOICE, time_step=2e-5, revolutions=300 if engine == "compiled" else 10, jumps=jumps)
+    model = with_static_modes(pendulum([frequency, frequency], per_square=-1.0), STATIC)
+    simulation = ENGINES[engine](model, speed, FREE, choice)
     start, velocity = np.array([1e-3, 2e-3]), np.array([3.0, -1.0])
     state = moving(simulation, start, velocity)
     record = simulation.advance(state, choice.revolutions)

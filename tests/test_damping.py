@@ -40,10 +40,10 @@ def with_damping(scene, damping_ratio):
 @pytest.mark.parametrize("coriolis", [False, True])
 @pytest.mark.parametrize("name", RUNS)
 def test_equal_ratios_give_the_bits_of_the_number(name, coriolis, engine):
-    model, choice = blade(coriolis), replace(CHOICE, engine=engine)
+    model = blade(coriolis)
     motion = InitialMotion(1e-6 * np.ones(len(model.to_reduced)), None)
     (one, ours, found), (other, theirs, expected) = (
-        run_of(model, 12_000.0, with_damping(RUNS[name], damping), choice, motion)
+        run_of(model, 12_000.0, with_damping(RUNS[name], damping), CHOICE, motion, engine)
         for damping in (0.03, DampingTable((10.0, 9e3), (0.03, 0.03)))
     )
     assert ours.totals["steps_in_contact"] > 20
@@ -67,8 +67,9 @@ def test_so_does_every_ratio(integrator):
 @pytest.mark.parametrize(("frequency", "ratio"), [(500.0, 0.0005), (4500.0, 0.00125), (14_000.0, 0.026), (30_000.0, 0.05)])
 def test_a_mode_between_two_frequencies_decays_as_the_closed_form(engine, frequency, ratio):
     omega = 2.0 * np.pi * frequency
-    model, choice = with_static_modes(oscillator(omega), 1e-9), replace(CHOICE, time_step=5e-6, engine=engine)
-    simulation, _, record = run_of(model, 1000.0, with_damping(FREE, RISING), choice, InitialMotion(np.array([1e-3]), None))
+    model, choice = with_static_modes(oscillator(omega), 1e-9), replace(CHOICE, time_step=5e-6)
+    start = InitialMotion(np.array([1e-3]), None)
+    simulation, _, record = run_of(model, 1000.0, with_damping(FREE, RISING), choice, start, engine)
     assert_close(record.samples[:, 0], free_motion(omega, ratio, times(simulation, 62), 1e-3, 0.0), 1e-10)
 
 

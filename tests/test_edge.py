@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from defaults import Casing, Friction, IntegrationChoice, Scene
 from integration_cases import AT_ONCE, DIRECT, LINING, RING, SCENES, oscillator, random_model, with_modes, with_static_modes
-from integration_runs import both_engines, whole_run
+from integration_runs import ENGINES, both_engines, whole_run
+from reference_engine import complementary
 
 import r37
 from r37core.contact.scene import Rotor
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.problem import Problem
-from r37core.time_integration.reference.engine import complementary
 from r37core.time_integration.simulate import Simulation, rest_state
 from r37core.time_integration.speed_run import run_speed
 
@@ -64,8 +64,8 @@ def test_an_edge_that_moves_further_than_its_contact_node(engine, integrator, no
         model = with_static_modes(model, 1e-9)
     model = with_moving_edge(model, np.linspace(1.5, -1.0, nodes))
     scene = Scene(Casing(stop, lobes=0), damping_ratio=0.0)
-    choice = IntegrationChoice(1e-7, 1, 100, integrator=integrator, engine=engine)
-    _, state, _ = whole_run(model, 10000.0, scene, choice, InitialMotion(np.array([-1e-3]), None))
+    choice = IntegrationChoice(1e-7, 1, 100, integrator=integrator)
+    _, state, _ = whole_run(model, 10000.0, scene, choice, InitialMotion(np.array([-1e-3]), None), engine)
     assert state.totals["steps_in_contact"] > 0
     assert state.totals["largest_penetration"] == pytest.approx(0.5 * stop, rel=0.01)
 
@@ -80,8 +80,7 @@ def test_an_edge_that_passes_a_thin_lining_before_its_contact_node(integrator):
     scene, start = Scene(Casing(1e-4, lobes=0), lining, damping_ratio=0.0), InitialMotion(np.array([-5e-4]), None)
     choice = IntegrationChoice(1e-7, 1, 100, integrator=integrator)
     ours, theirs = (
-        whole_run(model, 10000.0, scene, replace(choice, engine=engine), start)[1].totals["largest_penetration"]
-        for engine in ("compiled", "reference")
+        whole_run(model, 10000.0, scene, choice, start, engine)[1].totals["largest_penetration"] for engine in ENGINES
     )
     assert theirs > 1e-4
     assert ours == pytest.approx(theirs, rel=1e-6)

@@ -8,7 +8,16 @@ import xarray as xr
 from defaults import Casing, Friction, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, ELASTIC, oscillator, random_model, with_static_modes
 from integration_cases import RING as STEEL
-from integration_runs import ENGINES, assert_close, assert_same_record, assert_same_state, both_engines, times, whole_run
+from integration_runs import (
+    ENGINES,
+    RUN_UPS,
+    assert_close,
+    assert_same_record,
+    assert_same_state,
+    both_engines,
+    times,
+    whole_run,
+)
 from scipy.integrate import solve_ivp
 from test_coriolis import SCENES, coupled_model
 
@@ -114,8 +123,8 @@ def test_compiled_time_integration_is_the_reference(name, step, coriolis):
     model = coupled_model() if coriolis else random_blade()
     choice = replace(CHOICE, time_step=step, snapshots_per_revolution=62, snapshot_revolutions=1)
     found = []
-    for engine in ENGINES:
-        simulation = Simulation(model, 6000.0, ELASTIC_SCENES[name], replace(choice, engine=engine))
+    for simulation_class in ENGINES.values():
+        simulation = simulation_class(model, 6000.0, ELASTIC_SCENES[name], choice)
         state = simulation.start()
         # stopped in the middle of a revolution
         records = [simulation.advance_samples(state, count) for count in (25, 37)]
@@ -254,9 +263,9 @@ def test_a_run_up_of_no_rate_is_the_run_at_constant_speed():
 def test_a_run_up_of_many_segments_is_that_of_the_reference_and_keeps_its_balance(name):
     """Where the casing is in the rotor's frame goes on from stretch to stretch."""
     choice, found = replace(CHOICE, revolutions=3, time_step=5e-7, samples_per_revolution=31), []
-    for engine in ENGINES:
+    for run_up_class in RUN_UPS.values():
         run_up = RunUp(3000.0, 3300.0, 1.3, before=0, after=0, worn=False)
-        integration = RunUpIntegration(random_blade(), ELASTIC_SCENES[name], replace(choice, engine=engine), run_up)
+        integration = run_up_class(random_blade(), ELASTIC_SCENES[name], choice, run_up)
         found.append(np.concatenate([stage.samples for stage in integration.segments()]))
         work, loss = integration.balance["contact_work"], integration.balance["damping_loss"]
         missing = integration.balance["energy_change"] - integration.stiffness_work - work + loss

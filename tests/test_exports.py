@@ -102,10 +102,10 @@ def test_results_in_the_axes_of_another_program(whole, mesh, steel, instant, tmp
     np.testing.assert_allclose(again.point_data["displacement"], theirs.point_data["displacement"])
 
 
-def test_full_matrices_come_back(directory, model, choice):
+def test_full_matrices_come_back(directory, model, boundary, reduction):
     """The same reduced model to round-off: frequencies, names, contact rows. Without the Coriolis force it has no file."""
     assert {file.name for file in directory.iterdir()} == NAMES
-    again = import_matrices(MatricesSource(str(directory), OURS), choice)
+    again = import_matrices(MatricesSource(str(directory), OURS), boundary, reduction)
     speeds = np.array([0.0, 700.0, 1700.0])
     ours, theirs = (campbell_diagram(m, speeds, 6) for m in (model, again))
     assert theirs.mode_names == ours.mode_names
@@ -119,16 +119,16 @@ def test_full_matrices_come_back(directory, model, choice):
     np.testing.assert_allclose(compliance, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
 
 
-def test_reduced_matrices_come_back_in_any_unit(model, choice, tmp_path):
+def test_reduced_matrices_come_back_in_any_unit(model, boundary, reduction, tmp_path):
     write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
     assert {file.name for file in tmp_path.iterdir()} == NAMES
-    again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
+    again = import_matrices(MatricesSource(str(tmp_path), OURS), boundary, reduction)
     np.testing.assert_allclose(again.mass, model.mass, atol=1e-12 * np.abs(model.mass).max())
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], model.modes(1400.0, 12)[0], rtol=1e-8)
     # patches lie within the tip, so their places do not say it
     np.testing.assert_allclose(again.contact_tip_lengths, model.contact_tip_lengths, rtol=1e-12)
     # tonnes and N/mm, as programs in millimetres have them
-    again = import_matrices(MatricesSource(str(tmp_path), OURS, "t", "N/mm"), choice)
+    again = import_matrices(MatricesSource(str(tmp_path), OURS, "t", "N/mm"), boundary, reduction)
     np.testing.assert_allclose(again.mass, 1e3 * model.mass, atol=1e-9 * np.abs(model.mass).max())
     expected = 1e3 * model.stiffness_at(900.0)
     np.testing.assert_allclose(again.stiffness_at(900.0), expected, atol=1e-6 * np.abs(model.stiffness).max())
@@ -144,7 +144,7 @@ def gyroscopic(mass, stiffness, coriolis, count):
     return values.imag[order], vectors[:size, order]
 
 
-def test_the_reduced_coriolis_matrix(turning, choice, tmp_path):
+def test_the_reduced_coriolis_matrix(turning, boundary, reduction, tmp_path):
     """From the files alone: the frequencies of the Campbell diagram, and motions that turn about the same way."""
     speed = 2000.0
     write_reduced_matrices(turning, (0.0, 1000.0, speed), tmp_path)
@@ -167,12 +167,12 @@ def test_the_reduced_coriolis_matrix(turning, choice, tmp_path):
     assert header[0] == "%%MatrixMarket matrix array real skew-symmetric"
     assert "in kg, that is N s/m per rad/s: M x'' + Omega G x' + K(Omega) x = f, for Omega > 0" in header[1]
     # the matrices come back, without it
-    again = import_matrices(MatricesSource(str(tmp_path), OURS), choice)
+    again = import_matrices(MatricesSource(str(tmp_path), OURS), boundary, reduction)
     assert again.coriolis is None
     np.testing.assert_allclose(again.modes(1400.0, 12)[0], replace(turning, coriolis=None).modes(1400.0, 12)[0], rtol=1e-8)
 
 
-def test_the_full_coriolis_matrix(matrices, turning, choice, tmp_path):
+def test_the_full_coriolis_matrix(matrices, turning, boundary, reduction, tmp_path):
     """The mass that moves across the axis, at right angles to its velocity; its shifts of the frequencies."""
     speed = 2000.0
     write_full_matrices(matrices, turning, "pressure_edge", (0.0, 1000.0, speed), tmp_path)
@@ -195,10 +195,10 @@ def test_the_full_coriolis_matrix(matrices, turning, choice, tmp_path):
     )
     assert np.abs(expected).max() > 1e-4
     np.testing.assert_allclose(shift, expected, rtol=0, atol=0.1 * np.abs(expected).max())
-    assert import_matrices(MatricesSource(str(tmp_path), OURS), choice).size == turning.size
+    assert import_matrices(MatricesSource(str(tmp_path), OURS), boundary, reduction).size == turning.size
 
 
-def test_reduced_matrices_in_other_axes(model, choice, tmp_path):
+def test_reduced_matrices_in_other_axes(model, boundary, reduction, tmp_path):
     """Rotor axis along -y, blade along z, mm, .npz: taken as they are, and turned."""
     turn = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])  # file's axes in rows of ours
     nodes = len(model.contact_nodes.nodes)
@@ -211,7 +211,7 @@ def test_reduced_matrices_in_other_axes(model, choice, tmp_path):
     header = "x,y,z,dof_x,dof_y,dof_z"
     np.savetxt(tmp_path / "boundary.csv", np.hstack([1e3 * points @ turn, rows]), delimiter=",", header=header, comments="")
     orientation = Orientation("mm", rotor_axis=tuple(turn[2]), radial=tuple(turn[0]), rotation="negative")
-    again = import_matrices(MatricesSource(str(tmp_path), orientation), choice)
+    again = import_matrices(MatricesSource(str(tmp_path), orientation), boundary, reduction)
     np.testing.assert_allclose(again.modes(1000.0, 10)[0], model.modes(1000.0, 10)[0], rtol=1e-8)
     np.testing.assert_allclose(again.tip_lines["pressure_edge"].points, points, atol=1e-12)
     rows_again, rows_ours = (contact_model(m, "pressure_edge").displacement_operator for m in (again, model))
@@ -219,7 +219,7 @@ def test_reduced_matrices_in_other_axes(model, choice, tmp_path):
 
 
 @pytest.mark.parametrize(("factor", "outcome"), [(1.0, "said"), (1e3, "warned"), (1e-3, "warned"), (1e-20, "refused")])
-def test_the_first_frequency_shows_a_wrong_unit(model, choice, tmp_path, factor, outcome):
+def test_the_first_frequency_shows_a_wrong_unit(model, boundary, reduction, tmp_path, factor, outcome):
     """Of the reference blade 840 Hz; the frequency follows the root of the stiffness."""
     changed = replace(model, stiffness=factor * model.stiffness, geometric_stiffness=factor * model.geometric_stiffness)
     first = model.modes(0.0, 1)[0][0] / (2.0 * np.pi)
@@ -229,13 +229,13 @@ def test_the_first_frequency_shows_a_wrong_unit(model, choice, tmp_path, factor,
     if outcome == "said":
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            assert re.match(said, wording(import_matrices(source, choice)))
+            assert re.match(said, wording(import_matrices(source, boundary, reduction)))
     elif outcome == "warned":
         with pytest.warns(MeshWarning, match=rf"{said}, with a tip of 56\.1 mm; .* look at mass_unit"):
-            import_matrices(source, choice)
+            import_matrices(source, boundary, reduction)
     else:
         with pytest.raises(ImportRefused, match=rf"{re.escape(tmp_path.name)}: {said}"):
-            import_matrices(source, choice)
+            import_matrices(source, boundary, reduction)
 
 
 SMALL = np.diag(np.arange(4.0, 28.0))
@@ -251,13 +251,13 @@ def write_small(folder, table, **changes):
     return MatricesSource(str(folder), OURS)
 
 
-def test_unsuitable_matrices_are_refused(choice, tmp_path):
+def test_unsuitable_matrices_are_refused(boundary, reduction, tmp_path):
     def refused(message, **files):
         folder = tmp_path / str(len(list(tmp_path.iterdir())))
         folder.mkdir()
         source = write_small(folder, "x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,2\n", **files)
         with pytest.raises(ImportRefused, match=message):
-            import_matrices(source, choice)
+            import_matrices(source, boundary, reduction)
 
     refused("needed: M and K_<speed> at three speeds", K_0=None)
     refused("found K_<speed> at 100, 200, 300 rad/s; allowed: at 0 and two", K_0=None, K_300=10 * SMALL)
@@ -385,9 +385,9 @@ def test_a_pipe_is_no_matrix(tmp_path):
         ("x,y,z,dof_x,dof_y,dof_z\n0.2,0,0,0,1,1\n", "must name 3 different rows from 0 to 23"),
     ],
 )
-def test_unsuitable_tables_are_refused(choice, tmp_path, table, message):
+def test_unsuitable_tables_are_refused(boundary, reduction, tmp_path, table, message):
     with pytest.raises(ImportRefused, match=message) as refusal:
-        import_matrices(write_small(tmp_path, table), choice)
+        import_matrices(write_small(tmp_path, table), boundary, reduction)
     assert refusal.value.key == "matrices"
 
 
@@ -405,25 +405,27 @@ def test_unsuitable_tables_are_refused(choice, tmp_path, table, message):
         (lambda nodes: nodes * [1, 1, 0], "matrices", "leading and trailing edge lie at the same z"),
     ],
 )
-def test_contact_nodes_of_another_size_or_order_are_refused(model, choice, tmp_path, change, key, message):
+def test_contact_nodes_of_another_size_or_order_are_refused(model, boundary, reduction, tmp_path, change, key, message):
     write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
     table = pd.read_csv(tmp_path / "boundary.csv")
     table[["x", "y", "z"]] = change(table[["x", "y", "z"]].to_numpy())
     table.to_csv(tmp_path / "boundary.csv", index=False)
     with pytest.raises(ImportRefused, match=rf"^{tmp_path}: boundary\.csv: .*{message}") as refusal:
-        import_matrices(MatricesSource(str(tmp_path), OURS), choice)
+        import_matrices(MatricesSource(str(tmp_path), OURS), boundary, reduction)
     assert refusal.value.key == key
 
 
-def test_lengths_of_tip_are_optional_and_above_zero(model, choice, tmp_path):
+def test_lengths_of_tip_are_optional_and_above_zero(model, boundary, reduction, tmp_path):
     write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
     table, source = pd.read_csv(tmp_path / "boundary.csv"), MatricesSource(str(tmp_path), OURS)
     table.drop(columns="tip_length").to_csv(tmp_path / "boundary.csv", index=False)
-    assert import_matrices(source, choice).contact_tip_lengths.sum() == pytest.approx(table["tip_length"].sum(), rel=0.2)
+    assert import_matrices(source, boundary, reduction).contact_tip_lengths.sum() == pytest.approx(
+        table["tip_length"].sum(), rel=0.2
+    )
     table.loc[2, "tip_length"] = 0.0
     table.to_csv(tmp_path / "boundary.csv", index=False)
     with pytest.raises(ImportRefused, match=r"boundary\.csv:4: each row must have .* tip_length, a length above 0"):
-        import_matrices(source, choice)
+        import_matrices(source, boundary, reduction)
 
 
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e9])

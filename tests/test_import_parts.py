@@ -295,14 +295,13 @@ def test_a_flat_plate_at_an_angle_tells_the_rotation(tmp_path):
         import_mesh(replace(given, orientation=replace(OURS, rotation="positive")))
 
 
-def test_matrices(model, settings, tmp_path):
+def test_matrices(model, boundary, reduction, tmp_path):
     write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
-    choice = settings.reduction_choice("Ref")
     wrong = MatricesSource(str(tmp_path), Orientation("m", (0, 0, 1), (1, 0, 0), "positive"))
     with pytest.raises(ImportRefused, match=rf"boundary\.csv: found the tip's {ANGLES}") as refusal:
-        import_matrices(wrong, choice)
+        import_matrices(wrong, boundary, reduction)
     assert refusal.value.key == "rotation"
-    import_matrices(replace(wrong, sense_check=False), choice)
+    import_matrices(replace(wrong, sense_check=False), boundary, reduction)
 
 
 @pytest.mark.parametrize(

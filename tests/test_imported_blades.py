@@ -119,9 +119,8 @@ def test_a_mesh(settings_with, config_copy):
     assert source.tip == Where(limits=(("r", "at_least", 0.25),))
     assert not source.pressure_side_forward
     np.testing.assert_allclose(source.orientation.points_to_blade(np.array([[1.0, 2.0, 1003.0]])), [[1.0, 0.0, 0.0]])
-    choice = settings.reduction_choice("Fan")
-    assert list(choice.stress_regions) == ["airfoil", "airfoil_unfiltered", "box"]
-    assert choice.boundary.contact == "patches"
+    assert list(settings.stress_regions("Fan")) == ["airfoil", "airfoil_unfiltered", "box"]
+    assert settings.boundary_choice("Fan").contact == "patches"
     before = structure_hash(settings, "Fan")
     (config_copy / "meshes/more.inc").write_text("1, 0, 0, 1\n")
     assert structure_hash(read_settings(config_copy), "Fan") != before
@@ -264,7 +263,7 @@ def test_plan_of_exports(three):
     structure = Structure(sweep.settings)
     assert structure.whole_blade_model(fan) == "<results>/Fan/whole_blade_pressure_edge.nc"
     assert structure.whole_blade_reduction(fan)["recover_whole_blade"]
-    assert structure.whole_blade_reduction(fan)["boundary"]["tip_line"] == "camber"
+    assert structure.boundary(fan)["tip_line"] == "camber"
     assert exports.orientation(fan)["length_unit"] == "mm"
     assert exports.orientation(SimpleNamespace(blade="Ref")) == to_plain(OURS)
     assert exports.choice["mode_speeds"] == (0.0, 2000.0)

@@ -23,8 +23,8 @@ FAR = Scene(Casing(1.0, lobes=0), damping_ratio=0.02, divergence_limit=10.0)
 KEPT = {"spectrum_highest_order": 5, "wear_angles": 60}
 
 
-def choice(integrator, step=2e-7, revolutions=1, engine="compiled", **others):
-    return IntegrationChoice(step, revolutions, 50, integrator=integrator, engine=engine, **others)
+def choice(integrator, step=2e-7, revolutions=1, **others):
+    return IntegrationChoice(step, revolutions, 50, integrator=integrator, **others)
 
 
 def motion(displacement=None, velocity=None):
@@ -46,7 +46,7 @@ def test_one_mode_without_error(engine, displacement, velocity):
     frequency, ratio = 6000.0, FAR.damping_ratio
     given = motion(*(None if part is None else [part] for part in (displacement, velocity)))
     model = with_static_modes(oscillator(frequency), 1e-9)
-    simulation, state, record = whole_run(model, SPEED, FAR, choice(EXACT_MODAL, 5e-5, 3, engine), given)
+    simulation, state, record = whole_run(model, SPEED, FAR, choice(EXACT_MODAL, 5e-5, 3), given, engine)
     exact = free_motion(frequency, ratio, times(simulation, 150), displacement or 0.0, velocity or 0.0)
     assert_close(record.samples[:, 0], exact, 1e-12)
     assert state.totals["steps_in_contact"] == 0
@@ -58,9 +58,9 @@ def test_central_differences_start_to_second_order(engine, displacement, velocit
     """Halving the step takes three quarters of the error; a start of first order would leave half of it."""
     frequency, ratio, errors = 6000.0, 0.1, []
     for steps in (32, 64, 128):
-        chosen = choice(CENTRAL_DIFFERENCE, engine=engine, steps_per_sample=steps)
+        chosen = choice(CENTRAL_DIFFERENCE, steps_per_sample=steps)
         scene, given = replace(FAR, damping_ratio=ratio), motion([displacement], [velocity])
-        simulation, _, record = whole_run(oscillator(frequency), SPEED, scene, chosen, given)
+        simulation, _, record = whole_run(oscillator(frequency), SPEED, scene, chosen, given, engine)
         exact = free_motion(frequency, ratio, times(simulation, 50), displacement, velocity)
         errors.append(np.abs(record.samples[:, 0] - exact).max() / np.abs(exact).max())
     assert errors[0] < 1e-3
@@ -98,9 +98,9 @@ def test_free_flight_of_a_blade_is_that_of_its_matrices(model, contact, integrat
     """Reduced coordinates at every sample, by the exponential of the first modes of the reduced matrices."""
     speed, modes, scene = 4800.0, 6, replace(FAR, damping_ratio=0.02)
     start = slow_part(model, speed, modes, np.random.default_rng(1))
-    chosen = choice(integrator, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)
+    chosen = choice(integrator, snapshots_per_revolution=50, snapshot_revolutions=1)
     given = motion(*start)
-    simulation, _, record = whole_run(contact, speed, scene, chosen, given)
+    simulation, _, record = whole_run(contact, speed, scene, chosen, given, engine)
     frequencies, shapes = model.modes(speed, modes)
     stiffness, damping = np.diag(frequencies**2), np.diag(2.0 * scene.damping_ratio * frequencies)
     system = np.block([[np.zeros((modes, modes)), np.eye(modes)], [-stiffness, -damping]])
@@ -136,8 +136,8 @@ def test_free_flight_with_the_coriolis_force(turning, engine):
     speed, scene, modes = 4800.0, replace(FAR, damping_ratio=0.0), 4
     model = contact_model(turning, "pressure_edge")
     start = slow_part(replace(turning, coriolis=None), speed, modes, np.random.default_rng(2))
-    chosen = choice(EXACT_MODAL, 2e-7, 1, engine, snapshots_per_revolution=50, snapshot_revolutions=1)
-    simulation, _, record = whole_run(model, speed, scene, chosen, motion(*start))
+    chosen = choice(EXACT_MODAL, snapshots_per_revolution=50, snapshot_revolutions=1)
+    simulation, _, record = whole_run(model, speed, scene, chosen, motion(*start), engine)
     problem = simulation.problem
     # of the modes that are stepped: the others' part of the force is left out
     reduced = model.to_reduced @ problem.blade.modes
@@ -165,7 +165,7 @@ def test_an_elastic_casing_starts_at_rest(engine):
     ring = (RingMode(2, 4000.0, 1.0, 0.01), RingMode(3, 9000.0, 1.0, 0.01))
     model, samples = with_static_modes(oscillator(6000.0), 1e-9), []
     for scene in (FAR, replace(FAR, casing=replace(FAR.casing, ring=ring))):
-        _, state, record = whole_run(model, SPEED, scene, choice(EXACT_MODAL, 2e-6, 1, engine), motion([1e-3], [2.0]))
+        _, state, record = whole_run(model, SPEED, scene, choice(EXACT_MODAL, 2e-6), motion([1e-3], [2.0]), engine)
         samples.append(record.samples)
     assert record.casing.shape == (50, 4) and not record.casing.any() and not state.displacement[1:].any()
     np.testing.assert_allclose(*samples, rtol=0, atol=1e-14)
@@ -238,8 +238,8 @@ def test_a_motion_of_another_model_is_refused(contact):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_start_inside_of_the_casing_is_refused(scene, engine, exact_gap):
     """One node, whose room is the clearance less the lobe above it."""
-    model, chosen = with_static_modes(oscillator(6000.0), 1e-9), choice(EXACT_MODAL, 2e-6, engine=engine)
-    simulation = Simulation(model, SPEED, replace(scene, exact_gap=exact_gap), chosen)
+    model, chosen = with_static_modes(oscillator(6000.0), 1e-9), choice(EXACT_MODAL, 2e-6)
+    simulation = ENGINES[engine](model, SPEED, replace(scene, exact_gap=exact_gap), chosen)
     problem = simulation.problem
     room = scene.casing.clearance - scene.casing.lobe(problem.casing.theta(0), 0.0, 0.0)[0]
     assert 0.0 < room < scene.casing.clearance

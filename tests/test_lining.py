@@ -67,8 +67,8 @@ def test_every_bar_that_is_passed_is_worn_to_where_the_tip_was(engine, integrato
     casing = Casing(1e-4, lobes=2, amplitude=2.0, rise_fraction=0.0)
     model = oscillator(3e4) if integrator == CENTRAL_DIFFERENCE else with_static_modes(oscillator(3e4), 1e-6)
     scene = Scene(casing, replace(SOFT, bars=20_000), exact_gap=exact)
-    choice = IntegrationChoice(step, 2, 20, integrator=integrator, engine=engine)
-    _, state, _ = whole_run(model, 1000.0, scene, choice)
+    choice = IntegrationChoice(step, 2, 20, integrator=integrator)
+    _, state, _ = whole_run(model, 1000.0, scene, choice, engine=engine)
     angles = (np.arange(20_000) + 0.5) * 2.0 * np.pi / 20_000
     depth = np.maximum(casing.lobe(angles, 1.0, 0.0) - casing.clearance, 0.0)
     assert np.count_nonzero(depth) > 4000
@@ -178,12 +178,11 @@ def test_a_height_in_metres_stays():
 )
 def test_both_give_the_same_bits(engine, scene, growing):
     model = with_static_modes(random_model(3), 1e-9)
-    choice = IntegrationChoice(2e-6, 1, 31, integrator="exact_modal", engine=engine)
+    choice = IntegrationChoice(2e-6, 1, 31, integrator="exact_modal")
 
     def samples(**casing):
         rubs_on = replace(scene, casing=replace(scene.casing, centrifugal=growing, rise_fraction=0.2, **casing))
-        simulation = Simulation(model, 1000.0, rubs_on, choice)
-        return simulation.advance(simulation.start(), choice.revolutions).samples
+        return whole_run(model, 1000.0, rubs_on, choice, engine=engine)[2].samples
 
     lobes = samples(amplitude=2.0)
     assert np.abs(lobes).max() > 1e-9

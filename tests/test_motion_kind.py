@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from defaults import Casing, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, RING, model_of_node, oscillator, random_model, with_static_modes
+from reference_engine import ReferenceSimulation
 
 from r37core.base.dataset_file import read_dataset
 from r37core.config import ConfigError, checked_scene, command_line_document, plain
@@ -76,9 +77,7 @@ def test_the_engines_agree_on_a_kind(hopping, monkeypatch):
     monkeypatch.setattr(kinds, "COUNTED", 10)
     monkeypatch.setattr(kinds, "MOST_PERIODS", 2)
     simulation, state = hopping
-    choice = replace(simulation.problem.choice, engine="reference")
-    reference = Simulation(simulation.problem.model, 5250.0, simulation.problem.scene, choice)
-    one, other = kind_of_motion(simulation, state), kind_of_motion(reference, state)
+    one, other = (kind_of_motion(each, state) for each in (simulation, ReferenceSimulation.build(simulation.problem)))
     assert other.exponent == pytest.approx(one.exponent, rel=1e-6)
     assert other.kind == one.kind
 

@@ -29,9 +29,9 @@ JOBS_GET = [
     defaults.Scene(defaults.Casing(5e-4, cone_angle=0.1)),
     defaults.IntegrationChoice(1e-7, 200, 64),
     Material(180e9, 7800.0, 0.3),
-    ReductionChoice(
-        defaults.BoundaryChoice(), (0.0, 900.0), {"tip": replace(EVERYWHERE, maximum_z=0.1)}, 12, 1e-9, "rotating", 3, True
-    ),
+    defaults.BoundaryChoice(),
+    ReductionChoice((0.0, 900.0), 12, 1e-9, "rotating", 3, True),
+    replace(EVERYWHERE, maximum_z=0.1),
     RefinementChoice((Window("1B", 12, 0.0, 0.1, 5.0),), 0.1, 0.2, 0.3, 0.4, 0.5, 0.6),
     SpeedPlan((900.0, 1000.0), (RefinedRange(900.0, 1.0, 50, 100),)),
     defaults.MeshSource("blade.inp", ORIENTATION, defaults.Where("ROOT"), CONE),

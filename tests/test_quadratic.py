@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from defaults import Casing, Friction, Scene
 from integration_cases import LINING, RING
+from integration_runs import ENGINES
 from quadratic_cases import CHOICE, FAR, LENGTH, beam_model, free_blade, held
 from scipy.integrate import solve_bvp, solve_ivp
 
@@ -159,8 +160,8 @@ def test_an_energy_that_softens_has_a_bound(softening):
 def test_the_motion_of_a_blade_that_softens_is_bounded(softening):
     """In both engines, of a flight that begins farther out than the unbounded energy has its maximum."""
     samples = []
-    for engine in ("compiled", "reference"):
-        simulation = Simulation(softening, SPEED, FAR, replace(CHOICE, engine=engine))
+    for simulation_class in ENGINES.values():
+        simulation = simulation_class(softening, SPEED, FAR, CHOICE)
         state = simulation.start()
         unit = np.zeros_like(simulation.problem.blade.frequencies)
         shape = simulation.problem.model.tip_displacement_operator[1, 0] @ simulation.problem.blade.modes
@@ -222,11 +223,9 @@ SCENES = {
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_engines_agree(contact, scene):
-    runs = []
-    for engine in ("compiled", "reference"):
-        choice = replace(CHOICE, revolutions=2, engine=engine, snapshots_per_revolution=31, snapshot_revolutions=2)
-        simulation = Simulation(contact, SPEED, SCENES[scene], choice)
-        run = simulation.run()
+    runs, choice = [], replace(CHOICE, revolutions=2, snapshots_per_revolution=31, snapshot_revolutions=2)
+    for simulation_class in ENGINES.values():
+        run = simulation_class(contact, SPEED, SCENES[scene], choice).run()
         named = run.states[0].totals
         totals = [float(named[name]) for name in ("work", "loss", "steps_in_contact", "largest_penetration")]
         runs.append((run.records[0].samples, run.records[0].snapshots, np.array([*totals, run.energy_change])))

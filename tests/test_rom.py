@@ -11,9 +11,9 @@ from defaults import BoundaryChoice
 from r37core.base.io import InputFileError
 from r37core.fem.matrices import static_displacement
 from r37core.fem.solver import lowest_modes
+from r37core.rom.contact_weights import tip_contact
 from r37core.rom.craig_bampton import combine_columns, constraint_and_fixed_modes
-from r37core.rom.reduce import reduce_blade
-from r37core.rom.reduction_choice import BoundaryError, boundary_nodes
+from r37core.rom.reduction_choice import BoundaryError
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 
 SPEEDS = [0.0, 450.0, 1000.0, 1630.0, 2000.0]
@@ -40,15 +40,15 @@ def test_published_size_against_the_full_model(matrices, model, speed):
 
 
 @pytest.mark.slow
-def test_twenty_fixed_modes_bring_ten_frequencies_within_1e_4(mesh, matrices, choice, steel):
-    rich_model = reduce_blade(mesh, matrices, replace(choice, fixed_interface_modes=20), steel)
+def test_twenty_fixed_modes_bring_ten_frequencies_within_1e_4(matrices, reduced):
+    rich_model = reduced(fixed_interface_modes=20)
     for speed in SPEEDS:
         np.testing.assert_allclose(rich_model.modes(speed, 10)[0], full_frequencies(matrices, speed), rtol=1e-4)
 
 
-def test_columns_are_counted(model, choice):
+def test_columns_are_counted(model, reduction):
     assert len(model.singular_values) == 3 * (8 * 3 + 10) == 102
-    assert model.size == np.sum(model.singular_values > choice.basis_tolerance * model.singular_values[0])
+    assert model.size == np.sum(model.singular_values > reduction.basis_tolerance * model.singular_values[0])
     assert 60 < model.size <= 102
 
 
@@ -76,25 +76,25 @@ def test_static_response_to_a_tip_load_is_exact(mesh, matrices, model):
 
 
 @pytest.mark.slow
-def test_order_and_scale_of_columns_do_not_matter(matrices, mesh, model, choice):
+def test_order_and_scale_of_columns_do_not_matter(matrices, model, reduction):
     boundary = boundary_rows(matrices, model)
     stiffness, geometric, mass = matrices.stiffness(), matrices.geometric_stiffness(), matrices.mass()
     sets = [
-        constraint_and_fixed_modes((stiffness + speed**2 * geometric).tocsr(), mass, boundary, 10) for speed in choice.speeds
+        constraint_and_fixed_modes((stiffness + speed**2 * geometric).tocsr(), mass, boundary, 10) for speed in reduction.speeds
     ]
     columns = np.hstack([part for pair in sets for part in pair])
     generator = np.random.default_rng(5)
     shuffled = columns[:, generator.permutation(102)] * 10.0 ** generator.uniform(-6.0, 6.0, 102)
 
     def frequencies(some_columns):
-        vectors = combine_columns(sets[0][0], some_columns, mass, boundary, choice.basis_tolerance)[0]
+        vectors = combine_columns(sets[0][0], some_columns, mass, boundary, reduction.basis_tolerance)[0]
         reduced = vectors.T @ (stiffness @ vectors) + 1500.0**2 * (vectors.T @ (geometric @ vectors))
         return np.sqrt(la.eigh(reduced, vectors.T @ (mass @ vectors), eigvals_only=True)[:10])
 
     np.testing.assert_allclose(frequencies(shuffled), frequencies(columns), rtol=1e-10)
 
 
-def test_dependent_columns_are_dropped(matrices, model, choice):
+def test_dependent_columns_are_dropped(matrices, model):
     boundary = boundary_rows(matrices, model)
     mass = matrices.mass()
     constraint, fixed = constraint_and_fixed_modes(matrices.stiffness(), mass, boundary, 10)
@@ -105,15 +105,14 @@ def test_dependent_columns_are_dropped(matrices, model, choice):
 
 
 @pytest.mark.slow
-def test_rotation_terms_only_when_asked(mesh, matrices, choice, model, steel, tmp_path):
+def test_rotation_terms_only_when_asked(mesh, matrices, reduced, model, tmp_path):
     assert model.spin_softening is None
     assert model.coriolis is None
     assert model.whole_blade is None
     write_reduced_model(model, tmp_path / "rom.nc")
     again = read_reduced_model(tmp_path / "rom.nc")
     assert again.spin_softening is None and again.coriolis is None and again.whole_blade is None
-    rich = replace(choice, spin_softening=True, coriolis=True, recover_whole_blade=True, fixed_interface_modes=20)
-    full = reduce_blade(mesh, matrices, rich, steel)
+    full = reduced(spin_softening=True, coriolis=True, recover_whole_blade=True, fixed_interface_modes=20)
     assert full.whole_blade.basis.shape == (len(mesh.points), 3, full.size)
     stiffness = matrices.stiffness() + 1500.0**2 * (matrices.geometric_stiffness() + matrices.spin_softening())
     exact = np.sqrt(lowest_modes(stiffness, matrices.mass(), 10)[0])
@@ -149,7 +148,7 @@ def test_file_holds_the_model(model, tmp_path):
 @pytest.mark.parametrize("count", [1, 8])
 def test_boundary_nodes_lie_on_their_line(mesh, tip_line, corners, count):
     choice = BoundaryChoice(tip_line, count, corners)
-    nodes = boundary_nodes(mesh, choice)
+    nodes = tip_contact(mesh, choice).weights.indices
     chord, span, thickness = mesh.parameters[nodes].T
     assert np.all(span == 1.0)
     assert np.all(thickness == {"pressure_edge": -1.0, "camber": 0.0, "suction_edge": 1.0}[tip_line])
@@ -159,10 +158,10 @@ def test_boundary_nodes_lie_on_their_line(mesh, tip_line, corners, count):
 
 def test_too_many_boundary_nodes_are_refused(mesh):
     with pytest.raises(BoundaryError, match="40 boundary nodes do not fit on the 15 mesh nodes of the tip line 'camber'"):
-        boundary_nodes(mesh, BoundaryChoice("camber", 40))
+        tip_contact(mesh, BoundaryChoice("camber", 40))
 
 
-def test_the_box(mesh, model, choice):
+def test_the_box(mesh, model):
     region = model.stress_regions["box"]
     x, _, z = region.nodes.points.T
     elements = region.elements["wedge15"]

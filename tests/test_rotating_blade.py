@@ -1,7 +1,6 @@
 """A blade about its equilibrium under rotation: frequencies, statics in CalculiX, stress, files, and refusals."""
 
 import shutil
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -184,10 +183,8 @@ def test_files_hold_the_model(displaced, tmp_path):
     assert model.modes_at(SPEED)[0][0] == pytest.approx(displaced.modes(SPEED, 1)[0][0], rel=1e-10)
 
 
-def test_rotating_has_the_modes_alone(mesh, matrices, choice, steel, displaced):
-    from r37core.rom.reduce import reduce_blade
-
-    model = reduce_blade(mesh, matrices, replace(choice, kinematics="rotating"), steel)
+def test_rotating_has_the_modes_alone(reduced, displaced):
+    model = reduced(kinematics="rotating")
     assert model.quadratic is None
     np.testing.assert_allclose(model.modes(SPEED, 3)[0], displaced.modes(SPEED, 3)[0], rtol=1e-3)
 

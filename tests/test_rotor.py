@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from defaults import Casing, Friction, IntegrationChoice, Scene
 from integration_cases import ABRADABLE, DIRECT, NARROW, RING, random_model, with_static_modes
-from integration_runs import ENGINES, assert_close, assert_same_state, whole_run
+from integration_runs import ENGINES, ROTORS, assert_close, assert_same_state, whole_run
 
 from r37core.contact.ring import RingMode
 from r37core.contact.scene import Rotor
@@ -46,8 +46,8 @@ def rotor_of(blades, angles=None, factors=None, longer=None, shared=True):
     return Rotor(tuple(range(1, blades + 1)), tuple(map(float, angles)), tuple(factors), tuple(longer), shared)
 
 
-def run(rotor, scene=STEEP, choice=CHOICE):
-    return RotorSimulation(a_blade(), SPEED, replace(scene, rotor=rotor), choice).run()
+def run(rotor, scene=STEEP, choice=CHOICE, engine="compiled"):
+    return ROTORS[engine](a_blade(), SPEED, replace(scene, rotor=rotor), choice).run()
 
 
 def samples(done):
@@ -97,7 +97,7 @@ def test_pass_by_pass_is_step_by_step(name, shared):
     angles = 2.0 * np.pi * np.array([0, 21, 40, 22]) / CHOICE.samples_per_revolution
     rotor = rotor_of(4, angles, [1.0, 1.03, 0.97, 1.01], [0.0, 2e-5, 0.0, -1e-5], shared)
     compiled = run(rotor, scene, choice)
-    reference = run(rotor, scene, replace(choice, engine="reference"))
+    reference = run(rotor, scene, choice, "reference")
     parts = [samples] if name == "rigid" else [samples, casings]
     for of in parts:
         assert_close(of(compiled), of(reference), 1e-8)
@@ -226,12 +226,12 @@ def test_a_blade_too_short_to_touch_changes_nothing_for_the_other(scene):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_opposite_blades_leave_odd_waves_at_rest(engine):
     """Two forces half a turn apart push waves of an even number of nodal diameters twice, and odd ones not at all."""
-    choice = replace(CHOICE, revolutions=1, engine=engine)
-    opposite = run(rotor_of(2), DIRECT_RING, choice)
+    choice = replace(CHOICE, revolutions=1)
+    opposite = run(rotor_of(2), DIRECT_RING, choice, engine)
     odd = np.tile([mode.nodal_diameter % 2 == 1 for mode in RING.modes()], 2)
     moved = np.abs(casings(opposite)[0]).max(axis=0)
     assert moved[odd].max() < 1e-9 * moved[~odd].max()
-    alone = np.abs(casings(run(rotor_of(1), DIRECT_RING, choice))[0]).max(axis=0)
+    alone = np.abs(casings(run(rotor_of(1), DIRECT_RING, choice, engine))[0]).max(axis=0)
     assert alone[odd].max() > 0.1 * alone[~odd].max()
 
 
@@ -239,10 +239,10 @@ def test_opposite_blades_leave_odd_waves_at_rest(engine):
 def test_a_casing_of_great_mass_is_rigid_for_all_blades():
     heavy = tuple(replace(mode, modal_mass=1e12 * mode.modal_mass) for mode in RING.modes())
     angles = 2.0 * np.pi * np.array([0, 21, 40]) / CHOICE.samples_per_revolution
-    rotor, choice = rotor_of(3, angles, [1.0, 1.03, 0.97]), replace(CHOICE, revolutions=1, engine="reference")
-    rigid, scene = samples(run(rotor, STEEP, choice)), replace(STEEP, casing=replace(STEEP.casing, ring=heavy))
+    rotor, choice = rotor_of(3, angles, [1.0, 1.03, 0.97]), replace(CHOICE, revolutions=1)
+    rigid, scene = samples(run(rotor, STEEP, choice, "reference")), replace(STEEP, casing=replace(STEEP.casing, ring=heavy))
     for engine in ENGINES:
-        assert_close(samples(run(rotor, scene, replace(choice, engine=engine))), rigid, 1e-6)
+        assert_close(samples(run(rotor, scene, choice, engine)), rigid, 1e-6)
 
 
 def test_a_step_of_all_blades_is_told_stable_by_a_bound_of_their_largest_eigenvalue():
@@ -290,8 +290,8 @@ def test_blades_on_one_grid_of_time_wear_the_lining_as_those_that_pass_one_by_on
     """Each meets the lining between the places where the others do; one by one all meet it at the same places."""
     choice = IntegrationChoice(6.4e-6, revolutions, 62, integrator=EXACT_MODAL)
     runs = []
-    for one, other in ((RISING, choice), (scene, replace(choice, engine=engine))):
-        runs.append(RotorSimulation(contact, 1700.0, replace(one, rotor=rotor_of(4)), other).run())
+    for one, simulated_by in ((RISING, "compiled"), (scene, engine)):
+        runs.append(ROTORS[simulated_by](contact, 1700.0, replace(one, rotor=rotor_of(4)), choice).run())
     np.testing.assert_allclose(runs[1].worn, runs[0].worn, rtol=0.02)
     for parts in zip(*(done.records for done in runs), strict=True):
         maxima = [np.abs(part.samples[:, 2]).reshape(revolutions, -1).max(axis=1) for part in parts]

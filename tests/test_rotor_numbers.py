@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 import xarray as xr
+from integration_runs import ENGINES
 from test_rotor import CHOICE, KEPT, LINED_RING, RING, SPEED, STEEP, a_blade, rotor_of, run, samples
 
 from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
@@ -20,7 +21,7 @@ from r37core.time_integration.kept_numbers import amplitudes
 from r37core.time_integration.rotor_blades import mistuned
 from r37core.time_integration.rotor_numbers import MOST_GROWTH, nodal_diameters, span_maxima
 from r37core.time_integration.speed_file import write_speed
-from r37core.time_integration.speed_run import run_speed
+from r37core.time_integration.speed_run import numbers_of_run, run_speed
 
 
 def test_a_wave_of_nodal_diameters_is_found():
@@ -60,9 +61,9 @@ RESULTS = ("spectrum", "stress", "energy")
 STRESS = StressOperator(np.random.default_rng(0).random((6, 5, len(a_blade().to_reduced))), len(a_blade().to_reduced), "tip")
 
 
-def numbers_of(scene, rotor, choice=RECORDED):
+def numbers_of(scene, rotor, choice=RECORDED, engine="compiled"):
     results = (*RESULTS, *(["wear"] if scene.lining else []), *(["casing"] if scene.casing.ring else []))
-    return run_speed(a_blade(), SPEED, replace(scene, rotor=rotor), choice, results, stress={"one": STRESS}, **KEPT)
+    return numbers_of_run(run(rotor, scene, choice, engine), results, stress={"one": STRESS}, **KEPT)
 
 
 @cache
@@ -95,24 +96,24 @@ def test_any_blade_may_diverge_first(casing, longest, late, tmp_path):
     assert np.isnan(dataset["blades_above_yield"]) and np.isnan(dataset["blades_ever_above_yield"])
 
 
-@pytest.mark.parametrize("engine", ["compiled", "reference"])
+@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("casing", CASINGS)
 def test_both_engines_end_where_a_blade_diverges(casing, engine):
     rotor, sizes = undisturbed(casing, 1)
     first = sizes[1, : CHOICE.samples_per_revolution].max()
     scene = replace(CASINGS[casing], divergence_limit=0.5 * (first + np.delete(sizes, 1, axis=0).max()))
-    numbers = numbers_of(scene, rotor, replace(RECORDED, revolutions=2, snapshot_revolutions=1, engine=engine))
+    numbers = numbers_of(scene, rotor, replace(RECORDED, revolutions=2, snapshot_revolutions=1), engine)
     assert numbers["status"] == 1 and numbers["leader"] == 2 and 0.0 < numbers["diverged_revolution"] < 1.0
     assert np.isnan(numbers["blade_max_von_mises"]).all()
 
 
-@pytest.mark.parametrize("engine", ["compiled", "reference"])
+@pytest.mark.parametrize("engine", ENGINES)
 def test_all_blades_may_diverge_at_once(engine):
     """A casing beyond the limit is a divergence of all blades; the first one stands for them."""
     scene = replace(LINED_RING, divergence_limit=1e-5)
-    choice = replace(RECORDED, revolutions=2, snapshot_revolutions=1, engine=engine)
-    assert all(part.diverged for part in run(rotor_of(3), scene, choice).records)
-    numbers = numbers_of(scene, rotor_of(3), choice)
+    choice = replace(RECORDED, revolutions=2, snapshot_revolutions=1)
+    assert all(part.diverged for part in run(rotor_of(3), scene, choice, engine).records)
+    numbers = numbers_of(scene, rotor_of(3), choice, engine)
     assert numbers["status"] == 1 and numbers["leader"] == 1 and np.isnan(numbers["blade_rms"]).all()
 
 

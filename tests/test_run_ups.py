@@ -8,6 +8,8 @@ import pytest
 import xarray as xr
 from defaults import Casing, IntegrationChoice, Lining, Scene
 from integration_cases import ABRADABLE, LINING, oscillator, with_static_modes
+from integration_runs import ENGINES, RUN_UPS
+from reference_engine import ReferenceSimulation
 from scipy.integrate import solve_ivp
 from scipy.special import wofz
 
@@ -70,18 +72,17 @@ def test_a_run_down_is_its_run_up_backwards():
     assert [one.speed for one in up[1:-1]] == [one.speed for one in down[1:-1]][::-1]
 
 
-@pytest.mark.parametrize("engine", ["compiled", "reference"])
+@pytest.mark.parametrize("engine", ENGINES)
 def test_at_one_speed_a_run_up_is_the_run_at_that_speed(contact, engine):
-    choice = replace(LONG, engine=engine)
-    run = Simulation(contact, 1600.0, NARROW, choice)
+    run = ENGINES[engine](contact, 1600.0, NARROW, LONG)
     expected = run.advance(run.start(), 6).samples
-    integration = RunUpIntegration(contact, NARROW, choice, RunUp(1600.0, 1600.0, 1.5, 4, 0, worn=False))
+    integration = RUN_UPS[engine](contact, NARROW, LONG, RunUp(1600.0, 1600.0, 1.5, 4, 0, worn=False))
     np.testing.assert_array_equal(samples_of(integration), expected)
 
 
 def test_the_reference_slides_with_the_speed_of_each_segment(contact):
-    problem = Simulation(contact, 1600.0, NARROW, replace(LONG, engine="reference")).problem
-    engine = Simulation.build(problem, segments_at(problem, np.array([1590.0, 1610.0]))).engine
+    problem = Problem(contact, 1600.0, NARROW, LONG)
+    engine = ReferenceSimulation.build(problem, segments_at(problem, np.array([1590.0, 1610.0]))).engine
     for place, speed in enumerate((1590.0, 1610.0)):
         engine.take(place)
         np.testing.assert_allclose(engine.rotation_velocity, problem.casing.rotation_velocity * speed / 1600.0, rtol=1e-14)
@@ -105,9 +106,7 @@ def test_a_change_that_ends_where_it_began_hardly_differs_from_the_run_at_that_s
 def test_compiled_run_up_is_that_of_the_reference(contact, scene, ends, intervals, segments):
     choice = replace(LONG, time_step=3.2e-6 if scene.lining else 8e-7)
     run_up = RunUp(*ends, 1.3, 1, 0, worn=False)
-    ours, theirs = (
-        RunUpIntegration(contact, scene, replace(choice, engine=engine), run_up) for engine in ("compiled", "reference")
-    )
+    ours, theirs = (run_up_class(contact, scene, choice, run_up) for run_up_class in RUN_UPS.values())
     found, expected = samples_of(ours), samples_of(theirs)
     assert len(ours.intervals) >= intervals
     assert max(len(interval.segments) for interval in ours.intervals) >= segments

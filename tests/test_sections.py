@@ -49,9 +49,9 @@ def settings_with(config_copy):
     return read
 
 
-def frequencies(blade, steel, choice):
+def frequencies(blade, steel, *choices):
     mesh = generate_mesh(blade, nodes=2500, layers=1, tip_elements=14)
-    return reduce_blade(mesh, assemble(mesh, steel), choice, steel).modes(0.0, 6)[0]
+    return reduce_blade(mesh, assemble(mesh, steel), steel, *choices, {}).modes(0.0, 6)[0]
 
 
 def test_the_reference_blade_returns_from_its_own_sections(blade, model):
@@ -63,9 +63,9 @@ def test_the_reference_blade_returns_from_its_own_sections(blade, model):
             assert other.arc is not None and other.radius == pytest.approx(edge.radius, rel=0.02)
 
 
-def test_its_frequencies_are_those_of_its_profiles(blade, model, steel, choice):
+def test_its_frequencies_are_those_of_its_profiles(blade, model, steel, boundary, reduction):
     again = definition_of(sections_of(blade)).build(round_edges=True)
-    np.testing.assert_allclose(frequencies(again, steel, choice), model.modes(0.0, 6)[0], rtol=2e-3)
+    np.testing.assert_allclose(frequencies(again, steel, boundary, reduction), model.modes(0.0, 6)[0], rtol=2e-3)
 
 
 @pytest.mark.parametrize("trailing", ["round", "blunt", "sharp"])

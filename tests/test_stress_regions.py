@@ -19,7 +19,6 @@ from r37core.results.regions import judged, other_regions, read_judged
 from r37core.results.response import write_response
 from r37core.results.steps import ranking
 from r37core.rom import stress_region
-from r37core.rom.reduce import reduce_blade
 from r37core.rom.region_choice import RegionChoice
 from r37core.stress.operator import mapped_region
 from r37core.stress.recovery import stress_operators
@@ -35,11 +34,11 @@ CHOICE = IntegrationChoice(8e-7, 6, 62, integrator="exact_modal", snapshots_per_
 
 
 @pytest.fixture(scope="module")
-def every_node(mesh, matrices, choice, steel):
+def every_node(reduced):
     """The model that looks at all nodes of the airfoil."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(stress_region, "_MOST_NODES", 10**6)
-        return reduce_blade(mesh, matrices, choice, steel)
+        return reduced()
 
 
 @pytest.mark.parametrize("speed", [1000.0, 1340.0, 1700.0])

@@ -195,7 +195,7 @@ def test_models_of_a_scene_and_without_stress_no_basis(chosen):
     sweep = Sweep(chosen)
     assert sweep.contact_model(REF) == "<results>/Ref/contact_pressure_edge.npz"
     assert sweep.stress_operator(L50) == ["<results>/L50/stress_pressure_edge.npz"]
-    assert Structure(chosen).reduction(of(blade="Ref", tip_line="camber"))["boundary"]["tip_line"] == "camber"
+    assert Structure(chosen).boundary(of(blade="Ref", tip_line="camber"))["tip_line"] == "camber"
     plain = chosen.scene_designs.entries["direct"].model_copy(update={"results": ["spectrum"]})
     sweep = Sweep(with_scene(chosen, "direct", plain))
     assert sweep.stress_operator(L50) == []

@@ -170,17 +170,16 @@ class BladeRuns:
 
     def model(self, model: Model) -> tuple[ContactModel, StressOperator]:
         """The contact model on this mesh, and its stress."""
-        base = self._settings.reduction_choice(self._blade)
-        choice = replace(
-            base,
-            boundary=replace(base.boundary, contact=model.contact, nodes=model.count or None, spacing=model.spacing),
-            fixed_interface_modes=model.modes,
-        )
+        settings, blade = self._settings, self._blade
+        nodes = {"contact": model.contact, "nodes": model.count or None, "spacing": model.spacing}
+        boundary = replace(settings.boundary_choice(blade), **nodes)
+        reduction = replace(settings.reduction_choice(blade), fixed_interface_modes=model.modes)
+        regions = settings.stress_regions(blade)
         begun = time.process_time()
-        reduced = reduce_blade(self._mesh, self._matrices, choice, self._material)
+        reduced = reduce_blade(self._mesh, self._matrices, self._material, boundary, reduction, regions)
         spent = time.process_time() - begun
         self.rows.append(self._row(model, what="the model", cpu_s=spent))
-        return contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, self._material)
+        return contact_model(reduced, boundary.tip_line), stress_operator(reduced, self._material)
 
     def _row(self, model: Model, **numbers: Any) -> dict[str, Any]:
         words = {"contact": model.contact, "count": model.count, "modes": model.modes, "spacing": model.spacing}

@@ -44,10 +44,10 @@ def measured(root: Path) -> Numbers:
     settings = settings_of(root, scenes="all")
     blade, tip_line = settings.blades[_BLADE], settings.structure.boundary.tip_line
     mesh = generate_mesh(blade.definition.build(round_edges=True), **_MESH)
-    matrices, reduction = assemble(mesh, blade.material), settings.reduction_choice(_BLADE)
-    with_coriolis = reduce_blade(mesh, matrices, replace(reduction, coriolis=True), blade.material)
-    on_patches = replace(reduction, boundary=replace(reduction.boundary, contact=PATCHES))
-    patched = reduce_blade(mesh, matrices, on_patches, blade.material)
+    matrices, boundary = assemble(mesh, blade.material), settings.boundary_choice(_BLADE)
+    reduction, regions = settings.reduction_choice(_BLADE), settings.stress_regions(_BLADE)
+    with_coriolis = reduce_blade(mesh, matrices, blade.material, boundary, replace(reduction, coriolis=True), regions)
+    patched = reduce_blade(mesh, matrices, blade.material, replace(boundary, contact=PATCHES), reduction, regions)
     model = replace(with_coriolis, coriolis=None)
     contact, coriolis, patches = (contact_model(each, tip_line) for each in (model, with_coriolis, patched))
 

@@ -65,4 +65,4 @@ def instants(model: str, response: Any) -> np.ndarray:
 def shapes(input: Any, output: Any, params: Any) -> None:
     """The rendered pictures. Inputs: mesh, modes."""
     draw_modes(Path(input.modes) / "modes_0.vtu", output.modes)
-    draw_mesh(input.mesh, settings_of(Path.cwd()).reduction_choice(REFERENCE).judged_region, output.mesh)
+    draw_mesh(input.mesh, settings_of(Path.cwd()).judged_region(REFERENCE), output.mesh)

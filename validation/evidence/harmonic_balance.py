@@ -76,7 +76,6 @@ def by_harmonic_balance(simulation: Simulation, state: SimulationState) -> np.nd
     import mousai
 
     problem, wear = simulation.problem, state.wear
-    assert wear is not None
     modes, speed = len(state.displacement), problem.speed
     blade = with_static_modes(blade_of(problem.model, speed, problem.scene, 1.0), modes)
     bars = wear.shape[1]

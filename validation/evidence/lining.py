@@ -92,11 +92,11 @@ def interaction_range(settings: Settings, models: Models, scene: Scene, speeds: 
 
 def models_on(mesh: BladeMesh, settings: Settings, blade: str, contact: str, count: int) -> Models:
     """Models of a mesh with a number of contact nodes; the most patches are evenly spaced, as closer ones do not fit."""
-    material, base = settings.blades[blade].material, settings.reduction_choice(blade)
-    spacing = EVEN if count == max(COUNTS) else None
-    choice = replace(base, boundary=replace(base.boundary, contact=contact, nodes=count, spacing=spacing))
-    reduced = reduce_blade(mesh, assemble(mesh, material), choice, material)
-    return Models(contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, material))
+    material, spacing = settings.blades[blade].material, EVEN if count == max(COUNTS) else None
+    boundary = replace(settings.boundary_choice(blade), contact=contact, nodes=count, spacing=spacing)
+    reduction, regions = settings.reduction_choice(blade), settings.stress_regions(blade)
+    reduced = reduce_blade(mesh, assemble(mesh, material), material, boundary, reduction, regions)
+    return Models(contact_model(reduced, boundary.tip_line), stress_operator(reduced, material))
 
 
 def mesh_of(settings: Settings, blade: str, nodes: int) -> BladeMesh:
@@ -161,7 +161,7 @@ def own_blade(input: Any, output: Any, params: Any) -> None:
     shipped = settings.scenes[MATERIAL].scene
     casing = replace(shipped.casing, clearance=1e-3, height=2e-3)
     scene, peak = replace(shipped, casing=casing), peak_of("Ref") / scale
-    box = settings.reduction_choice("Ref").stress_regions[BOX]
+    box = settings.stress_regions("Ref")[BOX]
     bounds = {name: scale * getattr(box, name) for name in ("maximum_x", "minimum_z", "maximum_z")}
     speeds, ranges = np.arange((1.0 - BELOW) * peak, (1.0 + ABOVE) * peak, STEP / scale), {}
     for nodes in (10_000, 20_000, 40_000):
@@ -180,11 +180,11 @@ def own_blade(input: Any, output: Any, params: Any) -> None:
 
 def models_scaled(mesh: BladeMesh, settings: Settings, contact: str, count: int, bounds: dict[str, float]) -> Models:
     """Models of a mesh with another region of the stress."""
-    material, base = settings.blades["Ref"].material, settings.reduction_choice("Ref")
-    boundary, box = replace(base.boundary, contact=contact, nodes=count), replace(base.stress_regions[BOX], **bounds)
-    choice = replace(base, boundary=boundary, stress_regions={BOX: box})
-    reduced = reduce_blade(mesh, assemble(mesh, material), choice, material)
-    return Models(contact_model(reduced, base.boundary.tip_line), stress_operator(reduced, material))
+    material, reduction = settings.blades["Ref"].material, settings.reduction_choice("Ref")
+    boundary = replace(settings.boundary_choice("Ref"), contact=contact, nodes=count)
+    regions = {BOX: replace(settings.stress_regions("Ref")[BOX], **bounds)}
+    reduced = reduce_blade(mesh, assemble(mesh, material), material, boundary, reduction, regions)
+    return Models(contact_model(reduced, boundary.tip_line), stress_operator(reduced, material))
 
 
 def _cells(of: dict[str, float]) -> list[str]:

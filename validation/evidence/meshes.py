@@ -61,7 +61,7 @@ def density(input: Any, output: Any, params: Any) -> None:
         shape = chosen.definition.build(round_edges=case.edges == "round")
         mesh = generate_mesh(shape, case.nodes, case.layers, case.tip_elements)
         matrices = assemble(mesh, chosen.material)
-        found = crossings(reduce_blade(mesh, matrices, settings.reduction_choice("Ref"), chosen.material), list(PUBLISHED))
+        found = crossings(_reduced(settings, "Ref", mesh, matrices), list(PUBLISHED))
         off = 100.0 * (found / np.array(list(PUBLISHED.values())) - 1.0)
         values = [
             ", ".join(f"{value:.{digits}f}" for value in several)
@@ -116,10 +116,15 @@ def imported(element: str, folder: Path) -> BladeMesh:
     return import_mesh(entry.source(folder))[0]
 
 
+def _reduced(settings: Settings, blade: str, mesh: BladeMesh, matrices: StructuralMatrices) -> ReducedModel:
+    choices = settings.boundary_choice(blade), settings.reduction_choice(blade), settings.stress_regions(blade)
+    return reduce_blade(mesh, matrices, settings.blades[blade].material, *choices)
+
+
 def _measured(settings: Settings, blade: str, mesh: BladeMesh) -> dict[str, Any]:
     material = settings.blades[blade].material
     matrices = assemble(mesh, material)
-    model = reduce_blade(mesh, matrices, settings.reduction_choice(blade), material)
+    model = _reduced(settings, blade, mesh, matrices)
     contact = contact_model(model, settings.structure.boundary.tip_line)
     first, last = (share * crossings(model, [ORDER])[0] / SPEED_STEP for share in RANGE)
     speeds = np.arange(np.ceil(first), last) * SPEED_STEP

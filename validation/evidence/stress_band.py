@@ -65,15 +65,14 @@ class Models:
 
 def models_of(settings: Settings, blade: str) -> dict[int, Models]:
     """Models of a blade by their number of patches."""
-    chosen, base, made = settings.blades[blade], settings.reduction_choice(blade), {}
-    regions = {f"{kept:g}": replace(base.stress_regions[AIRFOIL], highest_frequency=kept) for kept in KEPT}
+    chosen, reduction, made = settings.blades[blade], settings.reduction_choice(blade), {}
+    regions = {f"{kept:g}": replace(settings.stress_regions(blade)[AIRFOIL], highest_frequency=kept) for kept in KEPT}
     mesh = generate_mesh(chosen.definition.build(round_edges=True), MESH, 1, TIP_ELEMENTS[MESH])
     matrices = assemble(mesh, chosen.material)
     for count, spacing in SPACINGS.items():
-        boundary = replace(base.boundary, contact=PATCHES, nodes=count, spacing=spacing)
-        choice = replace(base, boundary=boundary, stress_regions=regions)
-        reduced = reduce_blade(mesh, matrices, choice, chosen.material)
-        made[count] = Models(contact_model(reduced, base.boundary.tip_line), stress_operators(reduced, chosen.material))
+        boundary = replace(settings.boundary_choice(blade), contact=PATCHES, nodes=count, spacing=spacing)
+        reduced = reduce_blade(mesh, matrices, chosen.material, boundary, reduction, regions)
+        made[count] = Models(contact_model(reduced, boundary.tip_line), stress_operators(reduced, chosen.material))
     return made
 
 

@@ -11,6 +11,7 @@ from evidence.equations_of_motion import against_spring, blade_of, with_wear, wi
 from evidence.harmonic_balance import by_harmonic_balance
 from evidence.massless_boundary import boundary_rows, massless_boundary, run_nlstep
 from integration_cases import random_model, with_static_modes
+from reference_engine import ReferenceSimulation
 
 from r37core.contact.laws import series_modulus
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
@@ -62,10 +63,8 @@ def in_series(scene):
 
 def integrated(model, scene, steps, integrator, static_above=1.0):
     """Samples of the leading edge and wear after a revolution of so many steps."""
-    choice = IntegrationChoice(
-        TIMES[-1] / steps, 1, SAMPLES, integrator=integrator, engine="reference", static_above=static_above
-    )
-    simulation = Simulation(model, SPEED, scene, choice)
+    choice = IntegrationChoice(TIMES[-1] / steps, 1, SAMPLES, integrator=integrator, static_above=static_above)
+    simulation = ReferenceSimulation(model, SPEED, scene, choice)
     assert simulation.problem.grid.steps_per_revolution == steps
     assert len(simulation.problem.blade.frequencies) == len(SLOW)
     state = simulation.start()

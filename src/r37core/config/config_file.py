@@ -119,7 +119,7 @@ class RefinementSection(Section):
 
     def scene_refinement(self, scene: Scene) -> RefinementSection:
         """Refinement in a scene: without lining with windows and share of its own."""
-        return self if scene.lining else self.model_copy(update=dict(self.direct))
+        return self if scene.lined else self.model_copy(update=dict(self.direct))
 
 
 def _one_of_each(section: Section, names: tuple[str, str]) -> tuple[str, str]:

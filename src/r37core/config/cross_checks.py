@@ -20,7 +20,7 @@ from r37core.rom.reduction_choice import (
     QUADRATIC,
     ROTATING,
     BoundaryError,
-    patches_on,
+    contact_positions,
 )
 from r37core.time_integration.integration_choice import LARGEST_TABLE, MOST_STEPS
 from r37core.time_integration.integrators import EXACT_MODAL
@@ -122,7 +122,7 @@ def slow_run_can_be_done(run: RunLength, settings: Settings, path: KeyPath) -> N
 
 
 def _most_nodes(settings: Settings) -> int:
-    return max(settings.reduction_choice(name).boundary.most_nodes for name in settings.blades)
+    return max(settings.boundary_choice(name).most_nodes for name in settings.blades)
 
 
 def matrices_hold_their_terms(settings: Settings) -> None:
@@ -166,14 +166,14 @@ def tips_have_room_for_patches(settings: Settings) -> None:
     mesh, document = settings.fidelity.mesh, settings.documents.config
     for name, blade in settings.blades.items():
         for tip_line in dict.fromkeys(scene.tip_line for scene in settings.scenes.values()):
-            boundary = settings.reduction_choice(name, tip_line).boundary
+            boundary = settings.boundary_choice(name, tip_line)
             if boundary.contact == POINTS or not blade.has_profiles:
                 continue
             # edges of elements between two layers have nodes in their middle; edges inside a layer have none
             inside = tip_line == "camber" and mesh.layers % 2
             nodes = mesh.tip_elements + 1 if inside else 2 * mesh.tip_elements + 1
             try:
-                patches_on(boundary, np.linspace(0.0, 1.0, nodes), f"mesh nodes of the tip line '{tip_line}'")
+                contact_positions(boundary, np.linspace(0.0, 1.0, nodes), f"mesh nodes of the tip line '{tip_line}'")
             except BoundaryError as error:
                 raise document.error(("structure", "boundary", "nodes"), f"blade '{name}': {error} (tip_elements)") from None
 

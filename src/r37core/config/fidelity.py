@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import Field, RootModel, model_validator
 
+from r37core.contact.scene import Scene
 from r37core.rom.reduction_choice import ReductionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
@@ -74,7 +75,6 @@ class TimeIntegration(Section):
     revolutions: Any = DECLARED
     speed_step_rad_s: Speed = Field(description="Step of speed ranges without one")
     integrator: Any = DECLARED
-    engine: Any = DECLARED
     until: Any = DECLARED
     highest_frequency_hz: Any = DECLARED
     stress_instants: int = Field(default=62, ge=1, le=10000, description="Stress evaluations per revolution")
@@ -101,11 +101,11 @@ class TimeIntegration(Section):
         """Samples of the tip motion per revolution."""
         return self.stress_instants * self.samples_per_stress_instant
 
-    def largest_step(self, lined: bool) -> float:
-        """Largest step (s) in a scene with a lining, or without."""
+    def largest_step(self, scene: Scene | None) -> float:
+        """Largest step (s) in a scene; None: as on a bare casing."""
         steps = self.largest_time_step_s
         if steps is not None:
-            return steps.lined if lined else steps.direct
+            return steps.lined if scene and scene.lined else steps.direct
         assert self.time_step_s is not None
         return self.time_step_s
 
@@ -120,9 +120,9 @@ class TimeIntegration(Section):
         steps = self.largest_time_step_s
         return f"{self.time_step_s:g} s" if steps is None else f"{steps.lined:g} s with lining, {steps.direct:g} s without"
 
-    def choice(self, lined: bool) -> IntegrationChoice:
-        """Time integration in a scene with or without a lining, with stress of the last revolution and energy balance."""
-        step = {"time_step": self.largest_step(lined), "shorten": self.time_step_s is None}
+    def choice(self, scene: Scene | None) -> IntegrationChoice:
+        """Time integration in a scene (see largest_step), with stress of the last revolution and energy balance."""
+        step = {"time_step": self.largest_step(scene), "shorten": self.time_step_s is None}
         snapshots = {"snapshots_per_revolution": self.stress_instants, "snapshot_revolutions": 1}
         return si_form(IntegrationChoice, self, **step, **snapshots, samples_per_revolution=self.samples_per_revolution)
 

@@ -95,21 +95,22 @@ def remarks_on_laws(settings: Settings) -> list[str]:
     """Remarks on friction under which no integrator is sure, and on a lining that resists with next to nothing."""
     lines = []
     for name, chosen in settings.scenes.items():
-        friction, lining = chosen.scene.friction, chosen.scene.lining
-        if friction is not None and lining is None and friction.coefficient > LARGE_FRICTION:
+        friction = chosen.scene.friction
+        if friction is not None and not chosen.scene.lined and friction.coefficient > LARGE_FRICTION:
             lines.append(
                 f"scene '{name}': friction.coefficient is {friction.coefficient:g}; above {LARGE_FRICTION:g} exact_modal and "
                 "central_difference differ in direct contact, at any step, by a fifth and more on some blades; compare "
                 "fidelity standard with paper (docs/accuracy.md#what-chaos-decides)"
             )
-        if lining is not None and lining.plastic_modulus == 0.0:
+    patched = [blade for blade in settings.blade_names if settings.contact_of(blade) != POINTS]
+    for name, lining in settings.linings.items():
+        if lining.plastic_modulus == 0.0:
             lines.append(
                 f"scene '{name}': lining.plastic_modulus_pa is 0: bars do not harden, and resist with no more than "
                 f"lining.yield_stress_pa, {lining.yield_stress:g} Pa, until they are worn through; where that is little, the "
                 "blade does not move, and numbers of 0 are no result"
             )
-        patched = [blade for blade in settings.blade_names if settings.contact_of(blade) != POINTS]
-        if lining is not None and lining.published and patched:
+        if lining.published and patched:
             lines.append(
                 f"scene '{name}': lining.bar_width_m and bar_area_m2 are the published model's: the lining of "
                 f"{_first_few(patched)} depends on structure.boundary.nodes and covers a part of the tip; left out, it covers "

@@ -14,9 +14,10 @@ import numpy as np
 from r37core.base.plain import to_plain
 from r37core.base.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.base.yaml_file import KeyPath
-from r37core.contact.scene import Scene
+from r37core.contact.scene import Lining, Scene
 from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import LINEAR, POINTS, BoundaryChoice, ReductionChoice
+from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .bases import chain_of_bases
@@ -180,21 +181,34 @@ class Settings:
             "blades": to_plain(self.blades),
         }
 
-    def reduction_choice(self, blade: str, tip_line: str | None = None) -> ReductionChoice:
-        """Parameters of a blade's reduced model, with contact nodes on `tip_line` or on that of config.yaml.
-
-        Its basis is computed at rest, at half the maximum speed and at the maximum speed.
-        """
-        structure, section = self.structure, self.structure.boundary
-        boundary = si_form(BoundaryChoice, section, tip_line=tip_line or section.tip_line, contact=self.contact_of(blade))
+    def reduction_choice(self, blade: str) -> ReductionChoice:
+        """Reduction of a blade: its basis is computed at rest, at half the maximum speed and at the maximum speed."""
+        structure = self.structure
         speeds = (0.0, 0.5 * structure.maximum_speed_rad_s, structure.maximum_speed_rad_s)
-        regions = chosen_regions(structure.stress_regions) | dict(self.blades[blade].stress_regions)
         more = {"kinematics": self.kinematics_of(blade), **dict(self.fidelity.reduction)}
-        return si_form(ReductionChoice, structure, boundary=boundary, speeds=speeds, stress_regions=regions, **more)
+        return si_form(ReductionChoice, structure, speeds=speeds, **more)
+
+    def boundary_choice(self, blade: str, tip_line: str | None = None) -> BoundaryChoice:
+        """Contact nodes of a blade, on `tip_line` or on that of config.yaml."""
+        section = self.structure.boundary
+        return si_form(BoundaryChoice, section, tip_line=tip_line or section.tip_line, contact=self.contact_of(blade))
+
+    def stress_regions(self, blade: str) -> dict[str, RegionChoice]:
+        """Regions of a blade where stress is looked for."""
+        return chosen_regions(self.structure.stress_regions) | dict(self.blades[blade].stress_regions)
+
+    @property
+    def linings(self) -> dict[str, Lining]:
+        """Lining of each scene that has one."""
+        return {name: chosen.scene.lining for name, chosen in self.scenes.items() if chosen.scene.lining}
+
+    def judged_region(self, blade: str) -> RegionChoice:
+        """Region of a blade that decides."""
+        return next(iter(self.stress_regions(blade).values()))
 
     def contact_nodes(self, blade: str, tip_elements: int) -> int:
         """Number of a blade's contact nodes on a tip of so many elements; 0 where the mesh of another program decides it."""
-        boundary = self.reduction_choice(blade).boundary
+        boundary = self.boundary_choice(blade)
         if not self.blades[blade].has_profiles:
             return boundary.nodes or 0
         return boundary.on(np.linspace(0.0, 1.0, 2 * tip_elements + 1)).most_nodes
@@ -221,7 +235,7 @@ class Settings:
     def integration_choice(self, blade: str, scene: str, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at one speed of a blade and scene, with only what its results need."""
         chosen = self.scenes[scene]
-        everything = self.fidelity.time_integration.choice(chosen.scene.lining is not None)
+        everything = self.fidelity.time_integration.choice(chosen.scene)
         stress = "stress" in self.results_of(blade, scene)
         history = speed in chosen.stress_history_speeds
         choice = replace(everything, revolutions=chosen.revolutions, until_settled=chosen.until_settled)
@@ -269,7 +283,7 @@ def operating_range(settings: Settings) -> OperatingRange | None:
 
 def direct_on_points(settings: Settings) -> tuple[list[str], list[str]]:
     """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
-    scenes = [name for name in settings.scene_names if settings.scene_designs.entries[name].lining is None]
+    scenes = [name for name in settings.scene_names if name not in settings.linings]
     meshed = [name for name, blade in settings.blades.items() if not blade.is_matrices]
     blades = [name for name in meshed if settings.contact_of(name) == POINTS]
     return (scenes, blades) if scenes and blades else ([], [])

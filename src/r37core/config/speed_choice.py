@@ -10,13 +10,12 @@ from .settings import Settings
 
 @dataclass(frozen=True)
 class RunLength:
-    """A run at a `speed` (rad/s): of so many `revolutions` and `blades`, in steps of `time_step` (s) by an `engine`."""
+    """A run at a `speed` (rad/s): of so many `revolutions` and `blades`, in steps of `time_step` (s)."""
 
     speed: float
     revolutions: float
     blades: int
     time_step: float
-    engine: str
 
     @property
     def steps_per_revolution(self) -> float:
@@ -31,7 +30,7 @@ class RunLength:
     @property
     def cpu_time(self) -> float:
         """About how long it takes (s)."""
-        return self.steps * SECONDS_PER_STEP[self.engine]
+        return self.steps * SECONDS_PER_STEP
 
     @property
     def wording(self) -> str:
@@ -44,8 +43,8 @@ def length_of_run(settings: Settings, scene: str, speed: float, revolutions: flo
     """Length of a run in a scene at a speed (rad/s), with the level's revolutions unless they are given."""
     steps, chosen = settings.fidelity.time_integration, settings.scenes[scene].scene
     blades = 1 if chosen.rotor is None else len(chosen.rotor.numbers)
-    step = steps.largest_step(chosen.lining is not None)
-    return RunLength(speed, steps.revolutions if revolutions is None else revolutions, blades, step, steps.engine)
+    step = steps.largest_step(chosen)
+    return RunLength(speed, steps.revolutions if revolutions is None else revolutions, blades, step)
 
 
 def slowest_speeds(settings: Settings) -> dict[str, float]:

@@ -85,6 +85,30 @@ class Lining:
         area = self.arc(radius) * (self.bar_width or 0.0) if self.bar_area is None else self.bar_area
         return np.full(len(tip_lengths), area)
 
+    def bar_surfaces(self, tip_lengths: np.ndarray, radius: float) -> np.ndarray:
+        """Surface (m2) of the casing under a bar of each contact node's ring, shape (nodes,); arguments of pressed_areas."""
+        return self.pressed_areas(tip_lengths, radius) if self.published else tip_lengths * self.arc(radius)
+
+    @property
+    def stiffness(self) -> float:
+        """Elastic stiffness (N/m) per pressed area (m2)."""
+        return self.elastic_modulus / self.thickness
+
+
+@dataclass(frozen=True)
+class BareCasing:
+    """A casing without lining, as a wear law that wears nothing: no thickness, no bars, no force."""
+
+    thickness: float = 0.0
+    bars: int = 0
+    stiffness: float = 0.0
+
+    def pressed_areas(self, tip_lengths: np.ndarray, radius: float) -> np.ndarray:
+        """Area (m2) of lining that each contact node presses at a time, shape (nodes,): 0."""
+        return np.zeros(len(tip_lengths))
+
+    bar_surfaces = pressed_areas
+
 
 @dataclass(frozen=True)
 class Friction:
@@ -134,6 +158,16 @@ class Scene:
     ] = False
     divergence_limit: Annotated[float, Key("Tip displacement above which a run ends as diverged", "_m", ge=1e-6, le=100)] = 0.1
     rotor: Rotor | None = None
+
+    @property
+    def lined(self) -> bool:
+        """True where a lining lies in front of the casing."""
+        return self.lining is not None
+
+    @property
+    def wear_law(self) -> Lining | BareCasing:
+        """The lining; without one a law that wears nothing."""
+        return self.lining or BareCasing()
 
     def damping(self, frequencies: np.ndarray) -> float | np.ndarray:
         """Damping ratios of modes of the `frequencies` (rad/s), in their shape; one number where it is that of every mode."""

@@ -16,11 +16,8 @@ from . import paths
 def linings_at_tip(settings: Settings) -> list[str]:
     """Lines on the linings to run: at the tips of the blades whose models are there, else of a length of tip."""
     lines = []
-    for scene in settings.scene_names:
+    for scene, lining in settings.linings.items():
         chosen = settings.scenes[scene]
-        lining = chosen.scene.lining
-        if lining is None:
-            continue
         pattern = paths.CONTACT_MODEL.replace("<results>", str(settings.root / settings.results))
         files = {name: Path(paths.fill(pattern, blade=name, tip_line=chosen.tip_line)) for name in settings.blade_names}
         there = {}

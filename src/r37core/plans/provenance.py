@@ -57,7 +57,7 @@ class Provenance:
 
     def _sweep_of(self, blade: str, scene: str) -> Attributes:
         chosen, steps = self._settings.scenes[scene], self._settings.fidelity.time_integration
-        step = steps.largest_step(chosen.scene.lining is not None)
+        step = steps.largest_step(chosen.scene)
         return Attributes(
             self._structure(blade),
             scene=scene,
@@ -79,8 +79,11 @@ def structure_hash(settings: Settings, blade: str) -> str:
     """Short hash of all that a blade's structural results depend on."""
     material = settings.blades[blade].material
     elastic = material and material.elastic
-    mesh, choice = settings.fidelity.mesh.model_dump(exclude_none=True), settings.reduction_choice(blade)
-    return _short_hash(shape_hash(settings, blade), elastic, mesh, choice)
+    mesh, reduction = settings.fidelity.mesh.model_dump(exclude_none=True), settings.reduction_choice(blade)
+    # in this order, so that results keep their hash
+    choices = {"boundary": settings.boundary_choice(blade), "speeds": reduction.speeds}
+    choices |= {"stress_regions": settings.stress_regions(blade), **to_plain(reduction)}
+    return _short_hash(shape_hash(settings, blade), elastic, mesh, choices)
 
 
 def _short_hash(*parts: object) -> str:

@@ -37,9 +37,14 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
     """Stages from blade shape to Campbell diagram, by the names of their rules."""
     settings, imported = structure.settings, Imported(structure.settings)
     source = {"source": imported.source, "folder": imported.folder, "locations": imported.locations}
-    reduction = {"reduction": structure.reduction, "contact": structure.location_of_contact, "provenance": made.structure}
+    reduction = {
+        "boundary": structure.boundary,
+        "reduction": structure.reduction,
+        "contact": structure.location_of_contact,
+        "provenance": made.structure,
+    }
     shape = {"definition": structure.definition, "edges": settings.structure.edges, "provenance": made.shape}
-    model = {"material": structure.elastic, "kept": True, **reduction}
+    own = {"material": structure.elastic, "stress_regions": structure.stress_regions, "kept": True}
     diagram = {
         "campbell": si_fields(settings.config.campbell),
         "maximum_speed": settings.structure.maximum_speed_rad_s,
@@ -55,7 +60,7 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
             "exchange.importing.steps.imported_matrices", {**source, **reduction}, "import of the matrices"
         ),
         "reduced_model": Stage(
-            "rom.steps.reduced_model", model, "matrices and reduced model, the longest stage", {"mesh": "mesh"}
+            "rom.steps.reduced_model", {**own, **reduction}, "matrices and reduced model, the longest stage", {"mesh": "mesh"}
         ),
         "contact_model": Stage(
             "rom.steps.contact_model", {"tip_line": lambda wildcards: wildcards.tip_line}, "contact model", reduced

@@ -38,9 +38,17 @@ class Structure:
         """Where stands what a blade's contact acts on; another line re-runs nothing."""
         return Attributes(location=location_of_contact(self.settings, wildcards.blade))
 
+    def boundary(self, wildcards: Any) -> dict[str, Any]:
+        """Contact nodes of the reduced model, on the line of the wildcard, or as config.yaml has them."""
+        return to_plain(self.settings.boundary_choice(wildcards.blade, getattr(wildcards, "tip_line", None)))
+
     def reduction(self, wildcards: Any) -> dict[str, Any]:
-        """Parameters of the reduced model, with contact nodes on the line of the wildcard, or as config.yaml has them."""
-        return to_plain(self.settings.reduction_choice(wildcards.blade, getattr(wildcards, "tip_line", None)))
+        """Reduction of a blade."""
+        return to_plain(self.settings.reduction_choice(wildcards.blade))
+
+    def stress_regions(self, wildcards: Any) -> dict[str, Any]:
+        """Regions of a blade where stress is looked for."""
+        return to_plain(self.settings.stress_regions(wildcards.blade))
 
     def whole_blade_model(self, wildcards: Any) -> str:
         """The model that recovers the whole blade, with the contact nodes of a scene, or else those of config.yaml."""
@@ -49,9 +57,8 @@ class Structure:
         return fill(WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
 
     def whole_blade_reduction(self, wildcards: Any) -> dict[str, Any]:
-        """Parameters of the model of the whole blade: the sweep's, recovered everywhere."""
-        choice = self.settings.reduction_choice(wildcards.blade, wildcards.tip_line)
-        return to_plain(replace(choice, recover_whole_blade=True))
+        """Reduction of the model of the whole blade: the sweep's, recovered everywhere."""
+        return to_plain(replace(self.settings.reduction_choice(wildcards.blade), recover_whole_blade=True))
 
 
 @dataclass(frozen=True)

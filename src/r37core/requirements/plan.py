@@ -96,10 +96,9 @@ class Judged:
     @property
     def errors(self) -> list[float]:
         """Relative error of the level, by mesh and step, of each blade and scene; 0 where it was not measured."""
-        settings, measured = self.sweep.settings, self.sweep.settings.fidelity.measured
-        bare = {name for name, chosen in settings.scenes.items() if chosen.scene.lining is None}
+        measured, linings = self.sweep.settings.fidelity.measured, self.sweep.settings.linings
         pairs, points = self.sweep.runs_with("rms"), self.point_contact
-        return [(measured and measured.error_of(blade in points and scene in bare)) or 0.0 for blade, scene in pairs]
+        return [(measured and measured.error_of(blade in points and scene not in linings)) or 0.0 for blade, scene in pairs]
 
     @property
     def point_contact(self) -> list[str]:
@@ -149,8 +148,7 @@ class Judged:
     @property
     def thickness(self) -> dict[str, float]:
         """Thickness (m) of the lining of each scene that has one."""
-        linings = {name: chosen.scene.lining for name, chosen in self.sweep.settings.scenes.items()}
-        return {name: lining.thickness for name, lining in linings.items() if lining is not None}
+        return {name: lining.thickness for name, lining in self.sweep.settings.linings.items()}
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
@@ -213,7 +211,7 @@ def _not_told(settings: Settings) -> list[str]:
     """Requirements that no run of some blades and scenes can tell, for want of a result or of strengths."""
     requirements, sweep, lines = settings.section(SECTION).requirements(), Sweep(settings), []
     pairs = sweep.runs_with("rms")
-    lined = [pair for pair in pairs if settings.scenes[pair[1]].scene.lining is not None]
+    lined = [pair for pair in pairs if pair[1] in settings.linings]
     weak = [name for name in settings.blades if not settings.blades[name].strengths.are_known]
     for name, result, asked in (
         ("above_yield", "stress", pairs),

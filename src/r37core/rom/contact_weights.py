@@ -10,36 +10,70 @@ patches share the tip without gap or overlap. Sources: the consistent loads of Z
 Method; weighted means as in mortar contact, B. I. Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy.sparse as sp
 
 from r37core.fem.traces import Trace, chain_trace, edge_traces
 from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
 
-from .reduction_choice import POINTS, BoundaryChoice, boundary_nodes, patches_on
+from .recovery_nodes import RecoveryNodes
+from .reduction_choice import POINTS, BoundaryChoice, contact_positions
 
 
-def contact_weights(mesh: BladeMesh, choice: BoundaryChoice) -> sp.csr_array:
-    """Weights w_kj of the mesh's nodes in each contact node's displacement, shape (contact nodes, nodes); rows add up to one.
+@dataclass(frozen=True)
+class TipContact:
+    """Contact nodes on a tip's `line`, which has some of the nodes that are at fractions `chord` of it.
 
-    Raises BoundaryError when the tip line has too few nodes.
+    `weights`, shape (contact nodes, nodes): of the nodes in each one's displacement; rows add up to one. `lengths` (m), shape
+    (contact nodes,): of tip that each stands for, see tip_lengths.
     """
-    if choice.contact == POINTS:
-        nodes = boundary_nodes(mesh, choice)
-        return sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(mesh.points)))
-    line, chord = mesh.node_set(TIP_LINES[choice.tip_line]), mesh.parameters[:, 0]
-    choice = patches_on(choice, chord[line], f"mesh nodes of the tip line '{choice.tip_line}'")
-    return _means(choice, chord, _line_traces(mesh, line))
+
+    line: np.ndarray
+    chord: np.ndarray
+    weights: sp.csr_array
+    lengths: np.ndarray
+
+    @property
+    def mean_chord(self) -> np.ndarray:
+        """Fractions of the chord of the contact nodes, shape (contact nodes,)."""
+        return self.weights @ self.chord
+
+    def nodes(self, every: RecoveryNodes) -> RecoveryNodes:
+        """The contact nodes as means of `every` node, each with the number of the nearest node of the tip's line."""
+        nearest = _nearest(self.chord[self.line], self.mean_chord)
+        fields = (mean_fields(self.weights, nodes) for nodes in (every.basis, every.rotation_shapes))
+        return RecoveryNodes(every.nodes[self.line[nearest]], mean_positions(every.points, self.weights), *fields)
 
 
-def weights_along(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice) -> sp.csr_array:
-    """Weights of nodes on a line, whose elements are not known: linear between neighbours; shape (contact nodes, nodes).
+def tip_contact(mesh: BladeMesh, boundary: BoundaryChoice) -> TipContact:
+    """Contact nodes on the tip of a mesh. Raises BoundaryError when it has too few nodes."""
+    line, chord = mesh.node_set(TIP_LINES[boundary.tip_line]), mesh.parameters[:, 0]
+    positions = contact_positions(boundary, chord[line], f"mesh nodes of the tip line '{boundary.tip_line}'")
+    lengths = tip_lengths(mesh.points[line], chord[line], positions)
+    if boundary.contact == POINTS:
+        nodes = line[_nearest(chord[line], positions)]
+        weights = sp.csr_array((np.ones(len(nodes)), (np.arange(len(nodes)), nodes)), shape=(len(nodes), len(chord)))
+    else:
+        weights = _means(positions, chord, _line_traces(mesh, line))
+    return TipContact(line, chord, weights, lengths)
+
+
+def contact_along(points: np.ndarray, chord: np.ndarray, boundary: BoundaryChoice) -> TipContact:
+    """Patches of nodes on a line, whose elements are not known: their displacement is linear between neighbours.
 
     `points` (m), shape (nodes, 3), and fractions `chord` of the line's length. Raises BoundaryError for too few nodes.
     """
-    choice = patches_on(choice, chord, "nodes of boundary.csv")
-    numbers = np.arange(len(points))
-    return _means(choice, chord, [chain_trace(points, np.stack([numbers[:-1], numbers[1:]], axis=1))])
+    positions, numbers = contact_positions(boundary, chord, "nodes of boundary.csv"), np.arange(len(points))
+    weights = _means(positions, chord, [chain_trace(points, np.stack([numbers[:-1], numbers[1:]], axis=1))])
+    return TipContact(numbers, chord, weights, tip_lengths(points, chord, positions))
+
+
+def mean_fields(weights: sp.csr_array, fields: np.ndarray) -> np.ndarray:
+    """Fields at the contact nodes, shape (contact nodes, 3, columns), from those at all nodes, shape (nodes, 3, columns)."""
+    nodes, axes, columns = fields.shape
+    return (weights @ fields.reshape(nodes, axes * columns)).reshape(weights.shape[0], axes, columns)
 
 
 def tip_lengths(points: np.ndarray, chord: np.ndarray, positions: np.ndarray) -> np.ndarray:
@@ -65,6 +99,11 @@ def mean_positions(points: np.ndarray, weights: sp.csr_array) -> np.ndarray:
     return positions
 
 
+def _nearest(chord: np.ndarray, positions: np.ndarray) -> np.ndarray:
+    """Place of the node nearest to each of some positions, among nodes at fractions `chord`."""
+    return np.abs(chord - positions[:, None]).argmin(axis=1)
+
+
 def _line_traces(mesh: BladeMesh, line: np.ndarray) -> list[Trace]:
     """Edges of the elements along the line; where the elements have none there, as inside a face, straight pieces."""
     traces = edge_traces(mesh.points, mesh.blocks, np.isin(np.arange(len(mesh.points)), line))
@@ -72,13 +111,12 @@ def _line_traces(mesh: BladeMesh, line: np.ndarray) -> list[Trace]:
     return traces if covered == len(line) - 1 else [chain_trace(mesh.points, np.stack([line[:-1], line[1:]], axis=1))]
 
 
-def _means(choice: BoundaryChoice, chord: np.ndarray, traces: list[Trace]) -> sp.csr_array:
-    """Weights of hats along the chord, from integrals over edges; `chord`: of every node."""
-    count = choice.most_nodes
-    positions, total = choice.chord_positions(count), np.zeros((count, len(chord)))
+def _means(positions: np.ndarray, chord: np.ndarray, traces: list[Trace]) -> sp.csr_array:
+    """Weights of hats at `positions` of the chord, from integrals over edges; `chord`: of every node."""
+    total = np.zeros((len(positions), len(chord)))
     for trace in traces:
         node_chord = chord[trace.nodes] @ trace.values.T
-        for row, unit in zip(total, np.eye(count), strict=True):
+        for row, unit in zip(total, np.eye(len(positions)), strict=True):
             shares = (np.interp(node_chord, positions, unit) * trace.measures) @ trace.values
             np.add.at(row, trace.nodes, shares)
     return sp.csr_array(total / total.sum(axis=1, keepdims=True))

@@ -28,7 +28,7 @@ def multi_speed_basis(
     states: Iterable[StateAtSpeed],
     mass: sp.csr_array,
     boundary: sp.csr_array,
-    choice: ReductionChoice,
+    reduction: ReductionChoice,
     further: Callable[[StateAtSpeed], np.ndarray | None] | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Constraint modes and fixed-interface modes in each of the states, as one basis: see combine_columns.
@@ -39,10 +39,10 @@ def multi_speed_basis(
     """
     columns: list[np.ndarray] = []
     for state in states:
-        columns += constraint_and_fixed_modes(state.stiffness, mass, boundary, choice.fixed_interface_modes, state.solve)
+        columns += constraint_and_fixed_modes(state.stiffness, mass, boundary, reduction.fixed_interface_modes, state.solve)
         if further is not None and (more := further(state)) is not None:
             columns.append(more)
-    return combine_columns(columns[0], np.hstack(columns), mass, boundary, choice.basis_tolerance)
+    return combine_columns(columns[0], np.hstack(columns), mass, boundary, reduction.basis_tolerance)
 
 
 def combine_columns(

@@ -16,17 +16,17 @@ from .rotation import shapes_of_rotation
 
 
 class LinearBlade:
-    """The undeformed blade of `matrices` at the speeds of a `choice`."""
+    """The undeformed blade of `matrices` at the speeds of a `reduction`."""
 
-    def __init__(self, matrices: StructuralMatrices, choice: ReductionChoice):
-        self._matrices, self._choice = matrices, choice
+    def __init__(self, matrices: StructuralMatrices, reduction: ReductionChoice):
+        self._matrices, self._reduction = matrices, reduction
         self._displaced: list[np.ndarray] = []
 
     @cached_property
     def _terms(self) -> tuple[sp.csr_array, sp.csr_array]:
         """Stiffness, and its change per squared speed."""
         geometric = self._matrices.geometric_stiffness()
-        softened = geometric + self._matrices.spin_softening() if self._choice.spin_softening else geometric
+        softened = geometric + self._matrices.spin_softening() if self._reduction.spin_softening else geometric
         return self._matrices.stiffness(), sp.csr_array(softened)
 
     @property
@@ -36,7 +36,7 @@ class LinearBlade:
     def states(self) -> Iterator[StateAtSpeed]:
         """The blade at the speeds one after another."""
         stiffness, per_square = self._terms
-        for speed in self._choice.speeds:
+        for speed in self._reduction.speeds:
             total = sp.csr_array(stiffness + speed**2 * per_square)
             solve = factorise(total) if speed else self._matrices.solve_at_rest
             self._displaced.append(solve(self._load))
@@ -52,12 +52,12 @@ class LinearBlade:
     def stiffness_terms(self, vectors: np.ndarray) -> dict[str, Any]:
         """Fields of the reduced model about its stiffness in a basis."""
         matrices, static = self._matrices, projected(self._terms[0], vectors)
-        softening = projected(matrices.spin_softening(), vectors) if self._choice.spin_softening else None
+        softening = projected(matrices.spin_softening(), vectors) if self._reduction.spin_softening else None
         return {
             "stiffness": static,
             "geometric_stiffness": projected(matrices.geometric_stiffness(), vectors),
             "spin_softening": softening,
-            "quadratic_residual": self._quadratic_residual(vectors, static) if max(self._choice.speeds) > 0.0 else 0.0,
+            "quadratic_residual": self._quadratic_residual(vectors, static) if max(self._reduction.speeds) > 0.0 else 0.0,
         }
 
     def _quadratic_residual(self, vectors: np.ndarray, static: np.ndarray) -> float:
@@ -65,7 +65,7 @@ class LinearBlade:
 
         The term is fitted through the stiffness reduced at three speeds, `static` among them; the linear theory makes it zero.
         """
-        (stiffness, per_square), highest = self._terms, max(self._choice.speeds)
+        (stiffness, per_square), highest = self._terms, max(self._reduction.speeds)
         middle, top = (
             projected(sp.csr_array(stiffness + (share * highest) ** 2 * per_square), vectors) for share in (0.5, 1.0)
         )

@@ -1,6 +1,6 @@
-"""Choices of a reduced model: its boundary nodes and basis. Light: the configuration imports it."""
+"""Choices of a reduced model: its contact nodes and its reduction. Light: the configuration imports it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Self
@@ -8,10 +8,9 @@ from typing import Annotated, Self
 import numpy as np
 
 from r37core.base.declared import Key
-from r37core.mesh.blade_mesh import TIP_LINES, BladeMesh
+from r37core.mesh.blade_mesh import TIP_LINES
 
 from .quadratic_terms import MOST_QUADRATIC_MODES
-from .region_choice import RegionChoice
 
 
 class BoundaryError(ValueError):
@@ -81,31 +80,33 @@ class BoundaryChoice:
         return np.where(even == 0.5, 0.5, 0.5 - 0.5 * np.cos(np.pi * even))
 
 
-def boundary_nodes(mesh: BladeMesh, choice: BoundaryChoice) -> np.ndarray:
-    """Mesh nodes nearest to the wanted positions, from leading to trailing edge; BoundaryError where two are the same."""
-    line = mesh.node_set(TIP_LINES[choice.tip_line])
-    chord, count = mesh.parameters[line, 0], choice.most_nodes
-    distance = np.abs(chord - choice.chord_positions(count)[:, None])
-    nearest = distance.argmin(axis=1) if len(line) else np.empty(0, dtype=int)
+def contact_positions(choice: BoundaryChoice, chord: np.ndarray, place: str) -> np.ndarray:
+    """Wanted fractions of the chord of the contact nodes, from leading to trailing edge, on nodes at fractions `chord`.
+
+    Raises BoundaryError where the nodes nearest to two points are the same, and unless one of the nodes lies between any two
+    patches; `place`: what they are nodes of.
+    """
+    positions = _positions_of_points if choice.contact == POINTS else _positions_of_patches
+    return positions(choice, chord, place)
+
+
+def _positions_of_points(choice: BoundaryChoice, chord: np.ndarray, place: str) -> np.ndarray:
+    count = choice.most_nodes
+    positions = choice.chord_positions(count)
+    nearest = np.abs(chord - positions[:, None]).argmin(axis=1) if len(chord) else np.empty(0, dtype=int)
     if len(np.unique(nearest)) < count:
         raise BoundaryError(
-            f"{count} boundary nodes do not fit on the {len(line)} mesh nodes of the tip line "
-            f"'{choice.tip_line}'; ask for fewer, {_even_instead(choice)}or raise tip_elements (for the camber line also: an "
-            "odd number of layers, or an even one with nodes at mid-thickness) in the fidelity level; of an imported mesh, "
-            "refine the tip"
+            f"{count} boundary nodes do not fit on the {len(chord)} {place}; ask for fewer, {_even_instead(choice)}or raise "
+            "tip_elements (for the camber line also: an odd number of layers, or an even one with nodes at mid-thickness) in "
+            "the fidelity level; of an imported mesh, refine the tip"
         )
-    return line[nearest]
+    return positions
 
 
-def patches_on(choice: BoundaryChoice, chord: np.ndarray, place: str) -> BoundaryChoice:
-    """The choice with a number of patches, made of nodes at fractions `chord` of the line.
-
-    Raises BoundaryError unless one of the nodes lies between any two patches; `place`: what they are nodes of.
-    """
-    chosen = choice.on(chord)
-    wanted = chosen.most_nodes
+def _positions_of_patches(choice: BoundaryChoice, chord: np.ndarray, place: str) -> np.ndarray:
+    wanted = choice.on(chord).most_nodes
     if _resolves(choice, wanted, chord):
-        return chosen
+        return choice.chord_positions(wanted)
     most = max((count for count in range(1, wanted) if _resolves(choice, count, chord)), default=0)
     reason = "because between two patches there must be a node" if most else "because a patch is made of two or more"
     raise BoundaryError(
@@ -144,11 +145,9 @@ and with terms of second order about that equilibrium."""
 
 @dataclass(frozen=True)
 class ReductionChoice:
-    """Choices of a reduced model: basis at `speeds` (rad/s), contact nodes of `boundary`, stress in `stress_regions`."""
+    """Choices of a reduction: its basis at `speeds` (rad/s), and the terms of rotation and large displacements."""
 
-    boundary: BoundaryChoice
     speeds: tuple[float, ...]
-    stress_regions: Mapping[str, RegionChoice] = field(hash=False)
     fixed_interface_modes: Annotated[
         int, Key("Number of modes at each of three speeds: rest, half the maximum and the maximum", ge=0, le=500)
     ]
@@ -160,8 +159,3 @@ class ReductionChoice:
     spin_softening: Annotated[bool, Key("Whether centrifugal forces follow the motion, which lowers the stiffness")] = False
     coriolis: Annotated[bool, Key("Whether Coriolis forces act; simulations then need exact_modal")] = False
     recover_whole_blade: Annotated[bool, Key("Whether the basis is kept on every node (a large file)")] = False
-
-    @property
-    def judged_region(self) -> RegionChoice:
-        """The region that decides."""
-        return next(iter(self.stress_regions.values()))

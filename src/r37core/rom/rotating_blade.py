@@ -32,12 +32,12 @@ _RELATIVE_STIFFENING = np.array([0.0, 1.0, 4.0])
 
 
 class RotatingBlade:
-    """The blade of a `mesh` and its `matrices` at the three speeds of a `choice`, the first of which is rest."""
+    """The blade of a `mesh` and its `matrices` at the three speeds of a `reduction`, the first of which is rest."""
 
-    def __init__(self, mesh: BladeMesh, matrices: StructuralMatrices, material: Material, choice: ReductionChoice):
+    def __init__(self, mesh: BladeMesh, matrices: StructuralMatrices, material: Material, reduction: ReductionChoice):
         self._solid = LargeDisplacement(mesh.blocks, mesh.points, material)
-        self._rotation = Rotation(self._solid, matrices, follows=choice.spin_softening)
-        self._matrices, self._choice = matrices, choice
+        self._rotation = Rotation(self._solid, matrices, follows=reduction.spin_softening)
+        self._matrices, self._reduction = matrices, reduction
         self._equilibria = [np.zeros_like(mesh.points)]
         self._height = float(np.ptp(np.hypot(*mesh.points[:, :2].T)))
 
@@ -50,7 +50,7 @@ class RotatingBlade:
     def states(self) -> Iterator[StateAtSpeed]:
         """The blade at the speeds one after another. Raises NoEquilibriumError."""
         yield StateAtSpeed(0.0, self._matrices.stiffness(), self._matrices.solve_at_rest)
-        speeds = self._choice.speeds[1:]
+        speeds = self._reduction.speeds[1:]
         for speed, equilibrium in zip(speeds, self._rotation.equilibria(speeds), strict=True):
             self._equilibria.append(equilibrium.displacement)
             # the factors are of a tangent near this one, which a basis may be of
@@ -61,9 +61,9 @@ class RotatingBlade:
 
         Columns of a basis: their scale counts for nothing.
         """
-        if self._choice.kinematics != QUADRATIC:
+        if self._reduction.kinematics != QUADRATIC:
             return None
-        _, modes = lowest_modes(state.stiffness, self._matrices.mass(), self._choice.quadratic_modes, state.solve)
+        _, modes = lowest_modes(state.stiffness, self._matrices.mass(), self._reduction.quadratic_modes, state.solve)
         fields = [self._rotation.whole(mode) for mode in modes.T]
         pushes = [
             self._rotation.free(self._solid.second_derivative(self._equilibria[-1], *pair)) for pair in self._paired(fields)
@@ -75,15 +75,15 @@ class RotatingBlade:
 
         They give that of every speed of the basis, and from rest on the linear one.
         """
-        stiffening = _RELATIVE_STIFFENING / max(self._choice.speeds) ** 2
-        squares = np.square(self._choice.speeds)
+        stiffening = _RELATIVE_STIFFENING / max(self._reduction.speeds) ** 2
+        squares = np.square(self._reduction.speeds)
         per_square = [self._slope, *(field / square for field, square in zip(self._equilibria[1:], squares[1:], strict=True))]
         fields = np.array([self._rotation.free(field) for field in per_square])
         return la.solve(1.0 / (1.0 + np.outer(squares, stiffening)), fields).T, stiffening
 
     def stiffness_terms(self, vectors: np.ndarray) -> dict[str, Any]:
         """Fields of the reduced model about its stiffness in a basis, spin softening in it."""
-        mass, speeds = projected(self._matrices.mass(), vectors), self._choice.speeds
+        mass, speeds = projected(self._matrices.mass(), vectors), self._reduction.speeds
         stiffness = np.array([projected(tangent, vectors) for tangent in self._tangents()])
         squares, modes = la.eigh(stiffness[0], mass)
         modal_stiffness = np.array([symmetric(modes.T @ matrix @ modes) for matrix in stiffness[1:]])
@@ -94,7 +94,7 @@ class RotatingBlade:
             "logarithmic_stiffness": logarithmic.projected(modes.T @ mass),
             "quadratic_residual": 0.0,
         }
-        if self._choice.kinematics == QUADRATIC:
+        if self._reduction.kinematics == QUADRATIC:
             places = np.array([logarithmic.abscissa(speed) for speed in speeds])
             terms["quadratic"] = self._quadratic_terms(vectors, mass, stiffness, places)
         return terms
@@ -102,7 +102,7 @@ class RotatingBlade:
     def _tangents(self) -> Iterator[sp.csr_array]:
         yield self._matrices.stiffness()
         # assembled again: all of them at once would be the most that a reduction holds
-        for speed, displacement in zip(self._choice.speeds[1:], self._equilibria[1:], strict=True):
+        for speed, displacement in zip(self._reduction.speeds[1:], self._equilibria[1:], strict=True):
             yield self._rotation.tangent(displacement, speed)
 
     def _quadratic_terms(
@@ -112,7 +112,7 @@ class RotatingBlade:
 
         `mass` and, at each speed, `stiffness`: in the basis `vectors`; `places`: of the speeds.
         """
-        count = self._choice.quadratic_modes
+        count = self._reduction.quadratic_modes
         lowest = la.eigh(stiffness[1], mass, subset_by_index=(0, count - 1))[1]
         coordinates, derivatives, cubic = lowest.T @ mass, [], []
         for matrix, displacement in zip(stiffness, self._equilibria, strict=True):

@@ -14,15 +14,16 @@ from .contact_model import write_contact_model
 from .reduce import reduce_blade
 from .reduced_model import ReducedModel
 from .reduced_model import contact_model as contact_model_of
-from .reduction_choice import ReductionChoice, boundary_located
+from .reduction_choice import BoundaryChoice, ReductionChoice, boundary_located
+from .region_choice import RegionChoice
 from .rom_file import read_reduced_model, write_reduced_model
 
 
 def reduced_model(input: Any, output: Any, params: Any) -> None:
     """Assemble and reduce a blade. Input: mesh (vtu). Output: rom (nc).
 
-    Params: material, reduction, contact, kept (whether the user's cache has a copy, for all that is made of the same),
-    provenance, code.
+    Params: material, boundary, reduction, stress_regions, contact, kept (whether the user's cache has a copy, for all that is
+    made of the same), provenance, code.
     """
 
     def make(file: Path) -> None:
@@ -30,8 +31,8 @@ def reduced_model(input: Any, output: Any, params: Any) -> None:
 
     kept = None
     if params.kept:
-        made_of = content_digest(input.mesh), params.material, params.reduction, params.code, numerics("numpy", "scipy")
-        kept = kept_for_user("rom.nc", made_of, make)
+        choices = params.material, params.boundary, params.reduction, params.stress_regions
+        kept = kept_for_user("rom.nc", (content_digest(input.mesh), *choices, params.code, numerics("numpy", "scipy")), make)
         JOB_LOG.debug(f"kept as {kept}")
     model = read_reduced_model(kept) if kept else _reduced(input.mesh, params)
     write_reduced_model(model, output.rom, params.provenance)
@@ -42,8 +43,10 @@ def _reduced(mesh_file: str, params: Any) -> ReducedModel:
     material = from_plain(Material, params.material)
     matrices = assemble(mesh, material)
     JOB_LOG.debug(f"mass {matrices.total_mass:.6g} kg, {3 * len(matrices.free_nodes)} free degrees of freedom")
+    boundary, reduction = from_plain(BoundaryChoice, params.boundary), from_plain(ReductionChoice, params.reduction)
+    regions = from_plain(dict[str, RegionChoice], params.stress_regions)
     with boundary_located(params.contact["location"]):
-        model = reduce_blade(mesh, matrices, from_plain(ReductionChoice, params.reduction), material)
+        model = reduce_blade(mesh, matrices, material, boundary, reduction, regions)
     JOB_LOG.debug(f"{len(model.singular_values)} columns, {model.size} independent at {model.tolerance:g}")
     return model
 

@@ -7,6 +7,7 @@ orthonormal, so the projection on all of them loses nothing.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -54,6 +55,9 @@ class RunUpIntegration:
     with a Coriolis matrix: complex modes turn into each other as the speed changes.
     """
 
+    simulation_class: ClassVar[type[Simulation]] = Simulation
+    """Class of the simulation of each interval."""
+
     def __init__(self, model: ContactModel, scene: Scene, choice: IntegrationChoice, run_up: RunUp):
         if model.coriolis is not None:
             raise ValueError("run-ups do not carry the Coriolis force")
@@ -74,7 +78,6 @@ class RunUpIntegration:
         self._simulation: Simulation | None = None
         self.state = rest_state(self._problem(self.intervals[0].speed))
         if wear is not None:
-            assert self.state.wear is not None
             self.state.wear[:] = wear
         self.velocity = np.zeros(len(self.state.displacement))
         self.energy = self.stiffness_work = 0.0
@@ -98,7 +101,7 @@ class RunUpIntegration:
             constants = segments_at(problem, distinct_speeds)
             # in the memory of the one before
             before = None if self._simulation is None else self._simulation.engine
-            self._simulation = simulation = Simulation.build(problem, constants, before)
+            self._simulation = simulation = self.simulation_class.build(problem, constants, before)
             increments = constants.increments
             assert increments is not None
             if modes is not None:

@@ -169,7 +169,7 @@ class Evaluation:
         from r37core.mesh.generate import generate_mesh
 
         level = self.settings.fidelity.mesh
-        region = self.settings.reduction_choice(self._blade).judged_region
+        region = self.settings.judged_region(self._blade)
         try:
             shape = shape_from_plain(runs.structure["geometry"].params["definition"])
             blade = shape.build(round_edges=self.settings.structure.edges == "round")

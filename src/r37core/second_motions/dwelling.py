@@ -47,7 +47,7 @@ def dwells_of(carried: CarriedSweep, states: Mapping[str, SweptStates], choice: 
     """
     levels, rows = levels_of(states), []
     for speed in speeds_dwelt_on(levels, choice):
-        about = {"speed": speed, "lined": int(carried.scene.lining is not None)}
+        about = {"speed": speed, "lined": int(carried.scene.lined)}
         about |= _levels_near(levels, speed, NEAR * carried.sweep.step)
         simulation, size = Simulation(carried.model, speed, carried.scene.grown, carried.unrecorded_choice), 0.0
         nearest = int(np.argmin(np.abs(levels.speeds - speed)))
@@ -85,7 +85,7 @@ def begun_as(
     did there, since the motion belongs to the lining that it has worn.
     """
     kept = states[motion]
-    if carried.scene.lining is None or kept.worn:
+    if kept.worn or not carried.scene.lined:
         ended = kept.motion(place)
         return None if ended is None else (simulation, simulation.start(ended))
     before = {UP: place - 1, DOWN: place + 1}.get(motion, -1)

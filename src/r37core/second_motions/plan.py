@@ -87,7 +87,7 @@ def _refusals(settings: Settings, section: SecondMotionSection) -> Iterator[tupl
     for scene in [] if section.scenes == "all" else scenes_named(settings, section.scenes):
         if scenes[scene].rotor is not None:
             yield ("scenes",), f"'{scene}', which has a rotor", "scenes of a single blade"
-        if sweep.worn and scene in settings.scenes and scenes[scene].lining is None:
+        if sweep.worn and scene in settings.scenes and scene not in settings.linings:
             yield ("lining",), f"worn in the scene '{scene}', which has no lining", "new"
     count = (sweep.last - sweep.first) / sweep.step + 1.0
     if count > MOST_SPEEDS:

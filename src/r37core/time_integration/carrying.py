@@ -30,7 +30,7 @@ class CarriedMotion:
     """Motion at the end of a run: where the next one begins.
 
     `displacement` and `velocity`: of the blade's modes at rest, then of an elastic casing's modes, shape (modes,). The rest is
-    as in SimulationState; `wear` is None where there is no lining, and where the next run has a new one.
+    as in SimulationState; `wear` is None where the next run has a new lining, or none.
     """
 
     displacement: np.ndarray
@@ -50,7 +50,7 @@ class CarriedMotion:
             np.concatenate([problem.blade.modes @ part[:blade], part[blade:]]) for part in (state.displacement, velocity)
         )
         kept = {name: getattr(state, name).copy() for name in _KEPT}
-        return cls(displacement, velocity, **kept, wear=state.wear.copy() if keep_wear and state.wear is not None else None)
+        return cls(displacement, velocity, **kept, wear=state.wear.copy() if keep_wear and state.wear.size else None)
 
     @property
     def arrays(self) -> dict[str, np.ndarray]:
@@ -75,7 +75,6 @@ class CarriedMotion:
         for name in _KEPT:
             getattr(state, name)[...] = getattr(self, name)
         if self.wear is not None:
-            assert state.wear is not None
             # where the tip reaches into the lining at this speed, it has cut its way already
             np.maximum(state.wear, self.wear, out=state.wear)
 

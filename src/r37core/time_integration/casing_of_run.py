@@ -55,27 +55,22 @@ class CasingOfRun:
     @cached_property
     def pressed_areas(self) -> np.ndarray:
         """Area (m2) of lining that each contact node presses at a time, shape (nodes,); 0 without lining."""
-        lengths, lining = self.model.tip_lengths, self.scene.lining
-        return np.zeros(len(lengths)) if lining is None else lining.pressed_areas(lengths, self.model.tip_radius)
+        return self.scene.wear_law.pressed_areas(self.model.tip_lengths, self.model.tip_radius)
 
     @property
     def lining_stiffness(self) -> np.ndarray:
         """Elastic stiffness (N/m) of the lining under each contact node, shape (nodes,); 0 without lining."""
-        lining = self.scene.lining
-        return self.pressed_areas * (0.0 if lining is None else lining.elastic_modulus / lining.thickness)
+        return self.pressed_areas * self.scene.wear_law.stiffness
 
     @property
     def bar_surfaces(self) -> np.ndarray:
         """Surface (m2) of the casing under a bar of each contact node's ring, shape (nodes,); 0 without lining."""
-        lining = self.scene.lining
-        if lining is None or lining.published:
-            return self.pressed_areas
-        return self.model.tip_lengths * lining.arc(self.model.tip_radius)
+        return self.scene.wear_law.bar_surfaces(self.model.tip_lengths, self.model.tip_radius)
 
     @property
     def bars(self) -> int:
         """Number of bars in each ring; 0 without lining."""
-        return 0 if self.scene.lining is None else self.scene.lining.bars
+        return self.scene.wear_law.bars
 
     def theta(self, step: np.ndarray | int) -> np.ndarray:
         """Angle (rad) of the undeformed contact nodes at a step of a revolution; the rotor turns towards negative theta."""

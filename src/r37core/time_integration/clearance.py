@@ -38,11 +38,11 @@ def check_room(model: ContactModel, scene: Scene, speeds: np.ndarray) -> None:
 
     A run that begins inside of a rigid casing would begin with a blow that is not there: the speed was reached slowly.
     """
-    room = clearances(model, scene, speeds) + (scene.lining.thickness if scene.lining else 0.0)
+    room = clearances(model, scene, speeds) + scene.wear_law.thickness
     if room.min() >= 0.0:
         return
     row, node = np.unravel_index(room.argmin(), room.shape)
-    lacking, lining = -room[row, node], "a thicker lining" if scene.lining else "a lining"
+    lacking, lining = -room[row, node], "a thicker lining" if scene.lined else "a lining"
     raise NoRoomError(
         f"casing.clearance of the scene (scenes.yaml): at {speeds[row]:g} rad/s contact node {node + 1} of {room.shape[1]}, "
         f"from the leading edge on, is {lacking:.3g} m inside of the casing before anything vibrates; allowed: a cold_m of "

@@ -239,8 +239,7 @@ class EdgeOperators:
     @property
     def depth(self) -> float:
         """Distance (m) from the surface that a node meets first to the casing: the lining's thickness, 0 without one."""
-        lining = self.casing.scene.lining
-        return lining.thickness if lining else 0.0
+        return self.casing.scene.wear_law.thickness
 
     @property
     def room(self) -> np.ndarray:

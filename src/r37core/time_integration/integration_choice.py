@@ -16,8 +16,8 @@ MOST_STEPS = 10**9
 STEPS_AT_ONCE = 1_000_000
 """Steps in one compiled call, at least a revolution. An interrupt is seen between two calls, within a second."""
 
-SECONDS_PER_STEP = {"compiled": 1e-7, "reference": 5e-5}
-"""CPU time (s) by engine, of a blade with eight contact nodes: the compiled one had 70 to 100 ns at any speed and level."""
+SECONDS_PER_STEP = 1e-7
+"""CPU time (s) of a step of a blade with eight contact nodes, which was 70 to 100 ns at any speed and level."""
 
 
 def revolutions_at_once(steps_per_revolution: int) -> int:
@@ -46,9 +46,6 @@ class IntegrationChoice:
     integrator: Annotated[
         str, Key("Scheme; exact_modal is exact between contacts, with fast modes static and forces at t_n", one_of=INTEGRATORS)
     ] = CENTRAL_DIFFERENCE
-    engine: Annotated[
-        str, Key("Implementation; reference is plain NumPy, for short runs", one_of=("compiled", "reference"))
-    ] = "compiled"
     snapshots_per_revolution: int = 0
     snapshot_revolutions: int = 0
     jumps: bool = True

@@ -57,7 +57,7 @@ def status_numbers(problem: Problem, reached: float | None) -> dict[str, np.ndar
         "diverged_time": np.array(diverged_at * 2.0 * np.pi / problem.speed),
         "time_step": np.array(problem.grid.time_step),
         "cone_angle": np.array(problem.casing.cone_angle),
-        "lined": np.array(int(problem.scene.lining is not None)),
+        "lined": np.array(int(problem.scene.lined)),
     }
 
 

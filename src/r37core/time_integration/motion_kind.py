@@ -86,7 +86,7 @@ class PhaseSpace:
 def samples_of_period(problem: Problem) -> int:
     """Samples after which a casing is as before: a revolution of linings and elastic casings, and where they are not whole."""
     samples, lobes = problem.choice.samples_per_revolution, problem.scene.casing.lobes
-    if problem.scene.lining is not None or problem.casing.ring is not None:
+    if problem.scene.lined or problem.casing.ring is not None:
         return samples
     return samples // gcd(samples, max(lobes, 1))
 
@@ -138,8 +138,7 @@ def _bring_back(twin: SimulationState, state: SimulationState, growth: float) ->
     """Divide by `growth` how far the twin's forces and wear are from the state's."""
     for name in ("contact_force", "penetration", "bar_position", "wear"):
         other, own = getattr(twin, name), getattr(state, name)
-        if own is not None:
-            other[...] = own + (other - own) / growth
+        other[...] = own + (other - own) / growth
     twin.touched[...] = state.touched
 
 

@@ -1,4 +1,4 @@
-"""Problem of a simulation: all that does not change while it runs, made once; both engines read it here."""
+"""Problem of a simulation: all that does not change while it runs, made once."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property

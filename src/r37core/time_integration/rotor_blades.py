@@ -19,7 +19,7 @@ NO_ROTOR = "until: revolutions; the blades of a rotor pass the casing one after 
 
 def refusal_of(scene: Scene) -> str | None:
     """Requirement of the blades of a scene's rotor that it does not meet, None where they can be run."""
-    if scene.rotor is None or scene.lining is not None or scene.casing.ring:
+    if scene.rotor is None or scene.lined or scene.casing.ring:
         return None
     return "a lining; in direct contact with a rigid casing nothing couples the blades: run a single blade for each"
 

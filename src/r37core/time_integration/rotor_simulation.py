@@ -8,7 +8,9 @@ starts with its first sample after time 0, at rest, where the casing is still ro
 In an elastic casing that is not so: all blades move it at once. There all go step by step together, each at its angle.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,7 +22,6 @@ from .compiled.engine import Passage, advance_in_lockstep, go_on
 from .initial_motion import InitialMotion, InitialMotionError
 from .integration_choice import IntegrationChoice
 from .problem import Problem
-from .reference.engine import advance_together
 from .rotor_blades import NO_ROTOR, blade_problems
 from .rotor_numbers import RotorRun
 from .settling import Ending
@@ -34,6 +35,9 @@ class RotorSimulation:
     Raises what Problem and blade_problems raise.
     """
 
+    blade_class: ClassVar[type[Simulation]] = Simulation
+    """Class of the simulation of each blade."""
+
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         assert scene.rotor is not None
         if choice.until_settled:
@@ -41,8 +45,8 @@ class RotorSimulation:
         self.rotor = scene.rotor
         problems = blade_problems(model, speed, scene, self.rotor, choice)
         # all with the capacity and the casing's tables of the problem of the most modes
-        largest = Simulation.build(max(problems, key=lambda problem: len(problem.blade.frequencies)))
-        self.blades = [Simulation.build(problem, beside=largest.engine) for problem in problems]
+        largest = self.blade_class.build(max(problems, key=lambda problem: len(problem.blade.frequencies)))
+        self.blades = [self.blade_class.build(problem, beside=largest.engine) for problem in problems]
 
     @property
     def problem(self) -> Problem:
@@ -53,8 +57,6 @@ class RotorSimulation:
         """All blades at rest, in an unworn lining, or in one in which the longest have cut their way."""
         states = [simulation.start() for simulation in self.blades]
         casings = [simulation.problem.casing for simulation in self.blades]
-        if self.problem.scene.lining is None:
-            return states
         unworn = np.zeros((len(casings[0].tip.radius), casings[0].bars))
         shared = unworn + np.max([casing.initial_wear for casing in casings], axis=0)
         for state, casing in zip(states, casings, strict=True):
@@ -66,20 +68,10 @@ class RotorSimulation:
         if motion is not None:
             raise InitialMotionError("initial_displacement, initial_velocity: the blades of a rotor start at rest")
         states, revolutions = self.start(), self.problem.choice.revolutions
-        energy, elastic = self.energy(states), self.problem.casing.ring is not None
+        energy = self.energy(states)
         samples = revolutions * self.problem.choice.samples_per_revolution
         outs = [simulation.room(0, samples) for simulation in self.blades]
-        engines, late = [simulation.engine for simulation in self.blades], np.zeros(len(self.blades))
-        if self.problem.choice.engine == "reference":
-            # in an elastic casing the problems have the angles
-            angles = (0.0,) * len(self.blades) if elastic else self.rotor.angles
-            done, worn = advance_together(engines, states, outs, angles, self.rotor.order)
-        elif elastic:
-            done, worn = advance_in_lockstep(engines, states, outs, self.rotor.order)
-        else:
-            starts = [self._start(angle) for angle in self.rotor.angles]
-            done, worn = self._pass_by_pass(states, outs, starts)
-            late = np.array([share for _, share in starts])
+        done, worn, late = self.advance(states, outs)
         records = [blade.recorded(0, out, reached) for blade, out, reached in zip(self.blades, outs, done, strict=True)]
         return RotorRun(
             problems=[simulation.problem for simulation in self.blades],
@@ -91,9 +83,21 @@ class RotorSimulation:
             contact_work=sum(blade.work(state) for blade, state in zip(self.blades, states, strict=True)),
             frequency_factors=self.rotor.frequency_factors,
             rotor=self.rotor,
-            late=late,
+            late=np.array(late),
             worn=np.array(worn),
         )
+
+    def advance(
+        self, states: list[SimulationState], outs: list[SimulationRecord]
+    ) -> tuple[list[int], list[float], Sequence[float]]:
+        """Do the steps of every row of the samples; returns the rows done of each blade, what it has worn off the lining (m3),
+        and the share of a sample by which it starts late.
+        """
+        if self.problem.casing.ring is not None:
+            engines = [simulation.engine for simulation in self.blades]
+            return *advance_in_lockstep(engines, states, outs, self.rotor.order), [0.0] * len(engines)
+        starts = [self._start(angle) for angle in self.rotor.angles]
+        return *self._pass_by_pass(states, outs, starts), [share for _, share in starts]
 
     def energy(self, states: list[SimulationState]) -> float:
         """Energy (J) of the vibration of all blades, and of their elastic casing, which each state has."""

@@ -4,7 +4,6 @@ Both are read off windows of revolutions: a run's last one, and the one before i
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -118,8 +117,3 @@ def parts_of_run(choice: IntegrationChoice) -> list[int]:
     if not choice.until_settled:
         return [choice.revolutions - window, window]
     return [choice.revolutions % window + window, *[window] * (choice.revolutions // window - 1)]
-
-
-def wear_of(state: Any) -> np.ndarray:
-    """Wear (m) of all bars of a SimulationState, which the time integration goes on changing; one of 0 without a lining."""
-    return np.zeros(1) if state.wear is None else state.wear

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import Any
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -17,9 +17,8 @@ from .finished_run import FinishedRun
 from .initial_motion import InitialMotion
 from .integration_choice import IntegrationChoice
 from .problem import Problem, stable_problem
-from .reference.engine import ReferenceEngine
 from .segments import Segments, own_segment
-from .settling import Ending, has_settled, parts_of_run, revolution_rms, wear_of
+from .settling import Ending, has_settled, parts_of_run, revolution_rms
 from .state import Schedule, SimulationRecord, SimulationState
 
 TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial", "tangential")
@@ -28,8 +27,6 @@ TIP_POINTS, DIRECTIONS = ("leading_edge", "trailing_edge"), ("normal", "radial",
 LEADING_EDGE = [DIRECTIONS.index("normal"), DIRECTIONS.index("tangential")]
 """Samples of the leading edge's motion, normal and tangential."""
 
-_ENGINES: dict[str, type[CompiledEngine] | type[ReferenceEngine]] = {"compiled": CompiledEngine, "reference": ReferenceEngine}
-
 
 class Simulation:
     """The time integration of one blade at one speed in one scene: its `problem`, and the `engine` that advances a state.
@@ -37,13 +34,22 @@ class Simulation:
     Raises what Problem raises, of the step that `choice` leaves.
     """
 
+    engine_class: ClassVar[type[CompiledEngine]] = CompiledEngine
+    """Class of the engine; another one can take its place in a subclass."""
+
     def __init__(self, model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice):
         if scene.rotor is not None:
             raise ValueError("a scene with a rotor: see RotorSimulation")
         self._take(stable_problem(model, speed, scene, choice))
 
     @classmethod
-    def build(cls, problem: Problem, segments: Segments | None = None, before: Any = None, beside: Any = None) -> Simulation:
+    def build(
+        cls,
+        problem: Problem,
+        segments: Segments | None = None,
+        before: CompiledEngine | None = None,
+        beside: CompiledEngine | None = None,
+    ) -> Self:
         """Simulation of a problem, in the `segments` of several speeds if they are given.
 
         `before`, `beside`: engines of the same scene and choice, see LaidOutProblem.
@@ -52,10 +58,15 @@ class Simulation:
         simulation._take(problem, segments, before, beside)
         return simulation
 
-    def _take(self, problem: Problem, segments: Segments | None = None, before: Any = None, beside: Any = None) -> None:
+    def _take(
+        self,
+        problem: Problem,
+        segments: Segments | None = None,
+        before: CompiledEngine | None = None,
+        beside: CompiledEngine | None = None,
+    ) -> None:
         self.problem = problem
-        # of one choice, so of one class
-        self.engine: Any = _ENGINES[problem.choice.engine](problem, segments or own_segment(problem), before, beside)
+        self.engine = self.engine_class(problem, segments or own_segment(problem), before, beside)
 
     def start(self, motion: InitialMotion | CarriedMotion | None = None) -> SimulationState:
         """The blade at rest or in `motion`, in an unworn lining, or in one that it has cut its way into.
@@ -77,11 +88,11 @@ class Simulation:
         risen = problem.casing.rise_time / (problem.grid.steps_per_revolution * problem.grid.time_step)
         parts, out = parts_of_run(choice), self.room(0, choice.revolutions * per_revolution)
         done, settled, growth, steps, rms = 0, False, 0.0, 0.0, np.empty(0)
-        wear, contact = wear_of(state).copy(), float(state.totals["steps_in_contact"])
+        wear, contact = state.wear.copy(), float(state.totals["steps_in_contact"])
         for part in self.parts(state, [count * per_revolution for count in parts], out):
             done += len(part.samples)
-            growth, steps = float(np.max(wear_of(state) - wear)), float(state.totals["steps_in_contact"]) - contact
-            wear, contact = wear_of(state).copy(), contact + steps
+            growth, steps = float(np.max(state.wear - wear, initial=0.0)), float(state.totals["steps_in_contact"]) - contact
+            wear, contact = state.wear.copy(), contact + steps
             if choice.until_settled and not part.diverged:
                 rms = np.concatenate([rms, revolution_rms(part.samples[:, LEADING_EDGE], per_revolution)])
                 settled = has_settled(rms, parts[-1], growth, risen)
@@ -168,8 +179,8 @@ class Simulation:
 def rest_state(problem: Problem) -> SimulationState:
     """A blade at rest, in an unworn lining, or in one that it has cut its way into."""
     directions, nodes, modes = problem.contact.displacement_operator.shape
-    wear = None if problem.scene.lining is None else np.zeros((nodes, problem.casing.bars))
-    if wear is not None and problem.scene.casing.changes_with_speed:
+    wear = np.zeros((nodes, problem.casing.bars))
+    if problem.scene.casing.changes_with_speed:
         wear += problem.casing.initial_wear
     motion, places = (np.zeros(modes), np.zeros(modes)), (np.zeros(nodes), np.zeros(nodes))
     state = SimulationState(*motion, wear, np.zeros(nodes, dtype=bool), np.zeros((directions, nodes)), *places)

@@ -16,7 +16,7 @@ from .integration_choice import IntegrationChoice
 from .lining_at_tip import lining_at_tip
 from .motion_kind import kind_numbers
 from .rotor_simulation import RotorSimulation
-from .settling import motion_at_end, revolution_rms, wear_of
+from .settling import motion_at_end, revolution_rms
 from .simulate import DIRECTIONS, LEADING_EDGE, TIP_POINTS, Simulation
 
 OF_RUNS = ("spectrum", "stress", "static_stress", "fatigue", "wear", "energy", "casing", "motion_kind")
@@ -127,7 +127,7 @@ def numbers_of_run(
         numbers |= _stress(run, stress, history, results)
     if "wear" in results:
         assert scene.lining is not None
-        wear = np.max([state.wear for state in run.states if state.wear is not None], axis=0)
+        wear = np.max([state.wear for state in run.states], axis=0)
         cut = np.max([each.casing.initial_wear for each in run.problems], axis=0)
         numbers |= kept_numbers.wear_numbers(wear, min(wear_angles, scene.lining.bars), scene.lining, cut)
         numbers["wear_growth"] = np.array(run.ending.wear_growth)
@@ -148,7 +148,7 @@ def ending_numbers(run: FinishedRun, samples: Sequence[np.ndarray]) -> dict[str,
     NaN; `statistic_end`, `statistic_revolutions`: last revolution of the statistic, and how many it has.
     """
     ending, choice, casing = run.ending, run.problem.choice, run.problem.casing
-    wear, clearance = max(float(wear_of(state).max()) for state in run.states), float(np.min(casing.clearance))
+    wear, clearance = max(float(state.wear.max(initial=0.0)) for state in run.states), float(np.min(casing.clearance))
     if clearance <= 0.0:
         # a tip that has cut its way into the lining has none
         clearance = casing.scene.casing.clearance

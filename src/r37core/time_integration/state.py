@@ -25,7 +25,8 @@ TOTALS = np.dtype(
 class SimulationState:
     """State of a run; a run may be stopped after any of its `samples` and go on from its state.
 
-    `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars);
+    `displacement` u_n and `increment` u_n - u_{n-1}, shape (modes,), in the speed's modes; `wear` (m), shape (rings, bars), of
+    no bars on a bare casing;
     `touched`, shape (nodes,): whether a node touched the casing in the last step; `contact_force` (N), shape (3, nodes): what
     presses the nodes at t_n with exact_modal, along normal, tangent and meridian; in a lining `penetration` (m) of the nodes
     beyond its unworn surface at t_n, negative where they are clear, and `bar_position`, their angle in bars, shape (nodes,)
@@ -34,7 +35,7 @@ class SimulationState:
 
     displacement: np.ndarray
     increment: np.ndarray
-    wear: np.ndarray | None
+    wear: np.ndarray
     touched: np.ndarray
     contact_force: np.ndarray
     penetration: np.ndarray

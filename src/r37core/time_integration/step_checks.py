@@ -13,7 +13,7 @@ def check_step(contact: ContactOperators) -> None:
     """Raises UnstableStepError unless the run's step is below its limits, of the free blade and of the pressed one."""
     if contact.blade.grid.choice.integrator == CENTRAL_DIFFERENCE:
         _check_free_blade(contact)
-        if contact.blade.scene.lining is not None:
+        if contact.blade.scene.lined:
             stiffest, remedy = contact.casing.lining_stiffness.max(), ", or a softer, thicker or narrower lining"
             _check(contact, predicted_ratio(contact), "this lining", f" (up to {stiffest:.4g} N/m at a contact node)", remedy)
         return

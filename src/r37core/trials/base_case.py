@@ -104,7 +104,7 @@ class BaseCase:
             made = checked_scene(_changed(plain(settings.scene_designs.entries[scene]), changes.get("scene", {})))
         except ConfigError as error:
             return str(error)
-        choice = replace(entry.time_integration.choice(made.lining is not None), **changes.get("choice", {}))
+        choice = replace(entry.time_integration.choice(made), **changes.get("choice", {}))
         if "stress" not in results:
             choice = replace(choice, snapshots_per_revolution=0)
         elif choice.samples_per_revolution % choice.snapshots_per_revolution:

@@ -75,11 +75,10 @@ class Trials:
 
     def reduction(self, wildcards: Any) -> dict[str, Any]:
         """Parameters of a model: those of the run but for its choice."""
-        choice, base = ModelChoice.named(wildcards.model), self.settings.reduction_choice(wildcards.blade)
-        changed = replace(
-            base,
-            boundary=replace(base.boundary, nodes=choice.boundary_nodes or None),
-            fixed_interface_modes=choice.fixed_interface_modes,
-            stress_regions={"whole": EVERYWHERE} if choice.stress_region == "whole" else base.stress_regions,
-        )
-        return {"nodes": choice.nodes, "reduction": to_plain(changed)}
+        choice, settings, blade = ModelChoice.named(wildcards.model), self.settings, wildcards.blade
+        parts = {
+            "boundary": replace(settings.boundary_choice(blade), nodes=choice.boundary_nodes or None),
+            "reduction": replace(settings.reduction_choice(blade), fixed_interface_modes=choice.fixed_interface_modes),
+            "stress_regions": {"whole": EVERYWHERE} if choice.stress_region == "whole" else settings.stress_regions(blade),
+        }
+        return {"nodes": choice.nodes, **to_plain(parts)}

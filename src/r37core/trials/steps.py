@@ -19,7 +19,8 @@ from r37core.results.table_file import write_table
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model
-from r37core.rom.reduction_choice import BoundaryError, ReductionChoice
+from r37core.rom.reduction_choice import BoundaryChoice, BoundaryError, ReductionChoice
+from r37core.rom.region_choice import RegionChoice
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37core.stress.recovery import stress_operators
 
@@ -32,20 +33,23 @@ def model(input: Any, output: Any, params: Any) -> None:
     """Mesh, assemble and reduce for some cases. Input: geometry or mesh. Outputs: rom, contact, cost.
 
     The cost has CPU and wall time (s) and memory (bytes), or the reason why the mesh cannot have the boundary nodes: the other
-    files are empty then. Params: choice (nodes of a mesh that is generated, reduction), material, provenance.
+    files are empty then. Params: choice (nodes of a mesh that is generated, boundary, reduction, stress_regions), material,
+    provenance.
     """
-    reduction = from_plain(ReductionChoice, params.choice["reduction"])
-    material = from_plain(Material, params.material)
+    choice, material = params.choice, from_plain(Material, params.material)
+    boundary = from_plain(BoundaryChoice, choice["boundary"])
+    reduction = from_plain(ReductionChoice, choice["reduction"])
+    regions = from_plain(dict[str, RegionChoice], choice["stress_regions"])
 
     def reduced_model() -> ReducedModel:
         if hasattr(input, "mesh"):
             mesh = read_vtu(input.mesh)
         else:
-            nodes = params.choice["nodes"]
+            nodes = choice["nodes"]
             # as in fidelity.yaml: a multiple of 7, for 8 evenly spaced boundary nodes
             tip_elements = 7 * max(1, round(0.04 * np.sqrt(nodes)))
             mesh = generate_mesh(read_geometry(input.geometry), nodes, layers=1, tip_elements=tip_elements)
-        return reduce_blade(mesh, assemble(mesh, material), reduction, material)
+        return reduce_blade(mesh, assemble(mesh, material), material, boundary, reduction, regions)
 
     try:
         reduced, cpu, wall = timed(reduced_model)
@@ -56,7 +60,7 @@ def model(input: Any, output: Any, params: Any) -> None:
         return
     write_json({"cpu_s": cpu, "wall_s": wall, "peak_memory_bytes": peak_memory()}, output.cost)
     write_reduced_model(reduced, output.rom, params.provenance)
-    write_contact_model(contact_model(reduced, reduction.boundary.tip_line), output.contact)
+    write_contact_model(contact_model(reduced, boundary.tip_line), output.contact)
 
 
 def run(input: Any, output: Any, params: Any) -> None:

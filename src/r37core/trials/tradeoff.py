@@ -146,7 +146,7 @@ def _case(settings: Settings, parameter: str, value: Any, scene: str) -> Case | 
         *("energy", "spectrum"),
         *(() if settings.blades[base.blade].is_matrices else ("stress", "instants")),
         *(result for result in settings.results_of(base.blade, scene) if result == "static_stress"),
-        *(["wear"] if chosen.scene.lining else []),
+        *(["wear"] if chosen.scene.lined else []),
     )
     changes, level = _changes(parameter, value), value if parameter == LEVEL else None
     shares = settings.section(SECTION).places.every_share

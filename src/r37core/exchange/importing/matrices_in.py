@@ -21,7 +21,7 @@ import scipy.sparse as sp
 from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
 from r37core.exchange.refusal import ImportRefused, MeshWarning, blamed
 from r37core.fem.solver import Solve, factorise
-from r37core.rom.contact_weights import tip_lengths, weights_along
+from r37core.rom.contact_weights import TipContact, contact_along, tip_lengths
 from r37core.rom.craig_bampton import (
     StateAtSpeed,
     combine_columns,
@@ -31,7 +31,6 @@ from r37core.rom.craig_bampton import (
 )
 from r37core.rom.naming import NAMED_MODES
 from r37core.rom.recovery_nodes import RecoveryNodes
-from r37core.rom.reduce import contact_nodes
 from r37core.rom.reduced_model import ReducedModel
 from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice
 
@@ -79,10 +78,12 @@ class _InputMatrices:
             yield StateAtSpeed(speed, stiffness, factorise(stiffness) if speed else self.solve_at_rest)
 
 
-def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Path | str = ".") -> ReducedModel:
-    """The reduced model of the matrices: as they are if small, else reduced as `choice` says.
+def import_matrices(
+    source: MatricesSource, boundary: BoundaryChoice, reduction: ReductionChoice, folder: Path | str = "."
+) -> ReducedModel:
+    """The reduced model of the matrices: as they are if small, else reduced as `reduction` says.
 
-    With contact on points the contact nodes are those of the table; patches, as many as `choice` says, are made of them.
+    With contact on points the contact nodes are those of the table; patches, as many as `boundary` says, are made of them.
     Raises ImportRefused for files that do not fit together, matrices that are not symmetric, and a stiffness that is not
     linear in the squared speed; BoundaryError for patches that the table has too few nodes for. Spin softening must be in the
     stiffness already; a Coriolis matrix is not read.
@@ -90,28 +91,28 @@ def import_matrices(source: MatricesSource, choice: ReductionChoice, folder: Pat
     with blamed("matrices"):
         files = matrix_files(source.folder, Path(folder))
     with blamed("matrices", source.folder):
-        matrices = _read(files, source, max(choice.speeds))
-        model = _reduced(matrices, choice)
+        matrices = _read(files, source, max(reduction.speeds))
+        model = _reduced(matrices, boundary, reduction)
         check_frequency(model, arc_length(matrices.points)[-1])
         return model
 
 
-def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
-    chord = fractions_along(matrices.points)
-    weights = _contact_weights(matrices.points, chord, choice.boundary)
+def _reduced(matrices: _InputMatrices, boundary: BoundaryChoice, reduction: ReductionChoice) -> ReducedModel:
+    contact = _contact(matrices, boundary)
     rows = matrices.mass.shape[0]
-    boundary = sp.csr_array(sp.kron(weights, sp.eye_array(3)))
-    boundary.resize((boundary.shape[0], rows))
+    coordinates = sp.csr_array(sp.kron(contact.weights, sp.eye_array(3)))
+    coordinates.resize((coordinates.shape[0], rows))
     if rows <= 3 * len(matrices.points) + _REDUCED_UP_TO:
         vectors = np.eye(rows)
-        if choice.boundary.contact != POINTS:
+        if boundary.contact != POINTS:
             # other coordinates for the same motions
-            constraint, _ = constraint_and_fixed_modes(matrices.stiffness, matrices.mass, boundary, 0, matrices.solve_at_rest)
-            vectors, _ = combine_columns(constraint, vectors, matrices.mass, boundary, 0.0)
+            whole = matrices.stiffness, matrices.mass, coordinates
+            constraint, _ = constraint_and_fixed_modes(*whole, 0, matrices.solve_at_rest)
+            vectors, _ = combine_columns(constraint, vectors, matrices.mass, coordinates, 0.0)
         tolerance, singular = 0.0, np.ones(rows)
     else:
-        tolerance = choice.basis_tolerance
-        vectors, singular = multi_speed_basis(matrices.states(choice.speeds), matrices.mass, boundary, choice)
+        tolerance, states = reduction.basis_tolerance, matrices.states(reduction.speeds)
+        vectors, singular = multi_speed_basis(states, matrices.mass, coordinates, reduction)
     mass, stiffness = projected(matrices.mass, vectors), projected(matrices.stiffness, vectors)
     _check_positive(mass, stiffness)
     shapes = _ideal_shapes(matrices)
@@ -122,11 +123,11 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
         stiffness=stiffness,
         geometric_stiffness=projected(matrices.per_square, vectors),
         mass=mass,
-        contact=choice.boundary.contact,
-        contact_nodes=contact_nodes(weights, nodes, chord, line),
-        contact_chord=weights @ chord,
-        contact_tip_lengths=_tip_lengths(matrices, chord, choice.boundary, weights.shape[0]),
-        tip_lines={choice.boundary.tip_line: line},
+        contact=boundary.contact,
+        contact_nodes=contact.nodes(line),
+        contact_chord=contact.mean_chord,
+        contact_tip_lengths=contact.lengths,
+        tip_lines={boundary.tip_line: line},
         stress_regions={},
         shape_names=tuple(shapes),
         shape_products=np.array([shape @ (matrices.mass @ vectors) for shape in shapes.values()]),
@@ -138,17 +139,13 @@ def _reduced(matrices: _InputMatrices, choice: ReductionChoice) -> ReducedModel:
     )
 
 
-def _contact_weights(points: np.ndarray, chord: np.ndarray, choice: BoundaryChoice) -> sp.csr_array:
-    if choice.contact == POINTS:
-        return sp.csr_array(sp.eye_array(len(points)))
-    return weights_along(points, chord, choice)
-
-
-def _tip_lengths(matrices: _InputMatrices, chord: np.ndarray, choice: BoundaryChoice, count: int) -> np.ndarray:
-    """Length (m) of tip that each of so many contact nodes stands for; without those of the table by hats along its line."""
-    if choice.contact == POINTS and matrices.tip_lengths is not None:
-        return matrices.tip_lengths
-    return tip_lengths(matrices.points, chord, chord if choice.contact == POINTS else choice.chord_positions(count))
+def _contact(matrices: _InputMatrices, boundary: BoundaryChoice) -> TipContact:
+    """Contact nodes on the line of the table; points are its nodes, with its lengths of tip where it has some."""
+    points, chord = matrices.points, fractions_along(matrices.points)
+    if boundary.contact == POINTS:
+        lengths = tip_lengths(points, chord, chord) if matrices.tip_lengths is None else matrices.tip_lengths
+        return TipContact(np.arange(len(points)), chord, sp.csr_array(sp.eye_array(len(points))), lengths)
+    return contact_along(points, chord, boundary)
 
 
 def _check_positive(mass: np.ndarray, stiffness: np.ndarray) -> None:

@@ -7,7 +7,7 @@ from r37core.base.plain import from_plain
 from r37core.exchange.refusal import located
 from r37core.exchange.write_mesh import write_mesh
 from r37core.mesh.mesh_files import write_vtu
-from r37core.rom.reduction_choice import ReductionChoice, boundary_located
+from r37core.rom.reduction_choice import BoundaryChoice, ReductionChoice, boundary_located
 from r37core.rom.rom_file import write_reduced_model
 
 from .import_mesh import import_mesh, size_in_words
@@ -33,11 +33,11 @@ def imported_mesh(input: Any, output: Any, params: Any) -> str:
 def imported_matrices(input: Any, output: Any, params: Any) -> str:
     """Reduced model from matrices of another program; returns a frequency, which shows a wrong unit. Output: rom (nc).
 
-    Params: source, folder, locations, reduction, contact, provenance. Raises ImportRefused.
+    Params: source, folder, locations, boundary, reduction, contact, provenance. Raises ImportRefused.
     """
-    choice = from_plain(ReductionChoice, params.reduction)
+    boundary, reduction = from_plain(BoundaryChoice, params.boundary), from_plain(ReductionChoice, params.reduction)
     with boundary_located(params.contact["location"]), located(params.locations):
-        model = import_matrices(from_plain(MatricesSource, params.source), choice, params.folder["folder"])
+        model = import_matrices(from_plain(MatricesSource, params.source), boundary, reduction, params.folder["folder"])
     JOB_LOG.debug(f"{len(model.singular_values)} columns, {model.size} independent at {model.tolerance:g}")
     write_reduced_model(model, output.rom, params.provenance)
     return f"{params.locations['matrices']}: {wording(model)}"

@@ -81,7 +81,7 @@ class Passage:
         self.done = 0
         m = engine.record[0]
         engine.put_modes(u=state.displacement, increment=state.increment)
-        largest_wear = 0.0 if schedule is None or state.wear is None else state.wear.max()
+        largest_wear = 0.0 if schedule is None else state.wear.max(initial=0.0)
         engine.put(worn=0.0, largest_wear=largest_wear, touched=np.packbits(state.touched, bitorder="little"))
         engine.put(totals=state.totals, penetration=state.penetration, last_position=state.bar_position)
         if self._grid.choice.second_order:

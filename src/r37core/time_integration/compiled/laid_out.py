@@ -58,7 +58,7 @@ class LaidOutProblem:
         coriolis = problem.blade.complex_modes is not None
         follows_sliding = scene.friction is not None and scene.friction.vector
         self.kind = kind = Kind(choice.integrator == CENTRAL_DIFFERENCE, scene.exact_gap, coriolis)
-        self._flags = {"lined": scene.lining is not None, "quadratic": problem.contact.quadratic is not None}
+        self._flags = {"lined": scene.lined, "quadratic": problem.contact.quadratic is not None}
         self._take_room(before)
         self._lay_out(problem)
         if problem.casing.ring is not None:

@@ -1,71 +1,60 @@
-"""The reference engine: the time integration as it reads on paper, in dense NumPy. Slow; the compiled engine must equal it.
+"""The time integration as it reads on paper, in dense NumPy: slow, and the twin that the compiled engine must equal.
 
 Equations after section 5 of the benchmark, in the coordinates of the modes at rest, where the mass is the identity:
-u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference.motion). Work per step is of the order of modes
+u* = A u_n + B u_{n-1} without contact, u_{n+1} = u* + C F with it (reference_motion). Work per step is of the order of modes
 squared. Forces at t_n, and the static modes with them: time_integration.compiled.contact_steps. An elastic casing is followed
 in the frame that does not turn.
 """
 
-from collections.abc import Sequence
-from typing import Any, Self
-
 import numpy as np
+from reference_motion import MotionWithCasing, motion_of
 
 from r37core.contact.casing import casing_axes
-from r37core.contact.scene import Lining
+from r37core.run_ups.integration import RunUpIntegration
+from r37core.time_integration.rotor_simulation import RotorSimulation
+from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.state import Schedule, SimulationRecord
 
-from ..casing_of_run import CasingOfRun
-from ..contact_operators import ContactOperators
-from ..problem import Problem
-from ..segments import Segments
-from ..state import Schedule, SimulationRecord, SimulationState
-from .motion import Motion, MotionWithCasing, blade_motion
-
-_MOST_SWEEPS = 200
+MOST_SWEEPS = 200
 
 
 class ReferenceEngine:
-    """The time integration of one problem with dense matrices, in the coordinates of the modes at rest.
+    """The time integration of one problem with dense matrices.
 
-    `angle` (rad): at which the blade stands at time 0, beyond that of its model.
+    `angle` (rad): at which the blade stands at time 0, beyond that of its model; `worn` (m3): wear of the lining by the blade.
     """
 
-    angle = 0.0
-    worn = 0.0
-    """Wear (m3) of the lining by the blade."""
+    angle = worn = 0.0
 
-    def __init__(self, problem: Problem, segments: Segments, before: Self | None = None, beside: Self | None = None):
+    def __init__(self, problem, segments, before=None, beside=None):
         self.problem, self._segments = problem, segments
-        self._blade_rows, self._edge_rows = (_rows(each, problem) for each in (problem.contact, problem.edge.motion))
+        self._blade_rows, self._edge_rows = (rows_of(each, problem) for each in (problem.contact, problem.edge.motion))
+        self.step = self._pushed_step if problem.choice.second_order else self._step
         self._turn(0)
-        self.flexibility = problem.contact.contact_flexibility
         self.take(0)
 
-    def take(self, speed_index: int) -> None:
+    def take(self, speed_index):
         """Go on at this one of the speeds."""
         self._speed_index, recursion = speed_index, self._segments.recursion[speed_index]
-        blade = blade_motion(self.problem, recursion)
-        self.motion: Motion = blade if self.problem.casing.ring is None else MotionWithCasing(blade, self.problem, recursion)
+        self.motion = motion_of(self.problem, recursion)
         self.clearance = self._segments.clearance[speed_index]
         # a revolution has as many steps at every speed
         faster = self._segments.speeds[speed_index] / self.problem.speed
         self.time_step = self.problem.grid.time_step / faster
         self.rotation_velocity = self.problem.casing.rotation_velocity * faster
 
-    def _turn(self, n: int) -> None:
+    def _turn(self, n):
         """Take the rows of the nodes where they are at t_n: of the blade's modes at rest, and of an elastic casing's."""
-        problem = self.problem
-        self.rows = self._rows_at(n, self._blade_rows, problem.casing)
+        self.rows = self._rows_at(n, self._blade_rows, self.problem.casing)
         self.normal, self.tangential, self.meridional = self.rows
 
-    def _rows_at(self, n: int, blade_rows: np.ndarray, casing: CasingOfRun) -> np.ndarray:
-        """Rows of nodes with `blade_rows` at t_n, those of an elastic casing's modes behind them."""
+    def _rows_at(self, n, blade_rows, casing):
         if casing.ring is None:
             return blade_rows
         casing_rows = -casing_axes(casing.ring.displacement(casing.theta(n)), casing.cone_angle)
         return np.concatenate([blade_rows, casing_rows], axis=-1)
 
-    def advance(self, state: SimulationState, out: SimulationRecord, schedule: Schedule | None = None) -> int:
+    def advance(self, state, out, schedule=None):
         """Do the steps of every row of `out.samples`, as the compiled engine does; returns the rows done."""
         first, schedule = state.samples, schedule or Schedule([0], [len(out.samples)], len(state.displacement))
         for segment, (speed_index, samples) in enumerate(zip(schedule.speed_indices, schedule.samples, strict=True)):
@@ -73,36 +62,31 @@ class ReferenceEngine:
             schedule.ends[segment, 0] = state.displacement, state.increment
             done, kept = state.samples - first, len(self.problem.grid.snapshots_between(first, state.samples))
             part = SimulationRecord(out.samples[done : done + samples], out.snapshots[kept:])
-            reached, bounded = _go_on([self], [state], [part], [0])
+            reached, bounded = go_on([self], [state], [part], [0])
             state.samples += reached
             schedule.ends[segment, 1] = state.displacement, state.increment
-            schedule.wear[segment] = 0.0 if state.wear is None else state.wear.max()
+            schedule.wear[segment] = state.wear.max(initial=0.0)
             if not bounded:
                 break
         return state.samples - first
 
-    def _go_over(self, state: SimulationState, speed_index: int) -> None:
+    def _go_over(self, state, speed_index):
         """Take another speed; displacement and velocity go over to it."""
-        if speed_index == self._speed_index:
-            return
-        increments = self._segments.increments
-        assert increments is not None
-        velocity = increments.velocity(self._speed_index, state.displacement, state.increment)
-        self.take(speed_index)
-        state.increment[:] = increments.increment(speed_index, state.displacement, velocity)
+        if speed_index != self._speed_index:
+            increments = self._segments.increments
+            velocity = increments.velocity(self._speed_index, state.displacement, state.increment)
+            self.take(speed_index)
+            state.increment[:] = increments.increment(speed_index, state.displacement, velocity)
 
-    def begin(self, motion: Any, n: int, state: SimulationState) -> None:
+    def begin(self, motion, n, state):
         """Go on from a motion at t_n: where no node presses the lining, the gaps are those of this speed."""
         self._turn(n)
-        if state.wear is not None and not (state.contact_force.any() or np.any(state.penetration > 0.0)):
+        if state.wear.size and not (state.contact_force.any() or np.any(state.penetration > 0.0)):
             gap, theta = self.gap(self.motion.displacement(motion), n)
             state.penetration[:], state.bar_position[:] = -gap, theta / (2.0 * np.pi) * state.wear.shape[1]
 
-    def record(self, motion: Any, first: int, done: int, state: SimulationState, out: SimulationRecord) -> bool:
-        """Keep sample number `done` after the `first`, and a snapshot where one is due.
-
-        Returns whether the outputs are within the limit.
-        """
+    def record(self, motion, first, done, state, out):
+        """Keep sample number `done` after the `first`, and a snapshot where one is due; True within the limit."""
         problem = self.problem
         static = state.contact_force.ravel() if problem.choice.second_order else np.empty(0)
         numbers = np.concatenate([self.motion.numbers(motion), static])
@@ -112,23 +96,18 @@ class ReferenceEngine:
             out.snapshots[kept] = numbers
         return bool(np.all(np.abs(out.samples[done]) < problem.scene.divergence_limit))
 
-    def step(self, before: Any, n: int, state: SimulationState, force: np.ndarray) -> Any:
-        """The motion at t_n from that at t_{n-1}; changes wear, totals and the nodes on the casing.
+    def _step(self, before, n, state, _):
+        """Motion at t_n from that at t_{n-1}, by forces that correct the prediction of t_n.
 
-        `force`: modal forces at t_{n-1}, of forces at t_n; those of the state, and of other blades in an elastic casing.
+        Changes wear, totals and the nodes on the casing.
         """
-        return self._pushed_step(before, n, state, force) if self.problem.choice.second_order else self._step(before, n, state)
-
-    def _step(self, before: Any, n: int, state: SimulationState) -> Any:
-        """Step with forces that correct the prediction of t_n."""
         lining = self.problem.scene.lining
         self._turn(n)
         predicted = self.motion.flown(before)
         gap, theta = self.gap(self.motion.displacement(predicted), n)
         directions = self._directions(self.motion.slid(before))
-        force = np.zeros(self.rows.shape[-1])
-        pressure = np.zeros(len(gap))
-        if lining is not None and state.wear is not None:
+        force, pressure = np.zeros(self.rows.shape[-1]), np.zeros(len(gap))
+        if lining is not None:
             self._follow_gaps(gap, theta, n, state, lining)
             pressure = self._press_lining(gap, theta, lining, state.wear)
             force = self._modal(pressure * directions)
@@ -142,12 +121,12 @@ class ReferenceEngine:
             self._measure_edge(state, after, n)
         return after
 
-    def force(self, state: SimulationState) -> np.ndarray:
+    def force(self, state):
         """Modal forces of those that the state has."""
         return self._modal(state.contact_force)
 
-    def _pushed_step(self, before: Any, n: int, state: SimulationState, force: np.ndarray) -> Any:
-        """Step under the modal forces at t_{n-1}; the state gets those on the nodes at t_n."""
+    def _pushed_step(self, before, n, state, force):
+        """The same under modal forces at t_{n-1}, in an elastic casing of all blades; the state gets those at t_n."""
         after, slid = self.motion.pushed(self.motion.flown(before), force), self.motion.slid(before)
         self._turn(n)
         gap, theta = self.gap(self.motion.displacement(after), n)
@@ -161,7 +140,7 @@ class ReferenceEngine:
             self._measure_edge(state, after, n)
         return after
 
-    def _measure_edge(self, state: SimulationState, motion: Any, n: int) -> None:
+    def _measure_edge(self, state, motion, n):
         """Keep the largest penetration of the tip's edge into the casing, if it is at t_n."""
         if self._segments.increments is not None:
             return
@@ -172,25 +151,22 @@ class ReferenceEngine:
             gap = gap - edge.flexibility @ state.contact_force.ravel()
         state.totals["largest_penetration"] = max(state.totals["largest_penetration"], -gap.min())
 
-    def _add_up(
-        self, state: SimulationState, work_and_loss: tuple[float, float], normal_force: np.ndarray, touched: np.ndarray
-    ) -> None:
+    def _add_up(self, state, work_and_loss, normal_force, touched):
         """Totals of a step, pushed by a `normal_force` (N) on each node; `touched`: which of them touch the casing."""
         totals = state.totals
         totals["steps"] += 1
         totals["steps_in_contact"] += np.any(normal_force > 0.0)
         totals["casing_hits"] += np.sum(touched & ~state.touched)
         totals["largest_force"] = max(totals["largest_force"], normal_force.max())
-        work, loss = work_and_loss
-        totals["work"] += work
-        totals["loss"] += loss
+        for name, part in zip(("work", "loss"), work_and_loss, strict=True):
+            totals[name] += part
         state.touched[:] = touched
 
-    def gap(self, u: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
+    def gap(self, u, n):
         """Distance (m) of every node from casing or lining, and the angle (rad) at which it meets it."""
         return self.problem.casing.gaps(self.clearance, np.array([rows @ u for rows in self.rows]), n, self.angle)
 
-    def _directions(self, d: np.ndarray) -> np.ndarray:
+    def _directions(self, d):
         """Forces per unit normal force on each node, shape (3, nodes): towards the axis, with friction against the sliding.
 
         `d`: displacement of the blade in a step, by which its vibration slides.
@@ -206,44 +182,39 @@ class ReferenceEngine:
         share = -friction.coefficient / np.hypot(along, across)
         return np.array([towards_axis, share * along, share * across])
 
-    def _modal(self, forces: np.ndarray) -> np.ndarray:
+    def _modal(self, forces):
         """Modal forces of forces (N) on the nodes, shape (3, nodes, ...)."""
         return np.einsum("dk...,dki->...i", forces, self.rows)
 
-    def _press_nodes(
-        self, gap: np.ndarray, theta: np.ndarray, directions: np.ndarray, wear: np.ndarray | None
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _press_nodes(self, gap, theta, directions, wear):
         """Normal forces (N) of the contact problem at t_n, gaps (m) with them, and the nodes that touch the casing.
 
-        All of shape (nodes,). Wears the bars.
-
-        Node by node the force that its law says while the others keep theirs, until none changes by more than round-off.
+        Wears the bars. Node by node the force that its law says while the others keep theirs, until none changes by more than
+        round-off.
         """
         lining, nodes = self.problem.scene.lining, range(len(gap))
-        opening = -np.einsum("dk,dkg->gk", directions, self.flexibility)
-        bars = [] if wear is None else [bar_of(theta[k], k, wear) for k in nodes]
-        worn = [] if wear is None else [wear[bar] for bar in bars]
+        opening = -np.einsum("dk,dkg->gk", directions, self.problem.contact.contact_flexibility)
+        bars = [bar_of(theta[k], k, wear) for k in nodes if lining is not None]
+        worn = [wear[bar] for bar in bars]
         pressure, touching = np.zeros(len(gap)), np.zeros(len(gap), dtype=bool)
-        for _ in range(_MOST_SWEEPS):
+        for _ in range(MOST_SWEEPS):
             before = pressure.copy()
             for k in nodes:
                 own, penetration = opening[k, k], opening[k, k] * pressure[k] - gap[k] - opening[k] @ pressure
-                if lining is None or wear is None:
+                if lining is None:
                     pressure[k] = max(penetration, 0.0) / own
                     touching[k] = pressure[k] > 0.0
                 else:
                     pressure[k], worn[k], touching[k] = self._press_bar_and_casing(k, penetration, own, wear[bars[k]], lining)
             if not np.any(np.abs(pressure - before) > 1e-14 * pressure.max()):
                 break
-        if wear is not None:
-            for bar, new in zip(bars, worn, strict=True):
-                self._wear(wear, bar, new)
+        for bar, new in zip(bars, worn, strict=True):
+            self._wear(wear, bar, new)
         return pressure, gap + opening @ pressure, touching
 
-    def _follow_gaps(self, gap: np.ndarray, theta: np.ndarray, n: int, state: SimulationState, lining: Lining) -> None:
+    def _follow_gaps(self, gap, theta, n, state, lining):
         """Wear the bars between those of the last step and of this one, as the penetration says, linear between the two."""
         wear, before, last = state.wear, state.penetration.copy(), state.bar_position.copy()
-        assert wear is not None
         bars, steps = wear.shape[1], self.problem.grid.steps_per_revolution
         if not self.problem.scene.exact_gap:
             # not as the state has it: in the last modal interval of a run-up the nodes had other angles
@@ -258,15 +229,13 @@ class ReferenceEngine:
                 _, worn = self._press_bar(k, min(depth, lining.thickness), 0.0, lining, lining.elastic_modulus)
                 self._wear(wear, (k, bar % bars), worn)
 
-    def _wear(self, wear: np.ndarray, bar: tuple[int, int], new: float) -> None:
+    def _wear(self, wear, bar, new):
         """Wear a bar, by ring and number, to a new depth (m), if that is more than it has."""
         if new > wear[bar]:
             self.worn += float(new - wear[bar]) * self.problem.casing.bar_surfaces[bar[0]]
             wear[bar] = new
 
-    def _press_bar_and_casing(
-        self, node: int, penetration: float, own: float, wear: float, lining: Lining
-    ) -> tuple[float, float, bool]:
+    def _press_bar_and_casing(self, node, penetration, own, wear, lining):
         """Force (N) on a node of flexibility `own` (m/N), new wear (m), and whether it touches the casing behind the bar."""
         stiffness = self.problem.casing.lining_stiffness[node]
         force, worn = self._press_bar(node, penetration, wear, lining, lining.elastic_modulus / (1.0 + stiffness * own))
@@ -275,7 +244,7 @@ class ReferenceEngine:
             return (penetration - lining.thickness) / own, worn, True
         return force, worn, False
 
-    def _press_bar(self, node: int, penetration: float, wear: float, lining: Lining, modulus: float) -> tuple[float, float]:
+    def _press_bar(self, node, penetration, wear, lining, modulus):
         """Normal force (N) and new wear (m) of a node's bar of elastic `modulus` (Pa) that is pressed to a `penetration` (m).
 
         Return mapping with linear hardening: trial stress E (strain - plastic strain), yield stress plus K times the plastic
@@ -290,7 +259,7 @@ class ReferenceEngine:
             plastic = min(plastic + excess / (modulus + lining.plastic_modulus), 1.0)
         return max(modulus * (strain - plastic), 0.0) * self.problem.casing.pressed_areas[node], plastic * lining.thickness
 
-    def _press_lining(self, gap: np.ndarray, theta: np.ndarray, lining: Lining, wear: np.ndarray) -> np.ndarray:
+    def _press_lining(self, gap, theta, lining, wear):
         """Normal forces (N) of the bars that the nodes of a prediction press, shape (nodes,); wears the bars."""
         force = np.zeros(len(gap))
         for k in map(int, np.flatnonzero(gap < 0.0)):
@@ -299,7 +268,7 @@ class ReferenceEngine:
             self._wear(wear, bar, worn)
         return force
 
-    def _press_casing(self, gap: np.ndarray, directions: np.ndarray) -> np.ndarray:
+    def _press_casing(self, gap, directions):
         """Multipliers (N), shape (nodes,), that leave no node beyond the casing."""
         if not np.any(gap < 0.0):
             return np.zeros(len(gap))
@@ -308,19 +277,19 @@ class ReferenceEngine:
         return complementary(-self.normal @ self.motion.response @ self._modal(forces).T, gap)
 
 
-def _rows(operators: ContactOperators, problem: Problem) -> np.ndarray:
+def rows_of(operators, problem):
     """Displacement of nodes per displacement of the modes at rest, as far as they are stepped, and per product."""
     stepped = problem.blade.modes @ problem.blade.modes.T
     return np.concatenate([operators.operator_at_rest @ stepped, operators.product_operator], axis=-1)
 
 
-def bar_of(theta: float, node: int, wear: np.ndarray) -> tuple[int, int]:
+def bar_of(theta, node, wear):
     """Ring and number of the bar that a node at an angle (rad) meets; `wear`, shape (rings, bars)."""
     bars = wear.shape[1]
     return node, int(np.floor(theta / (2.0 * np.pi) * bars)) % bars
 
 
-def complementary(matrix: np.ndarray, gap: np.ndarray) -> np.ndarray:
+def complementary(matrix, gap):
     """Multipliers >= 0 with gap + matrix multipliers >= 0, the two never both positive.
 
     Murty's least-index rule, which ends for every P-matrix (Cottle, Pang and Stone, The Linear Complementarity Problem, 4.2).
@@ -338,34 +307,12 @@ def complementary(matrix: np.ndarray, gap: np.ndarray) -> np.ndarray:
         touching[first] = not touching[first]
 
 
-def advance_together(
-    engines: Sequence[ReferenceEngine],
-    states: Sequence[SimulationState],
-    outs: Sequence[SimulationRecord],
-    angles: Sequence[float],
-    order: Sequence[int],
-) -> tuple[list[int], list[float]]:
-    """Do the steps of every row of the samples, as each blade stands at its angle (rad); returns the rows done of each and
-    what each has worn off the lining (m3).
+def go_on(engines, states, outs, order):
+    """Do the steps of every row of the samples at one speed; returns the rows done, and whether they are within the limit.
 
     In a step the blades follow each other in `order`. All end with the sample in which one passes the limit. An elastic casing
-    is one: each engine has its motion, under the forces of all blades, and the first in `order` counts its work.
+    is one: each engine has its motion, under the forces of all blades.
     """
-    for engine, angle in zip(engines, angles, strict=True):
-        engine.angle = angle
-        if isinstance(engine.motion, MotionWithCasing):
-            engine.motion.counted = engine is engines[order[0]]
-    done, _ = _go_on(engines, states, outs, order)
-    return [done] * len(engines), [engine.worn for engine in engines]
-
-
-def _go_on(
-    engines: Sequence[ReferenceEngine],
-    states: Sequence[SimulationState],
-    outs: Sequence[SimulationRecord],
-    order: Sequence[int],
-) -> tuple[int, bool]:
-    """Do the steps of every row of the samples at one speed; returns the rows done, and whether they are within the limit."""
     motions, first, steps = [], states[0].samples, engines[0].problem.grid.steps_per_sample
     for engine, state in zip(engines, states, strict=True):
         motions.append(engine.motion.read(state))
@@ -384,3 +331,32 @@ def _go_on(
     for engine, motion, state in zip(engines, motions, states, strict=True):
         engine.motion.write(motion, state)
     return done, bounded
+
+
+class ReferenceSimulation(Simulation):
+    """The simulation of one blade by the reference engine."""
+
+    engine_class = ReferenceEngine
+
+
+class ReferenceRotor(RotorSimulation):
+    """The simulation of a rotor by the reference engine: all blades go step by step together, each at its angle."""
+
+    blade_class = ReferenceSimulation
+
+    def advance(self, states, outs):
+        engines = [blade.engine for blade in self.blades]
+        for engine, angle in zip(engines, self.rotor.angles, strict=True):
+            if isinstance(engine.motion, MotionWithCasing):
+                # the problems have the angles, and the first in order counts the casing's work
+                engine.motion.counted = engine is engines[self.rotor.order[0]]
+            else:
+                engine.angle = angle
+        done, _ = go_on(engines, states, outs, self.rotor.order)
+        return [done] * len(engines), [engine.worn for engine in engines], np.zeros(len(engines))
+
+
+class ReferenceRunUp(RunUpIntegration):
+    """A run-up by the reference engine."""
+
+    simulation_class = ReferenceSimulation

@@ -1,30 +1,30 @@
-"""Motion of the blade in the reference engine, step by step with dense matrices: freely, and with a force in a step."""
+"""Motions of a blade as the reference engine steps them, with dense matrices: freely, and with a force in a step.
 
-from collections.abc import Sequence
+A motion is read from a state and written back into it; what it is in numbers is each class's own. All give the `numbers` of a
+snapshot, the motion `flown` one step on without force and that with what a force adds at the end of a step (`pushed`), the
+`displacement` of the modes at rest and what it `slid` in the last step, and `work_and_loss` of a step under a force.
+`response`: displacement of the modes at rest one step on per force on them. `products`: how many of second order come behind
+the modes at rest, in displacements and forces.
+"""
+
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
+from scipy.linalg import expm
 
 from r37core.rom.quadratic_terms import products_of
-
-from ..gyroscopic import ComplexRecursion, imaginary_part
-from ..integrators import Recursion
-from ..problem import Problem
-from ..state import SimulationState
+from r37core.time_integration.gyroscopic import ComplexRecursion, imaginary_part
 
 
 class RealMotion:
     """Modes without coupling, in u_n and d_n = u_n - u_{n-1} of the modes at rest.
 
-    A + B rounds to 1 - 1e-9 of omega^2 away, so the recursion is carried in these. `response`: displacement of the modes at
-    rest one step on per force on them. `products`: how many of second order come behind the modes at rest, in displacements
-    and forces.
+    A + B rounds to 1 - 1e-9 of omega^2 away, so the recursion is carried in these.
     """
 
     products = 0
 
-    def __init__(self, modes: np.ndarray, recursion: Recursion):
+    def __init__(self, modes, recursion):
         self._modes, recursion = modes, recursion[: modes.shape[1]]
         # -B, I - A - B, C and the loss per squared central difference, as matrices
         self._keep, self._pull, self.response, self._loss = (
@@ -32,38 +32,30 @@ class RealMotion:
             for diagonal in (recursion.keep, recursion.pull, recursion.inverse, recursion.loss)
         )
 
-    def read(self, state: SimulationState) -> np.ndarray:
-        """u and d, shape (2, modes at rest)."""
+    def read(self, state):
         return np.array([state.displacement, state.increment]) @ self._modes.T
 
-    def write(self, motion: np.ndarray, state: SimulationState) -> None:
-        """Put u and d back into the state."""
+    def write(self, motion, state):
         state.displacement[:], state.increment[:] = motion @ self._modes
 
-    def numbers(self, motion: np.ndarray) -> np.ndarray:
-        """Numbers of a snapshot."""
+    def numbers(self, motion):
         return motion[0] @ self._modes
 
-    def flown(self, motion: np.ndarray) -> np.ndarray:
-        """Motion one step on, without force."""
+    def flown(self, motion):
         u, d = motion
         following = self._keep @ d - self._pull @ u
         return np.array([u + following, following])
 
-    def pushed(self, motion: np.ndarray, force: np.ndarray) -> np.ndarray:
-        """Motion with what a force on the modes at rest adds at the end of a step."""
+    def pushed(self, motion, force):
         return motion + self.response @ force
 
-    def displacement(self, motion: np.ndarray) -> np.ndarray:
-        """Displacement of the modes at rest."""
+    def displacement(self, motion):
         return motion[0]
 
-    def slid(self, motion: np.ndarray) -> np.ndarray:
-        """Displacement in the last step."""
+    def slid(self, motion):
         return motion[1]
 
-    def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
-        """Work and loss of a step under a force: see integrators.Recursion."""
+    def work_and_loss(self, before, after, force):
         moved = before[1] + after[1]
         return float(0.5 * force @ moved), float(moved @ self._loss @ moved)
 
@@ -74,8 +66,7 @@ class QuadraticMotionOfModes(RealMotion):
     Followers come behind the modes at rest in a motion; displacements and forces have the products there.
     """
 
-    def __init__(self, problem: Problem, recursion: Recursion):
-        assert problem.contact.quadratic is not None
+    def __init__(self, problem, recursion):
         self._quadratic, self._rest = problem.contact.quadratic, len(problem.blade.modes)
         followers = problem.blade.followers.shape[1]
         modes = np.pad(problem.blade.modes, ((0, followers), (0, 0)))
@@ -87,12 +78,12 @@ class QuadraticMotionOfModes(RealMotion):
         rows = self._quadratic.rows @ self._modes.T
         self._coordinates, self._changes = np.split(rows, [len(rows) - self.products])
 
-    def _gradient(self, u: np.ndarray) -> np.ndarray:
+    def _gradient(self, u):
         """Change of the products per displacement of the modes at rest and followers, shape (products, both)."""
         q, (a, b) = self._coordinates @ u, self._quadratic.pairs
         return q[a, None] * self._coordinates[b] + q[b, None] * self._coordinates[a]
 
-    def _elastic_force(self, u: np.ndarray) -> np.ndarray:
+    def _elastic_force(self, u):
         """Minus the gradient of the energy of second order."""
         quadratic = self._quadratic
         products, changes = self._products(u), self._changes @ u
@@ -101,38 +92,31 @@ class QuadraticMotionOfModes(RealMotion):
         stiffness = quadratic.weights * 0.5 * (changes + quadratic.cubic @ products + counted * (quadratic.left @ products))
         return -self._gradient(u).T @ stiffness - 0.5 * self._changes.T @ (quadratic.weights * products)
 
-    def _products(self, u: np.ndarray) -> np.ndarray:
+    def _products(self, u):
         return products_of(self._coordinates @ u)
 
-    def numbers(self, motion: np.ndarray) -> np.ndarray:
-        """Numbers of a snapshot."""
+    def numbers(self, motion):
         return np.append(super().numbers(motion), self._products(motion[0]))
 
-    def pushed(self, motion: np.ndarray, force: np.ndarray) -> np.ndarray:
-        """Motion with what a force on the modes at rest and products adds at the end of a step, and the elastic forces.
-
-        Those act from its begin on.
-        """
+    def pushed(self, motion, force):
+        # the elastic forces act from the begin of the step on
         before = motion[0] - motion[1]
         return motion + self._inverse @ (self._modal_force(before, force) + self._elastic_force(before))
 
-    def _modal_force(self, u: np.ndarray, force: np.ndarray) -> np.ndarray:
+    def _modal_force(self, u, force):
         """A force on modes at rest and products as one on modes at rest and followers, at a displacement u."""
         pushed_modes = self._gradient(u).T @ force[self._rest :]
         pushed_modes[: self._rest] += force[: self._rest]
         return pushed_modes
 
-    def displacement(self, motion: np.ndarray) -> np.ndarray:
-        """Displacement of the modes at rest, and the products."""
+    def displacement(self, motion):
         return np.append(motion[0][: self._rest], self._products(motion[0]))
 
-    def slid(self, motion: np.ndarray) -> np.ndarray:
-        """Displacement in the last step, and the change of the products."""
+    def slid(self, motion):
         changed = self._products(motion[0]) - self._products(motion[0] - motion[1])
         return np.append(motion[1][: self._rest], changed)
 
-    def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
-        """Work of a force, without that of the elastic forces of second order, and loss of a step."""
+    def work_and_loss(self, before, after, force):
         return super().work_and_loss(before, after, self._modal_force(before[0], force))
 
 
@@ -149,12 +133,8 @@ class CoupledMotion:
 
     products = 0
 
-    def __init__(self, problem: Problem, recursion: Recursion):
-        # simulation jobs of the other engine never import SciPy
-        from scipy.linalg import expm
-
+    def __init__(self, problem, recursion):
         coupled, coupling = problem.blade.complex_modes, problem.blade.gyroscopic_coupling
-        assert coupled is not None and coupling is not None
         self._modes, self._root, self._coupled = problem.blade.modes, problem.blade.frequencies, coupled
         modes, step = len(self._root), problem.grid.time_step
         system = np.block([[np.zeros((modes, modes)), np.diag(self._root)], [-np.diag(self._root), -coupling]])
@@ -173,55 +153,38 @@ class CoupledMotion:
         self._u_factor, self._d_factor = sense * imaginary_part(recursion[:modes])
         self.response = self._modes @ (self._flight @ self._kick / np.tile(self._root, 2)[:, None])[:modes] @ self._modes.T
 
-    def read(self, state: SimulationState) -> np.ndarray:
-        """y, shape (2 stepped modes,)."""
+    def read(self, state):
         amplitude = state.displacement + 1j * (self._u_factor * state.displacement + self._d_factor * state.increment)
         moving = self._coupled.shapes * amplitude
         return np.concatenate([self._root * moving.real.sum(axis=1), -(moving @ self._coupled.frequencies).imag])
 
-    def write(self, motion: np.ndarray, state: SimulationState) -> None:
-        """Put the motion back into the state."""
+    def write(self, motion, state):
         state.displacement[:], state.increment[:] = self.numbers(motion).reshape(2, -1)
 
-    def numbers(self, motion: np.ndarray) -> np.ndarray:
-        """Numbers of a snapshot: u and d of the complex modes."""
+    def numbers(self, motion):
         elastic, velocity = np.split(motion, 2)
         frequencies = self._coupled.frequencies
         amplitude = self._coupled.shapes.conj().T @ (self._root * elastic) / frequencies**2
         amplitude = amplitude - 1j * (self._coupled.shapes.conj().T @ velocity) / frequencies
         return np.concatenate([amplitude.real, (amplitude.imag - self._u_factor * amplitude.real) / self._d_factor])
 
-    def flown(self, motion: np.ndarray) -> np.ndarray:
-        """Motion one step on, without force."""
+    def flown(self, motion):
         return self._flight @ motion
 
-    def pushed(self, motion: np.ndarray, force: np.ndarray) -> np.ndarray:
-        """Motion with what a force on the modes at rest, acting since the step began, adds at its end."""
+    def pushed(self, motion, force):
         return motion + self._flight @ self._kick @ (self._modes.T @ force)
 
-    def displacement(self, motion: np.ndarray) -> np.ndarray:
-        """Displacement of the modes at rest."""
+    def displacement(self, motion):
         return self._modes @ (motion[: len(self._root)] / self._root)
 
-    def slid(self, motion: np.ndarray) -> np.ndarray:
-        """Displacement in a step of free flight that ends here."""
+    def slid(self, motion):
         return self.displacement(motion - self._back @ motion)
 
-    def work_and_loss(self, before: np.ndarray, after: np.ndarray, force: np.ndarray) -> tuple[float, float]:
-        """Work and loss of a step under a force that kicks the blade as it begins."""
+    def work_and_loss(self, before, after, force):
         kick = self._kick @ (self._modes.T @ force)
         kicked = before + kick
         work = force @ self.displacement(self._swing @ (before + 0.5 * kick))
         return float(work), float(0.5 * (kicked @ self._energy @ kicked - after @ self._energy @ after))
-
-
-def blade_motion(problem: Problem, recursion: Recursion) -> RealMotion | CoupledMotion:
-    """Motion of a problem's blade."""
-    if problem.contact.quadratic is not None:
-        return QuadraticMotionOfModes(problem, recursion)
-    if problem.blade.complex_modes is not None:
-        return CoupledMotion(problem, recursion)
-    return RealMotion(problem.blade.modes, recursion)
 
 
 class MotionWithCasing:
@@ -235,8 +198,7 @@ class MotionWithCasing:
 
     counted = True
 
-    def __init__(self, blade: RealMotion | CoupledMotion, problem: Problem, recursion: Recursion):
-        assert problem.casing.ring is not None
+    def __init__(self, blade, problem, recursion):
         self._blade, self._problem, self._ring = blade, problem, problem.casing.ring
         self._stepped = len(problem.blade.frequencies)
         self._casing = recursion[self._stepped :]
@@ -247,58 +209,50 @@ class MotionWithCasing:
         self.response[rest_modes:, rest_modes:] = np.diag(self._casing.inverse)
         self._rest_modes = rest_modes
 
-    def pressed_by_all(self, forces: Sequence[np.ndarray]) -> list[np.ndarray]:
+    def pressed_by_all(self, forces):
         """Forces of several blades in one casing: on its modes the sum over blades, which each of them has then."""
         casing_force = np.sum([force[self._rest_modes :] for force in forces], axis=0)
         return [np.append(force[: self._rest_modes], casing_force) for force in forces]
 
-    def _blade_state(self, state: SimulationState) -> SimulationState:
+    def _blade_state(self, state):
         """The state of the blade's modes alone: what is written into it is written into the whole."""
         return replace(state, displacement=state.displacement[: self._stepped], increment=state.increment[: self._stepped])
 
-    def _turned(self, casing: np.ndarray, step: int) -> np.ndarray:
+    def _turned(self, casing, step):
         return self._ring.turned(casing, 2.0 * np.pi * step / self._problem.grid.steps_per_revolution)
 
-    def read(self, state: SimulationState) -> Any:
-        """Motion of a state, which is in the rotor's frame."""
+    def read(self, state):
         step = state.samples * self._problem.grid.steps_per_sample
         both = np.array([state.displacement[self._stepped :], state.increment[self._stepped :]])
         return self._blade.read(self._blade_state(state)), self._turned(both, -step), step
 
-    def write(self, motion: Any, state: SimulationState) -> None:
-        """Put the motion back into the state."""
+    def write(self, motion, state):
         self._blade.write(motion[0], self._blade_state(state))
         state.displacement[self._stepped :], state.increment[self._stepped :] = self._turned(*motion[1:])
 
-    def numbers(self, motion: Any) -> np.ndarray:
-        """Numbers of a snapshot, in the rotor's frame; casing modes have no increment of their own to show."""
+    def numbers(self, motion):
         numbers, casing = self._blade.numbers(motion[0]), self._turned(*motion[1:])
         blade, products = np.split(numbers, [len(numbers) - self._blade.products])
         parts = np.split(blade, range(self._stepped, len(blade), self._stepped))
         return np.concatenate([*(np.concatenate(pair) for pair in zip(parts, casing, strict=False)), products])
 
-    def flown(self, motion: Any) -> Any:
-        """Motion one step on, without force."""
+    def flown(self, motion):
         blade, (u, d), step = motion
         following = self._casing.keep * d - self._casing.pull * u
         return self._blade.flown(blade), np.array([u + following, following]), step + 1
 
-    def pushed(self, motion: Any, force: np.ndarray) -> Any:
-        """Motion with what a force adds at the end of a step."""
+    def pushed(self, motion, force):
         blade, casing, step = motion
         pushed = casing + self._casing.inverse * force[self._rest_modes :]
         return self._blade.pushed(blade, force[: self._rest_modes]), pushed, step
 
-    def displacement(self, motion: Any) -> np.ndarray:
-        """Displacement of the modes at rest, then of the casing's."""
+    def displacement(self, motion):
         return np.concatenate([self._blade.displacement(motion[0]), motion[1][0]])
 
-    def slid(self, motion: Any) -> np.ndarray:
-        """Displacement in the last step."""
+    def slid(self, motion):
         return np.concatenate([self._blade.slid(motion[0]), motion[1][1]])
 
-    def work_and_loss(self, before: Any, after: Any, force: np.ndarray) -> tuple[float, float]:
-        """Work and loss of a step under a force: see Recursion, and of a kick, with a Coriolis force, ComplexRecursion."""
+    def work_and_loss(self, before, after, force):
         work, loss = self._blade.work_and_loss(before[0], after[0], force[: self._rest_modes])
         if not self.counted:
             return work, loss
@@ -312,5 +266,12 @@ class MotionWithCasing:
         return work + float(0.5 * casing_force @ moved), loss + float(own.loss @ moved**2)
 
 
-Motion = RealMotion | CoupledMotion | MotionWithCasing
-"""A motion as the reference engine steps it; what it is in numbers is each one's own."""
+def motion_of(problem, recursion):
+    """Motion of a problem's blade, and of its elastic casing."""
+    if problem.contact.quadratic is not None:
+        blade = QuadraticMotionOfModes(problem, recursion)
+    elif problem.blade.complex_modes is not None:
+        blade = CoupledMotion(problem, recursion)
+    else:
+        blade = RealMotion(problem.blade.modes, recursion)
+    return blade if problem.casing.ring is None else MotionWithCasing(blade, problem, recursion)
