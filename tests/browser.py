@@ -13,6 +13,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from guard import RUN
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 QUIET = ("gpu", "quic", "background-networking", "component-update", "sync")
@@ -20,15 +21,12 @@ QUIET = ("gpu", "quic", "background-networking", "component-update", "sync")
 LONGEST = 600_000
 """What is waited for (ms), however busy the machine is."""
 
-PLACE = "R37_BROWSER_OF_TESTS"
-"""Environment variable with a folder of this run of the tests, for its processes."""
-
 _KEPT = []
 
 
 def close():
     """End the browser of this run of the tests, if there is one."""
-    for file in Path(os.environ[PLACE]).glob("browser.json"):
+    for file in Path(os.environ[RUN]).glob("browser.json"):
         # Playwright's command is a process that waits for another
         with suppress(ProcessLookupError):
             os.killpg(json.loads(file.read_text())[0], signal.SIGTERM)
@@ -39,7 +37,7 @@ def close():
 @cache
 def _address():
     """Of a browser that the first to need it starts; it runs until `close`."""
-    file = Path(os.environ[PLACE]) / "browser.json"
+    file = Path(os.environ[RUN]) / "browser.json"
     with open(file.with_suffix(".lock"), "w") as lock:
         fcntl.lockf(lock, fcntl.LOCK_EX)
         if not file.exists():

@@ -6,13 +6,13 @@ import io
 import os
 import shutil
 import sys
-import tempfile
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
 import browser
 import pytest
+from guard import RUN, Guard
 from hypothesis import settings
 from warm_snakemake import start_for_call
 from workflow_runs import copy_finished, copy_project
@@ -75,15 +75,14 @@ def pytest_collection_modifyitems(items):
 def pytest_configure(config):
     # processes of this run that start later have them from their environment: one browser, and one cache of structures
     if not hasattr(config, "workerinput"):
-        for name in (browser.PLACE, CACHE):
-            os.environ[name] = tempfile.mkdtemp(prefix="r37_tests_")
+        config.guard = Guard()
+        os.environ[CACHE] = os.path.join(os.environ[RUN], "cache")
 
 
 def pytest_unconfigure(config):
     if not hasattr(config, "workerinput"):
         browser.close()
-        for name in (browser.PLACE, CACHE):
-            shutil.rmtree(os.environ[name])
+        config.guard.end()
 
 
 def pytest_terminal_summary(terminalreporter):
