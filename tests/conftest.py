@@ -3,6 +3,7 @@
 import contextlib
 import filecmp
 import io
+import json
 import os
 import shutil
 import sys
@@ -54,22 +55,24 @@ class Terminal(io.StringIO):
         return True
 
 
-LONGEST = ("workflow", "assess", "time_integration", "python", "runs", "python_calls", "refined_runs", "trials")
-LONGEST += ("search_calls", "your_blade", "native", "examples", "explorer", "reruns", "edge", "elastic_casing")
-"""Files that take a minute. The second needs other programs than the first, which makes the sweep that others wait for."""
+DURATIONS = Path(__file__).with_name("durations.json")
+"""Seconds of every test file in a run of all tests, the longest first: see `--record-durations`."""
+
+
+def pytest_addoption(parser):
+    parser.addoption("--record-durations", action="store_true", help=f"write {DURATIONS.name}, which the order follows")
 
 
 def pytest_collection_modifyitems(items):
-    """The longest files first, then those with slow tests, so that at the end no core waits for one of them.
+    """The longest files first, so that at the end no core waits for one of them; new ones first of all.
 
     A test of a page in the browser is slow.
     """
     for item in items:
         if "page" in item.fixturenames:
             item.add_marker("slow")
-    slow = {item.path for item in items if item.get_closest_marker("slow")}
-    rank = {f"test_{name}.py": number for number, name in enumerate(LONGEST)}
-    items.sort(key=lambda item: (rank.get(item.path.name, len(rank)), item.path not in slow))
+    seconds = json.loads(DURATIONS.read_text())
+    items.sort(key=lambda item: -seconds.get(item.path.name, float("inf")))
 
 
 def pytest_configure(config):
@@ -85,11 +88,25 @@ def pytest_unconfigure(config):
         config.guard.end()
 
 
+def seconds_by_file(reports):
+    """Seconds of the files' tests with their set-up and end, the longest first."""
+    seconds = Counter()
+    for report in (report for several in reports.values() for report in several if isinstance(report, pytest.TestReport)):
+        seconds[Path(report.location[0]).name] += report.duration
+    return {name: round(duration, 1) for name, duration in seconds.most_common()}
+
+
 def pytest_terminal_summary(terminalreporter):
-    """What the skipped tests need, one line each, and whether the configuration in use is not the tests'."""
+    """What the skipped tests need, where the time went, and whether the configuration in use is not the tests'."""
     reasons = Counter(report.longrepr[2].removeprefix("Skipped: ") for report in terminalreporter.stats.get("skipped", []))
     for reason, tests in sorted(reasons.items()):
         terminalreporter.write_line(f"not run: {tests} {'test needs' if tests == 1 else 'tests need'} {reason}")
+    by_file = seconds_by_file(terminalreporter.stats)
+    terminalreporter.section("slowest 25 files")
+    for name, seconds in list(by_file.items())[:25]:
+        terminalreporter.write_line(f"{seconds:8.1f} s {name}")
+    if terminalreporter.config.getoption("--record-durations"):
+        DURATIONS.write_text(json.dumps(by_file, indent=1) + "\n")
     if edited := edited_configuration():
         terminalreporter.write_line(f"config/ is edited ({', '.join(edited)}): the tests use tests/config/ instead")
 
