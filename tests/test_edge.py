@@ -134,9 +134,9 @@ def test_both_engines_find_the_same_penetration(scene, integrator):
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.15])
-def test_forces_of_twelve_patches_are_those_of_the_complementarity_problem(friction):
+def test_forces_of_twenty_patches_are_those_of_the_complementarity_problem(friction):
     """Static modes move neighbours together: after each sample the forces are those of Murty's rule on the gaps there."""
-    nodes, scene = 12, replace(DIRECT, friction=Friction(friction) if friction else None)
+    nodes, scene = 20, replace(DIRECT, friction=Friction(friction) if friction else None)
     place, chosen = np.linspace(0.0, 1.0, nodes), IntegrationChoice(4e-7, 1, 62, integrator=EXACT_MODAL)
     near = np.zeros((3, nodes, nodes))
     near[0] = 1.2e-5 * np.exp(-20.0 * (place[:, None] - place) ** 2)

@@ -194,7 +194,7 @@ def test_every_job_is_done_by_either_executor(project, name):
     """With the executor also one whose process is killed, which then runs by itself."""
     if name == "local":
         (project / "killed").write_text("")
-    text = snakemake(project, "responses", "--cores", "2", "--executor", name)
+    text = snakemake(project, "results/Ref/direct/response.nc", "--cores", "2", "--executor", name)
     assert "(100%) done" in text and (project / "killed").exists()
     assert ("each job starts by itself" in text) == (name == "local")
 

@@ -31,7 +31,7 @@ def first_run(root, tmp_path_factory):
     folder = tmp_path_factory.mktemp("refined")
     copy_stubbed(root, folder)
     refine(folder)
-    return folder, snakemake(folder, "all_blades", "--cores", "2")
+    return folder, snakemake(folder, "tables", "--cores", "2")
 
 
 @pytest.fixture
@@ -44,7 +44,7 @@ def test_one_command_runs_all_rounds_and_each_speed_once(first_run):
     assert set(done) == runs(COARSE + ADDED)
     assert len(done) == len(set(done))
     assert (first_run[0] / "results/summary.csv").exists()
-    assert planned_outputs(first_run[0]) == {}
+    assert planned_outputs(first_run[0], "tables") == {}
 
 
 @pytest.mark.parametrize(
@@ -56,26 +56,26 @@ def test_one_command_runs_all_rounds_and_each_speed_once(first_run):
 )
 def test_a_new_blade_or_friction_runs_all_its_rounds(project, name, change, expected):
     overlay(project, f"{name}.yaml", change)
-    assert sorted(simulated(snakemake(project, "all_blades", "--cores", "2"))) == sorted(expected)
+    assert sorted(simulated(snakemake(project, "tables", "--cores", "2"))) == sorted(expected)
 
 
 def test_another_criterion_asks_anew_and_simulates_nothing_that_is_there(project):
     overlay(project, "config.yaml", "refinement: { change: 0.5 }")
-    text = snakemake(project, "all_blades", "--cores", "2")
+    text = snakemake(project, "tables", "--cores", "2")
     assert len(re.findall(r"checkpoint refine:", text)) == 3 * len(BLADES) * len(SCENES)
     assert simulated(text) == []
-    assert planned_outputs(project) == {}
+    assert planned_outputs(project, "tables") == {}
 
 
 def test_a_lost_speed_of_a_later_round_runs_alone(project):
     lose_speed(project / "results/CS100/direct/speed_1149.npz")
-    assert simulated(snakemake(project, "all_blades", "--cores", "2")) == ["CS100/direct/speed_1149.npz"]
+    assert simulated(snakemake(project, "tables", "--cores", "2")) == ["CS100/direct/speed_1149.npz"]
 
 
 def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
     copy_stubbed(root, tmp_path)
     overlay(tmp_path, "config.yaml", f"speeds_for: [{{ scenes: [direct], speeds: [{REFINED}] }}]")
-    done = simulated(snakemake(tmp_path, "all_blades", "--cores", "2"))
+    done = simulated(snakemake(tmp_path, "tables", "--cores", "2"))
     assert set(done) == runs(COARSE) | runs(ADDED, scenes=["direct"])
     assert not list(tmp_path.glob("results/*/abradable/round_*.json"))
 
@@ -88,7 +88,7 @@ def test_members_are_run_by_the_rules_of_the_sweep(project):
 
     ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }, of_blades: { thickness_percent: { values: [101] } }"
     overlay(project, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], {ranges} }}")
-    text = snakemake(project, "all_blades", "--cores", "2")
+    text = snakemake(project, "tables", "--cores", "2")
     assert sorted(simulated(text)) == sorted(members(2))
     # both members have the same blade, made once beside the nominal one
     assert {str(file.relative_to(project / "results")) for file in project.glob("results/**/rom_*.nc")} == {
@@ -96,10 +96,10 @@ def test_members_are_run_by_the_rules_of_the_sweep(project):
     }
     rounds = {f"results/tolerances/Ref/{scene}/round_{number}.json" for scene in SCENES for number in range(3)}
     assert set(re.findall(r"checkpoint refine:\n(?:    input: .*\n)?    output: (\S+)", text)) == rounds
-    assert planned_outputs(project) == {}
+    assert planned_outputs(project, "tables") == {}
     overlay(project, "config.yaml", "tolerances: { members: 4 }")
-    assert set(simulated(snakemake(project, "all_blades", "--cores", "2"))) == members(4) - members(2)
-    assert planned_outputs(project) == {}
+    assert set(simulated(snakemake(project, "tables", "--cores", "2"))) == members(4) - members(2)
+    assert planned_outputs(project, "tables") == {}
     stacking = project / "config/stacking/rotor37.csv"
     stacking.write_text(stacking.read_text().replace("CS100,100,-1.16,4.89", "CS100,100,-1.20,4.89"))
     assert not [file for files in planned_outputs(project).values() for file in files if file.startswith("tolerances/")]
@@ -154,7 +154,7 @@ def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
     """Killed in the middle of its rounds, again and again; in the end every file is that of an undisturbed run."""
     project = prepare_real(small_sweep, tmp_path / "project")
     command, moments = ("tables", "--cores", "2"), random.Random(7)
-    for files in (2, 7, 10, 13):
+    for files in (2, 10):
 
         def there(files=files):
             if len(list(project.glob("results/*/*/speed_*.npz"))) < files:

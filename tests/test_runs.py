@@ -20,7 +20,7 @@ from r37core.product.reading import read_settings
 
 pytestmark = pytest.mark.usefixtures("warm_calls")
 
-ASKED = {"blades": ["Ref", "CS100"], "scenes": "abradable", "speeds": [750, 1150], "results": ["stress"]}
+ASKED = {"blades": ["CS100"], "scenes": "abradable", "speeds": [750, 1150], "results": ["stress"]}
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +52,7 @@ def started(config, folder):
 def test_a_folder_has_all_of_a_run_and_snakemake_finds_nothing_to_do(once, config):
     assert "Nothing to be done" in snakemake(once, "tables", "--cores", "1", "--dry-run")
     settings = read_settings(once)
-    assert settings.blade_names == ["Ref", "CS100"] and settings.scene_names == ["abradable"]
+    assert settings.blade_names == ["CS100"] and settings.scene_names == ["abradable"]
     assert settings.blades["CS100"].definition == read_settings(config.parent.parent).blades["CS100"].definition
     assert list(r37.open_results(once / "results")) == ["campbell", "rms", "stress"]
     # tables travel with it
@@ -63,7 +63,7 @@ def test_a_folder_has_all_of_a_run_and_snakemake_finds_nothing_to_do(once, confi
     # what was asked for once more is made, and the rest stays
     more = r37.run(**{**ASKED, "speeds": [750, 1150, 1550]}, config=config, cores=2, folder=once)
     assert list(more["rms"].speed.values) == [750.0, 1150.0, 1550.0]
-    speed = "results/Ref/abradable/speed_750.npz"
+    speed = "results/CS100/abradable/speed_750.npz"
     assert digests(once)[speed] == before[speed]
     r37.run(**ASKED, config=config, cores=2, folder=once)
     assert {name: digests(once)[name] for name in before} == before

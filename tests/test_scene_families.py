@@ -295,7 +295,7 @@ def test_one_more_value_runs_its_own_simulations(root, tmp_path):
     copy_stubbed(root, tmp_path)
     overlay(tmp_path, "config.yaml", "blades: [Ref]\nscenes: [Lobes]\nspeeds: [1000, 1100]")
     overlay(tmp_path, "scenes.yaml", LOBES)
-    snakemake(tmp_path, "all_blades", "--cores", "2")
+    snakemake(tmp_path, "tables", "--cores", "2")
     overlay(tmp_path, "scenes.yaml", LOBES.replace("[2, 3]", "[2, 3, 5]"))
     jobs = planned_outputs(tmp_path)
     assert jobs["simulate"] == {f"Ref/Lobes_5/speed_{speed}.npz" for speed in (1000, 1100)}

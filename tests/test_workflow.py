@@ -20,6 +20,7 @@ from workflow_runs import LONGEST, copy_odd_project, digests, lose_speed, overla
 
 from r37core.base.dataset_file import read_dataset
 from r37core.base.yaml_file import load_yaml
+from r37core.console.report import main as report
 from r37core.time_integration.speed_file import read_speed
 
 pytestmark = pytest.mark.slow
@@ -190,8 +191,8 @@ def test_interrupted_sweep_keeps_what_is_done(sweep_copy):
     results = sweep_copy / "results"
     lose_speed(results / "Ref/direct/speed_1150.npz")
     (results / "summary.csv").unlink()
-    assert planned(sweep_copy)["simulate"] == {"Ref"}
-    assert snakemake(sweep_copy, "tables", "--cores", "2").count("rule simulate:") == 1
+    simulations = [job.outputs for job in plan(sweep_copy) if job.rule == "simulate"]
+    assert simulations == [["results/Ref/direct/speed_1150.npz"]]
 
 
 def test_physical_scenes_are_planned_in_a_folder_of_their_own(root, tmp_path):
@@ -259,7 +260,7 @@ def test_one_core_gives_the_same_bits_in_any_folder(root, small_sweep, tmp_path)
     assert made.items() <= digests(small_sweep).items()
 
 
-def test_report_of_a_run_by_its_own_configuration(sweep_copy):
+def test_report_of_a_run_by_its_own_configuration(sweep_copy, monkeypatch, capsys):
     """Whatever config.yaml says since, or a command line said then; a folder without a run is refused with what there is."""
     results = sweep_copy / "results/runs/first"
     (sweep_copy / "results").rename(sweep_copy / "first")
@@ -270,23 +271,21 @@ def test_report_of_a_run_by_its_own_configuration(sweep_copy):
     (results / "configuration.json").write_text(json.dumps(configuration))
     overlay(sweep_copy, "config.yaml", "{ blades: [S100], speeds: [1000] }")
 
-    def report(folder):
-        command = [sys.executable, "-m", "r37core.console.report", folder]
-        return subprocess.run(command, cwd=sweep_copy, capture_output=True, text=True, timeout=LONGEST, check=False)
-
+    monkeypatch.chdir(sweep_copy)
     for folder in ("results", "results/runs/frist"):
-        refused = report(folder)
-        assert refused.returncode == 1
-        assert f"RESULTS: found {folder}, where no configuration.json of a run lies" in refused.stderr
-        assert refused.stderr.endswith("; runs with a name: results/runs/first\n")
-    done = report("results/runs/first")
+        assert report([folder]) == 1
+        refused = capsys.readouterr().err
+        assert f"RESULTS: found {folder}, where no configuration.json of a run lies" in refused
+        assert refused.endswith("; runs with a name: results/runs/first\n")
+    command = [sys.executable, "-m", "r37core.console.report", "results/runs/first"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, check=False)
     assert done.returncode == 0, done.stderr
     with zipfile.ZipFile(results / "report.zip") as archive:
         names = {Path(name).name for name in archive.namelist()}
     assert names >= {"report.html", "summary.csv", "response_CS100.png"} and "response_S100.png" not in names
     shutil.copytree(results, sweep_copy / "results/runs/copy")
-    refused = report("results/runs/copy")
-    assert "found results/runs/copy, a copy of the results in results/runs/first" in refused.stderr
+    assert report(["results/runs/copy"]) == 1
+    assert "found results/runs/copy, a copy of the results in results/runs/first" in capsys.readouterr().err
 
 
 def test_report_opens_offline(sweep_copy, tmp_path):
