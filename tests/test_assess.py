@@ -1,4 +1,4 @@
-"""The commands of docs/assess.md, from a mesh to a verdict and to what overturns it, over three of its speeds."""
+"""The commands of docs/assess.md, from a mesh to a verdict and to what overturns it, at a small level and few speeds."""
 
 import re
 import shlex
@@ -12,13 +12,13 @@ from yaml import safe_load
 from r37core.base.dataset_file import read_dataset
 from r37core.base.yaml_file import load_yaml
 
-SHORTER = {"1080": "1220", "1440": "1240"}
-"""Ends of the range of speeds, and those of the test."""
+SHORTER = {"1080": "1220", "1440": "1230", "members: 8": "members: 2", "revolutions: 400": "revolutions: 20"}
+"""What the page has, and the test in its place: the range of speeds, the sample, the length of carried motions."""
 
 
 def shortened(text):
-    for end, nearer in SHORTER.items():
-        text = text.replace(end, nearer)
+    for shown, smaller in SHORTER.items():
+        text = text.replace(shown, smaller)
     return text
 
 
@@ -44,7 +44,7 @@ def test_the_page_shows_the_file(root, page):
 
 @pytest.mark.slow
 def test_every_command_of_the_page_ends_with_a_verdict(project, page):
-    """At a small level: the first one on six designs, each other one in a folder of its own."""
+    """The first one on six designs, each other one in a folder of its own."""
     commands = [shlex.split(shortened(block)) for block in re.findall(r"```sh\n(snakemake .*?)```", page, re.DOTALL)]
     runs = []
     for _, *words in commands:
@@ -60,7 +60,7 @@ def test_every_command_of_the_page_ends_with_a_verdict(project, page):
     results = project / "results/runs"
     # each attack judges what the page says: stress of all members, the whole blade
     members = pd.read_csv(results / "spread/verdict.csv").set_index("requirement")["members"]
-    assert (members[["above_yield", "goodman_share"]] == 8).all()
+    assert (members[["above_yield", "goodman_share"]] == 2).all()
     assert "0 to 97% span" in str(read_dataset(results / "regions/stress.nc")["stress_region"].isel(region=0).values)
     designs = load_yaml(project / "examples/fan/scenes.yaml")["Room"]["vary"]
     first = pd.read_csv(project / "results/runs/fan/verdict.csv")

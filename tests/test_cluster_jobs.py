@@ -16,6 +16,7 @@ from r37core.config import ConfigError
 from r37core.console.executor import Executor
 
 CLUSTER = ("--workflow-profile", "profiles/cluster", "--executor", "cluster-generic", "--cluster-generic-submit-cmd", "sh")
+CLUSTER += ("--seconds-between-status-checks", "1")
 
 
 def test_the_profiles_have_the_keys_of_the_usual_one(root):

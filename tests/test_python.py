@@ -395,7 +395,7 @@ def test_plots_are_those_of_the_workflow_and_leave_matplotlib_alone(finished, co
 
 @pytest.mark.slow
 def test_python_of_the_pages_runs(root, finished, monkeypatch):
-    """With the small level and a small rotor in place of others: the page's speeds and names count, its numbers do not."""
+    """With a small level, rotor, sample and search in place of others: the page's speeds and names count, its numbers do not."""
     monkeypatch.setattr("r37.call_configuration._PACKAGE", finished)
     monkeypatch.chdir(finished)
     (finished / "blades.yaml").write_text((finished / "config/blades.yaml").read_text())
@@ -406,9 +406,12 @@ def test_python_of_the_pages_runs(root, finished, monkeypatch):
         if "r37." in block
     ]
     assert len(blocks) > 5
-    names = {"r37": r37}
+    names, smaller = {"r37": r37}, {'"draft"': '"tiny"', '"blades": 36': '"blades": 4'}
+    smaller |= {"members=4": "members=2", "designs=4": "designs=3", "first=3": "first=2"}
     for block in blocks:
-        exec(block.replace('"draft"', '"tiny"').replace('"blades": 36', '"blades": 4'), names)
+        for shown, small in smaller.items():
+            block = block.replace(shown, small)
+        exec(block, names)
 
 
 @pytest.mark.slow
