@@ -25,10 +25,10 @@ RESULTS ?= results
 report: $(VENV)/.ready ## a finished run in one file, for a colleague: report.zip; RESULTS=results/runs/NAME of a run with a name
 	@$(BIN)/python -m r37core.console.report '$(RESULTS)'
 
-# the files of tests spread over the cores, in the order of tests/conftest.py
+# the files of tests spread over the cores, the longest first; RECORD=yes writes their durations, which the order follows
 SPREAD := --numprocesses $(CORES) --dist loadfile --no-loadscope-reorder --max-worker-restart 0
 test: $(VENV)/.ready ## all tests
-	$(BIN)/python -m pytest $(SPREAD)
+	$(BIN)/python -m pytest $(SPREAD) $(if $(RECORD),--record-durations)
 
 test-fast: $(VENV)/.ready ## the tests that neither run Snakemake nor build larger models
 	$(BIN)/python -m pytest -q -m 'not slow' $(SPREAD)
