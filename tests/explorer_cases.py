@@ -72,12 +72,29 @@ def interaction_rows():
 
 
 @contextmanager
-def beside(page, contents, file, size=(1500, 1400), place="", parts=PARTS, **more):
-    """Another page in the browser of a page, made of other `parts` where an extension has panels."""
+def beside(page, contents, file, size=(1500, 1400), place="", parts=PARTS, color_scheme="light", **more):
+    """Another page in the browser of a page, made of other `parts` where an extension has panels.
+
+    Such pages follow each other in one tab and in the file of the first: there the browser has plotly compiled, most of what
+    a page takes. One with `more` arguments has a tab of its own.
+    """
+    viewport = {"width": size[0], "height": size[1]}
+    if more or not hasattr(page, "tab"):
+        other = page.context.browser.new_page(viewport=viewport, **more)
+        other.set_default_timeout(LONGEST)
+        if not more:
+            page.tab, page.tab_file = other, file
+    if not more:
+        other, file = page.tab, page.tab_file
+        other.set_viewport_size(viewport)
+    other.emulate_media(color_scheme=color_scheme)
     write_page(contents, "r37", file, parts)
-    other = page.context.browser.new_page(viewport={"width": size[0], "height": size[1]}, **more)
-    other.set_default_timeout(LONGEST)
+    opened = other.url.partition("#")[0] == file.as_uri()
     other.goto(file.as_uri() + place)
+    if opened:
+        # only its place has changed
+        other.reload()
     other.wait_for_selector("html[data-ready]")
     yield other
-    other.close()
+    if more:
+        other.close()

@@ -395,7 +395,7 @@ def test_plots_are_those_of_the_workflow_and_leave_matplotlib_alone(finished, co
 
 @pytest.mark.slow
 def test_python_of_the_pages_runs(root, finished, monkeypatch):
-    """With a small level, rotor, sample and search in place of others: the page's speeds and names count, its numbers do not."""
+    """With a small level, rotor, sample and search: the page's speeds and names count, its numbers do not."""
     monkeypatch.setattr("r37.call_configuration._PACKAGE", finished)
     monkeypatch.chdir(finished)
     (finished / "blades.yaml").write_text((finished / "config/blades.yaml").read_text())

@@ -153,8 +153,9 @@ def test_real_rounds_stay_on_their_grid(real):
 def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
     """Killed in the middle of its rounds, again and again; in the end every file is that of an undisturbed run."""
     project = prepare_real(small_sweep, tmp_path / "project")
-    command, moments = ("tables", "--cores", "2"), random.Random(7)
-    for files in (2, 10):
+    overlay(project, "config.yaml", "scenes: [abradable]")
+    command, moments = ("responses", "--cores", "2"), random.Random(7)
+    for files in (2, 5):
 
         def there(files=files):
             if len(list(project.glob("results/*/*/speed_*.npz"))) < files:
@@ -164,7 +165,9 @@ def test_kills_at_random_moments_lose_nothing(real, small_sweep, tmp_path):
 
         kill_snakemake(project, *command, when=there)
     snakemake(project, *command)
-    assert digests(project) == digests(real)
+    made = digests(project)
+    assert "results/CS100/abradable/response.nc" in made
+    assert made.items() <= digests(real).items()
 
 
 CROSSING = {"mode": "1B", "engine_order": 6, "first": 0.02, "last": 0.01}
