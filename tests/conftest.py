@@ -13,7 +13,7 @@ from pathlib import Path
 
 import browser
 import pytest
-from guard import RUN, Guard
+from guard import RUN, start_guard
 from hypothesis import settings
 from warm_snakemake import start_for_call
 from workflow_runs import copy_finished, copy_project
@@ -78,14 +78,13 @@ def pytest_collection_modifyitems(items):
 def pytest_configure(config):
     # processes of this run that start later have them from their environment: one browser, and one cache of structures
     if not hasattr(config, "workerinput"):
-        config.guard = Guard()
+        config.guard = start_guard()
         os.environ[CACHE] = os.path.join(os.environ[RUN], "cache")
 
 
 def pytest_unconfigure(config):
     if not hasattr(config, "workerinput"):
         browser.close()
-        config.guard.end()
 
 
 def seconds_by_file(reports):

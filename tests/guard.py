@@ -2,6 +2,7 @@
 
 The run holds the other end of the pipe, so that the input ends with the run, however it was killed. Whatever the run has
 started, directly or not, has the run's folder in the environment that it began with. Linux alone: elsewhere nothing is found.
+The folder is removed.
 """
 
 import os
@@ -18,21 +19,19 @@ RUN = "R37_RUN_OF_TESTS"
 """Environment variable with a temporary folder of this run of the tests, for its processes."""
 
 
-class Guard:
-    """The process for this run, which has to be started before any other."""
+GRACE_S = 1.0
+"""What ends by itself after the run has so long for it."""
 
-    def __init__(self):
-        folder = tempfile.mkdtemp(prefix="r37_tests_")
-        unmarked = {key: value for key, value in os.environ.items() if key != RUN}
-        # a session of its own: what ends the run by its group does not end this
-        command = [sys.executable, "-S", __file__, folder]
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, start_new_session=True, env=unmarked)
-        os.environ[RUN] = folder
 
-    def end(self):
-        """End what is left now, and remove the folder."""
-        self._process.stdin.close()
-        self._process.wait()
+def start_guard():
+    """Start the process for this run, before any other; returns it, and whoever keeps that holds the pipe."""
+    folder = tempfile.mkdtemp(prefix="r37_tests_")
+    unmarked = {key: value for key, value in os.environ.items() if key != RUN}
+    streams = {"stdin": subprocess.PIPE, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    # a session of its own: what ends the run by its group does not end this
+    process = subprocess.Popen([sys.executable, "-S", __file__, folder], start_new_session=True, env=unmarked, **streams)
+    os.environ[RUN] = folder
+    return process
 
 
 def left_by(run):
@@ -48,6 +47,7 @@ def left_by(run):
 
 if __name__ == "__main__":
     sys.stdin.read()
+    time.sleep(GRACE_S)
     # what is killed may have started others meanwhile
     while left := left_by(sys.argv[1]):
         for number in left:

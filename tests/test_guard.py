@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from guard import left_by
-from workflow_runs import wait_until
+from workflow_runs import LONGEST, wait_until
 
 SNAKEFILE = """
 rule all:
@@ -46,11 +46,11 @@ def test_a_killed_run_leaves_no_snakemake_and_no_job(tmp_path, how, workers):
     ]
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent), "TMPDIR": str(tmp_path / "tmp")}
     run = subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=subprocess.DEVNULL)
-    wait_until(lambda: (tmp_path / "begun").exists() or run.poll() is not None, 600, "the job of a small run")
+    wait_until(lambda: (tmp_path / "begun").exists() or run.poll() is not None, LONGEST, "the job of a small run")
     (folder,) = (tmp_path / "tmp").glob("r37_tests_*")
     # a server, Snakemake and its job, at least
     assert len(left_by(folder)) >= 3
     run.send_signal(how)
     assert run.wait() == -how
-    wait_until(lambda: not folder.exists(), 60, "the end of all that a killed run has left")
+    wait_until(lambda: not folder.exists(), LONGEST, "the end of all that a killed run has left")
     assert not left_by(folder)

@@ -5,7 +5,7 @@ import re
 
 import matplotlib.pyplot as plt
 import pytest
-from workflow_runs import copy_finished
+from workflow_runs import copy_project
 
 PROGRAMS = 10
 
@@ -33,9 +33,10 @@ def test_the_programs_are_short_and_call_r37_alone(programs):
 
 
 @pytest.mark.slow
-def test_the_programs_run(small_sweep, programs, tmp_path, monkeypatch):
+def test_the_programs_run(root, programs, tmp_path, monkeypatch):
     """All in one test: they share the structures that r37 keeps."""
-    folder = copy_finished(small_sweep, tmp_path / "sweep")
+    folder = tmp_path / "small"
+    copy_project(root, folder)
     monkeypatch.setattr("r37.call_configuration._PACKAGE", folder)
     monkeypatch.setenv("R37_CACHE", str(folder / "cache"))
     for file in programs:
