@@ -33,7 +33,7 @@ def test_the_programs_are_short_and_call_r37_alone(programs):
 
 
 @pytest.mark.slow
-def test_the_programs_run(root, programs, tmp_path, monkeypatch):
+def test_the_programs_run(root, warm_calls, programs, tmp_path, monkeypatch):
     """All in one test: they share the structures that r37 keeps."""
     folder = tmp_path / "small"
     copy_project(root, folder)
