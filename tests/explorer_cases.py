@@ -89,11 +89,9 @@ def beside(page, contents, file, size=(1500, 1400), place="", parts=PARTS, color
         other.set_viewport_size(viewport)
     other.emulate_media(color_scheme=color_scheme)
     write_page(contents, "r37", file, parts)
-    opened = other.url.partition("#")[0] == file.as_uri()
+    # from the page before it would only change the place
+    other.goto("about:blank")
     other.goto(file.as_uri() + place)
-    if opened:
-        # only its place has changed
-        other.reload()
     other.wait_for_selector("html[data-ready]")
     yield other
     if more:
