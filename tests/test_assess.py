@@ -12,7 +12,13 @@ from yaml import safe_load
 from r37core.base.dataset_file import read_dataset
 from r37core.base.yaml_file import load_yaml
 
-SHORTER = {"1080": "1220", "1440": "1230", ", refine_to: 2.5": "", "members: 8": "members: 2", "revolutions: 400": "revolutions: 20"}
+SHORTER = {
+    "1080": "1220",
+    "1440": "1230",
+    ", refine_to: 2.5": "",
+    "members: 8": "members: 2",
+    "revolutions: 400": "revolutions: 20",
+}
 """What the page has, and the test in its place: the range of speeds, the sample, the length of carried motions."""
 
 
