@@ -119,10 +119,10 @@ def with_modes(model, frequency, rows):
     )
 
 
-def bits_of_programs(lined_alone=False):
+def bits_of_programs(coriolis=True):
     """SHA-256 of samples, totals and wear of a run of every sort of program: name of the run -> digits.
 
-    The elastic ring shares the program of the lining, which may do alone.
+    All but the Coriolis force, which may be left out, share one.
     """
     blade, ring = with_static_modes(random_model(8), 1e-9), replace(AT_ONCE, ring=RING.modes())
     coupling = 3.0 * np.random.default_rng(9).standard_normal((24, 24))
@@ -136,7 +136,7 @@ def bits_of_programs(lined_alone=False):
     }
     bits = {}
     for name, (model, scene) in scenes.items():
-        if lined_alone and scene.lining is None:
+        if name == "coriolis" and not coriolis:
             continue
         simulation = Simulation(model, 12_000.0, scene, choice)
         state = simulation.start()

@@ -265,18 +265,18 @@ def own_bits():
 def test_programs_for_any_processor_give_the_same_bits(name, own_bits):
     """However wide its vectors are, and however LLVM orders its instructions: a process compiles for it.
 
-    For the first of each width everything, for the other maker's the longest program.
+    For the first of each width everything, for the other maker's all but the Coriolis force, in one program.
     """
     if name == native.this_processor()[0]:
         pytest.skip("another processor than the one that it is")
     missing = [feature for feature in PROCESSORS[name] if f"+{feature}" not in native.this_processor()[1].split(",")]
     if missing:
         pytest.skip(f"this processor has no {', '.join(missing)}, which {name} has")
-    lined_alone = not name.startswith("x86-64")
-    code = f"import json\nfrom integration_cases import bits_of_programs\nprint(json.dumps(bits_of_programs({lined_alone})))"
+    coriolis = name.startswith("x86-64")
+    code = f"import json\nfrom integration_cases import bits_of_programs\nprint(json.dumps(bits_of_programs({coriolis})))"
     environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent), "NUMBA_CPU_NAME": name}
 
     command = [sys.executable, "-c", code]
     printed = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment).stdout
     found = json.loads(printed)
-    assert found and found == {run: own_bits[run] for run in found} and (lined_alone or len(found) == len(own_bits))
+    assert found and found == {run: own_bits[run] for run in found} and len(own_bits) - len(found) == (not coriolis)
