@@ -130,7 +130,7 @@ class SearchDesigns:
     def _settings(self, blade: BladeSettings, scene: str, changed: Scene, design: str) -> Settings:
         """The settings with a blade and a scene, and results that designs are judged by; `design` is for messages."""
         name, settings, shape = self.entry.blade, self.settings, blade.definition
-        if isinstance(shape, Shape) and blade != settings.blades[name]:
+        if isinstance(shape, Shape) and blade.elastic != settings.blades[name].elastic:
             blade = replace(blade, definition=replace(shape, name=f"{name}, {design}"))
         results = tuple(result for result in settings.results_of(name, scene) if result in _KEPT)
         chosen = replace(settings.scenes[scene], scene=changed, results=results, stress_history_speeds=())

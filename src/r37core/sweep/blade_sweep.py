@@ -64,9 +64,7 @@ def blade_sweep(
     run, sweep, there = Named(blade=blade, scene=scene), Sweep(settings), given or {}
     simulations, tip_line = Simulations(sweep), settings.scenes[scene].tip_line
     models = ("contact_model", *(["stress_operator"] if "stress" in sweep.results(run) else []))
-    lines = {**dict.fromkeys(models, tip_line), CAMPBELL: None, "geometry": None}
-    if not settings.blades[blade].has_profiles:
-        del lines["geometry"]
+    lines = {**dict.fromkeys(models, tip_line), CAMPBELL: None}
     history = sweep.stress_history_speeds(run)
 
     def task(speed: float) -> str:

@@ -18,6 +18,7 @@ from r37core.results.table_file import write_table
 from r37core.sweep.blade_sweep import CAMPBELL, BladeSweep, SharedSpeeds
 from r37core.sweep.driver import Driver
 from r37core.sweep.forks import forked_results
+from r37core.sweep.recipe import STRUCTURES
 
 from .dataset import MemberRun, tolerances_dataset
 from .table import range_table, ranges
@@ -33,7 +34,7 @@ def run(input: Any, output: Any, params: Any) -> None:
     """
     sweeps = {name: from_plain(BladeSweep, sweep) for name, sweep in params.sweeps.items()}
     folder = Path(output.members).parent
-    structures = folder.parents[1] / ".structures"
+    structures = folder.parents[1] / STRUCTURES
     driver = Driver(folder, structures, params.structure, partial(forked_results, params.cores))
     responses = driver.run(sweeps, from_plain(SharedSpeeds, params.speeds), input.campbell, params.about)
 
