@@ -166,10 +166,10 @@ def test_tolerances_of_a_finished_run(root, sweep_copy):
         "  of_blades: { material.yield_stress_pa: { uniform_percent: 10 } }\n"
     )
     given = ("all_blades", "--configfile", "config/config.yaml", "config/tolerances.yaml")
-    text = snakemake(sweep_copy, *given, "--cores", "2")
-    made = set(re.findall(r"rule (?:simulate|response|reduced_model):\n +input: .*\n +output: results/(\S+)", text))
-    assert made and all(file.startswith("tolerances/") and "rom_" not in file for file in made)
-    results = sweep_copy / "results"
+    text, results = snakemake(sweep_copy, *given, "--cores", "2"), sweep_copy / "results"
+    # from the models that are there
+    assert not re.search(r"rule (simulate|response|reduced_model):", text)
+    assert not [file for file in results.glob("tolerances/.structures/*") if file.is_file()]
     found, rms = (read_dataset(results / f"{name}.nc").sel(blade="Ref", scene="direct") for name in ("tolerances", "rms"))
     assert found["member"].values.tolist() == [0, 1]
     edge = rms["rms_normal"].sel(tip_point="leading_edge")
