@@ -116,7 +116,7 @@ def test_a_member_is_run_like_the_nominal_blade(members):
     for name, sweep in sweeps.items():
         is_nominal = drawn[name].values[1] == 100.0
         there = {"contact_model": "contact.npz", "stress_operator": "stress.npz", "campbell_of_blade": "campbell.nc"}
-        assert sweep.given == (there if is_nominal else {}) and set(sweep.recipes) == (set() if is_nominal else set(there))
+        assert sweep.existing == (there if is_nominal else {}) and set(sweep.recipes) == (set() if is_nominal else set(there))
         assert sweep.yield_stress == 1.0e9 != Sweep(settings).yield_stress(REF)
         own, made = json.loads(sweep.task), json.loads(about[name])
         assert own["results"] == ["spectrum", "stress"] and {"wear", "energy"} <= set(task["results"])

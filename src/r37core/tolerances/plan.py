@@ -59,8 +59,8 @@ class Tolerances:
         there = {**files, CAMPBELL: str(input.campbell)}
         sweeps = {}
         for name, member, settings in self._varied(wildcards):
-            given = there if member.blade.elastic == nominal else {}
-            sweeps[name] = to_plain(blade_sweep(settings, **vars(_run(wildcards)), given=given, kept=False))
+            existing = there if member.blade.elastic == nominal else {}
+            sweeps[name] = to_plain(blade_sweep(settings, **vars(_run(wildcards)), existing=existing, kept=False))
         return sweeps
 
     def about(self, wildcards: Any) -> Attributes:
