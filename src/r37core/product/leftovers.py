@@ -39,7 +39,7 @@ def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
     patterns = _planned(settings)
     planned = {results / file.removeprefix("<results>/") for file in paths.filled(patterns)}
     for pattern in patterns:
-        plain = paths.nominal(pattern).removeprefix("<results>/")
+        plain = pattern.removeprefix("<results>/")
         files = results.glob(re.sub(r"\{\w+\}", "*", plain))
         others = RESERVED if plain.startswith("{blade}") else ()
         yield from (file for file in files if file not in planned and file.relative_to(results).parts[0] not in others)

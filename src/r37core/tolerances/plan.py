@@ -176,7 +176,7 @@ EXTENSION = Extension(
             name="tolerances_{blade}__{scene}",
             runs=lambda sweep: paths.run_keys(members_of(sweep.settings).pairs),
             draw="tolerances.figures.draw_tolerances",
-            files={"tolerances": DATASET, "nominal": paths.nominal(paths.RESPONSE)},
+            files={"tolerances": DATASET, "nominal": paths.RESPONSE},
             label="tolerances",
             caption="Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, "
             "and the nominal run (dashed). Then the share of the members above yield, with the interval of the chance. Last, "
