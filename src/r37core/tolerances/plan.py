@@ -8,7 +8,7 @@ from r37core.base.io import Named, as_list
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import VariedNumber
 from r37core.blade.definition import Shape
-from r37core.config import BladeSettings, Settings
+from r37core.config import BladeSettings, Settings, varied_settings
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure, Sampling
 from r37core.plans.extent import Pair, extent_of
@@ -50,7 +50,7 @@ class Tolerances:
         for name, member in self._members.all[blade, scene].items():
             # members with the same blade have one model
             own = _named(member.blade, f"{blade}, member {first.setdefault(member.blade.elastic, name)} of {FOLDER}")
-            yield name, member, settings.varied({blade: own}, {scene: replace(chosen, scene=member.scene)})
+            yield name, member, varied_settings(settings, {blade: own}, {scene: replace(chosen, scene=member.scene)})
 
     def sweeps(self, wildcards: Any, input: Any) -> dict[str, Any]:
         """Sweep of each member, as plain values: from the models of the `input` where its blade is the nominal one."""
