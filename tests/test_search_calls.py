@@ -51,6 +51,7 @@ def searched(small_sweep, tmp_path_factory):
 def test_a_search_is_that_of_the_workflow_and_its_best_design_that_blade(searched, config, caplog):
     """To the last bit, on one core as on two, and without a break."""
     assert planned_outputs(searched, *FILES) == {}
+    assert "search_designs" in planned_outputs(searched, *FILES, "--config", "search={designs: 4}")
     results = r37.open_results(searched / "results")
     with caplog.at_level("INFO", "r37"):
         again = r37.search("Ref", "abradable", SPEEDS, **SEARCH, config=config)

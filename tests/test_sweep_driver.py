@@ -104,7 +104,7 @@ def test_sweeps_share_their_speeds_and_a_broken_run_asks_for_the_same_ones(tmp_p
 def test_more_members_run_alone(root, tmp_path, sweep, run_speeds):
     """Members that start from the nominal models; groups of one file have what they gave."""
     response([]).assign_attrs(of="Ref").to_netcdf(tmp_path / "campbell.nc")
-    given = Named(models=2 * [str(tmp_path / "contact.npz")], campbell=str(tmp_path / "campbell.nc"))
+    files = Named(models=2 * [str(tmp_path / "contact.npz")], campbell=str(tmp_path / "campbell.nc"))
     where, output = Named(blade="Ref", scene="abradable"), Named(members=tmp_path / "tolerances/Ref/abradable/members.nc")
 
     def run_members(members):
@@ -112,10 +112,10 @@ def test_more_members_run_alone(root, tmp_path, sweep, run_speeds):
         changes = {"blades": ["Ref"], "scenes": ["abradable"], "speeds": [900, 1000]}
         changes |= {"tolerances": {"members": members, "of_scenes": friction}}
         plan = Tolerances(settings := read_settings(root, command_line_document(changes)))
-        params = {"sweeps": plan.sweeps(where, given), "speeds": plan.speeds(where), "structure": plan.structure(where)}
+        params = {"sweeps": plan.sweeps(where), "speeds": plan.speeds(where), "structure": plan.structure(where)}
         params |= {"about": plan.about(where), "provenance": Provenance(settings).sweep(where), "cores": 1}
         output.members.parent.mkdir(parents=True, exist_ok=True)
-        steps.run(given, output, Named(**params))
+        steps.run(files, output, Named(**params))
 
     run_members(2)
     assert run_speeds() == 2 * ["900", "1000"]
