@@ -26,27 +26,9 @@ if snakemake.params.step == "r37core.adaptive.steps.refine":
     number = int(snakemake.wildcards.round)
     if number:
         before = json.loads(Path(snakemake.input.before).read_text())["new"]
-        # of all members of a sample, one after the other
-        names = [f"speed_{speed:g}.npz" for speed in before] * len(snakemake.params.yields)
-        assert [Path(file).name for file in snakemake.input.speeds] == names
+        assert [Path(file).name for file in snakemake.input.speeds] == [f"speed_{speed:g}.npz" for speed in before]
     new = [list(snakemake.params.plan["certain"]), [1149, 1150.5], []][number]
     Path(snakemake.output[0]).write_text(json.dumps({"new": new, "measured": []}))
-"""
-
-# designs are proposed by the real steps; what they gave follows from their names, and one cannot be built
-_SEARCH_STUB = """
-if snakemake.params.step in ("r37core.search.steps.propose_round", "r37core.search.steps.built"):
-    # as step.py does: an import by name would be part of the code of every rule
-    from importlib import import_module
-
-    module, function = snakemake.params.step.rsplit(".", 1)
-    getattr(import_module(module), function)(snakemake.input, snakemake.output, snakemake.params)
-elif snakemake.params.step == "r37core.search.steps.shape":
-    refused = "it folds" if snakemake.wildcards.design == "d0001" else None
-    Path(snakemake.output[0]).write_text(json.dumps({"refused": refused}))
-elif snakemake.params.step == "r37core.search.steps.measure":
-    values = {name: [float(snakemake.wildcards.design.strip("dstar") or 0), None] for name in snakemake.params.quantities}
-    Path(snakemake.output[0]).write_text(json.dumps(values))
 """
 
 
@@ -57,7 +39,7 @@ def copy_stubbed(root, to):
     # the imports stay: they decide what code a job depends on
     imports = [line for line in script.read_text().splitlines() if re.match(r"from r37core\S* import \w+(, \w+)*$", line)]
     lazy = "\n".join(["def _imports():", *(f"    {line}" for line in imports), "    return None"])
-    script.write_text(f"{lazy}\n{_STUB}{_REFINE_STUB}{_SEARCH_STUB}")
+    script.write_text(f"{lazy}\n{_STUB}{_REFINE_STUB}")
 
 
 def edit(project, name, old, new):

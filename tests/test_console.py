@@ -25,6 +25,7 @@ from r37core.console import failures, snakemake_run
 from r37core.console.failures import show
 from r37core.console.lock import _LOCKS
 from r37core.console.progress import HANDLER, QUIET_EVENTS, Progress, quieten
+from r37core.sweep import counts
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
 
@@ -217,6 +218,15 @@ def test_diverged_runs_are_counted(clock, tmp_path):
     for number, name in enumerate("abc", 1):
         simulate(progress, clock, number, "Ref", str(tmp_path / f"{name}.npz"))
     assert "; 1 diverged;" in progress.line()
+
+
+def test_simulations_of_a_job_of_many_are_counted(clock, tmp_path, monkeypatch):
+    monkeypatch.setenv(counts.COUNTS, str(tmp_path / "counts.txt"))
+    progress = Progress(10, io.StringIO(), clock)
+    simulate(progress, clock, 1, "Ref")
+    for status in (RunStatus.COMPLETED, RunStatus.DIVERGED, RunStatus.COMPLETED):
+        counts.count_simulation(status)
+    assert "simulations 4 of at most 10 (Ref 1, members and designs 3); 1 diverged" in progress.line()
 
 
 def test_many_blades_are_not_all_named(clock):

@@ -79,7 +79,7 @@ def test_a_blade_of_another_program_has_modes_and_signals_at_its_interactions(se
         assert wanted[pattern] == [{"blade": blade} for blade in modes]
     recorded = Signals(sweep)
     if not config:
-        inputs = recorded.inputs(SimpleNamespace(blade="Fan", scene="direct", member=""))
+        inputs = recorded.inputs(SimpleNamespace(blade="Fan", scene="direct"))
         assert recorded.speeds == [] and inputs["response"] == "<results>/Fan/direct/response.nc"
 
 

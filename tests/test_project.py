@@ -38,7 +38,7 @@ LAYERS = [
     "adaptive",
     "exchange",
 ]
-LAYERS += ["config", "plans", "figures", "explorer", *FOLDERS]
+LAYERS += ["config", "plans", "sweep", "figures", "explorer", *FOLDERS]
 LAYERS += ["product", "console"]
 
 

@@ -21,15 +21,15 @@ from scipy.linalg import eigh
 from workflow_runs import copy_finished, copy_project, own_package
 
 import r37
-from r37 import structure_files
 from r37.command import main
-from r37.structure_files import cache_folder, recipe
+from r37.structure_files import cache_folder, structure_file
 from r37core.base.dataset_file import read_dataset
 from r37core.config import command_line_document
 from r37core.exports.matrices_out import write_reduced_matrices
 from r37core.machine_code.kept import kept_file
 from r37core.product.reading import read_settings
 from r37core.rom.rom_file import read_reduced_model
+from r37core.sweep import recipe
 
 pytestmark = pytest.mark.usefixtures("warm_calls")
 
@@ -77,7 +77,7 @@ def test_what_is_kept_is_not_made_again(config, monkeypatch):
         monkeypatch.setattr(f"r37core.{folder}.steps.{step}", make)
     xr.testing.assert_identical(r37.campbell("Ref", config=config), first)
     assert made == []
-    monkeypatch.setattr(structure_files, "_code", lambda step: ["other code"])
+    monkeypatch.setattr(recipe, "code_of", lambda step: ["other code"])
     with pytest.raises(r37.InputFileError):
         r37.campbell("Ref", config=config)
     assert made == list(steps.values())
@@ -137,7 +137,7 @@ def test_blades_of_other_programs(root, config, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     runpy.run_path("draw.py")
     settings = read_settings(config.parent.parent)
-    model = read_reduced_model(recipe(settings, "Ref", "reduced_model").file())
+    model = read_reduced_model(structure_file(settings, "Ref", "reduced_model"))
     write_reduced_matrices(model, [0.0, 1000.0, 2000.0], tmp_path / "matrices")
     entry = {"matrices": "matrices", "mass_unit": "kg", "stiffness_unit": "N/m", "length_unit": "m", "rotation": "negative"}
     frame = {"rotor_axis": [0, 0, 1], "radial": [1, 0, 0]}

@@ -80,31 +80,6 @@ def test_speeds_of_one_scene_may_refine_themselves_alone(root, tmp_path):
     assert not list(tmp_path.glob("results/*/abradable/round_*.json"))
 
 
-def test_members_are_run_by_the_rules_of_the_sweep(project):
-    """Beside it, at speeds that all of a sample share; more of them run alone, and so does what a member's model is made of."""
-
-    def members(number):
-        return {f"tolerances/{member}/{run}" for member in range(number) for run in runs(COARSE + ADDED, blades=["Ref"])}
-
-    ranges = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }, of_blades: { thickness_percent: { values: [101] } }"
-    overlay(project, "config.yaml", f"tolerances: {{ members: 2, blades: [Ref], {ranges} }}")
-    text = snakemake(project, "tables", "--cores", "2")
-    assert sorted(simulated(text)) == sorted(members(2))
-    # both members have the same blade, made once beside the nominal one
-    assert {str(file.relative_to(project / "results")) for file in project.glob("results/**/rom_*.nc")} == {
-        f"{folder}/rom_pressure_edge.nc" for folder in ("Ref", "CS100", "tolerances/0/Ref")
-    }
-    rounds = {f"results/tolerances/Ref/{scene}/round_{number}.json" for scene in SCENES for number in range(3)}
-    assert set(re.findall(r"checkpoint refine:\n(?:    input: .*\n)?    output: (\S+)", text)) == rounds
-    assert planned_outputs(project, "tables") == {}
-    overlay(project, "config.yaml", "tolerances: { members: 4 }")
-    assert set(simulated(snakemake(project, "tables", "--cores", "2"))) == members(4) - members(2)
-    assert planned_outputs(project, "tables") == {}
-    stacking = project / "config/stacking/rotor37.csv"
-    stacking.write_text(stacking.read_text().replace("CS100,100,-1.16,4.89", "CS100,100,-1.20,4.89"))
-    assert not [file for files in planned_outputs(project).values() for file in files if file.startswith("tolerances/")]
-
-
 def test_leftovers_are_what_no_round_asked_for(project, monkeypatch):
     monkeypatch.chdir(project)
     assert leftovers(project / "results", read_settings(project)) == []
@@ -179,16 +154,26 @@ TOLERANCES["of_blades"] = {"material.youngs_modulus_pa": {"uniform_percent": 1}}
 
 @pytest.fixture(scope="module")
 def with_extensions(real, tmp_path_factory):
+    """A run that was killed in the midst of its members and has gone on."""
     folder = copy_finished(real, tmp_path_factory.mktemp("extensions") / "project")
     extensions = {"run_ups": RUN_UPS, "tolerances": {**TOLERANCES, "scenes": ["abradable"]}}
     overlay(folder, "config.yaml", yaml.safe_dump(extensions, sort_keys=False))
     files = [f"results/{name}" for name in ("tolerances.nc", "tolerances.csv", "run_ups.nc")]
+    members = folder / "results/tolerances/CS100/abradable"
+
+    def parts():
+        return {file: file.stat().st_mtime_ns for file in members.glob("*/speed_*.npz")}
+
+    kill_snakemake(folder, *files, "--cores", "2", when=lambda: len(parts()) > 2)
+    assert not (members / "members.nc").exists()
+    before = parts()
     snakemake(folder, *files, "--cores", "2")
+    assert before.items() < parts().items()
     return folder
 
 
 def test_python_has_the_same_rounds_members_and_run_ups(with_extensions, warm_calls):
-    """To the last bit, on one core as on two."""
+    """To the last bit, on one core as on two, and without a break."""
     results = r37.open_results(with_extensions / "results")
     common = {"config": with_extensions / "config/config.yaml", "cores": 1}
     speeds = {"start": 1000, "stop": 1240, "step": 80, "refine_to": 20}

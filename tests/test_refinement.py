@@ -258,7 +258,7 @@ def test_a_round_of_a_blade_without_stress(tmp_path):
     write_speed({"status": np.array(0), "rms": np.full((2, 3), 1e-4)}, tmp_path / "speed_900.npz", {})
     params = {"plan": to_plain(SpeedPlan((900.0,))), "choice": to_plain(CHOICE)}
     files = Named(before=tmp_path / "round_0.json", speeds=str(tmp_path / "speed_900.npz"))
-    refine_step(files, Named(round=tmp_path / "round_1.json"), Named(**params, yields=[math.inf]))
+    refine_step(files, Named(round=tmp_path / "round_1.json"), Named(**params, yield_stress=math.inf))
     status, normal, _, stress = read_round(tmp_path / "round_1.json").measured[900.0]
     assert (status, normal) == (0, 1e-4)
     assert np.isnan(stress)

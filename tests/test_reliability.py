@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from functools import partial
 from types import SimpleNamespace
 
 import netCDF4
@@ -23,7 +24,6 @@ from snakemake.exceptions import InputFunctionException, WorkflowError, format_e
 from stubbed_runs import copy_stubbed
 from workflow_runs import copy_project, kill_snakemake, planned_outputs, snakemake
 
-from r37 import structure_files
 from r37core.base.dataset_file import SPEED, Variable, about, read_dataset, write_dataset
 from r37core.base.io import InputFileError, OutputFileError, atomic_write, scratch_folder, write_json
 from r37core.base.speeds import plan_speeds
@@ -32,7 +32,6 @@ from r37core.console import failures, lock, snakemake_run
 from r37core.exchange.write_mesh import write_mesh
 from r37core.machine_code import kept
 from r37core.mesh.mesh_files import save_grid, vtk_grid
-from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import speeds_of_round
 from r37core.product.leftovers import leftovers
 from r37core.product.reading import read_settings
@@ -40,6 +39,7 @@ from r37core.product.remarks import replaced_level, source_folder
 from r37core.results.campbell import campbell_dataset
 from r37core.results.netcdf import create_axis, create_variable
 from r37core.rom.rotation import BucklingError
+from r37core.sweep import recipe
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_file import read_speed
 
@@ -48,7 +48,8 @@ from r37core.time_integration.speed_file import read_speed
 def folder(tmp_path, monkeypatch):
     (tmp_path / ".snakemake").mkdir()
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("R37_FAILURES", "")  # so that it is as before afterwards
+    for variable in ("R37_FAILURES", "R37_SIMULATIONS"):
+        monkeypatch.setenv(variable, "")  # so that it is as before afterwards
     failures.begin("test")
     return tmp_path
 
@@ -165,7 +166,6 @@ def test_a_file_that_a_full_disk_has_cut_is_none(tmp_path, monkeypatch):
 def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, outcome):
     """From every writer, and where r37 keeps structures; other errors are as they were."""
     monkeypatch.setattr(shutil, "disk_usage", lambda place: shutil._ntuple_diskusage(10**10, 10**10 - free, free))
-    monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
 
     def fails(*_):
         raise error
@@ -174,8 +174,9 @@ def test_a_full_disk_is_one_line_in_python(tmp_path, monkeypatch, error, free, o
         with atomic_write(tmp_path / "a.nc"):
             fails()
 
-    monkeypatch.setattr(structure_files, "kept_file", fails)
-    for write in (written, structure_files.Recipe("Ref", Stage("rom.steps.reduced_model", {}), "a.nc", {}, {}).file):
+    monkeypatch.setattr(recipe, "kept_file", fails)
+    structure = recipe.Recipe("Ref", "rom.steps.reduced_model", "reduced model", "a.nc")
+    for write in (written, partial(structure.file, tmp_path, {})):
         with pytest.raises(outcome) as raised:
             write()
         told = r"a\S*\.nc: cannot be written: the disk is full; free some space \(" if outcome is OutputFileError else ""

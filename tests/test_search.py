@@ -3,8 +3,6 @@
 import json
 import math
 from dataclasses import replace
-from re import fullmatch
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,22 +10,16 @@ import xarray as xr
 import yaml
 from workflow_runs import overlay
 
-from r37core.base.io import Named
-from r37core.base.plain import to_plain
 from r37core.config import ConfigError
-from r37core.plans.samples import Samples, folder_and_name
-from r37core.plans.sweep_plan import Sweep
-from r37core.product.extensions import beside
 from r37core.product.reading import read_settings
-from r37core.rom.region_choice import RegionChoice
 from r37core.search import rounds
 from r37core.search.dataset import BLADES_HEADER, search_dataset, search_table, write_entries
-from r37core.search.plan import Search, choice_of, designs_of
+from r37core.search.designs import choice_of, designs_of
+from r37core.search.plan import Search
 from r37core.search.problem import Constraint, Design, SearchChoice, SearchVariable
 from r37core.search.proposal import first_designs
 from r37core.search.quantity import DesignStructure, Quantity, contact_value, structure_value
-from r37core.search.rounds import SearchRound, first_round, read_round, round_after, tried_after, write_round
-from r37core.search.steps import shape
+from r37core.search.rounds import SearchRound, first_round, round_after, tried_after
 
 BLADES = """
 Free:
@@ -107,9 +99,8 @@ def test_what_cannot_be_searched_is_refused_in_one_line(folder, changes, message
 def test_all_designs_may_be_of_the_first_round(folder):
     overlay(folder, "config.yaml", "search: { first: 5 }")
     settings = read_settings(folder)
-    search = Search(Sweep(settings), str, str)
-    assert [search.number_of_designs(SimpleNamespace(round=number)) for number in (0, 1)] == [5, 0]
-    assert search.last_round(None).endswith("round_1.json")
+    search = Search(settings)
+    assert search.budget(None) == [5] and search.threads(None) == 5
     assert choice_of(settings).objectives == {"lined": Quantity("exceedance_integral_rad_s", ("abradable",))}
 
 
@@ -205,20 +196,6 @@ def test_margins_are_of_the_start_in_percent():
     assert wanted.margins({"mass": (2.1, 0.0)}, {"mass": (None, None)}) == []
 
 
-def test_a_round_is_read_as_it_was_written(tmp_path):
-    for finished in searched(choice()):
-        write_round(finished, tmp_path / "round.json")
-        assert read_round(tmp_path / "round.json") == finished
-    assert isinstance(finished, SearchRound) and finished.tried["d0002"].quantities["lined"] == (None, None)
-
-
-@pytest.mark.parametrize("content", ["", "{", "[]", '{"new": 3}', '{"new": {"d0000": "x"}}'])
-def test_a_damaged_round_names_its_file(tmp_path, content):
-    (tmp_path / "round_0.json").write_text(content)
-    with pytest.raises(RuntimeError, match=r"round_0\.json"):
-        read_round(tmp_path / "round_0.json")
-
-
 def structure():
     campbell = xr.Dataset(
         {
@@ -285,29 +262,6 @@ def test_the_start_has_values_of_what_its_entry_leaves_out(folder):
     assert designs_of(read_settings(folder)).start_values == [0.0, 0.0, 0.0, 100.0, None]
 
 
-def test_members_of_a_design_have_models_of_their_own_where_the_blade_changes(folder):
-    of_scenes = "of_scenes: { friction.coefficient: { uniform_percent: 5 } }"
-    overlay(folder, "config.yaml", f"search: {{ {TOLERANCES} {of_scenes} }} }}")
-    same = designs_of(read_settings(folder)).samples("d0003", (0.5, 1.0))["Free", "abradable"]
-    assert list(same.members) == ["", "0", "1", "2", "3"] == same.deciding
-    assert {member.model for member in same.members.values()} == {same.campbell} == {"search/d0003/"}
-    assert len({member.scene.friction.coefficient for member in same.members.values()}) == 5
-    overlay(folder, "config.yaml", "search: { tolerances: { of_blades: { thickness_percent: { uniform_percent: 2 } } } }")
-    other = designs_of(read_settings(folder)).samples("d0003", (0.5, 1.0))["Free", "abradable"]
-    assert [member.model for member in other.members.values()] == ["search/d0003/", *(f"search/d0003/{n}/" for n in range(4))]
-
-
-def test_folders_of_members_are_told_apart(folder):
-    settings = read_settings(folder)
-    samples = Samples(settings, beside(settings))
-    parts = ("", "search/d0001/", "search/d0001/3/", "search/start/", "tolerances/", "tolerances/3/", "tolerances/0f1/")
-    assert [part for part in parts if not fullmatch(samples.pattern, part)] == []
-    others = ("search/", "search/3/", "Free/", "search/d0001", "tolerances/0/1/", "other/0/")
-    assert [part for part in others if fullmatch(samples.pattern, part)] == []
-    names = [folder_and_name(SimpleNamespace(member=part)) for part in ("search/d0001/3/", "search/d0001/", "tolerances/3/")]
-    assert names == [("search/d0001", "3"), ("search/d0001", ""), ("tolerances", "3")]
-
-
 @pytest.mark.parametrize("start", ["Free", "Ref", "S100"])
 def test_a_best_design_is_the_blade_that_its_entry_gives(folder, start):
     """Whether the start has rows, no table, or rows of its name in a file."""
@@ -320,7 +274,7 @@ def test_a_best_design_is_the_blade_that_its_entry_gives(folder, start):
         {"value": (("design", "variable"), [values, values]), "objective_value": (("design", "objective"), [[3.0], [2.0]])},
         coords={"design": ["start", "d0004"], "variable": list(wanted.entry.variables), "objective": ["lined"]},
     ).assign_coords(objective_unit=("objective", ["rad s-1"]))
-    entries = Search(Sweep(settings), str, str).entries(None)
+    entries = Search(settings).entries(None)
     varied = {start: list(wanted.entry.variables)}
     write_entries(search, ["d0004"], entries, varied, BLADES_HEADER, folder / "config/best.yaml")
     del content["search"]
@@ -374,15 +328,3 @@ def test_a_search_of_which_nothing_is_feasible_has_a_table():
     assert search["order"].values.tolist() == [0, 0, 0] and "slice_mean" not in search
     assert search_table(search)["feasible"].tolist() == [1, 0, 0]
     json.dumps(search_table(search).to_dict("list"))
-
-
-def test_a_shape_without_anything_where_stress_is_looked_for_is_refused(folder, tmp_path):
-    settings = read_settings(folder)
-    definition, level = settings.blades["Free"].definition, {"nodes": 1500, "layers": 1, "tip_elements": 14}
-    params = {"edges": "round", "mesh": {**level, "minimum_scaled_jacobian": 0.1}, "shape": {"refused": None}}
-    params["shape"]["definition"] = to_plain(definition)
-    for maximum, reason in ((0.2, None), (0.1, "the stress region")):
-        region = to_plain(RegionChoice(maximum_x=maximum))
-        shape(Named(), Named(shape=tmp_path / "shape.json"), Named(**params, stress_region=region))
-        refused = json.loads((tmp_path / "shape.json").read_text())["refused"]
-        assert refused is reason or refused.startswith(reason)

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
-from workflow_runs import copy_finished, overlay, snakemake
+from workflow_runs import copy_finished, kill_snakemake, overlay, planned_outputs, snakemake
 
 import r37
 from r37core.results.ranking import robustness
@@ -23,6 +23,7 @@ SEARCH = {
     "first": 2,
     "batch": 1,
 }
+FILES = ("results/search.nc", "results/search/best")
 
 
 pytestmark = pytest.mark.usefixtures("warm_calls")
@@ -30,17 +31,27 @@ pytestmark = pytest.mark.usefixtures("warm_calls")
 
 @pytest.fixture(scope="module")
 def searched(small_sweep, tmp_path_factory):
-    """The small sweep with a search of the workflow."""
+    """The small sweep with a search of the workflow that was killed between its designs and has gone on."""
     folder = copy_finished(small_sweep, tmp_path_factory.mktemp("searched") / "sweep")
     changes = {"blades": ["Ref"], "scenes": ["abradable"], "speeds": SPEEDS, "search": {"blade": "Ref", **SEARCH}}
     overlay(folder, "config.yaml", yaml.safe_dump(changes, sort_keys=False))
-    snakemake(folder, "results/search.nc", "results/search/best", "--cores", "2")
+
+    def designs():
+        return {file: file.stat().st_mtime_ns for file in folder.glob("results/search/*/quantities-*.json")}
+
+    kill_snakemake(folder, *FILES, "--cores", "2", when=designs)
+    before = designs()
+    assert not (folder / FILES[0]).exists()
+    snakemake(folder, *FILES, "--cores", "2")
+    assert before.items() < designs().items()
     return folder
 
 
 @pytest.mark.slow
 def test_a_search_is_that_of_the_workflow_and_its_best_design_that_blade(searched, config, caplog):
-    """To the last bit, on one core as on two."""
+    """To the last bit, on one core as on two, and without a break."""
+    assert planned_outputs(searched, *FILES) == {}
+    assert "search_designs" in planned_outputs(searched, *FILES, "--config", "search={designs: 4}")
     results = r37.open_results(searched / "results")
     with caplog.at_level("INFO", "r37"):
         again = r37.search("Ref", "abradable", SPEEDS, **SEARCH, config=config)

@@ -2,7 +2,6 @@
 
 import json
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -14,14 +13,20 @@ import xarray as xr
 
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.base.dataset_file import read_dataset, write_groups
+from r37core.base.io import Named
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import SpeedPlan, plan_speeds
+from r37core.config import command_line_document
+from r37core.plans.provenance import Provenance
+from r37core.product.reading import read_settings
 from r37core.stress.statistic import Strengths
 from r37core.sweep import counts, driver
 from r37core.sweep.blade_sweep import BladeSweep, SharedSpeeds
 from r37core.sweep.driver import Driver
 from r37core.sweep.forks import forked_results
 from r37core.time_integration.speed_file import write_speed
+from r37core.tolerances import steps
+from r37core.tolerances.plan import Tolerances
 
 CHOICE = RefinementChoice(windows=(), prominence=0.1, largest_share=0.6)
 TASK = json.dumps({"height": 1.0})
@@ -42,12 +47,16 @@ def run_speeds(monkeypatch, tmp_path):
     def peak(speed, output, task, about, *models, motion=None):
         with open(run, "a") as stream:
             stream.write(f"{speed}\n")
-        rms = json.loads(task)["height"] / (1.0 + (float(speed) / 10.0 - 104.0) ** 2)
+        rms = json.loads(task).get("height", 1.0) / (1.0 + (float(speed) / 10.0 - 104.0) ** 2)
         write_speed({"status": np.array(0), "rms": np.full((2, 3), rms)}, output, json.loads(about))
 
     monkeypatch.setattr(driver, "run_job", peak)
-    monkeypatch.setattr(driver, "write_response", lambda files, speeds, file, **_: file.write_text(json.dumps(list(speeds))))
+    monkeypatch.setattr(driver, "write_response", lambda files, speeds, file, **_: response(speeds).to_netcdf(file))
     return lambda: run.read_text().split() if run.exists() else []
+
+
+def response(speeds):
+    return xr.Dataset(coords={"speed": list(speeds)})
 
 
 def run(folder, sweeps, entry, run_all=driver.one_by_one, choice=CHOICE):
@@ -81,15 +90,39 @@ def test_what_is_there_is_not_run_again_and_what_is_damaged_or_of_another_task_i
 def test_sweeps_share_their_speeds_and_a_broken_run_asks_for_the_same_ones(tmp_path, sweep, run_speeds):
     entry = [{"start": 1000, "stop": 1080, "step": 40, "refine_to": 5}]
     low = BladeSweep(**{**vars(sweep), "task": json.dumps({"height": 1e-3})})
-    first, second = run(tmp_path, {"a": sweep, "b": low}, entry).values()
-    speeds = json.loads(first.read_text())
-    assert speeds == json.loads(second.read_text()) == sorted(set(speeds)) and len(speeds) > 3
+    responses = run(tmp_path, {"a": sweep, "b": low}, entry)
+    speeds, other = (read_dataset(response)["speed"].values.tolist() for response in responses.values())
+    assert speeds == other == sorted(set(speeds)) and len(speeds) > 3
     done = run_speeds()
     assert len(done) == 2 * len(speeds)
     # a round lost one of its runs: this alone is done again
     next((tmp_path / "runs/b").glob("speed_1040-*.npz")).unlink()
     run(tmp_path, {"a": sweep, "b": low}, entry)
     assert run_speeds()[len(done) :] == ["1040"]
+
+
+def test_more_members_run_alone(root, tmp_path, sweep, run_speeds):
+    """Members that start from the nominal models; groups of one file have what they gave."""
+    response([]).assign_attrs(of="Ref").to_netcdf(tmp_path / "campbell.nc")
+    files = Named(models=2 * [str(tmp_path / "contact.npz")], campbell=str(tmp_path / "campbell.nc"))
+    where, output = Named(blade="Ref", scene="abradable"), Named(members=tmp_path / "tolerances/Ref/abradable/members.nc")
+
+    def run_members(members):
+        friction = {"friction.coefficient": {"uniform_percent": 5}}
+        changes = {"blades": ["Ref"], "scenes": ["abradable"], "speeds": [900, 1000]}
+        changes |= {"tolerances": {"members": members, "of_scenes": friction}}
+        plan = Tolerances(settings := read_settings(root, command_line_document(changes)))
+        params = {"sweeps": plan.sweeps(where), "speeds": plan.speeds(where), "structure": plan.structure(where)}
+        params |= {"about": plan.about(where), "provenance": Provenance(settings).sweep(where), "cores": 1}
+        output.members.parent.mkdir(parents=True, exist_ok=True)
+        steps.run(files, output, Named(**params))
+
+    run_members(2)
+    assert run_speeds() == 2 * ["900", "1000"]
+    run_members(4)
+    assert run_speeds()[4:] == 2 * ["900", "1000"]
+    assert read_dataset(output.members, group="3/response")["speed"].values.tolist() == [900.0, 1000.0]
+    assert read_dataset(output.members, group="3/campbell").attrs["of"] == "Ref"
 
 
 def test_histories_have_a_task_of_their_own(sweep):
@@ -111,8 +144,7 @@ def test_forks_give_results_in_order_and_count_simulations(tmp_path, sweep, run_
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="Linux")
-@pytest.mark.parametrize("signal_number", [signal.SIGKILL, signal.SIGTERM])
-def test_forks_end_with_the_process_that_forked_them(tmp_path, signal_number):
+def test_forks_end_with_the_process_that_forked_them(tmp_path):
     program = f"""
 import os, time
 from r37core.sweep.forks import forked_results
@@ -127,7 +159,7 @@ forked_results(2, [call, call])
     end = time.monotonic() + 60
     while len(found := list(tmp_path.iterdir())) < 2 and time.monotonic() < end:
         time.sleep(0.05)
-    process.send_signal(signal_number)
+    process.kill()
     process.wait()
     while any(os.path.exists(f"/proc/{file.name}") for file in found) and time.monotonic() < end:
         time.sleep(0.05)

@@ -21,8 +21,9 @@ from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.plan import RunUps
+from r37core.sweep.blade_sweep import BladeSweep
 from r37core.tolerances.members import members_of
-from r37core.tolerances.plan import RESPONSE_OF_MEMBER, Tolerances
+from r37core.tolerances.plan import Tolerances
 from r37core.trials import estimate
 
 PLACES = {"blades": ["Ref", "L50"], "scenes": ["abradable", "direct"]}
@@ -61,8 +62,7 @@ def refining(root, tmp_path):
     """A plan with adaptive speeds, with two finished rounds of the reference blade and one of the other."""
     rounds = {("Ref", 0): [900, 950, 1000], ("Ref", 1): [925], ("Ref", 2): [], ("L50", 0): [900, 950, 1000]}
 
-    def file_of_round(member, blade, scene, round):
-        assert member == ""
+    def file_of_round(blade, scene, round):
         file = tmp_path / f"{blade}_{round}.json"
         file.write_text(json.dumps({"new": rounds[blade, round], "measured": []}))
         return file
@@ -86,50 +86,52 @@ def test_speeds_of_all_rounds_are_reduced_and_a_round_reads_what_the_one_before_
 
 
 @pytest.fixture
-def with_members(root, tmp_path):
-    """The same with members beside it: of the sample one has the nominal blade and one another, all yield early."""
-    tolerances = {"members": 2, "blades": ["Ref"], "largest_share": 0.4}
-    tolerances["of_scenes"] = {"lining.thickness_m": {"uniform_percent": 5.0}}
-    thickness = {"thickness_percent": {"values": [100.0, 102.0]}}
-    tolerances["of_blades"] = {"material.yield_stress_pa": {"values": [1.0e9]}} | thickness
-    settings = read_settings(root, command_line_document(REFINED | {"tolerances": tolerances}))
-    (tmp_path / "round.json").write_text('{"new": [925], "measured": []}')
+def members(root):
+    """Plan of two members: one has the shape of the reference blade and one another, both yield early; and the settings."""
 
-    def file_of_round(member, blade, scene, round):
-        assert (member, blade, scene, round) == ("tolerances/", "Ref", "abradable", 1)
-        return tmp_path / "round.json"
+    def plan(thicknesses=(100.0, 102.0)):
+        tolerances = {"members": 2, "blades": ["Ref"], "largest_share": 0.4}
+        tolerances["of_scenes"] = {"lining.thickness_m": {"uniform_percent": 5.0}}
+        thickness = {"thickness_percent": {"values": list(thicknesses)}}
+        tolerances["of_blades"] = {"material.yield_stress_pa": {"values": [1.0e9]}} | thickness
+        settings = read_settings(root, command_line_document(REFINED | {"tolerances": tolerances}))
+        return Tolerances(settings), settings
 
-    return Tolerances(settings), file_of_round
+    return plan
 
 
-def test_a_member_is_run_like_the_nominal_blade(with_members):
-    """By the same plan: from the nominal model where its blade is the nominal one, with what its ranges are read off."""
-    tolerances, _ = with_members
-    settings, samples = tolerances.settings, {"tolerances": tolerances.samples}
-    sweep, structure, made = Sweep(settings, None, samples), Structure(settings, samples), Provenance(settings, samples)
-    drawn = members_of(settings).all["Ref", "abradable"]
-    shapes = {name: member.values[1] for name, member in drawn.items()}
-    (same, *_), (other, *_) = ([name for name in drawn if shapes[name] == percent] for percent in (100.0, 102.0))
-    task = json.loads(Simulations(sweep).task(of(**vars(REF), speed="900")))
-    for name, folder in {same: "", other: f"tolerances/{other}/"}.items():
-        member = of(blade="Ref", scene="abradable", member=f"tolerances/{name}/", speed="900", tip_line="pressure_edge")
-        assert sweep.models(member) == [f"<results>/{folder}Ref/{kind}_pressure_edge.npz" for kind in ("contact", "stress")]
-        assert structure.mesh(member) == f"<results>/{folder}Ref/mesh.vtu"
-        assert sweep.yield_stress(member) == 1.0e9 != sweep.yield_stress(REF)
-        assert structure.elastic(member) == structure.elastic(REF)
-        own = json.loads(Simulations(sweep).task(member))
+def sweeps_of(plan):
+    return {name: from_plain(BladeSweep, sweep) for name, sweep in plan.sweeps(REF).items()}
+
+
+def test_a_member_is_run_like_the_nominal_blade(members):
+    """By the same plan: from the nominal models where its blade is the nominal one, with what its ranges are read off."""
+    plan, settings = members()
+    drawn, sweeps, about = members_of(settings).all["Ref", "abradable"], sweeps_of(plan), plan.about(REF)
+    assert list(sweeps) == ["0", "1"] and {member.values[1] for member in drawn.values()} == {100.0, 102.0}
+    task = json.loads(Simulations(Sweep(settings)).task(of(**vars(REF), speed="900")))
+    for name, sweep in sweeps.items():
+        is_nominal = drawn[name].values[1] == 100.0
+        stages = {"contact_model", "stress_operator", "campbell_of_blade"}
+        assert (set(sweep.existing), set(sweep.recipes)) == ((stages, set()) if is_nominal else (set(), stages))
+        assert sweep.yield_stress == 1.0e9 != Sweep(settings).yield_stress(REF)
+        own, made = json.loads(sweep.task), json.loads(about[name])
         assert own["results"] == ["spectrum", "stress"] and {"wear", "energy"} <= set(task["results"])
         assert own["scene"]["lining"]["thickness"] == drawn[name].values[2] != task["scene"]["lining"]["thickness"]
-        assert own["kept"] == task["kept"]
-        about, nominal = made.sweep(member), made.sweep(REF)
-        assert about["member"] == name and "member" not in nominal
-        assert json.loads(about["scene_parameters"]) == own["scene"]
-        unlike = {key for key in nominal if about[key] != nominal[key]}
-        assert unlike == {"scene_parameters"}
-        assert sweep.nominal_stamp(member) == ["<results>/Ref/abradable/time_integration.stamp"]
-        assert sweep.stress_history_speeds(member) == ()
-    assert structure.definition(member)["name"] == f"Ref, member {other} of tolerances"
-    assert sweep.nominal_stamp(of(**vars(REF), member="")) == []
+        assert own["kept"] == task["kept"] and sweep.history_speeds == ()
+        assert made["member"] == name and json.loads(made["scene_parameters"]) == own["scene"]
+    # messages name the member
+    assert f"'name': 'Ref, member {next(name for name in drawn if sweeps[name].recipes)} of tolerances'" in str(sweeps)
+    share = plan.speeds(REF)["choice"]["largest_share"]
+    assert share == 0.4 != Rounds(Sweep(settings)).refinement_choice(REF)["largest_share"]
+    assert len(plan.runs) == 2 * 2 and plan.number(REF) == 2
+
+
+def test_members_with_equal_blades_share_their_model(members):
+    """Strengths are no part of it, and the nominal blade's is made in any case."""
+    first, second = sweeps_of(members((102.0,))[0]).values()
+    assert first.recipes == second.recipes and first.recipes["contact_model"].inputs["rom"].params["kept"] is False
+    assert first.task != second.task
 
 
 def with_scene(settings, name, entry):
@@ -138,29 +140,14 @@ def with_scene(settings, name, entry):
     return replace(settings, scene_designs=replace(designs, entries=designs.entries | {name: entry}))
 
 
-def test_members_keep_no_history_of_the_stress(with_members):
-    settings = with_members[0].settings
+def test_members_keep_no_history_of_the_stress(members):
+    settings = members()[1]
     history = settings.scene_designs.entries["abradable"].model_copy(update={"stress_history_speeds_rad_s": [900.0]})
     settings = with_scene(settings, "abradable", history)
-    sweep = Sweep(settings, None, {"tolerances": Tolerances(settings).samples})
-    places = [of(**vars(REF), member=member, speed="900") for member in ("", "tolerances/0/")]
-    kept = [json.loads(Simulations(sweep).task(place))["choice"]["snapshot_revolutions"] for place in places]
+    nominal = Simulations(Sweep(settings)).task(of(**vars(REF), speed="900"))
+    tasks = nominal, sweeps_of(Tolerances(settings))["0"].task_at(900.0)
+    kept = [json.loads(task)["choice"]["snapshot_revolutions"] for task in tasks]
     assert kept == [settings.scenes["abradable"].revolutions, settings.scenes["abradable"].revolutions // 2]
-
-
-def test_a_round_of_members_reads_those_of_the_sample(with_members):
-    """One after the other."""
-    tolerances, file_of_round = with_members
-    rounds = Rounds(Sweep(tolerances.settings, file_of_round, {"tolerances": tolerances.samples}))
-    sample = of(blade="Ref", scene="abradable", member="tolerances/", round="2")
-    assert rounds.round_inputs(sample) == {
-        "before": "<results>/tolerances/Ref/abradable/round_1.json",
-        "speeds": [f"<results>/tolerances/{name}/Ref/abradable/speed_925.npz" for name in ("0", "1")],
-    }
-    assert rounds.yields_of_round(sample) == [1.0e9, 1.0e9]
-    assert rounds.refinement_choice(sample)["largest_share"] == 0.4 != rounds.refinement_choice(REF)["largest_share"]
-    assert len(tolerances.runs) == 2 * 2
-    assert filled({RESPONSE_OF_MEMBER: tolerances.runs})[0] == "<results>/tolerances/0/Ref/abradable/response.nc"
 
 
 def test_what_a_round_is_told_is_what_it_takes(refining):

@@ -151,8 +151,8 @@ def checks(input: Any, output: Any, params: Any) -> None:
 
 def _members(folder: Path, blade: str, scene: str) -> dict[str, float]:
     """Member -> its integral (rad/s)."""
-    files = sorted(folder.glob(f"tolerances/*/{blade}/{scene}/response.nc"))
-    return {file.parents[2].name: robustness(read_judged(file), chance_scatter=False)[f"{INTEGRAL}_rad_s"] for file in files}
+    files = sorted(folder.glob(f"tolerances/{blade}/{scene}/*/response.nc"))
+    return {file.parent.name: robustness(read_judged(file), chance_scatter=False)[f"{INTEGRAL}_rad_s"] for file in files}
 
 
 def _range(values: dict[str, float]) -> str:

@@ -31,9 +31,9 @@ SPEEDS = (DIRECT_PEAK, INTERACTIONS[0].peak, QUIET)
 """Speeds (rad/s) at which the paper shows the reference blade's stress of every revolution in both scenes."""
 
 
-def swept(files: Iterable[str]) -> dict[tuple[str, bool], xr.Dataset]:
+def swept(files: Iterable[str], group: str | None = None) -> dict[tuple[str, bool], xr.Dataset]:
     """Responses by blade and whether there is a lining, with all their speeds."""
-    responses = (box_part(read_dataset(file)) for file in files)
+    responses = (box_part(read_dataset(file, group=group)) for file in files)
     return {(response.attrs["blade"], bool(response["lined"])): response for response in responses}
 
 
@@ -101,4 +101,4 @@ def runs_of(name: str) -> dict[str, xr.Dataset]:
 
 
 def _runs(chosen: Source) -> dict[str, xr.Dataset]:
-    return in_windows(swept(chosen.responses), chosen.windows, chosen.step)
+    return in_windows(swept(chosen.responses, chosen.group), chosen.windows, chosen.step)

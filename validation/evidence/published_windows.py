@@ -101,10 +101,10 @@ def speeds(of: Callable[[PublishedInteraction], list[float]], direct: list[str],
     }
 
 
-def responses(folder: str, lined: str = LINED, direct: str | None = DIRECT) -> list[str]:
+def responses(folder: str, lined: str = LINED, direct: str | None = DIRECT, file: str = "response.nc") -> list[str]:
     """Files of all blades with lining and, with `direct`, of the reference blade without, in the folder of a run."""
-    files = [f"{folder}/{blade}/{lined}/response.nc" for blade in BLADES]
-    return files + ([f"{folder}/{REFERENCE}/{direct}/response.nc"] if direct else [])
+    files = [f"{folder}/{blade}/{lined}/{file}" for blade in BLADES]
+    return files + ([f"{folder}/{REFERENCE}/{direct}/{file}"] if direct else [])
 
 
 @dataclass(frozen=True)
@@ -112,6 +112,7 @@ class Source:
     """Runs that checks are made of: files of responses and of the models behind them, the windows, the step about 1344 rad/s.
 
     `level`: of fidelity.yaml. `peaks`: whether the stress of every revolution is wanted at each blade's own peak, too.
+    `group`: of the responses in their files.
     """
 
     responses: list[str]
@@ -120,6 +121,7 @@ class Source:
     step: float
     level: str = "standard"
     peaks: bool = False
+    group: str | None = None
 
     @property
     def files(self) -> list[str]:
@@ -136,7 +138,8 @@ def source(name: str) -> Source:
         return Source(responses(folder), [_model(folder, blade) for blade in BLADES], window, step, kind, True)
     if kind == "member":
         folder = "results/runs/ranges"
-        return Source(responses(f"{folder}/tolerances/{of}"), [_model(folder, REFERENCE)], wide, 4.0)
+        members = responses(f"{folder}/tolerances", file="members.nc")
+        return Source(members, [_model(folder, REFERENCE)], wide, 4.0, group=f"{of}/response")
     if of == "inside":
         folder = "results/runs/inside"
         return Source(responses(folder), [_model(folder, REFERENCE)], narrow, 4.0)

@@ -9,7 +9,7 @@ use rule step as design_table with:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue")},
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
-        geometry=expand(paths.nominal(paths.GEOMETRY), blade=families.densities),
+        geometry=expand(paths.GEOMETRY, blade=families.densities),
     output:
         table=shown(designs_plan.TABLE, PACKAGE / "designs/report.rst", "Families", "table of designs"),
     log:

@@ -6,7 +6,7 @@ exported = exports_plan.Exports(sweep)
 
 use rule step as exported_mesh with:
     input:
-        mesh=paths.nominal(paths.MESH),
+        mesh=paths.MESH,
     output:
         mesh=exports_plan.EXPORTED_MESH,
     log:
@@ -22,7 +22,7 @@ use rule step as exported_mesh with:
 
 use rule step as exported_surface with:
     input:
-        geometry=paths.nominal(paths.GEOMETRY),
+        geometry=paths.GEOMETRY,
     output:
         surface=exports_plan.EXPORTED_SURFACE,
     log:
@@ -33,7 +33,7 @@ use rule step as exported_surface with:
 
 use rule step as exported_modes with:
     input:
-        mesh=paths.nominal(paths.MESH),
+        mesh=paths.MESH,
         model=structure.whole_blade_model,
     output:
         folder=directory(exports_plan.EXPORTED_MODES),
@@ -47,7 +47,7 @@ use rule step as exported_modes with:
 
 use rule step as exported_stress with:
     input:
-        mesh=paths.nominal(paths.MESH),
+        mesh=paths.MESH,
         model=structure.whole_blade_model,
         speeds=exported.speed_files,
     output:

@@ -35,7 +35,7 @@ shaped = [name for name in sweep.drawn["blade"] if name in imported.meshed_blade
 # rendered off screen into its file
 use rule step as blade_shapes_figure with:
     input:
-        meshes=expand(paths.nominal(paths.MESH), blade=shaped),
+        meshes=expand(paths.MESH, blade=shaped),
     output:
         **pictures("blades", TOGETHER, EVERY_SCENE, "shapes"),
     log:
@@ -49,7 +49,7 @@ use rule step as blade_shapes_figure with:
 rule campbell:
     input:
         rules.campbell_of_all.output,
-        expand([paths.nominal(rules.mesh.output.msh), *rules.abaqus_deck.output], blade=imported.meshed_blades),
+        expand([rules.mesh.output.msh, *rules.abaqus_deck.output], blade=imported.meshed_blades),
         expand(rules.campbell_figure.output, blade=sweep.drawn["blade"]),
         rules.campbell_overview.output,
         rules.blade_shapes_figure.output if shaped else [],

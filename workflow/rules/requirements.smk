@@ -8,7 +8,7 @@ stages |= {"looks": judged.looks(made)}
 use rule step as looks with:
     input:
         unpack(sweep.run_inputs),
-        response=paths.nominal(paths.RESPONSE),
+        response=paths.RESPONSE,
     output:
         looks=LOOKS,
     log:

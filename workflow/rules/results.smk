@@ -17,7 +17,7 @@ use rule step as configuration with:
 # all that lies in the folders of the blades, which jobs of a cluster make (docs/cluster.md)
 rule responses:
     input:
-        expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),
+        expand(paths.CAMPBELL, blade=settings.blades),
         paths.filled({paths.RESPONSE: paths.run_keys(sweep.runs_with("rms"))}),
         rounds.first_rounds,
         simulated(sweep),

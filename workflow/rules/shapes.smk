@@ -4,7 +4,7 @@ from r37core.shapes.plan import MODE_SHAPES, SECTION as SHAPES, WORST_SHAPES
 
 use rule step as mode_shapes with:
     input:
-        mesh=paths.nominal(paths.MESH),
+        mesh=paths.MESH,
         model=structure.whole_blade_model,
     output:
         folder=directory(MODE_SHAPES),
@@ -18,10 +18,10 @@ use rule step as mode_shapes with:
 
 use rule step as worst_shapes with:
     input:
-        mesh=paths.nominal(paths.MESH),
+        mesh=paths.MESH,
         model=structure.whole_blade_model,
-        campbell=paths.nominal(paths.CAMPBELL),
-        response=paths.nominal(paths.RESPONSE),
+        campbell=paths.CAMPBELL,
+        response=paths.RESPONSE,
         speeds=sweep.speed_files,
     output:
         folder=directory(WORST_SHAPES),

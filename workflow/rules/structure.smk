@@ -40,8 +40,8 @@ use rule step as imported_mesh with:
     input:
         imported.files,
     output:
-        msh=paths.nominal(rules.mesh.output.msh),
-        vtu=paths.nominal(paths.MESH),
+        msh=rules.mesh.output.msh,
+        vtu=paths.MESH,
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
@@ -54,7 +54,7 @@ use rule step as imported_mesh with:
 
 use rule step as abaqus_deck with:
     input:
-        mesh=paths.nominal(paths.MESH),
+        mesh=paths.MESH,
     output:
         deck="<results>/{blade}/mesh.inp",
     log:
@@ -97,7 +97,7 @@ use rule step as imported_matrices with:
     input:
         imported.files,
     output:
-        rom=paths.nominal(paths.REDUCED_MODEL),
+        rom=paths.REDUCED_MODEL,
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
@@ -122,7 +122,7 @@ use rule step as campbell_of_blade with:
 
 use rule step as campbell_of_all with:
     input:
-        campbells=expand(paths.nominal(paths.CAMPBELL), blade=settings.blades),
+        campbells=expand(paths.CAMPBELL, blade=settings.blades),
     output:
         campbell="<results>/campbell.nc",
     log:

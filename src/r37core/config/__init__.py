@@ -4,7 +4,7 @@ from .blades import BladeSettings
 from .declaring import si_fields, si_form
 from .document import ConfigError, Document, command_line_document, read_document
 from .section import plain
-from .settings import Settings, blades_named, checked_scene, contact_of_blades, operating_range, scenes_named
+from .settings import Settings, blades_named, checked_scene, contact_of_blades, operating_range, scenes_named, varied_settings
 
 __all__ = [
     "BladeSettings",
@@ -21,4 +21,5 @@ __all__ = [
     "scenes_named",
     "si_fields",
     "si_form",
+    "varied_settings",
 ]

@@ -84,13 +84,6 @@ class Settings:
         """Gives what a function makes of these settings, made once: for an extension's own part of them that takes long."""
         return cache(lambda make: make(self))
 
-    def varied(self, blades: Mapping[str, BladeSettings], scenes: Mapping[str, SceneSettings]) -> Settings:
-        """These settings with other blades and scenes in the place of those to run that have the same names."""
-        changed = replace(self)
-        # what is computed once stands in the object's dictionary
-        vars(changed).update(blades={**self.blades, **blades}, scenes={**self.scenes, **scenes}, speed_plans=self.speed_plans)
-        return changed
-
     @cached_property
     def blade_names(self) -> list[str]:
         """Blades that config.yaml chooses, of a family all of its designs.
@@ -263,6 +256,16 @@ def _chosen(settings: Settings, key: str, designs: Designs[Any]) -> list[str]:
         return list(designs.entries)
     settings.documents.known((key,), chosen, designs.names, designs.document)
     return designs.named(chosen)
+
+
+def varied_settings(settings: Settings, blades: Mapping[str, BladeSettings], scenes: Mapping[str, SceneSettings]) -> Settings:
+    """The settings with other blades and scenes in the place of those to run that have the same names."""
+    changed = replace(settings)
+    # what is computed once stands in the object's dictionary
+    vars(changed).update(
+        blades={**settings.blades, **blades}, scenes={**settings.scenes, **scenes}, speed_plans=settings.speed_plans
+    )
+    return changed
 
 
 def blades_named(settings: Settings, chosen: Sequence[str] | str) -> list[str]:

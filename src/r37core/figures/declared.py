@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from r37core.plans.extension import Figure
-from r37core.plans.paths import CAMPBELL, MESH, RESPONSE, Wildcards, nominal, of, run_keys
+from r37core.plans.paths import CAMPBELL, MESH, RESPONSE, Wildcards, of, run_keys
 from r37core.plans.sweep_plan import Datasets, Sweep
 
 ALL_CAMPBELL, RMS, STRESS = (f"<results>/{kind}.nc" for kind in ("campbell", "rms", "stress"))
@@ -42,7 +42,7 @@ FIGURES = (
         name="campbell_{blade}",
         runs=lambda sweep: of("blade", sweep.drawn["blade"]),
         draw="figures.campbell_diagram.draw_campbell",
-        files={"campbell": nominal(CAMPBELL)},
+        files={"campbell": CAMPBELL},
         label="Campbell diagram",
         caption="Campbell diagram of blade {blade}. Left: natural frequencies of the reduced model over speed, each mode in "
         "its colour, with its crossings with engine orders (grey) as dots. Right: change of the clearance at the leading "
@@ -139,7 +139,7 @@ FIGURES = (
         name="fatigue_{blade}__{scene}",
         runs=lambda sweep: run_keys(sweep.drawn_runs("fatigue")),
         draw="figures.fatigue_map.draw_fatigue_map",
-        files={"mesh": nominal(MESH), "rom": Sweep.reduced_model, "response": nominal(RESPONSE)},
+        files={"mesh": MESH, "rom": Sweep.reduced_model, "response": RESPONSE},
         label="fatigue",
         caption="Share of the Goodman line on blade {blade} in scene {scene}, at the speed where it is largest. It is the "
         "alternating stress over the fatigue strength, plus the mean stress, with that of rotation, over the ultimate "

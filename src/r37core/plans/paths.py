@@ -26,11 +26,6 @@ def fill(pattern: str, **wildcards: Any) -> str:
     return pattern.format(**wildcards)
 
 
-def nominal(pattern: str) -> str:
-    """The pattern."""
-    return pattern
-
-
 def speed_files(wildcards: Any, speeds: Sequence[float]) -> list[str]:
     """Files of the simulations of a blade and scene at some speeds (rad/s)."""
     return [fill(SPEED, blade=wildcards.blade, scene=wildcards.scene, speed=exact_text(speed)) for speed in speeds]

@@ -11,9 +11,9 @@ from r37core.base.speeds import SpeedPlan, exact_text
 from r37core.config import Settings
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep, speeds_of_round
-from r37core.product.extensions import EXTENSIONS
 from r37core.product.reading import RESERVED, read_settings
 from r37core.product.targets import everything
+from r37core.sweep.recipe import STRUCTURES
 
 
 def leftovers(results: Path, settings: Settings) -> list[Path]:
@@ -39,17 +39,16 @@ def _dropped(results: Path, settings: Settings) -> Iterator[Path]:
     patterns = _planned(settings)
     planned = {results / file.removeprefix("<results>/") for file in paths.filled(patterns)}
     for pattern in patterns:
-        plain = paths.nominal(pattern).removeprefix("<results>/")
+        plain = pattern.removeprefix("<results>/")
         files = results.glob(re.sub(r"\{\w+\}", "*", plain))
         others = RESERVED if plain.startswith("{blade}") else ()
         yield from (file for file in files if file not in planned and file.relative_to(results).parts[0] not in others)
     folders = {folder for file in planned for folder in file.parents}
     for pattern in {parent for file in patterns for parent in _own_folders(file)}:
         present = (folder for folder in results.glob(re.sub(r"\{\w+\}", "*", pattern)) if folder.is_dir())
-        # a hidden folder has parts of what lies next to it
+        # models of members and designs are hidden next to them
         yield from (folder for folder in present if folder not in folders and not folder.name.startswith("."))
-    own = (results / extension.name for extension in EXTENSIONS)
-    yield from (folder for folder in own if folder.is_dir() and folder not in folders)
+    yield from (parts.parent for parts in results.glob(f"*/{STRUCTURES}") if parts.parent not in folders)
 
 
 def _own_folders(pattern: str) -> Iterator[str]:

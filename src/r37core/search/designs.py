@@ -6,7 +6,7 @@ from functools import cached_property
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, values_of
 from r37core.blade.definition import Shape
-from r37core.config import BladeSettings, Settings, operating_range, plain
+from r37core.config import BladeSettings, Settings, operating_range, plain, varied_settings
 from r37core.config.blades import BladeEntry, blade_settings
 from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
 from r37core.config.families import design_entry
@@ -130,11 +130,11 @@ class SearchDesigns:
     def _settings(self, blade: BladeSettings, scene: str, changed: Scene, design: str) -> Settings:
         """The settings with a blade and a scene, and results that designs are judged by; `design` is for messages."""
         name, settings, shape = self.entry.blade, self.settings, blade.definition
-        if isinstance(shape, Shape) and blade != settings.blades[name]:
+        if isinstance(shape, Shape) and blade.elastic != settings.blades[name].elastic:
             blade = replace(blade, definition=replace(shape, name=f"{name}, {design}"))
         results = tuple(result for result in settings.results_of(name, scene) if result in _KEPT)
         chosen = replace(settings.scenes[scene], scene=changed, results=results, stress_history_speeds=())
-        return settings.varied({name: blade}, {scene: chosen})
+        return varied_settings(settings, {name: blade}, {scene: chosen})
 
     def _under_tolerances(
         self, blade: BladeSettings, scene: str, scene_changes: Mapping[str, float]

@@ -25,7 +25,7 @@ from r37core.rom.contact_model import read_contact_model
 from r37core.stress.operator import judged_operator, read_stress_operators
 from r37core.sweep.blade_sweep import CAMPBELL, BladeSweep, SharedSpeeds, blade_sweep, shared_speeds
 from r37core.sweep.driver import Driver, RunAll, one_by_one
-from r37core.sweep.recipe import Recipe, code_of, recipes, structure_attributes
+from r37core.sweep.recipe import STRUCTURES, Recipe, code_of, recipes, structure_attributes
 
 from .designs import NOMINAL, choice_of, designs_of
 from .problem import START, Value
@@ -86,7 +86,7 @@ class Evaluation:
 
     @property
     def _structures(self) -> Path:
-        return self.folder / ".structures"
+        return self.folder / STRUCTURES
 
     def quantities(self, designs: Mapping[str, Sequence[float] | None]) -> list[dict[str, Value] | str]:
         """Quantities of designs by the values of their variables (None: the start), or why one cannot be built."""
@@ -115,18 +115,22 @@ class Evaluation:
         members, blade = designs_of(self.settings).members(name, values), self._blade
         nominal = {scene: several[NOMINAL] for scene, several in members.items()}
         first = next(iter(nominal.values()))
-        kept, material = first.blades[blade] == self.settings.blades[blade], first.blades[blade].material
+        material = first.blades[blade].material
         assert material is not None
         return DesignRuns(
-            structure=recipes(first, blade, dict.fromkeys(_STRUCTURE), kept=kept),
+            structure=recipes(first, blade, dict.fromkeys(_STRUCTURE), kept=self._is_start(first)),
             scenes={
-                scene: {member: blade_sweep(of, blade, scene, kept=kept) for member, of in several.items()}
+                scene: {member: blade_sweep(of, blade, scene, kept=self._is_start(of)) for member, of in several.items()}
                 for scene, several in members.items()
             },
             speeds={scene: shared_speeds(of, blade, scene) for scene, of in nominal.items()},
             about={scene: str(Provenance(of).sweep(Named(blade=blade, scene=scene))) for scene, of in nominal.items()},
             density=material.density,
         )
+
+    def _is_start(self, varied: Settings) -> bool:
+        """True if the blade has the model of the start, which the user's cache keeps."""
+        return varied.blades[self._blade].elastic == self.settings.blades[self._blade].elastic
 
     def _measure(self, name: str, runs: DesignRuns, run_all: RunAll, file: Path) -> None:
         """Build the design, run it, and write its quantities. Raises Refused where it cannot be built."""

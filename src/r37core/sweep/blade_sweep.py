@@ -25,12 +25,12 @@ CAMPBELL = "campbell_of_blade"
 class BladeSweep:
     """Sweep of a blade in a scene.
 
-    `given`: stage of the structure -> its file that is there; `recipes`: of the others. `models`: stages that simulations
+    `existing`: stage of the structure -> its file that is there; `recipes`: of the others. `models`: stages that simulations
     start from, that of contact first. `task`, as JSON, of a simulation, and at the `history_speeds` (rad/s) `history_task`.
     `yield_stress` (Pa), `strengths`: of the blade.
     """
 
-    given: Mapping[str, str]
+    existing: Mapping[str, str]
     recipes: Mapping[str, Recipe]
     models: tuple[str, ...]
     task: str
@@ -41,8 +41,8 @@ class BladeSweep:
 
     def file(self, stage: str, folder: Path, attributes: Mapping[str, Any]) -> Path:
         """File of a stage of the structure, made in the folder where it is not there. Raises what making it raises."""
-        given = self.given.get(stage)
-        return Path(given) if given else self.recipes[stage].file(folder, attributes)
+        existing = self.existing.get(stage)
+        return Path(existing) if existing else self.recipes[stage].file(folder, attributes)
 
     def task_at(self, speed: float) -> str:
         """Task of the simulation at a speed (rad/s)."""
@@ -58,22 +58,20 @@ class SharedSpeeds:
 
 
 def blade_sweep(
-    settings: Settings, blade: str, scene: str, given: Mapping[str, str] | None = None, *, kept: bool = True
+    settings: Settings, blade: str, scene: str, existing: Mapping[str, str] | None = None, *, kept: bool = True
 ) -> BladeSweep:
-    """The sweep of a blade in a scene of these settings; `given` and `kept` as of BladeSweep and `recipes`."""
-    run, sweep, there = Named(blade=blade, scene=scene), Sweep(settings), given or {}
+    """The sweep of a blade in a scene of these settings; `existing` and `kept` as of BladeSweep and `recipes`."""
+    run, sweep, there = Named(blade=blade, scene=scene), Sweep(settings), existing or {}
     simulations, tip_line = Simulations(sweep), settings.scenes[scene].tip_line
     models = ("contact_model", *(["stress_operator"] if "stress" in sweep.results(run) else []))
-    lines = {**dict.fromkeys(models, tip_line), CAMPBELL: None, "geometry": None}
-    if not settings.blades[blade].has_profiles:
-        del lines["geometry"]
+    lines = {**dict.fromkeys(models, tip_line), CAMPBELL: None}
     history = sweep.stress_history_speeds(run)
 
     def task(speed: float) -> str:
         return simulations.task(Named(**vars(run), speed=exact_text(speed)))
 
     return BladeSweep(
-        given=there,
+        existing=there,
         recipes=recipes(settings, blade, {stage: line for stage, line in lines.items() if stage not in there}, kept=kept),
         models=models,
         task=task(0.0),

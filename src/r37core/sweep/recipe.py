@@ -25,6 +25,9 @@ from r37core.plans.structure_plan import Imported, Structure
 LOGGER = logging.getLogger("r37")
 """Logger of what a call or a job does now."""
 
+STRUCTURES = ".structures"
+"""Folder of such files next to the members and designs that they are for."""
+
 _FILES = {
     "geometry": "geometry.nc",
     "mesh": "mesh.vtu",
@@ -37,7 +40,6 @@ _FILES = {
 
 _IMPORTED = {MeshSource: {"mesh": "imported_mesh"}, MatricesSource: {"reduced_model": "imported_matrices"}}
 """Stages of a blade of another program in place of others."""
-
 
 _MAKING = threading.RLock()
 """Held by the thread that makes structures: gmsh, and what reads meshes of others, serve one at a time."""

@@ -4,11 +4,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from r37core.base.io import Named, as_list
+from r37core.base.io import Named
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import VariedNumber
 from r37core.blade.definition import Shape
-from r37core.config import BladeSettings, Settings
+from r37core.config import BladeSettings, Settings, varied_settings
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure, Sampling
 from r37core.plans.extent import Pair, extent_of
@@ -50,18 +50,19 @@ class Tolerances:
         for name, member in self._members.all[blade, scene].items():
             # members with the same blade have one model
             own = _named(member.blade, f"{blade}, member {first.setdefault(member.blade.elastic, name)} of {FOLDER}")
-            yield name, member, settings.varied({blade: own}, {scene: replace(chosen, scene=member.scene)})
+            yield name, member, varied_settings(settings, {blade: own}, {scene: replace(chosen, scene=member.scene)})
 
-    def sweeps(self, wildcards: Any, input: Any) -> dict[str, Any]:
-        """Sweep of each member, as plain values: from the models of the `input` where its blade is the nominal one."""
-        nominal = self.settings.blades[wildcards.blade].elastic
-        files = dict(zip(("contact_model", "stress_operator"), as_list(input.models), strict=False))
-        there = {**files, CAMPBELL: str(input.campbell)}
-        sweeps = {}
-        for name, member, settings in self._varied(wildcards):
-            given = there if member.blade.elastic == nominal else {}
-            sweeps[name] = to_plain(blade_sweep(settings, **vars(_run(wildcards)), given=given, kept=False))
-        return sweeps
+    def sweeps(self, wildcards: Any) -> dict[str, Any]:
+        """Sweep of each member, as plain values. For the nominal blade all files are existing ones, those of the job's inputs.
+
+        The parameter is no function of the inputs, because Snakemake would not compare it then.
+        """
+        nominal, run = self.settings.blades[wildcards.blade].elastic, vars(_run(wildcards))
+        files = dict.fromkeys(("contact_model", "stress_operator", CAMPBELL), "")
+        return {
+            name: to_plain(blade_sweep(of, **run, existing=files if member.blade.elastic == nominal else {}, kept=False))
+            for name, member, of in self._varied(wildcards)
+        }
 
     def about(self, wildcards: Any) -> Attributes:
         """Attributes of the files of each member, as JSON."""
@@ -176,7 +177,7 @@ EXTENSION = Extension(
             name="tolerances_{blade}__{scene}",
             runs=lambda sweep: paths.run_keys(members_of(sweep.settings).pairs),
             draw="tolerances.figures.draw_tolerances",
-            files={"tolerances": DATASET, "nominal": paths.nominal(paths.RESPONSE)},
+            files={"tolerances": DATASET, "nominal": paths.RESPONSE},
             label="tolerances",
             caption="Tolerances of blade {blade} in scene {scene}: median of all members, the band that nine tenths lie in, "
             "and the nominal run (dashed). Then the share of the members above yield, with the interval of the chance. Last, "

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from r37core.results.table_file import write_table
 from r37core.sweep.blade_sweep import CAMPBELL, BladeSweep, SharedSpeeds
 from r37core.sweep.driver import Driver
 from r37core.sweep.forks import forked_results
+from r37core.sweep.recipe import STRUCTURES
 
 from .dataset import MemberRun, tolerances_dataset
 from .table import range_table, ranges
@@ -31,9 +33,11 @@ def run(input: Any, output: Any, params: Any) -> None:
 
     Params: sweeps, speeds, structure, about, provenance, cores.
     """
-    sweeps = {name: from_plain(BladeSweep, sweep) for name, sweep in params.sweeps.items()}
+    files = {**dict(zip(("contact_model", "stress_operator"), as_list(input.models), strict=False)), CAMPBELL: input.campbell}
+    planned = {name: from_plain(BladeSweep, sweep) for name, sweep in params.sweeps.items()}
+    sweeps = {name: replace(sweep, existing=files if sweep.existing else {}) for name, sweep in planned.items()}
     folder = Path(output.members).parent
-    structures = folder.parents[1] / ".structures"
+    structures = folder.parents[1] / STRUCTURES
     driver = Driver(folder, structures, params.structure, partial(forked_results, params.cores))
     responses = driver.run(sweeps, from_plain(SharedSpeeds, params.speeds), input.campbell, params.about)
 
