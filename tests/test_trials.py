@@ -36,7 +36,7 @@ from r37core.trials.figures import COLOURS, draw_growth, draw_parameter, draw_st
 from r37core.trials.plan import Trials
 from r37core.trials.tradeoff_tables import QUANTITIES, exponent_of, gather_cases, growth_table, level_table, parameter_table
 
-CHOICE = IntegrationChoice(2e-7, 4, 62)
+CHOICE = IntegrationChoice(3.2e-6, 4, 62, integrator="exact_modal")
 
 
 def case_of(choice=CHOICE, scene=DIRECT, speeds=(1500.0,), results=("energy",), **fields):
@@ -109,7 +109,7 @@ def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact,
 
     Each speed may have modes, and with them a program, of its own.
     """
-    case = case_of(IntegrationChoice(1e-5, 4, 620, integrator="exact_modal"), speeds=(1495.0, 1500.0))
+    case = case_of(replace(CHOICE, time_step=1e-5, samples_per_revolution=620), speeds=(1495.0, 1500.0))
     compiled = []
 
     def prepared(*given):
@@ -176,7 +176,7 @@ def test_judging_a_case(contact, monkeypatch):
     diverged = judged(case_of(scene=replace(DIRECT, divergence_limit=1e-6)))
     assert diverged["outcome"] == "diverged"
     assert np.isnan(diverged["rms_m"])
-    refused = judged(case_of(replace(CHOICE, time_step=2e-6)))
+    refused = judged(case_of(replace(CHOICE, time_step=2e-6, integrator="central_difference")))
     assert refused["outcome"] == "refused"
     assert "stability limit" in refused["detail"]
     far = replace(DIRECT, casing=replace(DIRECT.casing, amplitude=0.0))
@@ -398,7 +398,10 @@ def test_all_presets(compiled, root, drawn, tmp_path):  # noqa: F811
     assert set(table.index.levels[0]) == {"level", "boundary_nodes", "revolutions"}
     assert results["tradeoff"].sizes["case"] == 7
     refused = table["refused"].notna()
-    assert list(table.index[refused]) == [("boundary_nodes", "90")] and "90 boundary nodes" in table["refused"][refused].iloc[0]
+    assert (
+        list(table.index[refused]) == [("boundary_nodes", "90")]
+        and "found 90 contact patches" in table["refused"][refused].iloc[0]
+    )
     assert (table["cpu_s"][~refused] > 0.0).all() and (table["model_cpu_s"][~refused] > 0.0).all()
     assert (table.loc[("boundary_nodes", "3"), "error_rms_normal"] == 0.0).all()
     (contact,) = (project / "results/cases/Fan").glob("0_3_*/contact.npz")
