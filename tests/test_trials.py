@@ -381,7 +381,7 @@ stability: { blade: Ref, scenes: [direct], extremes: [damping_ratio] }
 
 
 @pytest.mark.slow
-def test_all_presets(compiled, root, drawn, tmp_path):  # noqa: F811
+def test_all_presets(root, drawn, tmp_path):  # noqa: F811
     """The mesh of another program stays as it is; contact nodes and runs vary. Extremes are of a blade that is meshed."""
     project = with_example(root, drawn, tmp_path, copy_project)
     overlay(project, "config.yaml", PRESETS)
