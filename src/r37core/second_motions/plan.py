@@ -69,8 +69,8 @@ def can_be_swept(settings: Settings) -> None:
     if not section.asked:
         return
     names_are_there(settings, path, section)
-    for key, found, allowed in _refusals(settings, section):
-        raise settings.documents.config.refusal((*path, *key), found, allowed)
+    for key, value, allowed in _refusals(settings, section):
+        raise settings.documents.config.refusal((*path, *key), value, allowed)
     sweep, scenes = section.sweep(), dict.fromkeys(scene for _, scene in pairs_of(settings))
     longest = max(sweep.revolutions, section.dwell.revolutions)
     runs = [length_of_run(settings, name, sweep.first, max(longest, settings.scenes[name].revolutions)) for name in scenes]

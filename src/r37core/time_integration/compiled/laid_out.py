@@ -96,7 +96,7 @@ class LaidOutProblem:
 
     @property
     def _shape(self) -> tuple[Any, ...]:
-        """What the room of a record depends on, and the parts of it that are filled."""
+        """Numbers that decide the room of a record, and which parts of it are filled."""
         return self.capacity, self.kind, self._flags, self._nodes, self._modes, self.mode_lanes
 
     def _table_of(self, segments: Segments) -> np.ndarray:
