@@ -13,7 +13,8 @@ from r37core.rom.rotation import rotation_amplitudes
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
 from r37core.run_ups.schedule import RunUp
-from r37core.stress.cycles import StressCycles, largest_damage, rainflow_cycles
+from r37core.stress.cycles import StressCycles, rainflow_cycles
+from r37core.stress.damage import largest_damage
 from r37core.stress.operator import StressOperator
 from r37core.stress.statistic import Strengths
 from r37core.time_integration.integrators import EXACT_MODAL

@@ -8,7 +8,7 @@ from scipy.linalg import block_diag
 
 from r37core.rom.contact_model import ContactModel
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.stress.cycles import largest_damage, operator_numbers
+from r37core.stress.damage import largest_damage, operator_numbers
 from r37core.stress.operator import StressOperator
 from r37core.stress.statistic import UNKNOWN, Strengths
 from r37core.time_integration.integration_choice import IntegrationChoice
