@@ -30,11 +30,11 @@ NEEDS = Requirements(used_lining=0.5)
 
 
 @pytest.fixture
-def lined(contact, monkeypatch):
+def lined(contact, monkeypatch, tmp_path):
     """A lined blade whose runs end after 20 revolutions at the latest."""
     monkeypatch.setattr(further_runs, "LONGEST", 20)
     monkeypatch.setattr(further_runs, "PUBLISHED_REVOLUTIONS", CHOICE.revolutions)
-    return JudgedBlade(contact, LINED, CHOICE, ("wear",), KEPT, 1e9, UNKNOWN)
+    return JudgedBlade(contact, LINED, CHOICE, ("wear",), KEPT, 1e9, UNKNOWN, Parts(tmp_path / "runs", "lined"))
 
 
 def evidence(used=1e-5, speeds=(1290.0, 1305.0, 1320.0)):

@@ -28,6 +28,7 @@ from r37core.second_motions.ranges import MotionLevels, motions_differ
 from r37core.second_motions.states import SweptStates, levels_of, write_states
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
+from r37core.time_integration.carrying import END_WEAR
 from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.motion_kind import KindNumbers
 from r37core.time_integration.simulate import Simulation
@@ -105,7 +106,7 @@ def test_a_lining_is_new_or_carried_on(contact, tmp_path):
     wear = {}
     for worn in (False, True):
         files = sweep_of(contact, UP, LINED, replace(SWEEP, worn=worn)).run(tmp_path / str(worn))
-        wear[worn] = [read_speed(file).get("end_wear") for file in files]
+        wear[worn] = [read_speed(file).get(END_WEAR) for file in files]
     assert wear[False] == [None, None, None]
     for before, after in zip(wear[True], wear[True][1:], strict=False):
         assert np.all(after >= before)

@@ -30,6 +30,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import simulations_of_members
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
+from r37core.sweep.parts import Parts
 from r37core.trials import estimate, estimate_tables, runner, stability, stability_tables, steps, tradeoff
 from r37core.trials.case import HALF_STEP, MODEL_NAME, OWN_MESH, Case, ModelChoice
 from r37core.trials.figures import COLOURS, draw_growth, draw_parameter, draw_stability, draw_tradeoff
@@ -42,6 +43,10 @@ CHOICE = IntegrationChoice(3.2e-6, 4, 62, integrator="exact_modal")
 def case_of(choice=CHOICE, scene=DIRECT, speeds=(1500.0,), results=("energy",), **fields):
     kept = {"spectrum_highest_order": 12, "wear_angles": 100}
     return Case("Ref", "pressure_edge", scene, choice, speeds, results, **{"material": None, "kept": kept, **fields})
+
+
+def run_case(folder, case, model, recovery=None):
+    return runner.run_case(case, model, recovery, Parts(folder, "the test"))
 
 
 def with_section(root, name, **keys):
@@ -97,14 +102,14 @@ def test_a_crossing_that_is_not_there_is_named(tmp_path, order, named):
         steps.run(Named(campbell=str(tmp_path / "campbell.nc")), Named(response="case.nc"), Named(case=case))
 
 
-def test_a_run_that_diverged_has_no_stress_at_instants(contact, model, steel):
+def test_a_run_that_diverged_has_no_stress_at_instants(contact, model, steel, tmp_path):
     choice = replace(CHOICE, snapshots_per_revolution=62).recorded
     case = case_of(choice, replace(DIRECT, divergence_limit=1e-6), results=("stress", "instants"), material=steel)
-    response = runner.run_case(case, contact, {"box": box_operator(model, steel)})
+    response = run_case(tmp_path, case, contact, {"box": box_operator(model, steel)})
     assert response["status"].values.all() and response["max_von_mises_of_instant"].isnull().all()
 
 
-def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact, monkeypatch):
+def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact, monkeypatch, tmp_path):
     """A step far beyond the sampling instants is shortened to them: half of it would be shortened to the same.
 
     Each speed may have modes, and with them a program, of its own.
@@ -122,9 +127,23 @@ def test_half_a_step_is_half_of_the_one_taken_and_no_timed_run_compiles(contact,
     run_speed = runner.run_speed
     monkeypatch.setattr(runner, "simulation_of", prepared)
     monkeypatch.setattr(runner, "run_speed", simulated)
-    taken = [runner.run_case(replace(case, half_step=half), contact, None)["time_step"].values for half in (False, True)]
+    taken = [run_case(tmp_path, replace(case, half_step=half), contact)["time_step"].values for half in (False, True)]
     np.testing.assert_allclose(taken[0], 2.0 * np.pi / np.array([1495.0, 1500.0]) / 620)
     np.testing.assert_allclose(taken[1], 0.5 * taken[0], rtol=1e-12)
+
+
+def test_a_case_that_was_interrupted_goes_on(contact, monkeypatch, tmp_path):
+    """Its costs are those of the runs when they were done."""
+    case = case_of(speeds=(1495.0, 1500.0))
+    expected, run_speed, done = run_case(tmp_path, case, contact), runner.run_speed, []
+    next(tmp_path.glob("speed_1500-*.npz")).unlink()
+    monkeypatch.setattr(
+        runner, "run_speed", lambda model, speed, *of, **kept: done.append(speed) or run_speed(model, speed, *of, **kept)
+    )
+    again = run_case(tmp_path, case, contact)
+    assert done == [1500.0]
+    xr.testing.assert_identical(again["rms_normal"], expected["rms_normal"])
+    assert again["cpu_s"][0] == expected["cpu_s"][0]
 
 
 def test_every_extreme_has_a_name_of_its_own_and_says_what_the_configuration_refuses(settings):
@@ -163,11 +182,11 @@ def test_a_blade_that_is_not_run_asks_for_nothing(root, preset):
     assert tradeoff.not_varied(settings) == ""
 
 
-def test_judging_a_case(contact, monkeypatch):
+def test_judging_a_case(contact, monkeypatch, tmp_path):
     def judged(case):
         """The row in the table, of runs with the case's own step and with half of it."""
         responses = {"lobes_5__direct": case, f"lobes_5__direct{HALF_STEP}": replace(case, half_step=True)}
-        responses = {name: runner.run_case(each, contact, None) for name, each in responses.items()}
+        responses = {name: run_case(tmp_path, each, contact) for name, each in responses.items()}
         (row,) = stability_tables.tables(responses)["table"].to_dict("records")
         assert (row["what"], row["value"], row["scene"]) == ("lobes", "5", "direct")
         return row

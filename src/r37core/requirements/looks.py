@@ -4,10 +4,11 @@ From rest until the motion has settled, also between the sweep's speeds; carried
 friction; with half the step. A requirement that the sweep's runs fail clearly needs none.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,8 +23,10 @@ from r37core.stress.operator import StressOperators
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
+from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
 from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import numbers_of_run
 
 from .choice import CARRIED_STEP, LONGEST, MOST_NEAR, STEP, Requirements
@@ -45,7 +48,7 @@ class JudgedBlade:
     """A blade's `model` in a `scene`: time integration, `results` and `kept` as run_speed takes them, and its material.
 
     `yield_stress` (Pa); `stress`: operator of the region that decides, by its name, where stress is among the results.
-    `parts`: which runs are there already.
+    `parts`: files of the runs.
     """
 
     model: ContactModel
@@ -55,8 +58,8 @@ class JudgedBlade:
     kept: Mapping[str, Any]
     yield_stress: float
     strengths: Strengths
+    parts: Parts
     stress: StressOperators | None = None
-    parts: Parts | None = None
 
     @cached_property
     def long_choice(self) -> IntegrationChoice:
@@ -74,33 +77,28 @@ class JudgedBlade:
         """Runs from rest at speeds (rad/s), in another scene if it is given, with a share of the time `step`."""
         choice = replace(self.long_choice, time_step=step * self.long_choice.time_step)
         of = scene or self.rising_scene
-        runs = {speed: partial(self._run, speed, of, choice) for speed in speeds}
-        return self._dataset({speed: self._row(self._numbers(speed, (of, choice), run)) for speed, run in runs.items()})
+        runs = {speed: partial(self._run, of, choice, speed) for speed in speeds}
+        return self._dataset({speed: self.parts.file(speed, (of, choice), run) for speed, run in runs.items()})
 
     def carried(self, speeds: Sequence[float]) -> xr.Dataset:
         """The motion carried on from each speed (rad/s) to the next in an unworn lining, from rest at the first one."""
         step = resolved_problem(self.model, max(speeds), self.scene, self.choice).choice.time_step
-        choice = replace(self.long_choice, time_step=step)
-        rows: dict[float, dict[str, Any]] = {}
-        motion: CarriedMotion | None = None
-        for place, speed in enumerate(speeds):
-            run = partial(self._run, speed, self.scene.grown, choice, motion, carried=True)
-            numbers = self._numbers(speed, (self.scene.grown, choice, speeds[:place]), run)
-            rows[speed], motion = self._row(numbers), CarriedMotion.of_arrays(numbers)
-        return self._dataset(rows)
+        scene, choice = self.scene.grown, replace(self.long_choice, time_step=step)
+        files = self.parts.carried(speeds, (scene, choice), partial(self._carry, scene, choice))
+        return self._dataset(dict(zip(speeds, files, strict=True)))
 
-    def _numbers(self, speed: float, made_of: object, run: Callable[[], dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
-        return run() if self.parts is None else self.parts.numbers(speed, made_of, run)
-
-    def _run(
-        self, speed: float, scene: Scene, choice: IntegrationChoice, motion: CarriedMotion | None = None, carried: bool = False
+    def _carry(
+        self, scene: Scene, choice: IntegrationChoice, speed: float, motion: CarriedMotion | None
     ) -> dict[str, np.ndarray]:
-        """Numbers of a run, and if it is `carried` on and has not diverged the motion at its end."""
+        """Numbers of a run that begins in a motion, and the motion at its end."""
         run = Simulation(self.model, speed, scene, choice).run(motion)
-        numbers = numbers_of_run(run, self.results, stress=self.stress, **self.kept)
-        if carried and run.first_diverged is None:
-            numbers |= CarriedMotion.ended(run.problem, run.states[0]).arrays
-        return numbers
+        return self._numbers(run) | CarriedMotion.ended(run.problem, run.states[0]).arrays
+
+    def _run(self, scene: Scene, choice: IntegrationChoice, speed: float) -> dict[str, np.ndarray]:
+        return self._numbers(Simulation(self.model, speed, scene, choice).run())
+
+    def _numbers(self, run: FinishedRun) -> dict[str, np.ndarray]:
+        return numbers_of_run(run, self.results, stress=self.stress, **self.kept)
 
     def _row(self, numbers: Mapping[str, np.ndarray]) -> dict[str, Any]:
         row = run_row(numbers, self.yield_stress, self.strengths)
@@ -109,9 +107,10 @@ class JudgedBlade:
             row["max_von_mises_of_run"] = np.nan_to_num(numbers["revolution_von_mises"]).max(axis=1)
         return row
 
-    def _dataset(self, rows: Mapping[float, Mapping[str, Any]]) -> xr.Dataset:
-        """Response of JUDGED, by ascending speed."""
-        speeds = sorted(rows)
+    def _dataset(self, files: Mapping[float, Path]) -> xr.Dataset:
+        """Response of JUDGED, by ascending speed (rad/s)."""
+        speeds = sorted(files)
+        rows = {speed: self._row(read_speed(files[speed])) for speed in speeds}
         first = rows[speeds[0]]
         # the stress is that of one region
         described = {name: replace(VARIABLES[name], dims=()) for name in JUDGED if name in first}

@@ -40,8 +40,8 @@ def look(input: Any, output: Any, params: Any) -> None:
         params.kept,
         params.yield_stress,
         from_plain(Strengths, params.strengths),
-        dict([next(iter(read_stress_operators(input.stress).items()))]) if hasattr(input, "stress") else None,
         Parts(Path(output.looks).with_suffix(""), made_of),
+        dict([next(iter(read_stress_operators(input.stress).items()))]) if hasattr(input, "stress") else None,
     )
     evidence = Evidence(
         judged_part(read_judged(input.response)),

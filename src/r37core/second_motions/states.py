@@ -6,13 +6,12 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.io import atomic_write, readable
-from r37core.time_integration.carrying import CarriedMotion
+from r37core.time_integration.carrying import END_WEAR, CarriedMotion, motion_names
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
 from .choice import MOTIONS
 from .ranges import MotionLevels
-from .sweeping import CARRIED, END_WEAR, carried_of
 
 
 class SweptStates:
@@ -30,8 +29,7 @@ class SweptStates:
 
     def motion(self, place: int) -> CarriedMotion | None:
         """Motion at the end of the speed at this place; None where it diverged."""
-        names = ("status", *CARRIED, *([END_WEAR] if self.worn else []))
-        return carried_of({name: self._arrays[name][place] for name in names})
+        return CarriedMotion.at_end({name: self._arrays[name][place] for name in ("status", *motion_names(self._arrays))})
 
 
 def read_states(files: Sequence[Path | str]) -> dict[str, SweptStates]:
@@ -46,9 +44,9 @@ def write_states(files: Sequence[Path], speeds: Sequence[float], clearance: floa
     """
     runs = [read_speed(each) for each in files]
     counted = [_counted(run) for run in runs]
-    arrays = {name: np.array([run[name] for run in runs]) for name in ("status", *CARRIED)}
-    if END_WEAR in runs[0]:
-        arrays[END_WEAR] = np.array([run[END_WEAR] for run in runs], dtype=np.float32)
+    arrays = {name: np.array([run[name] for run in runs]) for name in ("status", *motion_names(runs[0]))}
+    if END_WEAR in arrays:
+        arrays[END_WEAR] = arrays[END_WEAR].astype(np.float32)
     with atomic_write(file) as partial:
         arrays |= {"speed": np.array(speeds), "revolution_rms": np.array(counted), "clearance": np.array(clearance)}
         np.savez_compressed(partial, allow_pickle=False, **arrays)

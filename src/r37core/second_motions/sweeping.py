@@ -1,34 +1,26 @@
 """Sweeps through the speeds with the state carried on from each to the next, and the runs from rest beside them."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
-from functools import cached_property, partial
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from r37core.contact.scene import Scene
-from r37core.machine_code.kept import kept_file
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperators
+from r37core.sweep.parts import Parts
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
 from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.kept_numbers import whole
 from r37core.time_integration.settling import revolution_rms
 from r37core.time_integration.simulate import LEADING_EDGE, Simulation
-from r37core.time_integration.speed_file import read_speed, write_speed
 from r37core.time_integration.speed_run import numbers_of_run
-from r37core.time_integration.status import RunStatus
 
 from .choice import DOWN, REST, UP, SweepChoice
-
-CARRIED = tuple(part.name for part in fields(CarriedMotion) if part.name != "wear")
-"""Parts of a CarriedMotion that are kept of every speed."""
-
-END_WEAR = "end_wear"
-"""Name of the wear at the end of a speed, which is kept where the lining is carried."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,19 +50,10 @@ class CarriedSweep:
 
         A sweep that was interrupted goes on from its files in the `folder`. `made_of`: all that they follow from.
         """
-        folder.mkdir(parents=True, exist_ok=True)
-        files: list[Path] = []
-        for place, speed in enumerate(self.speeds):
-            write = partial(self._write, speed, files[-1] if files else None)
-            files.append(kept_file(f"{place}.npz", made_of, write, folder))
-        return files
+        run = self.run_from_rest if self.motion == REST else self.run_on
+        return Parts(folder, made_of).carried(self.speeds, None, run)
 
-    def _write(self, speed: float, before: Path | None, file: Path) -> None:
-        """Write the file of a speed (rad/s), to which the motion is carried from that of the speed `before`."""
-        carried = carried_of(read_speed(before)) if before else None
-        write_speed(self.run_from_rest(speed) if self.motion == REST else self.run_on(speed, carried), file, {})
-
-    def run_from_rest(self, speed: float) -> dict[str, np.ndarray]:
+    def run_from_rest(self, speed: float, _: CarriedMotion | None = None) -> dict[str, np.ndarray]:
         """Numbers of the run at a speed (rad/s) as the sweep of the pipeline has it: from rest, with lobes that grow."""
         return self._numbers(Simulation(self.model, speed, self.scene, self.choice).run())
 
@@ -103,15 +86,4 @@ class CarriedSweep:
         choice, blade = run.problem.choice, run.records[0]
         samples = whole(blade.samples, choice.revolutions * choice.samples_per_revolution, blade.diverged)
         numbers["revolution_rms"] = revolution_rms(samples[:, LEADING_EDGE], choice.samples_per_revolution)
-        carried = CarriedMotion.ended(run.problem, run.states[0], keep_wear=self.sweep.worn)
-        numbers |= {name: getattr(carried, name) for name in CARRIED}
-        if carried.wear is not None:
-            numbers[END_WEAR] = carried.wear
-        return numbers
-
-
-def carried_of(numbers: Mapping[str, np.ndarray]) -> CarriedMotion | None:
-    """The motion at the end of a run, by its numbers; None of one that diverged."""
-    if int(numbers["status"]) != RunStatus.COMPLETED:
-        return None
-    return CarriedMotion(**{name: numbers[name] for name in CARRIED}, wear=numbers.get(END_WEAR))
+        return numbers | CarriedMotion.ended(run.problem, run.states[0], keep_wear=self.sweep.worn).arrays

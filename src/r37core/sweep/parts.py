@@ -1,16 +1,21 @@
 """Parts of a job of many simulations, which a broken one goes on from."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from r37core.base.speeds import exact_text
 from r37core.machine_code.kept import kept_file
+from r37core.time_integration.carrying import CarriedMotion
 from r37core.time_integration.speed_file import read_speed, write_speed
 
 from .counts import count_simulation
+
+Numbers = Mapping[str, np.ndarray]
+"""Numbers of a simulation, its status among them."""
 
 
 @dataclass(frozen=True)
@@ -20,8 +25,8 @@ class Parts:
     folder: Path
     made_of: object
 
-    def numbers(self, speed: float, made_of: object, run: Callable[[], Mapping[str, np.ndarray]]) -> dict[str, np.ndarray]:
-        """Numbers of a simulation at a speed (rad/s), which `run` gives where they are missing or damaged.
+    def file(self, speed: float, made_of: object, run: Callable[[], Numbers]) -> Path:
+        """File of a simulation at a speed (rad/s), with the numbers that `run` gives where it is missing or damaged.
 
         `made_of`: what this one follows from. Raises what `run` raises.
         """
@@ -32,4 +37,21 @@ class Parts:
             write_speed(numbers, file, {})
             count_simulation(int(numbers["status"]))
 
-        return read_speed(kept_file(f"speed_{exact_text(speed)}.npz", (self.made_of, made_of), write, self.folder))
+        return kept_file(f"speed_{exact_text(speed)}.npz", (self.made_of, made_of), write, self.folder)
+
+    def carried(
+        self, speeds: Sequence[float], made_of: object, run: Callable[[float, CarriedMotion | None], Numbers]
+    ) -> list[Path]:
+        """Files of simulations at speeds (rad/s), in their order, of which each goes on from the motion at the end of the last.
+
+        `run` gives the numbers, with the motion at the end; it is given none at the first speed and after a divergence.
+        """
+        files: list[Path] = []
+        for place, speed in enumerate(speeds):
+            go_on = partial(_go_on, run, speed, files[-1] if files else None)
+            files.append(self.file(speed, (made_of, speeds[:place]), go_on))
+        return files
+
+
+def _go_on(run: Callable[[float, CarriedMotion | None], Numbers], speed: float, before: Path | None) -> Numbers:
+    return run(speed, CarriedMotion.at_end(read_speed(before)) if before else None)

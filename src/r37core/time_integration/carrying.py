@@ -13,6 +13,7 @@ from .integrators import CENTRAL_DIFFERENCE
 from .problem import Problem, stable_problem
 from .segments import own_increments
 from .state import SimulationState
+from .status import RunStatus
 from .step_limit import UnstableStepError
 
 _LARGEST_TURN = 3.0
@@ -20,6 +21,9 @@ _LARGEST_TURN = 3.0
 
 _MOTION = "carried_"
 """Beginning of the names of a motion's arrays, next to the numbers of the run that it ends."""
+
+END_WEAR = f"{_MOTION}wear"
+"""Name of the array of the wear that is carried."""
 
 _KEPT = ("touched", "contact_force", "penetration", "bar_position")
 """Fields that a motion and a state have alike."""
@@ -54,14 +58,15 @@ class CarriedMotion:
 
     @property
     def arrays(self) -> dict[str, np.ndarray]:
-        """The motion as named arrays, of which `of_arrays` makes it again."""
+        """The motion as named arrays, of which `at_end` makes it again."""
         return {f"{_MOTION}{name}": part for name, part in vars(self).items() if part is not None}
 
     @classmethod
-    def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> "CarriedMotion | None":
-        """The motion among named arrays; None where they have none."""
-        parts = {name.removeprefix(_MOTION): part for name, part in arrays.items() if name.startswith(_MOTION)}
-        return cls(**parts) if parts else None
+    def at_end(cls, numbers: Mapping[str, np.ndarray]) -> "CarriedMotion | None":
+        """The motion among the numbers of a run; None of one that diverged."""
+        if int(numbers["status"]) != RunStatus.COMPLETED:
+            return None
+        return cls(**{name.removeprefix(_MOTION): numbers[name] for name in motion_names(numbers)})
 
     def put(self, problem: Problem, state: SimulationState) -> None:
         """Put the motion into a state at rest, as far as the speed's modes are stepped."""
@@ -77,6 +82,11 @@ class CarriedMotion:
         if self.wear is not None:
             # where the tip reaches into the lining at this speed, it has cut its way already
             np.maximum(state.wear, self.wear, out=state.wear)
+
+
+def motion_names(numbers: Mapping[str, np.ndarray]) -> list[str]:
+    """Names of the arrays of the motion among the numbers of a run."""
+    return [name for name in numbers if name.startswith(_MOTION)]
 
 
 def resolved_problem(model: ContactModel, speed: float, scene: Scene, choice: IntegrationChoice) -> Problem:

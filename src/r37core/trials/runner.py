@@ -3,7 +3,7 @@
 import math
 import resource
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -18,6 +18,7 @@ from r37core.results.regions import read_judged
 from r37core.results.response import write_response
 from r37core.rom.contact_model import ContactModel
 from r37core.stress.operator import StressOperators, judged_operator
+from r37core.sweep.parts import Parts
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.problem import stable_problem
 from r37core.time_integration.speed_file import read_speed, write_speed
@@ -36,6 +37,9 @@ COSTS = {
 }
 """Costs of every speed, which the response of a case has next to the results, and their attributes."""
 
+_COSTS_OF_RUN = "costs"
+"""Array of the COSTS in the file of a run."""
+
 
 def timed(call: Callable[[], T]) -> tuple[T, float, float]:
     """The result of a call, and the CPU and wall time (s) that it took in this process."""
@@ -49,30 +53,33 @@ def peak_memory() -> float:
     return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024)
 
 
-def run_case(case: Case, model: ContactModel, recovery: StressOperators | None) -> xr.Dataset:
-    """The response of a case with speeds in rad/s, or the refusal of one that a time step or a model refuses."""
-    with TemporaryDirectory() as folder:
-        try:
-            return _response(case, model, recovery, Path(folder))
-        except ValueError as error:
-            return refusal(str(error))
+def run_case(case: Case, model: ContactModel, recovery: StressOperators | None, parts: Parts) -> xr.Dataset:
+    """The response of a case with speeds in rad/s, or the refusal of one that a time step or a model refuses.
+
+    A case that was interrupted goes on from its `parts`.
+    """
+    try:
+        return _response(case, model, recovery, parts)
+    except ValueError as error:
+        return refusal(str(error))
 
 
-def _response(case: Case, model: ContactModel, recovery: StressOperators | None, folder: Path) -> xr.Dataset:
-    """The response of all speeds, with COSTS and the stress at instants; single runs lie in `folder`."""
-    files = [folder / f"{speed!r}.npz" for speed in case.speeds]
-    costs = _run_speeds(case, model, recovery, files)
+def _response(case: Case, model: ContactModel, recovery: StressOperators | None, parts: Parts) -> xr.Dataset:
+    """The response of all speeds, with COSTS and the stress at instants."""
+    files = [parts.file(speed, case, partial(_run, case, model, recovery, speed)) for speed in case.speeds]
+    costs = np.transpose([read_speed(file)[_COSTS_OF_RUN] for file in files])
+    file = parts.folder / "response.nc"
     reduce = partial(
         write_response,
         files,
         case.speeds,
-        folder / "response.nc",
+        file,
         stress_history_speeds=case.history_speeds if recovery else (),
         yield_stress=case.material.yield_stress if case.material else math.inf,
         provenance={},
     )
     _, reduction_cpu, _ = timed(reduce)
-    response = read_judged(folder / "response.nc")
+    response = read_judged(file)
     for (name, attributes), values in zip(COSTS.items(), costs, strict=True):
         response[name] = "speed", values, attributes
     if "instants" in case.results and recovery:
@@ -86,18 +93,17 @@ def _response(case: Case, model: ContactModel, recovery: StressOperators | None,
     return response.assign_attrs({"reduction_cpu_s": reduction_cpu, "peak_memory_bytes": peak_memory()})
 
 
-def _run_speeds(case: Case, model: ContactModel, recovery: StressOperators | None, files: Sequence[Path]) -> np.ndarray:
-    """Simulate every speed into its file; gives the COSTS, shape (costs, speeds)."""
-    costs = []
-    for speed, file in zip(case.speeds, files, strict=True):
-        choice = _choice(case, model, speed)
-        # compiled before it is timed
-        simulation_of(model, speed, case.scene, choice)
-        simulate = partial(run_speed, model, speed, case.scene, choice, case.results, motion=None, stress=recovery, **case.kept)
-        run, cpu, wall = timed(simulate)
+def _run(case: Case, model: ContactModel, recovery: StressOperators | None, speed: float) -> dict[str, np.ndarray]:
+    """Numbers of the run at a speed (rad/s), with its COSTS."""
+    choice = _choice(case, model, speed)
+    # compiled before it is timed
+    simulation_of(model, speed, case.scene, choice)
+    simulate = partial(run_speed, model, speed, case.scene, choice, case.results, motion=None, stress=recovery, **case.kept)
+    run, cpu, wall = timed(simulate)
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "run.npz"
         _, file_cpu, _ = timed(partial(write_speed, run, file, {}))
-        costs.append((cpu, wall, file_cpu, float(file.stat().st_size)))
-    return np.transpose(costs)
+        return run | {_COSTS_OF_RUN: np.array([cpu, wall, file_cpu, float(file.stat().st_size)])}
 
 
 def _choice(case: Case, model: ContactModel, speed: float) -> IntegrationChoice:

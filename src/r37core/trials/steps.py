@@ -1,6 +1,8 @@
 """Steps of the workflow (docs/architecture.md): models of cases, the cases, and the tables of a preset."""
 
+import shutil
 from dataclasses import replace
+from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
 
@@ -13,6 +15,7 @@ from r37core.base.plain import from_plain
 from r37core.blade.geometry_file import read_geometry
 from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
+from r37core.machine_code.kept import content_digest
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.table_file import write_table
@@ -23,6 +26,7 @@ from r37core.rom.reduction_choice import BoundaryChoice, BoundaryError, Reductio
 from r37core.rom.region_choice import RegionChoice
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model
 from r37core.stress.recovery import stress_operators
+from r37core.sweep.parts import Parts
 
 from .case import Case
 from .case_table import refusal
@@ -66,7 +70,8 @@ def model(input: Any, output: Any, params: Any) -> None:
 def run(input: Any, output: Any, params: Any) -> None:
     """Run one case. Inputs: contact; rom for the stress, cost of the model, campbell for the speeds. Params: case.
 
-    Output: response (nc). Raises ValueError for a crossing that the Campbell diagram does not have.
+    Output: response (nc). Raises ValueError for a crossing that the Campbell diagram does not have. A case that was interrupted
+    goes on.
     """
     case, files = from_plain(Case, params.case), dict(input.items())
     costs = {f"model_{name}": value for name, value in (read_json(files["cost"]) if "cost" in files else {}).items()}
@@ -81,7 +86,10 @@ def run(input: Any, output: Any, params: Any) -> None:
     operators, costs["recovery_cpu_s"], _ = timed(
         lambda: stress_operators(read_reduced_model(files["rom"]), material) if material else None
     )
-    write_dataset(run_case(case, read, operators), output.response, {"blade": case.blade, **costs})
+    made_of = [params.code, *(content_digest(files[name]) for name in ("contact", "rom") if name in files)]
+    parts = Parts(Path(output.response).with_suffix(".parts"), made_of)
+    write_dataset(run_case(case, read, operators, parts), output.response, {"blade": case.blade, **costs})
+    shutil.rmtree(parts.folder, ignore_errors=True)
 
 
 def crossing_speed(campbell: xr.Dataset, case: Case) -> float:
