@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import Terminal
-from snakemake import api, jobs, modules, script
+from snakemake import api, modules, script
 from snakemake import logging as snakemake_logging
 from snakemake.persistence import file as persistence
 from snakemake.scheduling import job_scheduler
@@ -38,23 +38,13 @@ def test_the_version_is_the_one_that_the_console_was_written_for(root):
     )
 
 
-@pytest.mark.parametrize(
-    ("where", "names"),
-    [
-        (types.ConfigSettings, {"configfiles", "config", "replace_workflow_config"}),
-        (types.OutputSettings, {"dryrun", "verbose"}),
-        (types.DAGSettings, {"targets"}),
-        (types.DeploymentSettings, {"deployment_method"}),
-    ],
-)
-def test_settings_have_their_names(where, names):
-    assert names <= {field.name for field in fields(where)}
-    section = where.__name__.removesuffix("Settings").lower() + "_settings"
-    assert section in api.Workflow.__annotations__
-    assert section in inspect.getsource(snakemake_run)
-
-
 def test_what_is_asked_of_snakemake_is_there():
+    sections = {types.ConfigSettings: {"configfiles", "config", "replace_workflow_config"}, types.DAGSettings: {"targets"}}
+    sections |= {types.OutputSettings: {"dryrun", "verbose"}, types.DeploymentSettings: {"deployment_method"}}
+    for section, names in sections.items():
+        assert names <= {field.name for field in fields(section)}
+        name = section.__name__.removesuffix("Settings").lower() + "_settings"
+        assert name in api.Workflow.__annotations__ and name in inspect.getsource(snakemake_run)
     names = ("is_main_process", "basedir", "current_basedir", "local_exec", "modifier", "scheduler")
     assert all(hasattr(api.Workflow, name) for name in names)
     assert hasattr(modules.WorkflowModifier, "is_main_snakefile")
@@ -64,19 +54,6 @@ def test_what_is_asked_of_snakemake_is_there():
     assert _LOCKS.parent == Path(".snakemake")
     assert f'"{HANDLER}"' in inspect.getsource(snakemake_logging.LoggerManager._default_streamhandler)
     assert {str(event) for event in LogEvent} >= QUIET_EVENTS
-
-
-@pytest.mark.parametrize(
-    ("source", "event", "names"),
-    [
-        (jobs, "JOB_INFO", ("jobid=", "rule_name=", "wildcards=", "output=")),
-        (job_scheduler, "JOB_FINISHED", ("job_id=",)),
-        (job_scheduler, "PROGRESS", ("done=", "total=")),
-    ],
-)
-def test_messages_have_the_fields_that_the_line_is_made_of(source, event, names):
-    about = inspect.getsource(source).split(f"event=LogEvent.{event}", 1)[1][:700]
-    assert [name for name in names if name not in about] == []
 
 
 def test_the_limit_of_jobs_per_second_and_the_interpreter_s_name_are_used_as_they_stand():
@@ -149,11 +126,12 @@ def test_plain_lines_come_once_a_minute_and_at_the_end(clock):
     assert "\r" not in stream.getvalue()
 
 
-def test_no_bound_is_said_that_windows_have_passed(clock):
+def test_no_bound_is_said_that_windows_have_passed_and_many_blades_are_not_all_named(clock):
     progress = Progress(2, io.StringIO(), clock)
-    for number in range(1, 4):
-        simulate(progress, clock, number, "Ref")
+    for number in range(1, 6):
+        simulate(progress, clock, number, f"B{number}")
         assert ("of at most 2" in progress.line()) == (number <= 2)
+    assert "(2 blades more, B3 1, B4 1, B5 1)" in progress.line()
 
 
 def test_on_a_terminal_the_line_renews_itself(clock):
@@ -229,13 +207,6 @@ def test_simulations_of_a_job_of_many_are_counted(clock, tmp_path, monkeypatch):
     assert "simulations 4 of at most 10 (Ref 1, members and designs 3); 1 diverged" in progress.line()
 
 
-def test_many_blades_are_not_all_named(clock):
-    progress = Progress(10, io.StringIO(), clock)
-    for number in range(1, 6):
-        simulate(progress, clock, number, f"B{number}")
-    assert "(2 blades more, B3 1, B4 1, B5 1)" in progress.line()
-
-
 def test_only_the_terminal_s_handler_is_quietened():
     terminal, file = logging.StreamHandler(), logging.StreamHandler()
     terminal.name, file.name = "DefaultStreamHandler", "DefaultLogFileHandler"
@@ -247,10 +218,14 @@ def test_only_the_terminal_s_handler_is_quietened():
 @pytest.mark.slow
 def test_a_run_prints_little_and_its_log_has_everything(root, tmp_path):
     copy_stubbed(root, tmp_path)
+    script = tmp_path / "workflow/scripts/step.py"
+    diverged = "import numpy\nif snakemake.rule == 'simulate':\n    numpy.savez(open(snakemake.output[0], 'wb'), status=1)\n"
+    script.write_text(f"{script.read_text()}\n{diverged}")
     printed = snakemake(tmp_path, "all_blades", "--cores", "2", full_log="")
     assert len(printed.splitlines()) < 66
     # of two jobs at a time either may end first
-    assert re.search(r"simulations 12 of at most 12 \((Ref 6, CS100 6|CS100 6, Ref 6)\); 0 diverged", printed)
+    assert re.search(r"simulations 12 of at most 12 \((Ref 6, CS100 6|CS100 6, Ref 6)\); 12 diverged", printed)
+    assert re.search(r"^jobs (\d+) of \1; simulations", printed, re.MULTILINE)
     assert "rule simulate:" not in printed
     logs = list(tmp_path.glob(".snakemake/log/*.log"))
     assert sum(log.read_text().count("rule simulate:") for log in logs) == 12

@@ -69,14 +69,18 @@ def headings(page):
     return {re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", line.lower()).strip()) for line in lines}
 
 
-def test_blades_of_readme_are_accepted(root, readme, config_copy):
+def test_blades_of_pages_are_accepted(root, readme, config_copy):
     """The mesh is that of the page on imports, without what a first attempt does not know."""
     mesh, variant = (safe_load(text) for text in re.findall(r"```yaml\n(.*?)```", readme, re.DOTALL))
     page = safe_load(re.search(r"```yaml\n(.*?)```", (root / "docs/your_blade.md").read_text(), re.DOTALL)[1])
     assert mesh == {"Fan": page["Fan"] | {"root": "?", "tip": "?"}}
-    overlay(config_copy, "blades.yaml", safe_dump(variant))
-    overlay(config_copy, "config.yaml", "blades: [Mine]")
-    assert read_settings(config_copy).blade_names == ["Mine"]
+    drawn = re.search(r"```yaml\n([^`]*Drawn:.*?)```", (root / "docs/blades.md").read_text(), re.DOTALL)[1]
+    shipped = (config_copy / "config/blades.yaml").read_text()
+    for text, blades in ((safe_dump(variant), "[Mine]"), (drawn, "[Mine, Stiffer, Drawn]")):
+        (config_copy / "config/blades.yaml").write_text(shipped)
+        overlay(config_copy, "blades.yaml", text)
+        overlay(config_copy, "config.yaml", f"blades: {blades}")
+        assert read_settings(config_copy).blade_names == safe_load(blades)
 
 
 @pytest.mark.parametrize("name", ["wrong_result", "failure", "wish"])
@@ -89,9 +93,11 @@ def test_templates_of_issues_ask(name):
 def test_the_image_runs_the_two_commands(root, readme):
     """It cannot be built here: what it calls is what README and Makefile have."""
     image, page = (root / "envs/Containerfile").read_text(), (root / "envs/README.md").read_text()
-    commands = re.findall(r"^(make \w+)", readme, re.MULTILINE)
-    assert len(commands) == 2 and all(command in page for command in commands)
-    assert 'CMD ["make", "all_blades"]' in image and "RUN make setup" in image and "\nsetup:" in (root / "Makefile").read_text()
+    commands = re.findall(r"^make (\w+)", readme, re.MULTILINE)
+    assert len(commands) == 2 and all(f"make {command}" in page for command in commands)
+    assert 'CMD ["make", "all_blades"]' in image and "RUN make setup" in image
+    makefile = (root / "Makefile").read_text()
+    assert all(re.search(rf"^(\w+ )*{target}( \w+)*:", makefile, re.MULTILINE) for target in ("setup", *commands))
 
 
 def test_no_page_is_called_like_one_that_the_site_makes_itself(root):

@@ -61,15 +61,10 @@ def column(page, name):
 
 def test_every_column_has_words():
     """And the unit of what it shows: one declaration for the page and its tooltips."""
-    assert column_named("length_most_revolutions_rad_s_low", RANKING_COLUMNS).title == "above yield in most revolutions, 5%"
+    for end, said in (("rad_s_low", "5%"), ("rad_s_median", "median"), ("scatter_rad_s", "scatter")):
+        titled = column_named(f"length_most_revolutions_{end}", RANKING_COLUMNS)
+        assert titled.title == f"above yield in most revolutions, {said}"
     assert column_named("chance_better_than_L50", RANKING_COLUMNS).title == "chance to be better than L50"
-    assert (
-        column_named("length_most_revolutions_rad_s_median", RANKING_COLUMNS).title == "above yield in most revolutions, median"
-    )
-    assert (
-        column_named("length_most_revolutions_scatter_rad_s", RANKING_COLUMNS).title
-        == "above yield in most revolutions, scatter"
-    )
     assert column_named("never_heard_of", RANKING_COLUMNS) is None
     columns = [column_named(name, SUMMARY) for name in ("blade", "peak_rms_normal_m", "max_von_mises_pa", "drop")]
     assert [(column.unit, column.factor) for column in columns] == [("", 1.0), ("mm", 1e3), ("MPa", 1e-6), ("%", 100.0)]
@@ -178,16 +173,9 @@ def test_which_blade(at_ref):
 def judged(*verdicts):
     """Panel of the requirements with rows: blade, scene, verdict on the length above yield, of which 24 rad/s are allowed."""
     names = ("blade", "scene", "verdict")
-    numbers = {
-        "requirement": "above_yield",
-        "limit": 24.0,
-        "value": 1.0,
-        "margin": 1.0,
-        "unit": "rad/s",
-        "certainty": "",
-        "note": "",
-    }
-    rows = [dict(zip(names, row, strict=True)) | numbers | {"from_rad_s": None, "to_rad_s": None} for row in verdicts]
+    numbers = {"requirement": "above_yield", "limit": 24.0, "value": 1.0, "margin": 1.0, "unit": "rad/s"}
+    numbers |= {"certainty": "", "note": "", "from_rad_s": None, "to_rad_s": None}
+    rows = [dict(zip(names, row, strict=True)) | numbers for row in verdicts]
     return {"requirements": {"pairs": [], "requirements": rows}}
 
 

@@ -59,13 +59,9 @@ def test_a_sweep_is_that_of_the_workflow(finished, config, scene):
 
 
 @pytest.mark.slow
-def test_a_campbell_diagram_is_that_of_the_workflow(finished, config):
-    xr.testing.assert_identical(r37.campbell("Ref", config=config), read_dataset(finished / "results/Ref/campbell.nc"))
-
-
-@pytest.mark.slow
-def test_what_is_kept_is_not_made_again(config, monkeypatch):
+def test_a_campbell_diagram_is_that_of_the_workflow_and_what_is_kept_is_not_made_again(finished, config, monkeypatch):
     first = r37.campbell("Ref", config=config)
+    xr.testing.assert_identical(first, read_dataset(finished / "results/Ref/campbell.nc"))
     made = []
     steps = {"blade": "geometry", "fem": "mesh", "rom": "reduced_model", "results": "campbell_of_blade"}
     for folder, step in steps.items():
@@ -85,6 +81,8 @@ def test_what_is_kept_is_not_made_again(config, monkeypatch):
 
 @pytest.mark.slow
 def test_changes_count(config):
+    histories = r37.scene("abradable", config=config, stress_history_speeds_rad_s=[1150, 1900])
+    assert list(r37.sweep("Ref", histories, [1000, 1150], config=config)["history_speed"]) == [1150.0]
     less = r37.scene("abradable", config=config, results=["wear"], **{"friction.coefficient": 0.05})
     before, after = (r37.simulate("Ref", scene, 1150, results=["wear"], config=config) for scene in ("abradable", less))
     assert "max_von_mises" not in before and "amplitude" not in before
@@ -95,12 +93,6 @@ def test_changes_count(config):
     # at rest; the basis is that of other speeds, too
     np.testing.assert_allclose(ratio.isel(speed=0), np.sqrt(0.5), rtol=1e-3)
     assert r37.campbell(heavy).attrs["input_hash"] != r37.campbell("Ref", config=config).attrs["input_hash"]
-
-
-@pytest.mark.slow
-def test_a_stress_history_is_kept_of_the_speeds_that_are_run(config):
-    scene = r37.scene("abradable", config=config, stress_history_speeds_rad_s=[1150, 1900])
-    assert list(r37.sweep("Ref", scene, [1000, 1150], config=config)["history_speed"]) == [1150.0]
 
 
 def test_a_changed_entry_is_the_one_that_an_edited_file_has(root, config_copy):

@@ -261,10 +261,3 @@ def test_all_that_a_run_has_is_reached(finished, tmp_path):
     assert tree["Ref/abradable/signals"]["x"] == 2.0
     for blade in ("Ref", "CS100"):
         xr.testing.assert_identical(tree[f"{blade}/direct/response"].to_dataset().load(), results.response(blade, "direct"))
-
-
-@pytest.mark.slow
-def test_an_estimate_asked_for_in_python_is_among_the_tables(finished, tmp_path):
-    results = r37.run("Ref", "abradable", [1150, 1550], estimate={"every": 600}, folder=tmp_path / "study")
-    assert len(results.tables["estimate"]) > 0
-    assert "estimate" not in r37.run("Ref", "abradable", [1150], folder=tmp_path / "plain").tables

@@ -58,12 +58,18 @@ def states_of(model, folder, scene=GROWING, sweep=SWEEP, choice=CHOICE):
     return states, files
 
 
+@pytest.fixture(scope="module")
+def swept(contact, tmp_path_factory):
+    """Folder with the sweeps of all three motions, and their states."""
+    folder = tmp_path_factory.mktemp("swept")
+    return folder, states_of(contact, folder)[0]
+
+
 def test_the_motion_from_rest_is_the_run_of_the_pipeline(contact, tmp_path):
     files = sweep_of(contact, REST).run(tmp_path)
     expected = run_speed(contact, 1310.0, GROWING, CHOICE, (), **KEPT)
     numbers = read_speed(files[1])
-    for name, value in expected.items():
-        np.testing.assert_array_equal(numbers[name], value, err_msg=name)
+    np.testing.assert_equal({name: numbers[name] for name in expected}, expected)
 
 
 def test_a_sweep_begins_as_a_run_from_rest_that_goes_on(contact, tmp_path):
@@ -78,10 +84,9 @@ def test_a_sweep_begins_as_a_run_from_rest_that_goes_on(contact, tmp_path):
 
 @pytest.mark.parametrize("motion", [UP, DOWN])
 def test_an_interrupted_sweep_goes_on_with_the_same_bits(contact, motion, tmp_path, monkeypatch):
-    scene = LINED
     sweep = replace(SWEEP, worn=True)
-    whole = [read_speed(file) for file in sweep_of(contact, motion, scene, sweep).run(tmp_path / "whole")]
-    runs = []
+    whole = [read_speed(file) for file in sweep_of(contact, motion, LINED, sweep).run(tmp_path / "whole")]
+    original, runs = CarriedSweep.run_on, []
 
     def run_on(self, speed, carried):
         if len(runs) == 2:
@@ -89,17 +94,11 @@ def test_an_interrupted_sweep_goes_on_with_the_same_bits(contact, motion, tmp_pa
         runs.append(speed)
         return original(self, speed, carried)
 
-    original = CarriedSweep.run_on
-    monkeypatch.setattr(CarriedSweep, "run_on", run_on)
-    with pytest.raises(KeyboardInterrupt):
-        sweep_of(contact, motion, scene, sweep).run(tmp_path / "parts")
-    monkeypatch.setattr(CarriedSweep, "run_on", original)
-    files = sweep_of(contact, motion, scene, sweep).run(tmp_path / "parts")
-    for file, expected in zip(files, whole, strict=True):
-        numbers = read_speed(file)
-        assert numbers.keys() == expected.keys()
-        for name, value in expected.items():
-            np.testing.assert_array_equal(numbers[name], value, err_msg=name)
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        patch.setattr(CarriedSweep, "run_on", run_on)
+        sweep_of(contact, motion, LINED, sweep).run(tmp_path / "parts")
+    files = sweep_of(contact, motion, LINED, sweep).run(tmp_path / "parts")
+    np.testing.assert_equal([read_speed(file) for file in files], whole)
 
 
 def test_a_lining_is_new_or_carried_on(contact, tmp_path):
@@ -108,9 +107,7 @@ def test_a_lining_is_new_or_carried_on(contact, tmp_path):
         files = sweep_of(contact, UP, LINED, replace(SWEEP, worn=worn)).run(tmp_path / str(worn))
         wear[worn] = [read_speed(file).get(END_WEAR) for file in files]
     assert wear[False] == [None, None, None]
-    for before, after in zip(wear[True], wear[True][1:], strict=False):
-        assert np.all(after >= before)
-    assert wear[True][0].max() > 0.0
+    assert (np.diff(wear[True], axis=0) >= 0.0).all() and wear[True][0].max() > 0.0
 
 
 def test_after_a_run_that_diverged_the_sweep_starts_from_rest(contact, tmp_path):
@@ -233,11 +230,9 @@ def test_random_states_are_outside_of_the_casing(contact):
         assert not state.contact_force.any()
         finish_revolution(simulation, state)
         assert state.samples % CHOICE.samples_per_revolution == 0
-    again = random_states(problem, 30.0, 8, 3)
-    other = random_states(problem, 30.0, 8, 4)
-    simulation_state = [state.displacement for state in again]
-    assert not np.array_equal(simulation_state[0], other[0].displacement)
-    np.testing.assert_array_equal(simulation_state[5], random_states(problem, 30.0, 6, 3)[5].displacement)
+    again, fewer, other = (random_states(problem, 30.0, *about)[5].displacement for about in ((8, 3), (6, 3), (6, 4)))
+    np.testing.assert_array_equal(again, fewer)
+    assert not np.array_equal(again, other)
     # where the sweeps' motions are quiet, random ones are not
     small, none = (random_states(problem, size, 1, 0)[0] for size in (1e-9, 0.0))
     assert np.abs(problem.contact.displacement_operator[0] @ small.displacement).max() > 1e-5
@@ -285,12 +280,10 @@ def motions(tmp_path):
 def test_the_worst_motion_stands_in_the_ranking(motions):
     ranking = pd.DataFrame({"blade": ["Ref", "S100"], "scene": "direct", "rank": [1, 2]})
     table = ranking_with_motions(ranking, motions)
-    assert table.loc[0, "length_most_revolutions_rest_rad_s"] == 0.0
     # half of the way from one speed to the next on both sides
-    assert table.loc[0, "length_most_revolutions_worst_rad_s"] == pytest.approx(15.0)
-    assert table.loc[0, "largest_rms_worst_m"] == pytest.approx(4e-3)
-    assert table.loc[1, ["length_most_revolutions_worst_rad_s", "rank_worst"]].isna().all()
-    assert table.loc[0, "rank_worst"] == 1
+    lengths = [f"length_most_revolutions_{name}_rad_s" for name in ("rest", "worst")]
+    assert table.loc[0, [*lengths, "largest_rms_worst_m", "rank_worst"]].tolist() == pytest.approx([0.0, 15.0, 4e-3, 1])
+    assert table.loc[1, [lengths[1], "rank_worst"]].isna().all()
 
 
 def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions):
@@ -378,8 +371,8 @@ def test_the_last_line_names_no_motion_without_one_from_rest(tmp_path):
     assert closing(tmp_path) == f"1 range of hysteresis; {where}"
 
 
-def test_dwells_of_real_sweeps(contact, tmp_path):
-    states, _ = states_of(contact, tmp_path)
+def test_dwells_of_real_sweeps(contact, swept):
+    _, states = swept
     assert levels_of(states).mean.shape == (3, 3)
     carried = sweep_of(contact, UP)
     rows = dwells_of(carried, states, DwellChoice(revolutions=100, range_speeds=1, starts=1, speeds=(1310.0,)))
@@ -422,13 +415,12 @@ def test_what_cannot_be_swept_is_refused(root, section, message):
     assert message in str(error.value) and "\n" not in str(error.value)
 
 
-def test_interrupted_dwells_go_on_from_the_next_speed(contact, tmp_path, monkeypatch):
-    states_of(contact, tmp_path)
+def test_interrupted_dwells_go_on_from_the_next_speed(contact, swept, tmp_path, monkeypatch):
     write_contact_model(contact, tmp_path / "contact.npz")
     choice = DwellChoice(revolutions=100, range_speeds=0, starts=1, speeds=(1300.0, 1310.0))
     plain = {"scene": GROWING, "choice": CHOICE, "sweep": SWEEP, "dwell": choice}
     params = SimpleNamespace(code="", provenance={}, **{name: to_plain(value) for name, value in plain.items()})
-    files = SimpleNamespace(model=tmp_path / "contact.npz", states=[tmp_path / f"{motion}.npz" for motion in MOTIONS])
+    files = SimpleNamespace(model=tmp_path / "contact.npz", states=[swept[0] / f"{motion}.npz" for motion in MOTIONS])
     asked, most = [], 3
 
     def dwells_at(run, states, choice):
@@ -471,12 +463,12 @@ def test_sweeps_leave_their_motion_at_the_folds(tmp_path):
     assert np.all(differ[(speeds > low + 5.0) & (speeds < high - 5.0)])
 
 
-@pytest.mark.parametrize("motion", [UP, DOWN, REST])
-def test_a_dwell_on_a_new_lining_goes_on_as_the_sweep_did(contact, tmp_path, motion):
+def test_a_dwell_on_a_new_lining_goes_on_as_the_sweep_did(contact, tmp_path):
     """Its first revolutions are those of the sweep at that speed: the motion belongs to the lining that it has worn."""
     carried, (states, files) = sweep_of(contact, UP, LINED), states_of(contact, tmp_path, LINED)
     simulation = Simulation(contact, 1310.0, carried.scene.grown, carried.unrecorded_choice)
-    begun, state = begun_as(carried, states, motion, 1, simulation)
-    rms = dwell(begun, state, 100)["revolution_rms"]
-    expected = read_speed(files[motion][1])["revolution_rms"]
-    np.testing.assert_allclose(rms[: len(expected)], expected, rtol=1e-12)
+    for motion in MOTIONS:
+        begun, state = begun_as(carried, states, motion, 1, simulation)
+        rms = dwell(begun, state, 100)["revolution_rms"]
+        expected = read_speed(files[motion][1])["revolution_rms"]
+        np.testing.assert_allclose(rms[: len(expected)], expected, rtol=1e-12, err_msg=motion)

@@ -199,7 +199,6 @@ def test_pages_are_named_by_words_and_the_graph_of_rules_becomes_a_table(root):
     text = ["See [your_blade.md](your_blade.md#a). [speed.md](speed.md) and [`config.yaml`](../config/config.yaml)."]
     adapt(None, "page", text)
     assert text == ["See [your blade](your_blade.md#a). [Speed](speed.md) and `config.yaml`."]
-    adapt = runpy.run_path(str(root / "docs/site/repository_links.py"))["adapt"]
     text = ["```mermaid\nflowchart LR\n    mesh --> model\n    mesh --> deck\n```"]
     adapt(None, "page", text)
     assert text == ["| rule | its results go to |\n|---|---|\n| `mesh` | `model`, `deck` |"]

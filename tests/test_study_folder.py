@@ -80,6 +80,7 @@ def test_a_study_has_rules_of_its_own_and_changes_on_top(study):
     (study / "Snakefile").write_text(text.replace('"draft"', '"rough"'))
     told = snakemake(study, "-n", check=False)
     assert "config of the module r37: fidelity: found 'rough'; allowed: draft, standard" in told
+    assert not (study / "results").exists()
 
 
 @pytest.mark.slow

@@ -76,14 +76,14 @@ def run(code, config, folder, **environment):
 
 
 @pytest.mark.slow
-def test_eight_threads_of_ten_runs_give_the_bits_of_one(compiled, config, tmp_path):
+def test_eight_threads_of_ten_runs_give_the_bits_of_one(config, tmp_path):
     printed = run(SIMULATIONS, config, tmp_path, R37_CACHE=str(tmp_path / "cache"))
     # nothing that a caller prints is lost
     assert sorted(printed.split("\n")) == ["", *(f"thread {number}" for number in range(9))]
 
 
 @pytest.mark.slow
-def test_every_call_may_run_in_two_threads(compiled, config, tmp_path):
+def test_every_call_may_run_in_two_threads(config, tmp_path):
     run(CALLS, config, tmp_path)
 
 

@@ -379,9 +379,9 @@ def test_python_makes_what_a_section_asks_for(monkeypatch, root):
     """Without a target the tables; the section of an extension that is made on request adds its own."""
     asked = []
     monkeypatch.setattr("r37.runs.run_workflow", lambda settings, place, targets, cores: asked.append(list(targets)))
-    for more in ({"tradeoff": {"scenes": ["direct"]}}, {"tolerances": {}}, {"tradeoff": {}, "targets": "stability"}):
+    for more in ({"estimate": {"every": 600}}, {"tolerances": {}}, {"tradeoff": {}, "targets": "stability"}):
         r37.run("Ref", "direct", [900], config=root / "config/config.yaml", **more)
-    assert asked == [["tables", "tradeoff"], ["tables"], ["stability"]]
+    assert asked == [["tables", "estimate"], ["tables"], ["stability"]]
 
 
 PRESETS = """
