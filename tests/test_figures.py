@@ -118,10 +118,7 @@ def test_figures_print_on_a_page_with_letters_to_read_and_have_rpm_beside_every_
         assert ("rpm" in labels) == any("rad/s" in label for label in labels), name
 
 
-@pytest.mark.parametrize(
-    "draw, kind, panels",
-    [(maps.draw_spectral_map, "spectrum", 2), (maps.draw_wear_map, "wear", 1)],
-)
+@pytest.mark.parametrize("draw, kind, panels", [(maps.draw_spectral_map, "spectrum", 2), (maps.draw_wear_map, "wear", 1)])
 def test_a_map_of_runs_that_all_diverged_says_so(datasets, draw, kind, panels):
     of_scene = datasets[kind].sel(blade="Ref", scene="abradable")
     figure = draw(np.nan * of_scene, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
