@@ -126,6 +126,7 @@ def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
         (GRID.replace("5]", "70]"), r"Grid\.chordwise_sweep_deg: design Grid_70_8000: found 70; allowed: .*than 60"),
         (GRID.replace("chordwise_sweep_deg", "sweep"), r"found unknown key sweep; .* \(did you mean sweep_percent\?\)"),
         (GRID.replace("chordwise_sweep_deg", "casing.lobes"), r"unknown key casing\.lobes; .*varies in scenes\.yaml"),
+        (GRID.replace("[-2.5, 5]", "[5, 5]"), r"Grid\.vary\.chordwise_sweep_deg\.1: found 5\.0 twice; allowed: each once"),
         (SWEEP.replace("S100", "Ref"), r"yaml:\d+: Sweep_-50\.sweep_percent: .* no table of sweep and lean"),
         (SWEEP.replace("-50, stop: 150", "150, stop: -50"), r"percent\.stop: found -50; allowed: not below start \(150\)"),
         (SWEEP.replace("step: 100", "step: 1e-6"), r"sweep_percent\.step: found 1e-06; allowed: at most 10000 values"),
