@@ -241,7 +241,7 @@ def test_leftovers_are_what_is_removed_or_no_longer_asked_for(config_copy):
     gone += ["Ref/contact_camber.npz", "Ref/rom_camber.nc", "exports/Ref/mesh.bdf", "Ref/direct/speed_901.npz"]
     gone += ["figures/response_L50.png", "figures/response_L50.pdf", "figures/comparison_abradable.pdf"]
     gone += ["figures/wear_Ref__abradable.png"]
-    folders = ["exports/L50", "L50", "Ref/abradable", "shapes"]
+    folders = ["exports/L50", "L50", "Ref/abradable", "shapes/Ref", "shapes/L50"]
     inside = ["exports/L50/mesh.bdf", "L50/mesh.vtu", "Ref/abradable/speed_900.npz", "shapes/L50/modes/modes_0.vtu"]
     inside += [f"shapes/Ref/{name}_0.vtu" for name in ("modes/modes", "stress_direct/stress", "stress_abradable/stress")]
     for name in [*kept, *gone, *inside]:
