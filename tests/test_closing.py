@@ -13,7 +13,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.closing import closing_lines
 from r37core.product.extensions import EXTENSIONS
 from r37core.product.remarks import line_of_extension
-from r37core.results.closing import counted, interaction_title, lining_texts
+from r37core.results.closing import lining_texts
 from r37core.rotors import dataset as rotors
 from r37core.run_ups import tables as run_ups
 from r37core.search import dataset as search
@@ -154,12 +154,6 @@ def test_linings_are_compared_with_the_tips_of_the_blades():
         "length; of the blade there 6.2e+06 to 7.48e+06 N/m"
     ]
     assert lining_texts({}) == []
-
-
-def test_counts_and_interactions_in_words():
-    assert [counted(number, "run-up") for number in (0, 1, 2)] == ["0 run-ups", "1 run-up", "2 run-ups"]
-    titles = [interaction_title(*of) for of in (("1B", 4), ("", 4), ("", ""), ("", None))]
-    assert titles == ["1B/4", "engine order 4", "a peak of its own", "a peak of its own"]
 
 
 def test_nothing_found_and_nothing_new(tmp_path):

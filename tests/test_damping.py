@@ -89,9 +89,8 @@ def test_the_frequency_is_that_of_the_speed_and_of_the_blade():
     frequencies = np.sqrt(rest**2 + per_square * speeds**2)
     steps = 2.0 * np.pi / speeds / problem.grid.steps_per_revolution
     ratios = 0.0005 + 0.0015 * (frequencies / 2.0 / np.pi - 1000.0) / 7000.0
-    np.testing.assert_allclose(
-        segments_at(problem, speeds).recursion.keep[:, 0], exact_modal(frequencies, ratios, steps).keep, rtol=1e-12
-    )
+    keep = segments_at(problem, speeds).recursion.keep[:, 0]
+    np.testing.assert_allclose(keep, exact_modal(frequencies, ratios, steps).keep, rtol=1e-12)
     rotor = Rotor((1, 2), (0.0, np.pi), (1.0, 1.5), (0.0, 0.0))
     lined = with_damping(replace(SCENES["abradable"], rotor=rotor), RISING)
     tuned = [one.blade for one in blade_problems(with_static_modes(oscillator(rest), 1e-9), speed, lined, rotor, CHOICE)]
@@ -116,9 +115,6 @@ def test_the_table_of_a_file_reaches_the_jobs_and_is_no_number_that_varies():
     [
         ({"frequencies_hz": [8000, 1000]}, r"damping_ratio\.frequencies_hz: found \[8000.0, 1000.0\]; allowed: ascending freq"),
         ({"ratios": [0.1] * 3}, r"damping_ratio\.ratios: found 3 numbers for 2 frequencies; allowed: one for each frequency"),
-        ({"frequencies_hz": []}, r"damping_ratio\.frequencies_hz: found \[\]; allowed: list of number, entries: at least 2"),
-        ({"ratios": [-0.1, 0.1]}, r"damping_ratio\.ratios\.0: found -0.1; allowed: number, at least 0, less than 1"),
-        ({"ratios": [0.1, 1]}, r"damping_ratio\.ratios\.1: found 1; allowed: number, at least 0, less than 1"),
     ],
 )
 def test_a_table_that_cannot_be_is_refused(change, message):

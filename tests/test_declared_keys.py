@@ -249,23 +249,22 @@ def defaults_in(tree):
 
     But for fields that declare a key, where its default stands.
     """
+    pairs = []
     for line in tree.body:
-        if isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Name):
-            yield line.targets[0].id.lower(), literal(line.value), line.lineno
-        elif isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Tuple) and isinstance(line.value, ast.Tuple):
-            for name, value in zip(line.targets[0].elts, line.value.elts, strict=True):
-                yield name.id.lower(), literal(value), line.lineno
+        if isinstance(line, ast.Assign):
+            both = isinstance(line.targets[0], ast.Tuple) and isinstance(line.value, ast.Tuple)
+            pairs += zip(line.targets[0].elts, line.value.elts, strict=True) if both else [(line.targets[0], line.value)]
     for node in ast.walk(tree):
         if isinstance(node, ast.ClassDef):
-            for line in node.body:
-                if isinstance(line, ast.AnnAssign) and line.value is not None and not is_declaration(line):
-                    yield line.target.id, literal(line.value), line.lineno
+            fields = [line for line in node.body if isinstance(line, ast.AnnAssign) and not is_declaration(line)]
+            pairs += [(line.target, line.value) for line in fields]
         elif isinstance(node, ast.FunctionDef):
             named = [*node.args.posonlyargs, *node.args.args]
-            given = zip(reversed(named), reversed(node.args.defaults), strict=False)
-            for argument, value in [*given, *zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)]:
-                if value is not None:
-                    yield argument.arg, literal(value), value.lineno
+            pairs += zip(reversed(named), reversed(node.args.defaults), strict=False)
+            pairs += zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
+    for target, value in pairs:
+        if value is not None:
+            yield getattr(target, "id", getattr(target, "arg", "")).lower(), literal(value), value.lineno
 
 
 def test_no_default_of_a_key_stands_in_the_code_again(root):

@@ -137,23 +137,16 @@ def test_a_row_of_direct_contact_is_a_range_and_has_no_mode():
     motion = 1e-3 * (1.0 + rising(speeds))
     found = find_interactions(response(speeds, drawn(rising(speeds), speeds), motion), None, CHOICE)
     (row,) = [one for one in found if one["length_most_revolutions_rad_s"] > 0.0]
-    assert row["mode"] == ""
-    assert np.isnan(row["campbell_speed_rad_s"])
-    assert np.isnan(row["width_above_yield_rad_s"])
-    assert np.isnan(row["max_von_mises_pa"])
-    assert "direct contact" in row["note"]
+    assert row["mode"] == "" and "direct contact" in row["note"]
+    # the motion is halved, and no less, where the range ends
+    nothing = ("campbell_speed_rad_s", "width_above_yield_rad_s", "max_von_mises_pa", "fall_speed_rad_s")
+    assert np.isnan([row[name] for name in nothing]).all()
     assert row["most_revolutions_from_rad_s"] == pytest.approx(1050.0, abs=8.0)
     assert row["most_revolutions_to_rad_s"] == pytest.approx(1300.0, abs=5.0)
-    assert (
-        row["some_revolutions_from_rad_s"]
-        < row["most_revolutions_from_rad_s"]
-        < row["most_revolutions_to_rad_s"]
-        < row["some_revolutions_to_rad_s"]
-    )
+    assert row["some_revolutions_from_rad_s"] < row["most_revolutions_from_rad_s"]
+    assert row["most_revolutions_to_rad_s"] < row["some_revolutions_to_rad_s"]
     assert row["median_von_mises_pa"] == pytest.approx(1.5e9)
     assert row["peak_motion_m"] == pytest.approx(np.sqrt(2.0) * 2e-3)
-    # the motion is halved, and no less, where the range ends
-    assert np.isnan(row["fall_speed_rad_s"])
 
 
 def test_no_speed_above_yield_is_outside_of_a_row():
@@ -225,8 +218,7 @@ def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_pe
 def test_a_lined_row_has_both_widths():
     """The last revolution is above yield at three speeds, some revolution of the last half at five."""
     speeds = np.arange(1000.0, 1011.0)
-    ever = np.isin(speeds, [1003.0, 1004.0, 1005.0, 1006.0, 1007.0])
-    last = np.isin(speeds, [1004.0, 1005.0, 1006.0])
+    ever, last = np.abs(speeds - 1005.0) <= 2.0, np.abs(speeds - 1005.0) <= 1.0
     motion = 1e-3 * np.exp(-(((speeds - 1005.0) / 2.0) ** 2))
     lined = response(speeds, np.where(last, 1.0, np.where(ever, 0.2, 0.0)), motion, lined=1)
     lined["max_von_mises"][:], lined["max_von_mises_ever"][:] = np.where(last, 2e9, 0.0), np.where(ever, 2e9, 0.0)
@@ -241,11 +233,8 @@ def test_a_lined_blade_that_is_above_yield_without_a_peak_has_a_row():
     speeds = np.arange(1000.0, 1011.0)
     rising_motion = response(speeds, np.ones(11), 1e-3 * speeds, lined=1)
     (row,) = find_interactions(rising_motion, campbell(), CHOICE)
-    assert (row["some_revolutions_from_rad_s"], row["some_revolutions_to_rad_s"], row["length_most_revolutions_rad_s"]) == (
-        1000.0,
-        1010.0,
-        10.0,
-    )
+    keys = ("some_revolutions_from_rad_s", "some_revolutions_to_rad_s", "length_most_revolutions_rad_s")
+    assert [row[key] for key in keys] == [1000.0, 1010.0, 10.0]
     assert "without a peak" in row["note"]
 
 
@@ -257,14 +246,10 @@ def test_robustness_counts_diverged_runs_as_above_yield():
     one = response(speeds, shares, np.ones(len(speeds)), lined=1, status=status)
     assert exceedance_of(one).shares.max() == 1.0
     found = robustness(one)
-    assert found["length_most_revolutions_rad_s"] == 10.0
-    assert found["largest_gap_rad_s"] == 10.0
     assert set(found) == set(names(ROBUSTNESS))
-    assert [found[name] for name in ("widest_range_rad_s", "widest_range_from_rad_s", "ranges_most_revolutions")] == [
-        10.0,
-        945.0,
-        1,
-    ]
+    expected = {"length_most_revolutions_rad_s": 10.0, "largest_gap_rad_s": 10.0, "ranges_most_revolutions": 1}
+    expected |= {"widest_range_rad_s": 10.0, "widest_range_from_rad_s": 945.0}
+    assert expected.items() <= found.items()
     assert robustness(response(speeds, np.zeros(11), np.ones(11), lined=1))["widest_range_rad_s"] == 0.0
     nothing = np.full(len(speeds), np.nan)
     every = response(speeds, nothing, nothing, status=np.full(len(speeds), RunStatus.DIVERGED))
@@ -277,12 +262,8 @@ def test_robustness_counts_diverged_runs_as_above_yield():
 
 
 def of(certain, possible=0.0, stress=1e9):
-    values = {
-        "length_most_revolutions_rad_s": certain,
-        "length_some_revolutions_rad_s": possible,
-        "largest_median_stress_pa": stress,
-    }
-    values["diverged_runs"] = 0.0
+    values = {"length_most_revolutions_rad_s": certain, "length_some_revolutions_rad_s": possible, "diverged_runs": 0.0}
+    values["largest_median_stress_pa"] = stress
     return dict.fromkeys(names(ROBUSTNESS), np.nan) | values
 
 
@@ -295,6 +276,10 @@ def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
     ]  # fmt: skip
 
 
+def labels_of(figure):
+    return [label.get_text() for label in figure.axes[0].get_yticklabels()]
+
+
 def test_blades_of_unlike_contact_have_ranks_of_their_own():
     lined = {("A", "x"): of(5.0), ("Mine", "x"): of(1.0), ("B", "x"): of(3.0)}
     members = {pair: {"0": of(1.0)} for pair in lined}
@@ -303,24 +288,15 @@ def test_blades_of_unlike_contact_have_ranks_of_their_own():
         ["B", 1, "8 points"], ["A", 2, "8 points"], ["Mine", 1, "12 patches"],
     ]  # fmt: skip
     assert not {"chance_better_than_Mine", "rank_over_scenes"} & set(table)
-    figure = draw_ranking(table)
-    assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == [
-        "B\n8 points",
-        "A\n8 points",
-        "Mine\n12 patches",
-    ]
+    assert labels_of(draw_ranking(table)) == ["B\n8 points", "A\n8 points", "Mine\n12 patches"]
 
 
 def test_one_order_over_all_scenes_is_by_the_longest_length():
     """Lengths within their scatter share a rank; who has no length in one of the scenes has none."""
     scattering = {"length_most_revolutions_scatter_rad_s": 8.0}
     found = {("A", "x"): of(60.0), ("B", "x"): of(2.0), ("C", "x"): of(1.0), ("D", "x"): of(3.0)}
-    found |= {
-        ("A", "y"): of(10.0),
-        ("B", "y"): of(70.0) | scattering,
-        ("C", "y"): of(80.0) | scattering,
-        ("D", "y"): of(np.nan),
-    }
+    found |= {("A", "y"): of(10.0), ("B", "y"): of(70.0) | scattering}
+    found |= {("C", "y"): of(80.0) | scattering, ("D", "y"): of(np.nan)}
     table = ranking_table(found).set_index(["blade", "scene"])
     for scene in ("x", "y"):
         rows = table.loc[[(blade, scene) for blade in "ABC"]]
@@ -341,11 +317,8 @@ def test_the_chance_to_be_better_is_of_common_members():
     table = ranking_table({pair: of(2.0) for pair in members}, members).set_index("blade")
     assert table.loc["A", "chance_better_than_B"] == 0.5
     assert np.isnan(table.loc["A", "chance_better_than_A"])
-    assert (table.loc["A", "length_most_revolutions_rad_s_low"], table.loc["A", "length_most_revolutions_rad_s_high"]) == (
-        1.0,
-        9.0,
-    )
-    assert table.loc["A", "members"] == 4
+    ends = ["length_most_revolutions_rad_s_low", "length_most_revolutions_rad_s_high", "members"]
+    assert table.loc["A", ends].tolist() == [1.0, 9.0, 4]
 
 
 def test_the_ranking_is_drawn_in_the_order_of_the_first_scene():
@@ -354,11 +327,11 @@ def test_the_ranking_is_drawn_in_the_order_of_the_first_scene():
     }
     figure = draw_ranking(ranking_table(found))
     assert [axes.get_title() for axes in figure.axes] == ["x", "y"]
-    assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == ["B", "A"]
+    assert labels_of(figure) == ["B", "A"]
     assert sorted(bar.get_width() for bar in figure.axes[0].patches) == [1.0, 5.0, 7.0, 9.0]
     many = draw_ranking(ranking_table({(f"blade_{number}", "x"): of(float(number), 100.0) for number in range(90)}))
     expected = [*(f"blade_{number}" for number in range(30)), "(30 more)", *(f"blade_{number}" for number in range(60, 90))]
-    assert [label.get_text() for label in many.axes[0].get_yticklabels()] == expected
+    assert labels_of(many) == expected
 
 
 def test_lengths_ever_and_lasting():

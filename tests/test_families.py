@@ -6,8 +6,6 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from stubbed_runs import copy_stubbed
-from workflow_runs import overlay, planned_outputs
 
 from r37core.base.plain import to_plain
 from r37core.blade import section_changes
@@ -126,16 +124,9 @@ def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
     [
         (GRID.replace("[8000, 4500]", "[8000]") + "  combine: pairs\n", r"yaml:\d+: Grid\.vary: found chordwise_sweep_deg 2"),
         (GRID.replace("5]", "70]"), r"Grid\.chordwise_sweep_deg: design Grid_70_8000: found 70; allowed: .*than 60"),
-        (GRID.replace("chordwise_sweep_deg", "chordwise"), r"design Grid_-2p5_8000: found unknown key chordwise; allowed"),
         (GRID.replace("chordwise_sweep_deg", "sweep"), r"found unknown key sweep; .* \(did you mean sweep_percent\?\)"),
-        (
-            GRID.replace("chordwise_sweep_deg", "casing.clearance_m"),
-            r"found unknown key casing\.clearance_m; .* \(a number of a scene varies in scenes\.yaml",
-        ),
-        (GRID.replace("density_kg_m3", "density"), r"yaml:\d+: Grid.*: found unknown key density; allowed keys: youngs"),
+        (GRID.replace("chordwise_sweep_deg", "casing.lobes"), r"unknown key casing\.lobes; .*varies in scenes\.yaml"),
         (GRID.replace("[-2.5, 5]", "[5, 5]"), r"Grid\.vary\.chordwise_sweep_deg\.1: found 5\.0 twice; allowed: each once"),
-        (GRID.replace("[-2.5, 5]", "[]"), r"Grid\.vary\.chordwise_sweep_deg: found \[\]; allowed: .*at least 1"),
-        (GRID.replace("[-2.5, 5]", "[forward]"), r"Grid\.vary\.chordwise_sweep_deg\.0: found 'forward'; allowed: number"),
         (SWEEP.replace("S100", "Ref"), r"yaml:\d+: Sweep_-50\.sweep_percent: .* no table of sweep and lean"),
         (SWEEP.replace("-50, stop: 150", "150, stop: -50"), r"percent\.stop: found -50; allowed: not below start \(150\)"),
         (SWEEP.replace("step: 100", "step: 1e-6"), r"sweep_percent\.step: found 1e-06; allowed: at most 10000 values"),
@@ -183,11 +174,10 @@ def compared():
         coords={"blade": ["F_1", "F_2"], "mode": ["1B", "1T"], "speed": [0.0, 2000.0]},
     )
     over = ("blade", "scene", "speed")
+    largest = (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]])
     stress = xr.Dataset(
         {
-            "max_von_mises": (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
-            "max_von_mises_median": (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
-            "max_von_mises_ever": (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]]),
+            **dict.fromkeys(("max_von_mises", "max_von_mises_median", "max_von_mises_ever"), largest),
             "share_of_revolutions_above_yield": (over, [[[0.0, 1.0, np.nan]], [[0.0, 0.0, 0.0]]]),
             "yield_stress": (("blade", "scene"), [[2e9], [2e9]]),
             "status": (("blade", "scene", "speed"), [[[0, 0, RunStatus.NOT_RUN]], [[0, 0, 0]]]),
@@ -217,11 +207,8 @@ def test_designs_are_compared(compared):
     one = rows.loc["F_1", "lined"]
     assert (one["mass_kg"], one["frequency_1b_hz"], one["frequency_1t_hz"]) == (0.2, 800.0, 2500.0)
     assert one["clearance_loss_1b_m"] == 3e-4
-    assert (one["length_most_revolutions_rad_s"], one["first_most_revolutions_rad_s"], one["largest_median_stress_pa"]) == (
-        5.0,
-        905.0,
-        3e9,
-    )
+    keys = ["length_most_revolutions_rad_s", "first_most_revolutions_rad_s", "largest_median_stress_pa"]
+    assert one[keys].tolist() == [5.0, 905.0, 3e9]
     # of the two peaks of 1B the one with the larger motion
     assert one["shift_1b_rad_s"] == 50.0
     other = rows.loc["F_2", "lined"]
@@ -238,15 +225,3 @@ def test_a_family_is_drawn(compared):
     assert list(figure.axes[0].lines[0].get_xdata()) == [1.0, 2.0]
     figure = draw_designs("F", compared.assign(other=0.0), to_plain(Compared("blade", ("sweep_percent", "other"), *names)))
     assert [label.get_text() for label in figure.axes[6].get_xticklabels()] == ["F_1", "F_2"]
-
-
-@pytest.mark.slow
-def test_a_family_s_designs_run_alone(root, tmp_path):
-    """A family added by editing one file: its own jobs, the table and its picture; one more value, one more blade."""
-    copy_stubbed(root, tmp_path)
-    overlay(tmp_path, "config.yaml", "blades: [Ref, Sweep]")
-    overlay(tmp_path, "blades.yaml", SWEEP)
-    jobs = planned_outputs(tmp_path)
-    assert {name for file in jobs["simulate"] for name in file.split("/")[:1]} == {"Ref", "Sweep_-50", "Sweep_50", "Sweep_150"}
-    assert jobs["design_table"] == {"designs.csv"}
-    assert jobs["design_figure"] == {"figures/designs_Sweep.png"}

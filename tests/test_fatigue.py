@@ -39,9 +39,9 @@ def cycles_of(components, states):
     operator = np.zeros((6, 1, states.shape[1]))
     for component, row in components.items():
         operator[component, 0] = row
-    alternating, mean = stress_cycles(
-        StressOperator(operator, states.shape[1], ""), states, np.eye(states.shape[1]), np.empty(0), PER_REVOLUTION
-    )
+    count = states.shape[1]
+    stress = StressOperator(operator, count, "")
+    alternating, mean = stress_cycles(stress, states, np.eye(count), np.empty(0), PER_REVOLUTION)
     assert alternating.shape == (REVOLUTIONS, 1)
     return alternating, mean
 
@@ -120,9 +120,8 @@ def test_three_nodes_of_a_blade_by_hand(a_run, whole, mesh, model, steel):
     fields = whole.whole_blade
     order = np.argsort(fields.nodes)
     amplitudes = rotation_amplitudes(whole.rotation_stiffening, 1340.0)
-    displacement = (
-        np.einsum("nxj,tj->nxt", fields.basis[order], states) + (fields.rotation_shapes[order] @ amplitudes)[..., None]
-    )
+    displacement = np.einsum("nxj,tj->nxt", fields.basis[order], states)
+    displacement += (fields.rotation_shapes[order] @ amplitudes)[..., None]
     tensors = nodal_stress(mesh.blocks, mesh.points, displacement, steel)[:, region[places]]
     mean = tensors.mean(axis=2, keepdims=True)
     alternating = von_mises(tensors - mean).max(axis=1)
@@ -143,15 +142,8 @@ def test_the_pairs_of_a_run_are_those_of_its_nodes(a_run):
 
 def test_rotation_is_in_the_mean_whatever_the_scene_asks_for(a_run, contact, model, steel):
     _, numbers = a_run
-    kept = run_speed(
-        contact,
-        1340.0,
-        DIRECT,
-        CHOICE,
-        ("stress", "static_stress", "fatigue"),
-        stress={"box": box_operator(model, steel)},
-        **KEPT,
-    )
+    results, stress = ("stress", "static_stress", "fatigue"), {"box": box_operator(model, steel)}
+    kept = run_speed(contact, 1340.0, DIRECT, CHOICE, results, stress=stress, **KEPT)
     for name in ("mean_stress", "alternating_stress", "cycle_mean", "cycle_alternating", "cycle_counts"):
         np.testing.assert_array_equal(kept[name], numbers[name])
     assert kept["max_von_mises"] != numbers["max_von_mises"]
@@ -240,10 +232,8 @@ def test_lengths_above_the_line(responses):
     assert measures["goodman_integral_rad_s"] == pytest.approx(170.0 + 360.0)
     assert measures["largest_goodman_share"] == response["goodman_share"].max()
     unknown = robustness(read_judged(responses["Unknown", "direct"]))
-    assert (
-        all(np.isnan(unknown[name]) for name in unknown if "goodman" in name)
-        and unknown["length_most_revolutions_rad_s"] >= 0.0
-    )
+    assert all(np.isnan(unknown[name]) for name in unknown if "goodman" in name)
+    assert unknown["length_most_revolutions_rad_s"] >= 0.0
 
 
 def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):
@@ -289,13 +279,3 @@ def test_strengths_vary_and_change_no_model(with_blades):
     assert changed_blade(designs[0], {key: 5e8}).strengths == Strengths(5e8, 1.6e9)
     with pytest.raises(ImpossibleValueError, match="less than ultimate_strength_pa"):
         changed_blade(designs[0], {key: 1.7e9})
-
-
-def test_fatigue_needs_stress(config_copy):
-    from workflow_runs import overlay
-
-    from r37core.product.reading import read_settings
-
-    overlay(config_copy, "scenes.yaml", "direct: { results: [spectrum, fatigue] }")
-    with pytest.raises(ConfigError, match=r"direct\.results: found fatigue; allowed: only with stress"):
-        read_settings(config_copy).scenes  # noqa: B018

@@ -82,33 +82,34 @@ def draw_interactions(datasets, *rows):
 
 def circles(axes):
     """Speed, frequency and area of each circle."""
-    marks = [one for one in axes.collections if isinstance(one, PathCollection) and len(one.get_offsets())]
-    return [
-        row for one in marks for row in np.column_stack([one.get_offsets(), np.resize(one.get_sizes(), len(one.get_offsets()))])
-    ]
+    marks = [one for one in axes.collections if isinstance(one, PathCollection)]
+    places = [(one.get_offsets(), one.get_sizes()) for one in marks if len(one.get_offsets())]
+    return [row for offsets, sizes in places for row in np.column_stack([offsets, np.resize(sizes, len(offsets))])]
 
 
+@pytest.fixture(scope="module")
 def drawn(datasets):
-    """Every figure of the sweep."""
+    """Every figure of the sweep, by name."""
+    figures = {}
     of = {kind: data.sel(blade="Ref") for kind, data in datasets.items()}
     lined = {kind: data.sel(scene="abradable") for kind, data in datasets.items() if kind != "campbell"}
-    yield "campbell", campbell_diagram.draw_campbell(of["campbell"], "Ref")
-    yield "campbells", campbell_diagram.draw_campbell_overview(datasets["campbell"])
-    yield "interactions", draw_interactions(datasets)
-    yield "response", response_curves.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
-    yield "responses", response_curves.draw_response_overview(datasets["rms"])
-    maps_of = {kind: data.sel(scene="abradable") for kind, data in of.items() if kind != "campbell"}
-    yield "spectrum", maps.draw_spectral_map(maps_of["spectrum"], of["campbell"], "Ref, abradable")
-    yield "wear", maps.draw_wear_map(maps_of["wear"], of["campbell"], "Ref, abradable")
+    figures["campbell"] = campbell_diagram.draw_campbell(of["campbell"], "Ref")
+    figures["campbells"] = campbell_diagram.draw_campbell_overview(datasets["campbell"])
+    figures["interactions"] = draw_interactions(datasets)
+    figures["response"] = response_curves.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
+    figures["responses"] = response_curves.draw_response_overview(datasets["rms"])
+    figures["spectrum"] = map_of(datasets, "spectrum", maps.draw_spectral_map)[0]
+    figures["wear"] = map_of(datasets, "wear", maps.draw_wear_map)[0]
     room = np.linspace(4e-4, 3e-4, len(SPEEDS))[:, None] * [1.0, 0.9, np.nan]
     growing = lined["rms"].assign(clearance=(("blade", "speed", "contact_node"), np.repeat(room[None], len(BLADES), axis=0)))
-    yield "clearance", response_curves.draw_clearance(growing, "growing_abradable")
-    yield "comparison", draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
+    figures["clearance"] = response_curves.draw_clearance(growing, "growing_abradable")
+    figures["comparison"] = draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
+    return figures
 
 
 @pytest.mark.slow
-def test_figures_print_on_a_page_with_letters_to_read_and_have_rpm_beside_every_speed(datasets):
-    for name, figure in drawn(datasets):
+def test_figures_print_on_a_page_with_letters_to_read_and_have_rpm_beside_every_speed(drawn):
+    for name, figure in drawn.items():
         figure.canvas.draw()
         assert figure.get_figwidth() <= style.PAGE, name
         texts = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]
@@ -118,20 +119,21 @@ def test_figures_print_on_a_page_with_letters_to_read_and_have_rpm_beside_every_
         assert ("rpm" in labels) == any("rad/s" in label for label in labels), name
 
 
-@pytest.mark.parametrize(
-    "draw, kind, panels",
-    [(maps.draw_spectral_map, "spectrum", 2), (maps.draw_wear_map, "wear", 1)],
-)
+def map_of(datasets, kind, draw, factor=1.0):
+    """A map of Ref in abradable contact, and the part of the dataset that it shows, times a factor."""
+    shown = factor * datasets[kind].sel(blade="Ref", scene="abradable")
+    return draw(shown, datasets["campbell"].sel(blade="Ref"), "Ref, abradable"), shown
+
+
+@pytest.mark.parametrize("draw, kind, panels", [(maps.draw_spectral_map, "spectrum", 2), (maps.draw_wear_map, "wear", 1)])
 def test_a_map_of_runs_that_all_diverged_says_so(datasets, draw, kind, panels):
-    of_scene = datasets[kind].sel(blade="Ref", scene="abradable")
-    figure = draw(np.nan * of_scene, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
+    figure, _ = map_of(datasets, kind, draw, np.nan)
     figure.canvas.draw()
     assert [text.get_text() for axes in figure.axes for text in axes.texts] == ["every run diverged"] * panels
 
 
 def test_a_map_of_wear_marks_speeds_at_which_the_lining_is_worn_through(datasets):
-    wear = datasets["wear"].sel(blade="Ref", scene="abradable")
-    figure = maps.draw_wear_map(wear, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
+    figure, wear = map_of(datasets, "wear", maps.draw_wear_map)
     (triangles,) = (line for line in figure.axes[0].lines if line.get_marker() == "v")
     worn_through = wear["speed"].values[wear["worn_through_share"].values > 0.0]
     assert 0 < len(worn_through) < wear.sizes["speed"]
@@ -160,20 +162,19 @@ def test_runs_that_diverged_are_marked_at_the_upper_edge(datasets):
     blade = BLADES[1]
     of = {kind: data.sel(blade=blade) for kind, data in datasets.items()}
     figure = response_curves.draw_response(blade, of["campbell"], of["rms"], of["stress"])
-    crosses = [
-        line for axes in figure.axes for line in axes.lines if line.get_marker() == "x" and line.get_label() == "diverged"
-    ]
+    lines = [line for axes in figure.axes for line in axes.lines]
+    crosses = [line for line in lines if line.get_marker() == "x" and line.get_label() == "diverged"]
     assert crosses
     for line in crosses:
         height = line.axes.transAxes.inverted().transform(line.get_transform().transform(line.get_xydata()))[:, 1]
         assert (height > 0.9).all() and (height < 1.0).all()
 
 
-def test_a_blade_has_one_colour_everywhere(datasets, root):
+def test_a_blade_has_one_colour_everywhere(drawn, root):
     """In all figures, and in the explorer."""
     wanted = {blade: one["color"] for blade, one in style.blade_styles(BLADES).items()}
     assert len(set(wanted.values())) == 3
-    for _, figure in drawn(datasets):
+    for figure in drawn.values():
         for axes in figure.axes:
             found = {line.get_label(): to_hex(line.get_color()).upper() for line in axes.lines if line.get_label() in BLADES}
             assert found.items() <= wanted.items()
@@ -214,8 +215,7 @@ def test_blades_of_several_materials_have_a_yield_line_each(datasets):
 
 def test_spectral_map_has_every_speed_on_its_own_scale(datasets):
     """Beside the peak, a thousandth of its motion is as bright; how much it is stands above."""
-    spectra = datasets["spectrum"].sel(blade="Ref", scene="abradable")
-    figure = maps.draw_spectral_map(spectra, datasets["campbell"].sel(blade="Ref"), "Ref, abradable")
+    figure, spectra = map_of(datasets, "spectrum", maps.draw_spectral_map)
     strip, picture = figure.axes[0], figure.axes[2].images[0]
     shown = np.asarray(picture.get_array())
     np.testing.assert_allclose(shown[1:].max(axis=0), 0.0, atol=1e-12)
@@ -328,9 +328,8 @@ def test_a_run_without_interactions_says_so_and_of_many_scenes_the_longest_are_d
     assert all("no interaction was found" in [text.get_text() for text in axes.texts] for axes in figure.axes[:2])
     scenes = [f"scene{number}" for number in range(8)]
     many = datasets | {"rms": datasets["rms"].isel(scene=[0] * 8).assign_coords(scene=scenes)}
-    figure = draw_interactions(
-        many, *({"scene": scene, "length_most_revolutions_rad_s": 9.0 - n} for n, scene in enumerate(scenes))
-    )
+    rows = [{"scene": scene, "length_most_revolutions_rad_s": 9.0 - n} for n, scene in enumerate(scenes)]
+    figure = draw_interactions(many, *rows)
     assert [axes.get_title() for axes in figure.axes] == scenes[:6]
 
 

@@ -67,9 +67,8 @@ def found(data):
 
 def joined(data):
     """As in the datasets of a sweep: another speed, at which this blade was not run, and one more scene without stress."""
-    both = data.drop_vars("yield_stress").reindex(
-        speed=np.append(data["speed"], 2500.0), fill_value={"status": RunStatus.NOT_RUN}
-    )
+    speeds = np.append(data["speed"], 2500.0)
+    both = data.drop_vars("yield_stress").reindex(speed=speeds, fill_value={"status": RunStatus.NOT_RUN})
     both = both.expand_dims(blade=["Ref"], scene=["lined"])
     both["yield_stress"] = (("blade", "scene"), [[YIELD]])
     parts = {"rms": ["rms_normal", "rms_tangential"], "spectrum": ["amplitude", "amplitude_tangential"]}

@@ -16,7 +16,7 @@ from r37core.adaptive import criterion
 from r37core.adaptive.criterion import RefinementChoice, dense_ranges, next_speeds, window_speeds
 from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
 from r37core.adaptive.steps import refine as refine_step
-from r37core.base.io import InputFileError, Named
+from r37core.base.io import Named
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
 from r37core.base.yaml_file import load_yaml
@@ -36,19 +36,13 @@ def test_a_range_has_its_coarse_speeds_and_its_end():
     assert from_plain(SpeedPlan, to_plain(plan)) == plan
     assert plan_speeds([{"start": 900, "stop": 1000, "refine_to": 1}], 8.0).refined[0].coarse == 8
     assert PLAN.speed_count(0.2) == 250
+    # 0.1 is no binary number: the speeds of a grid still are what a user would write
+    grid = plan_speeds([{"start": 750, "stop": 752, "step": 0.4, "refine_to": 0.1}], 8.0).refined[0]
+    assert [exact_text(speed) for speed in grid.every_speed()[:5]] == ["750", "750.1", "750.2", "750.3", "750.4"]
     # a number inside a range is no repetition
     plan = plan_speeds([refined(), 920, 933, 933.5], 8.0)
     assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)
     assert plan.speed_count(0.2) == 20 + 2
-
-
-def test_names_of_speeds_are_exact():
-    """0.1 is no binary number: the speeds of a grid still are what a user would write, and their names tell them apart."""
-    grid = plan_speeds([{"start": 750, "stop": 752, "step": 0.4, "refine_to": 0.1}], 8.0).refined[0]
-    names = [exact_text(speed) for speed in grid.every_speed()]
-    assert names[:5] == ["750", "750.1", "750.2", "750.3", "750.4"]
-    assert len(set(names)) == 21
-    assert [float(name) for name in names] == grid.every_speed()
 
 
 def refined(**changes):
@@ -59,7 +53,6 @@ def refined(**changes):
     ("entries", "message"),
     [
         ([refined(refine_to=3)], "refine_to 3 with steps of 20 rad/s; allowed: the step is"),
-        ([{"start": 900, "stop": 1000, "refine_to": 3}], "refine_to 3 with steps of 8 rad/s"),
         ([refined(step=1, refine_to=20)], "refine_to 20 with steps of 1 rad/s"),
         ([refined(start=1000, stop=900)], "range from 1000 to 900"),
         ([refined(), refined(start=995, stop=1100)], "ranges with refine_to that overlap, from 995 to 1000 rad/s"),
@@ -81,12 +74,9 @@ def windowed(**changes):
     ("changes", "message"),
     [
         ({"speeds": [refined(refine_to=7)]}, r"config\.yaml: speeds: found refine_to 7 with"),
-        ({"speeds": [refined(refine_to=0)]}, r"speeds\.0\.refine_to: found 0; allowed: .*at least"),
         (windowed(mode="3B"), r"refinement\.windows\.0\.mode: found '3B'; allowed: one of 1B, 1T, 2B"),
         (windowed(highest_engine_order=21), r"highest_engine_order: found 21; allowed: at most campbell\.highest_.* \(20\)"),
         (windowed(first=0.1), r"windows\.0\.last: found 0\.1; allowed: more than first \(0\.1\)"),
-        ({"refinement": {"change": -1}}, r"refinement\.change: found -1; allowed: .*at least 0\.001"),
-        ({"refinement": {"largest_share": 1.5}}, r"refinement\.largest_share: found 1\.5; allowed: .*at most 1"),
     ],
 )
 def test_refinement_refusals(config_copy, changes, message):
@@ -240,9 +230,6 @@ def test_a_round_s_file_says_what_it_was(tmp_path):
     assert again.new == one.new
     np.testing.assert_equal(dict(again.measured), dict(one.measured))
     assert "NaN" not in (tmp_path / "round_3.json").read_text()
-    (tmp_path / "round_3.json").write_text('{"new": [1]}')
-    with pytest.raises(InputFileError, match=r"round_3\.json: cannot be read .*delete it and run again"):
-        read_round(tmp_path / "round_3.json")
 
 
 def test_what_a_run_gives():
@@ -340,10 +327,6 @@ def test_file_names_stay_exact_and_in_rad_s_and_rules_have_either_unit(root):
     assert settings.speed_plans["Ref", "direct"].certain == (8000 * RAD_S,)
 
 
-def refined_rpm(start, step=20):
-    return {"start": start, "stop": start + 500, "step": step, "refine_to": 10}
-
-
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -353,9 +336,6 @@ def refined_rpm(start, step=20):
         ({"speeds_rpm": [{"start": 9000, "stop": 8000}]}, r"speeds_rpm\.0: found a range from 9000 to 8000"),
         ({"speeds_rpm": [8000, 8000]}, r"speeds_rpm: found 8000 rpm twice"),
         ({"speeds_rpm": [{"start": 1, "stop": 9e6, "step": 0.01}]}, r"speeds_rpm: .* from 1 to 9e\+06 rpm in steps of 0.01"),
-        ({"speeds_rpm": [refined_rpm(8000, step=25)]}, "speeds_rpm: .*refine_to 10 with steps of 25 rpm"),
-        ({"speeds_rpm": [refined_rpm(8000), refined_rpm(8400)]}, "speeds_rpm: .*overlap, from 8400 to 8500 rpm"),
-        ({"speeds_rpm": [0.001]}, r"speeds_rpm\.0: found 0\.001; allowed:.* at least 0\.01"),
         ({"speeds_rpm": [8000], "exports": {"stress_speeds_rpm": [9000]}}, r"exports\.stress_speeds_rpm\.0: found 9000; all"),
         (
             {"speeds_rpm": [8000], "exports": {"stress_speeds_rad_s": "all", "stress_speeds_rpm": [8000]}},

@@ -83,27 +83,19 @@ def parameter(text, message):
     return section(f"tradeoff: {{ parameters: {{ {text} }} }}", rf"tradeoff\.parameters{message}")
 
 
-def values(text, message):
-    return parameter(f"boundary_nodes: {{ values: {text} }}", rf"\.boundary_nodes\.{message}")
-
-
 def rule(text, message):
     return "speeds_for: []", f"speeds_for: [{{ {text} }}]", message
 
 
 def speeds(text, message):
-    return "start: 750, stop: 2000, step: 20, refine_to: 1", f"start: {text}", rf"speeds{message}"
+    return "start: 750, stop: 2000, step: 20, refine_to: 1", f"start: 750, {text}", rf"speeds{message}"
 
 
 CONFIG_REFUSALS = [
     signals("probes_deg: [10]", "probes_deg: found probes_deg without speeds; allowed: speeds_rad_s"),
     signals("gauges: { a: { chord: 0.5, span: 0.5, side: suction } }", r"gauges: found gauges without speeds"),
     signals("speeds_rad_s: [9], probes_deg: [1, 2, 1.0]", r"probes_deg\.2: found a probe at 1 degrees twice; allowed: each"),
-    signals("speeds_rad_s: [9], probes_deg: [360]", r"probes_deg\.0: found 360; allowed: number, at least 0, less than 360"),
-    signals("gauges: { a: { chord: 1.2, span: 0, side: suction } }", r"gauges\.a\.chord: found 1\.2; .* at least 0, at most 1"),
-    signals("gauges: { a: { chord: 1, span: 0, side: top } }", r"gauges\.a\.side: found 'top'; allowed: one of pressure, su"),
     signals("speeds_rad_s: [900, 900]", r"speeds_rad_s\.1: found 900(\.0)? twice; allowed: each once"),
-    signals("speeds_rad_s: peaks", r"speeds_rad_s: found 'peaks'; allowed: .*interactions"),
     signals("speeds_rad_s: [900], revolutions: 500", "revolutions: found 500; allowed: at most those of a run, 200 in 'abrad"),
     signals("speeds_rad_s: [900], blades: [Reff]", "blades: found 'Reff'; allowed: Ref, L50"),
     section(
@@ -116,8 +108,6 @@ CONFIG_REFUSALS = [
     run_up("from_rad_s: 9, from_rpm: 9, to_rad_s: 10", r"\.from_rpm: found from_rad_s and from_rpm; allowed: one of"),
     between(900, 900, "rate_rpm_s", 5, "found a rate between equal speeds; allowed: revolutions"),
     between(900, 1000, "rate_rad_s2", 1e-3, r"found a change from 900 .* 1\.512e\+07 revolutions; allowed: .* from 0\.151"),
-    between(900, 1000, "rate_rad_s2", -10, r"found -10; allowed: number, at least 0\.001"),
-    between(900, 1000, "rate_rpm_s", 5e-324, r"found 5e-324; allowed: number, at least 0\.01"),
     between(900, 1900, "revolutions", 0.1, r"found a change from 900 to 1900 .* within 0\.1 revolutions; allowed: 0\.347 to 1"),
     between(1999, 1999.0000001, "rate_rad_s2", 10, r"found a change from 1999 to 1999\.0000001 rad/s within"),
     between(1900, 2100, "revolutions", 5, r"found 2100 rad/s; allowed: up to structure\.maximum_speed_rad_s, 2000"),
@@ -148,35 +138,24 @@ CONFIG_REFUSALS = [
     section("tradeoff: { engine_order: 21 }", r"engine_order: found 21; allowed: at most campbell"),
     section("tradeoff: { base: standart }", r"tradeoff\.base: found 'standart'; allowed: draft"),
     section("stability: { extremes: [lobe] }", r"stability\.extremes\.0: found 'lobe'; allowed: all, or some of .*lobes"),
-    section("studies: { estimate: {} }", r"found unknown key studies"),
     parameter("level: { values: [draft, refrence], reference: draft }", r"\.level: found 'refrence'; allowed: draft"),
-    parameter("levell: {}", r": found unknown key levell; allowed keys: level, .*did you mean level"),
     parameter("bars:", r"\.bars: found nothing"),
-    values("[2, 4, 8], reference: 15", r"reference: found 15; allowed: one of the values, 2, 4, 8"),
-    values("[2, 4, 4], reference: 2", r"values\.2: found 4 twice"),
-    values("[2, 4.5], reference: 2", r"values\.1: found 4\.5; allowed: integer"),
-    values("[0, 4], reference: 4", r"values\.0: found 0; allowed: integer, at least 1"),
-    values("[], reference: 4", r"values: found \[\]; allowed: list of integer, entries: at least 1"),
+    parameter("boundary_nodes: { values: [2, 4], reference: 15 }", ".*reference: found 15; allowed: one of the values, 2, 4"),
+    parameter("boundary_nodes: { values: [2, 4, 4], reference: 2 }", r"\.boundary_nodes\.values\.2: found 4 twice"),
     parameter("stress_region: { values: [submesh, all], reference: submesh }", ".* found 'all'; .*one of submesh, whole"),
     rule("blades: [Reff], speeds: [900]", r"speeds_for\.0\.blades: found 'Reff'; allowed: Ref, L50"),
     rule("scenes: [dirct], speeds: [900]", r"speeds_for\.0\.scenes: found 'dirct'; allowed: abrad"),
     rule("blades: [Ref, Ref], speeds: [900]", r"speeds_for\.0\.blades\.1: found 'Ref' twice"),
     rule("scenes: [direct], speeds: [0.01]", r"speeds: found 0\.01 .* of 1\.31e\+08 steps .* from 0\.313 rad/s with"),
-    speeds("0", r"\.0\.start: found 0; allowed: number, at least 0\.001"),
-    speeds("750, stop: 1e12", r"\.0\.stop: found 1000000000000\.0; allowed: .*at most 1e\+06"),
-    speeds("750, stop: 700", r"\.0: found a range from 750 to 700; allowed: stop not below start"),
-    speeds("750, stop: 2000, step: 1e-3", r": found 1\.25e\+06 speeds from 750 to 2000 .*; allowed: at most 100000"),
-    speeds("750, stop: 2000, step: 0.02", ": found 875014 simulations of 7 blades in 2 scenes; allowed: at most 200000"),
-    speeds("750, strt: 1", r"\.0: found unknown key strt; allowed keys: start, stop, step, refine_to \(did you mean start\?\)"),
-    ("shapes: { modes: 6 }", "shapes: { modes: 0 }", r"shapes\.modes: found 0; allowed: integer, at least 1, at most 30"),
+    speeds("stop: 700", r"\.0: found a range from 750 to 700; allowed: stop not below start"),
+    speeds("stop: 2000, step: 1e-3", r": found 1\.25e\+06 speeds from 750 to 2000 .*; allowed: at most 100000"),
+    speeds("stop: 2000, step: 0.02", ": found 875014 simulations of 7 blades in 2 scenes; allowed: at most 200000"),
     ("blades: all", "blades: [Ref, Ref]", r"blades\.1: found 'Ref' twice; allowed: each once"),
     ("blades: all", "blades: [50]", r"blades\.0: found 50; allowed: string"),
     ("blades: all", "blades:", r"blades: found nothing"),
     ("blades: all", "blades: Ref", r"blades: found 'Ref'; allowed: all or list of string"),
-    ("blades_file: config/blades.yaml", "blades_file: ''", r"blades_file: found ''; allowed: string, characters: at least 1"),
     ("blades_file: config/blades.yaml", "blades_file: ' '", r"blades_file: found ' '"),
     ("tolerance: 0.05", "tolerance: nan", r"tolerance: found 'nan'; allowed: number"),
-    ("tolerance: 0.05", "tolerance: .nan", r"tolerance: found nan; allowed: number"),
     ("    corners: true", "    corners: 1", r"structure\.boundary\.corners: found 1; allowed: boolean"),
     ("fidelity: standard", "fidelity: standard\nfidelity: draft", r"the key 'fidelity' is given twice"),
     ("fidelity: standard", "fidelity:\tstandard", r"found a tab; indent with blanks"),
@@ -194,19 +173,15 @@ def with_rows(first_span, first_sweep, last_span, last_sweep, message):
 BLADE_REFUSALS = [
     ("50: {base: Ref}", r"50: found '50'; allowed: a name of .* that is neither 'all' nor a number"),
     ("5.5: {base: Ref}", r"found the key '5\.5', which is a number in YAML; allowed: a name"),
-    ("'50': {base: Ref}", r"50: found '50'; allowed: a name of .* that is neither 'all' nor a number"),
     ("'1e5': {base: Ref}", r"found '1e5'; allowed: a name"),
     ("all: {base: Ref}", r"all: found 'all'; allowed: a name"),
     ("A__b: {base: Ref}", r"A__b: found 'A__b'; allowed: a name of letters, digits, hyphens and single underscores"),
-    ("A_: {base: Ref}", r"A_: found 'A_'"),
-    ("A b: {base: Ref}", r"A b: found 'A b'"),
     ('"A\\n": {base: Ref}', r"A\\n: found 'A\\n'; allowed: a name of letters"),
     (f"? {'x' * 5000}\n: {{base: Ref}}", r"x{76} \.\.\.: found 'x{75} \.\.\.; allowed: a name of letters"),
     ("../A: {base: Ref}", r"\.\./A: found '\.\./A'"),
     ("figures: {base: Ref}", r"figures: found the blade 'figures'; allowed: another name"),
     ("FIGURES: {base: Ref}", r"FIGURES: found the blade 'FIGURES'; allowed: another name"),
     ("ref: {base: Ref}", r"ref: found 'ref' beside 'Ref'; allowed: names that differ in more than capitals"),
-    ("X: {base: Ref, stacking_table: ''}", r"X\.stacking_table: found ''; allowed: string"),
     ("X: {base: Ref, stacking_table: .}", r"X\.stacking_table: \. cannot be read: Is a directory"),
     ("X: {base: Ref, profiles: a.csv}", r"X: found both profiles and base; allowed: one of them"),
     (
@@ -219,13 +194,10 @@ BLADE_REFUSALS = [
     ("X: {base: Y}\nY: {base: X}", r"Y\.base: found 'X'; allowed: another blade"),
     ("X: {base: Ref}\nX: {base: L50}", r"not readable as YAML: .*the key 'X' is given twice"),
     ("X: {base: Ref, chordwise_sweep_deg: 5, stacking_table: t.csv}", r"X: found stacking_table and chordwise_sweep_deg"),
-    ("X: {base: Ref, chordwise_sweep_deg: 80}", r"X\.chordwise_sweep_deg: found 80; allowed: .*less than 60"),
     ("X: {base: Ref, stacking_table: config/stacking/rotor37.csv}", r"blade X: no row of the table has 'X'"),
     ("X: {profiles: config/profiles/rotor37.csv}", r"X\.material: missing key youngs_modulus_pa"),
     ("X: &x {base: Ref, <<: *x}", r"not readable as YAML"),
-    ("X: {base: Ref, material: {density_kg_m3: 1e30}}", r"X\.material\.density_kg_m3: found 1e\+30; allowed: .*at most 100000"),
     with_rows(0, 0, 90, 0, r": blade X: the spans run from 0% to 90%"),
-    with_rows(0, 0, 100, 1e9, r"\.1\.sweep_cm: found 1000000000\.0; allowed: number, at least -100"),
     with_rows(0, 100, 100, 0, r": blade X: span 0%: found a sweep of 100 cm; allowed: up to the height of the blade, 7\."),
 ]
 
@@ -238,8 +210,10 @@ def test_what_is_refused_in_blades_yaml(with_blades, text, message):
 
 SCENE_REFUSALS = [
     ("[spectrum, signal, stress, wear, energy]", "[stress, stress]", r"abradable\.results\.1: found stress twice"),
-    ("[spectrum, signal, stress, wear, energy]", "[shapes]", r"\.results: found shapes; allowed: only with stress among"),
-    ("abradable:", "abradable__x:", r"abradable__x: found 'abradable__x'"),
+    *(
+        ("[spectrum, signal, stress, wear, energy]", f"[{kind}]", rf"\.results: found {kind}; allowed: only with stress among")
+        for kind in ("shapes", "fatigue", "static_stress")
+    ),
     ("abradable:", '"abradable\\n":', r"abradable\\n: found 'abradable\\n'; allowed: a name of letters"),
     ("    bars: 10000", "    bars: 10_000", r"lining\.bars: found '10_000'; allowed: integer"),
     ("\ndirect:", "\ndirect:\n  stress_history_speeds_rad_s: [1717.5]", "stress_history.*: found 1717.5; allowed: speeds"),
@@ -306,9 +280,8 @@ def test_a_run_of_too_many_steps_is_refused_and_a_long_one_says_so(config_copy):
 
 def test_a_run_that_would_not_fit_in_memory_is_refused(config_copy):
     edit(config_copy / "config/fidelity.yaml", "revolutions: 200,", "revolutions: 20000, samples_per_stress_instant: 10000,")
-    with pytest.raises(
-        ConfigError, match=r"fidelity\.yaml:\d+: draft\.time_integration\.revolutions: found 20000 of 620000 samples, .* GiB"
-    ):
+    message = r"fidelity\.yaml:\d+: draft\.time_integration\.revolutions: found 20000 of 620000 samples, .* GiB"
+    with pytest.raises(ConfigError, match=message):
         read_settings(config_copy)
 
 
@@ -375,7 +348,6 @@ def test_numbers_are_read_alike_everywhere_and_as_a_key_a_whole_one_is_its_text(
     file = tmp_path / "a.yaml"
     file.write_text("[1e-1, 2.5E-3, 1e9, 010, .5, -3., 1E+3, 12:30, 1_000, 0x10, 2020-01-01, +7]")
     assert load_yaml(file) == [0.1, 0.0025, 1e9, 10, 0.5, -3.0, 1000.0, "12:30", "1_000", "0x10", "2020-01-01", 7]
-    file = tmp_path / "a.yaml"
     file.write_text("{ 1: 0.4, 010: 2, '3': 1, -4: x }")
     assert load_yaml(file) == {"1": 0.4, "010": 2, "3": 1, "-4": "x"}
     file.write_text("{ 1: 0.4, '1': 0.4 }")

@@ -115,9 +115,8 @@ def test_thickness_scales_the_area(profiles):
 def test_a_thicker_blade_is_stiffer_in_proportion(profiles, settings):
     def first_flap(sections):
         # stacked by the profiles' centres of area, which is quick, and as good for a ratio
-        mesh = generate_mesh(
-            Blade(sections, conical_stacking(sections), round_edges=False), nodes=600, layers=1, tip_elements=7
-        )
+        blade = Blade(sections, conical_stacking(sections), round_edges=False)
+        mesh = generate_mesh(blade, nodes=600, layers=1, tip_elements=7)
         matrices = assemble(mesh, settings.blades["Ref"].material)
         return np.sqrt(lowest_modes(matrices.stiffness(), matrices.mass(), 1)[0][0])
 
@@ -233,15 +232,12 @@ def test_laws_vary_in_families_and_tables(with_blades):
     ("text", "message"),
     [
         ("stagger_deg: 40", ": Mine.stagger_deg: blade Mine: stagger_deg: span 0%: inlet_angle is 92.4"),
-        ("stagger_deg: { hub: 100 }", "Mine.stagger_deg.hub: found 100; allowed: number, at least -90, at most 90"),
-        ("stagger_deg: { top: 1 }", "found unknown key top; allowed keys: hub, tip"),
         ("chord_percent: [{ span_percent: 0, value: 90 }, { span_percent: 60, value: 90 }]",
          "Mine.chord_percent: blade Mine: chord_percent: the spans run from 0% to 60%; the table must reach 0 and 100%"),
         ("chord_percent: { hub: 10, tip: 1000 }", "chord_percent: span 70%: the profile crosses the one at span 50%"),
         ("chord_percent: [{ span_percent: 0, value: 900 }, { span_percent: 10, value: 10 }, { span_percent: 90, value: 10 }, "
          "{ span_percent: 100, value: 10 }]", "chord_percent: span 15%: the share of the chord is -"),
         ("camber_deg: 80", "a smaller change near this span may be possible"),
-        ("thickness_percent: 5", "Mine.thickness_percent: found 5; allowed: number, at least 10, at most 1000 or"),
         ("stagger_deg: 1, vary: { stagger_deg.tip: [1] }", "design Mine_1: found no stagger_deg.tip to vary; rows of a table"),
     ],
 )  # fmt: skip
