@@ -46,18 +46,17 @@ def difference(first, second):
 
 @pytest.fixture(scope="module")
 def files(blade, steel, tmp_path_factory):
-    """The reference blade's mesh as every format we write, ours and meshio's."""
+    """The reference blade's mesh as every sort of file that we write."""
     folder = tmp_path_factory.mktemp("formats")
     mesh = generate_mesh(blade, 1500, 1, 14, folder / "gmsh.msh")
     write_abaqus(mesh, folder / "deck.inp", steel, "round trip")
     write_vtu(mesh, folder / "vtk.vtu", mesh_quality(mesh))
-    for suffix in ("vtu", "msh", "med", "bdf"):
-        write_mesh(mesh, folder / f"mesh.{suffix}")
+    write_mesh(mesh, folder / "mesh.bdf")
     return mesh, assemble(mesh, steel), folder
 
 
-@pytest.mark.parametrize("name", ["deck.inp", "gmsh.msh", "vtk.vtu", "mesh.vtu", "mesh.msh", "mesh.med", "mesh.bdf"])
-def test_our_own_mesh_comes_back_from_every_format(files, steel, name):
+@pytest.mark.parametrize("name", ["deck.inp", "gmsh.msh", "vtk.vtu", "mesh.bdf"])
+def test_our_own_mesh_comes_back(files, steel, name):
     mesh, matrices, folder = files
     sets = ("nastran:ref=2", "nastran:ref=3") if name == "mesh.bdf" else ("root", "tip")
     again, quality = import_mesh(source(name, root=Where(sets[0]), tip=Where(sets[1])), folder)
@@ -67,7 +66,11 @@ def test_our_own_mesh_comes_back_from_every_format(files, steel, name):
     for line in ("root", "tip", "tip_pressure_edge", "tip_suction_edge"):
         np.testing.assert_array_equal(again.node_set(line), mesh.node_set(line))
     edge = mesh.node_set("tip_pressure_edge")
+    # nodes near the ends of an edge are near the camber line too; they count by their place on the edge
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(again.points[edge], axis=0), axis=1))])
+    np.testing.assert_allclose(again.parameters[edge, 0], length / length[-1], atol=1e-12)
     np.testing.assert_allclose(again.parameters[edge, 0], mesh.parameters[edge, 0], atol=0.01)
+    assert np.intersect1d(edge, again.node_set("tip_camber_line")).size
     shapes, wanted = ideal_shapes(again), ideal_shapes(mesh)
     for name, shape in shapes.items():
         assert np.sum(shape * wanted[name]) ** 2 > 0.9 * np.sum(shape**2) * np.sum(wanted[name] ** 2)
@@ -156,16 +159,6 @@ def test_meshes_of_gmsh_have_no_set_of_bounding_entities(tmp_path, grouped):
     mesh = read_with_meshio(tmp_path / "plate.msh")
     assert list(mesh.blocks) == ["tetra10"] and not any("bounding" in name for name in mesh.sets)
     assert ("blade" in mesh.sets) == grouped
-
-
-def test_the_edges_of_the_tip_keep_their_arc_length(files):
-    """Nodes near the ends of an edge are near the camber line too; they count by their place on the edge."""
-    *_, folder = files
-    again, _ = import_mesh(source("deck.inp"), folder)
-    line = again.node_set("tip_pressure_edge")
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(again.points[line], axis=0), axis=1))])
-    np.testing.assert_allclose(again.parameters[line, 0], length / length[-1], atol=1e-12)
-    assert np.intersect1d(line, again.node_set("tip_camber_line")).size
 
 
 def test_the_other_rotation_mirrors_the_blade(files, steel):
