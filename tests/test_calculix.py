@@ -140,8 +140,9 @@ def test_fatigue_of_three_nodes(model, mesh, steel, tmp_path):
     contact, places = model.contact_nodes.nodes, inner_places(model, mesh)
     moved = np.linspace(1.0, 2.0, len(contact))[:, None] * 1e-4 * np.array([0.2, -3.0, 1.0])
     number = moved.size
+    held = [f"{contact[i] + 1}, {axis + 1}, {axis + 1}, {value:.12g}" for (i, axis), value in np.ndenumerate(moved)]
     steps = {
-        "swing": ["*BOUNDARY", *_held(contact, moved)],
+        "swing": ["*BOUNDARY", *held],
         "rotation": ["*DLOAD", f"BLADE, CENTRIF, {SPEED**2}, 0, 0, 0, 0, 0, 1"],
     }
     tensors = {}
@@ -159,12 +160,6 @@ def test_fatigue_of_three_nodes(model, mesh, steel, tmp_path):
         found, found_mean = stress_cycles(stress, (place + sine) * swing, np.eye(len(swing)), linear, 40)
         np.testing.assert_allclose(found[:, places], np.broadcast_to(alternating, (2, 3)), rtol=0.015)
         np.testing.assert_allclose(found_mean[places], mean, rtol=0.02)
-
-
-def _held(nodes, displacement):
-    """Rows of *BOUNDARY that hold `nodes` displaced (m), shape (nodes, 3)."""
-    numbered = zip(nodes, displacement, strict=True)
-    return [f"{node + 1}, {axis}, {axis}, {value:.12g}" for node, row in numbered for axis, value in enumerate(row, 1)]
 
 
 @pytest.mark.parametrize("kind", ELEMENTS)

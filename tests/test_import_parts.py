@@ -47,6 +47,12 @@ def turned(points, degrees):
     return points @ np.array([[np.cos(angle), np.sin(angle), 0], [-np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
 
 
+def staggered(points, degrees):
+    """About x; with a positive angle the leading edge goes ahead."""
+    angle = np.radians(degrees)
+    return points @ np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
+
+
 @pytest.mark.parametrize("camber_deg", [2.0, 12.0])
 @pytest.mark.parametrize("stagger_deg", [-30.0, 40.0])
 @pytest.mark.parametrize("place_deg", [0.0, 70.0])
@@ -204,16 +210,12 @@ def test_a_tip_that_waves_is_no_surface_of_revolution():
 def test_normals_of_sections_look_to_the_suction_side(forward, stagger_deg, place_deg, z):
     """However staggered the blade is, and wherever round and along the axis it lies."""
     mesh = plate("hexahedron20", (6, 1, 3))
-    angle = np.radians(stagger_deg)
-    x, y, axial = mesh.points.T
-    axial = axial - 0.015
-    standing = np.stack([x, y * np.cos(angle) + axial * np.sin(angle), axial * np.cos(angle) - y * np.sin(angle) + z], axis=1)
-    points = turned(standing, place_deg)
+    points = turned(staggered(mesh.points - np.array([0.0, 0.0, 0.015]), stagger_deg) + np.array([0.0, 0.0, z]), place_deg)
     parameters, normals = blade_parameters(points, mesh.node_set("root"), mesh.node_set("tip"), forward)
-    side = np.array([0.0, np.cos(angle), -np.sin(angle)]) * (1.0 if forward else -1.0)
-    expected = turned(side[None], place_deg)[0]
+    side = np.array([[0.0, 1.0 if forward else -1.0, 0.0]])
+    expected = turned(staggered(side, stagger_deg), place_deg)[0]
     np.testing.assert_allclose(normals, np.broadcast_to(expected, normals.shape), atol=0.03)
-    np.testing.assert_allclose(parameters[:, 2], (1.0 if forward else -1.0) * y / 0.002, atol=0.3)
+    np.testing.assert_allclose(parameters[:, 2], side[0, 1] * mesh.points[:, 1] / 0.002, atol=0.3)
 
 
 UPSTREAM = (0.0, 0.0, -1.0)
@@ -267,12 +269,8 @@ def test_the_wrong_pressure_side(exported):
 
 
 def turned_plate(folder, stagger):
-    """A flat plate, turned about the blade by an angle (degrees); the leading edge goes ahead with a positive one."""
-    mesh = box_mesh(0.06, 0.004, 0.03, (6, 1, 3), origin=(0.2, -0.002, -0.015), element="hexahedron20")
-    angle = np.radians(stagger)
-    x, y, z = mesh.points.T
-    turned = np.stack([x, y * np.cos(angle) + z * np.sin(angle), z * np.cos(angle) - y * np.sin(angle)], axis=1)
-    write_mesh(replace(mesh, points=turned), folder / "plate.vtu")
+    mesh = plate()
+    write_mesh(replace(mesh, points=staggered(mesh.points - [0.0, 0.0, 0.015], stagger)), folder / "plate.vtu")
     return source(folder / "plate.vtu", revolution_tolerance=1e-3)
 
 

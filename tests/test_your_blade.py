@@ -108,36 +108,30 @@ def project(stubbed, tmp_path):
 class TestWhatRunsAgain:
     """Jobs only touch their outputs here."""
 
-    def test_nothing_after_a_run(self, project):
+    def test_nothing_after_a_run_at_another_place_or_on_another_line(self, project, tmp_path):
         assert planned_outputs(project, "all_blades", "exports") == {}
         ran = {file.name for file in (project / "results/Fan").iterdir()}
         assert {"mesh.msh", "mesh.vtu", "mesh.inp"} <= ran
         assert "geometry.nc" not in ran
+        edit(project, "blades.yaml", "Fan:", "# a comment\n\nFan:")
+        project.rename(tmp_path / "elsewhere")
+        assert planned_outputs(tmp_path / "elsewhere") == {}
 
-    def test_an_edited_mesh(self, project):
+    def test_another_level_keeps_the_mesh_and_an_edited_mesh_is_read_again(self, project):
+        assert "imported_mesh" not in planned_outputs(project, "all_blades", "--config", "fidelity=draft")
         file = project / "meshes/fan.msh"
         file.write_bytes(file.read_bytes() + b"\n")
         jobs = planned_outputs(project)
         assert jobs["imported_mesh"] == {"Fan/mesh.msh"}
         assert "simulate" in jobs
 
-    def test_a_key_of_the_mesh(self, project):
-        overlay(project, "blades.yaml", "Fan: { rotor_axis: [1, 0, 0.0001] }")
-        assert planned_outputs(project)["imported_mesh"] == {"Fan/mesh.msh"}
-
-    def test_a_key_behind_the_mesh(self, project):
+    def test_a_key_behind_the_mesh_and_one_of_the_mesh(self, project):
         overlay(project, "blades.yaml", "Fan: { stress_regions: { airfoil: { excluded_layers: 2 } } }")
         jobs = planned_outputs(project)
         assert "imported_mesh" not in jobs
         assert jobs["reduced_model"] == {"Fan/rom_pressure_edge.nc"}
-
-    def test_another_level_keeps_the_mesh(self, project):
-        assert "imported_mesh" not in planned_outputs(project, "all_blades", "--config", "fidelity=draft")
-
-    def test_nothing_elsewhere_or_on_another_line(self, project, tmp_path):
-        edit(project, "blades.yaml", "Fan:", "# a comment\n\nFan:")
-        project.rename(tmp_path / "elsewhere")
-        assert planned_outputs(tmp_path / "elsewhere") == {}
+        overlay(project, "blades.yaml", "Fan: { rotor_axis: [1, 0, 0.0001] }")
+        assert planned_outputs(project)["imported_mesh"] == {"Fan/mesh.msh"}
 
 
 @pytest.mark.slow
