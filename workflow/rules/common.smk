@@ -71,7 +71,8 @@ def pictures(name, category, subcategory, figure):
 
 pathvars:
     results=str(settings.results),
-    logs=str(settings.logs),
+    # logs/runs/<name> of a run with a name
+    logs=str(Path("logs", *settings.results.parts[1:])),
 
 
 onstart:

@@ -158,11 +158,6 @@ class Settings:
         """Folder of the results."""
         return results_folder(self.config.run.name)
 
-    @property
-    def logs(self) -> Path:
-        """Folder of the logs."""
-        return Path("logs", "runs", self.config.run.name) if self.config.run.name else Path("logs")
-
     def merged(self) -> dict[str, Any]:
         """Settings of this run, merged from all files and the command line, as plain values."""
         # the key of the unit that speeds are not given in has the default
