@@ -15,7 +15,7 @@ from r37core.machine_code import kept
 from r37core.plans import code as code_module
 from r37core.plans.code import CodeHashes, fingerprint
 from r37core.plans.provenance import Provenance
-from r37core.plans.stages import structure_stages, sweep_stages
+from r37core.plans.stages import structure_stages
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
@@ -163,7 +163,7 @@ def rules(root):
     text = "".join(file.read_text() for file in sorted((root / "workflow/rules").rglob("*.smk")))
     settings = read_settings(root)
     structure, made, sweep = Structure(settings), Provenance(settings), Sweep(settings)
-    shared = {**structure_stages(structure, made), **sweep_stages(sweep, made)}
+    shared = structure_stages(structure, made)
     shared |= {"run_up": RunUps(sweep).stage(made), "looks": Judged(sweep).looks(made)}
     found = {}
     for block in re.split(r"^(?=rule |checkpoint |use rule )", text, flags=re.MULTILINE)[1:]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any, Unpack
 
 import xarray as xr
@@ -11,16 +12,24 @@ import xarray as xr
 from r37core.base.dataset_file import read_dataset
 from r37core.base.io import Named, scratch_folder
 from r37core.config import ConfigError
+from r37core.plans.provenance import Provenance
+from r37core.plans.sweep_plan import Sweep
 from r37core.run_ups.dataset import write_run_ups
-from r37core.run_ups.plan import RUN_UP, RunUps
+from r37core.run_ups.plan import RunUps
 from r37core.run_ups.section import RunUpEntry
+from r37core.sweep.blade_sweep import CAMPBELL
+from r37core.sweep.recipe import run_step
 
 from .arguments import keys_of_its_own, plain_value
 from .calculation import Calculation
 from .call_settings import Call, OneOptions, call_of
 from .choices import BladeChoice, SceneChoice
+from .jobs import parallel_results
 from .runs import RunOptions, run_of
 from .stages import checked_call, checked_call_of
+
+_STAGES = {"model": "contact_model", "stress": "stress_operator", "campbell": CAMPBELL}
+"""Input of a run-up -> stage of the structure."""
 
 
 class RunUpOptions(OneOptions, total=False):
@@ -58,16 +67,12 @@ def run_up(blade: BladeChoice | str, scene: SceneChoice | str, **options: Unpack
     call = _call("r37.run_up", blade, scene, {"run_up": keys_of_its_own(options, OneOptions)}, options)
     call.tell_remarks()
     with scratch_folder() as folder:
-        calculation = Calculation(call.settings, folder, 1)
-        planned, run = RunUps(calculation.sweep), Named(**vars(calculation.run), run_up="run_up")
-        calculation.models()
-        inputs = {key: file for key, file in planned.inputs(run).items() if key != "prepared"}
-        if "campbell" in inputs:
-            calculation.campbell()
-        file = RUN_UP.format(**vars(run))
-        calculation.do(planned.stage(calculation.made), inputs, {"run_up": file}, run_up="run_up")
-        joined = calculation.path("<results>/run_ups.nc")
-        write_run_ups({planned.runs[0]: calculation.path(file)}, joined, {"fidelity": call.settings.fidelity_name})
+        calculation, planned = Calculation(call.settings, folder, 1), RunUps(Sweep(call.settings))
+        run = Named(**vars(calculation.run), run_up="run_up")
+        inputs = {key: calculation.structure_file(_STAGES[key]) for key in planned.inputs(run) if key in _STAGES}
+        stage, file, joined = planned.stage(Provenance(call.settings)), folder / "run_up.npz", folder / "run_ups.nc"
+        parallel_results([partial(run_step, stage.step, inputs, {"run_up": file}, stage.values(run))], 1)
+        write_run_ups({planned.runs[0]: file}, joined, {"fidelity": call.settings.fidelity_name})
         dataset = read_dataset(joined)
     return _labelled(dataset, call).isel(run=0)
 

@@ -140,8 +140,7 @@ class _Report:
         """Say once what a stage does for a blade, and how many simulations a blade and scene have."""
         blade, scene = wildcards.get("blade", ""), wildcards.get("scene", "")
         if rule in self._stages:
-            member = wildcards.get("member", "").rstrip("/")
-            self._tell((rule, blade, member), f"{', '.join(filter(None, [blade, member]))}: {self._stages[rule].title}")
+            self._tell((rule, blade), f"{blade}: {self._stages[rule].title}")
         elif rule == "simulate":
             plan = self._settings.speed_plans[blade, scene]
             number = f"at least {len(plan.certain)}" if plan.refined else str(len(plan.certain))

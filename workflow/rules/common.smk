@@ -12,7 +12,7 @@ from r37core.base.plain import to_plain
 from r37core.plans import paths
 from r37core.plans.code import CodeHashes, EngineNumbers
 from r37core.plans.provenance import Provenance
-from r37core.plans.stages import Stage, structure_stages, sweep_stages
+from r37core.plans.stages import Stage, structure_stages
 from r37core.plans.structure_plan import Imported, Structure
 from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep
 from r37core.product.extensions import sampling_of
@@ -50,7 +50,7 @@ run_up_dataset = offered("run_ups", sweep)
 # speeds in operation, by which results are judged as well
 operating = to_plain(operating_range(settings))
 drawing = partial(drawing_of, code, operating)
-stages = {**structure_stages(structure, made), **sweep_stages(sweep, made)}
+stages = structure_stages(structure, made)
 
 
 def stage(made: Stage):

@@ -36,7 +36,10 @@ use rule step as prepare_time_integration with:
     # may depend on which speeds are run: more speeds would renew the stamp, and with it run all of them again
     priority: 15
     params:
-        **stage(stages["prepare_time_integration"]),
+        **step("time_integration.speed_job.prepare"),
+        scene=simulations.plain_scene,
+        speed=settings.structure.maximum_speed_rad_s,
+        choice=simulations.choice_of_scene,
 
 
 use rule step as simulate with:
@@ -51,7 +54,9 @@ use rule step as simulate with:
     resources:
         mem_mb=300,
     params:
-        **stage(stages["simulate"]),
+        **step("time_integration.speed_job.simulate"),
+        job=simulations.job,
+        about=made.sweep,
 
 
 # a second, between the jobs of a cluster
@@ -76,7 +81,10 @@ checkpoint refine:
     resources:
         mem_mb=500,
     params:
-        **stage(stages["refine"]),
+        **step("adaptive.steps.refine"),
+        plan=rounds.refined_plan,
+        choice=rounds.refinement_choice,
+        yield_stress=sweep.yield_stress,
     script:
         "../scripts/step.py"
 
@@ -90,4 +98,9 @@ use rule step as response with:
         "<logs>/{blade}/{scene}/response.log",
     priority: 5
     params:
-        **stage(stages["response"]),
+        **step("results.steps.response"),
+        speeds=sweep.speeds,
+        stress_history_speeds=sweep.stress_history_speeds,
+        yield_stress=sweep.yield_stress,
+        strengths=sweep.strengths,
+        provenance=made.sweep,

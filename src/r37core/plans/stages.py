@@ -1,6 +1,5 @@
 """Stages that rules and single calls from Python share: what does each, and with which parameters."""
 
-import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -9,7 +8,6 @@ from r37core.config import plain, si_fields
 
 from .provenance import Provenance
 from .structure_plan import Imported, Structure
-from .sweep_plan import Rounds, Simulations, Sweep
 
 
 @dataclass(frozen=True)
@@ -24,13 +22,9 @@ class Stage:
     title: str = ""
     reads: Mapping[str, str] = field(default_factory=dict)
 
-    def values(self, wildcards: Any, input: Any = None) -> dict[str, Any]:
+    def values(self, wildcards: Any) -> dict[str, Any]:
         """The parameters of one job."""
-        arguments = {"wildcards": wildcards, "input": input}
-        return {
-            name: param(*(arguments[each] for each in inspect.signature(param).parameters)) if callable(param) else param
-            for name, param in self.params.items()
-        }
+        return {name: param(wildcards) if callable(param) else param for name, param in self.params.items()}
 
 
 def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]:
@@ -67,26 +61,4 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
         ),
         "stress_operator": Stage("stress.steps.stress_operator", {"material": structure.elastic}, "stress operator", reduced),
         "campbell_of_blade": Stage("results.steps.campbell_of_blade", diagram, "Campbell diagram", reduced),
-    }
-
-
-def sweep_stages(sweep: Sweep, made: Provenance) -> dict[str, Stage]:
-    """Stages from a reduced model to the response over speed, by the names of their rules."""
-    simulations, rounds = Simulations(sweep), Rounds(sweep)
-    highest = sweep.settings.structure.maximum_speed_rad_s
-
-    def job(wildcards: Any) -> dict[str, str]:
-        """Speed and task of a simulation: one parameter, as Snakemake takes a millisecond to ask for each."""
-        return {"speed": wildcards.speed, "task": simulations.task(wildcards)}
-
-    prepared = {"scene": simulations.plain_scene, "speed": highest, "choice": simulations.choice_of_scene}
-    refined = {"plan": rounds.refined_plan, "choice": rounds.refinement_choice, "yield_stress": sweep.yield_stress}
-    speeds = {"speeds": sweep.speeds, "stress_history_speeds": sweep.stress_history_speeds}
-    limits = {"yield_stress": sweep.yield_stress, "strengths": sweep.strengths}
-    joined = {**speeds, **limits, "provenance": made.sweep}
-    return {
-        "prepare_time_integration": Stage("time_integration.speed_job.prepare", prepared),
-        "simulate": Stage("time_integration.speed_job.simulate", {"job": job, "about": made.sweep}),
-        "refine": Stage("adaptive.steps.refine", refined),
-        "response": Stage("results.steps.response", joined),
     }

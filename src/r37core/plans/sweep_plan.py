@@ -186,6 +186,10 @@ class Simulations:
         choice = self._choice(wildcards, float(wildcards.speed))
         return _task(self.sweep.settings.scenes[wildcards.scene].scene, choice, results, tuple(self.sweep.kept.items()))
 
+    def job(self, wildcards: Any) -> dict[str, str]:
+        """Speed and task of a simulation: one parameter, as Snakemake takes a millisecond to ask for each."""
+        return {"speed": wildcards.speed, "task": self.task(wildcards)}
+
     def _choice(self, wildcards: Any, speed: float) -> IntegrationChoice:
         """Numbers of the time integration at a speed (rad/s)."""
         return self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, speed)
