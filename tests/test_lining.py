@@ -16,10 +16,8 @@ from r37core.config import ConfigError, checked_scene, command_line_document
 from r37core.config.changed_numbers import scene_numbers
 from r37core.config.remarks import remarks_on_laws
 from r37core.config.scenes import SceneEntry
-from r37core.plans.linings import linings_at_tip
 from r37core.product.reading import read_settings
 from r37core.product.remarks import remarks as remarks_of_run
-from r37core.rom.contact_model import write_contact_model
 from r37core.rom.contact_weights import tip_lengths
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.lining_at_tip import lining_at_tip
@@ -124,28 +122,6 @@ def test_a_contact_length_and_the_area_of_a_bar_are_one_too_many(config_copy):
     overlay(config_copy, "config.yaml", "scenes: [abradable]")
     with pytest.raises(ConfigError, match="bar_width_m: found bar_width_m and bar_area_m2; allowed: one of them"):
         read_settings(config_copy)
-
-
-def test_linings_of_a_run_are_compared_with_the_tips_before_it_starts(config_copy, contact):
-    """With the models of the blades where they are there, else for a length of tip; a bare casing has none."""
-    overlay(config_copy, "config.yaml", "{ blades: [Ref], scenes: [material_abradable, abradable, direct] }")
-    settings = read_settings(config_copy)
-    (line,) = linings_at_tip(settings)
-    assert line.startswith(
-        "material_abradable: stiffness of the lining 6.34e+05 N/m for each mm of tip, 1.27e+05 while it wears"
-    )
-    (config_copy / "results/Ref").mkdir(parents=True)
-    write_contact_model(contact, config_copy / "results/Ref/contact_pressure_edge.npz")
-    by_material, published = linings_at_tip(settings)
-    assert by_material.startswith(
-        "material_abradable: stiffness of the lining at the tip 1.76e+07 N/m, 3.51e+06 while it wears"
-    )
-    assert published.startswith(
-        "abradable: stiffness of the lining at the tip 5.07e+06 N/m, 1.01e+06 while it wears, on 28.9% of"
-    )
-    assert published.endswith("(as the models in results have it)")
-    (config_copy / "results/Ref/contact_pressure_edge.npz").write_bytes(b"half a file")
-    assert linings_at_tip(settings) == [line]
 
 
 CLEARANCE = {"clearance_m": 3.56e-4}
