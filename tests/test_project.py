@@ -74,7 +74,9 @@ def test_one_version(root):
     assert tomllib.loads(text)["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "r37core.__version__"}
     assert "version" not in tomllib.loads(text)["project"]
     assert yaml.safe_load((root / "CITATION.cff").read_text())["version"] == __version__
-    assert re.search(r"^## (.*)$", (root / "CHANGELOG.md").read_text(), re.MULTILINE)[1] == __version__
+    changes = re.findall(r"^## (.*)$", (root / "CHANGELOG.md").read_text(), re.MULTILINE)
+    # what is not released yet stands above
+    assert next(version for version in changes if version != "Unreleased") == __version__
     assert FILE_ATTRIBUTES["r37core_version"] == __version__
     # what archives and indexes of software read
     described, archived = (json.loads((root / name).read_text()) for name in ("codemeta.json", ".zenodo.json"))

@@ -281,7 +281,8 @@ def operating_range(settings: Settings) -> OperatingRange | None:
 
 def direct_on_points(settings: Settings) -> tuple[list[str], list[str]]:
     """Scenes without lining and blades whose contact acts on points of a mesh; none of both where one is missing."""
-    scenes = [name for name in settings.scene_names if name not in settings.linings]
+    # by their entries: which level is run may depend on it
+    scenes = [name for name in settings.scene_names if settings.scene_designs.entries[name].lining is None]
     meshed = [name for name, blade in settings.blades.items() if not blade.is_matrices]
     blades = [name for name in meshed if settings.contact_of(name) == POINTS]
     return (scenes, blades) if scenes and blades else ([], [])
