@@ -21,6 +21,7 @@ from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import RefinedRange, SpeedError, SpeedPlan, exact_text, plan_speeds
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, command_line_document
+from r37core.config.settings import merged_settings
 from r37core.exports.plan import Exports
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import load_settings, read_settings
@@ -310,7 +311,7 @@ def test_the_command_line_replaces_the_other_unit(root):
     certain = settings.speed_plans["Ref", "direct"].certain
     assert certain == tuple(rpm * RAD_S for rpm in (8000, 9000, 9050, 9100))
     # what a run keeps of its configuration can be read again
-    kept = json.loads(json.dumps(settings.merged()["config"]))
+    kept = json.loads(json.dumps(merged_settings(settings)["config"]))
     assert "speeds" not in kept
     assert load_settings(kept, root).speed_plans == settings.speed_plans
     back = read_settings(root, command_line_document({"speeds_rpm": [8000]}), command_line_document({"speeds": [900]}))

@@ -27,6 +27,7 @@ from r37core.base.dataset_file import SPEED, Variable, about, read_dataset, writ
 from r37core.base.io import InputFileError, OutputFileError, atomic_write, scratch_folder, write_json
 from r37core.base.speeds import plan_speeds
 from r37core.config import ConfigError, command_line_document
+from r37core.config.settings import merged_settings
 from r37core.console import failures, lock, snakemake_run
 from r37core.exchange.write_mesh import write_mesh
 from r37core.machine_code import kept
@@ -380,7 +381,7 @@ def test_replaced_results_are_announced(root, folder):
     draft = read_settings(root, command_line_document({"fidelity": "draft"}))
     assert replaced_level(draft) == []
     (folder / "results").mkdir()
-    write_json(draft.merged(), folder / "results/configuration.json")
+    write_json(merged_settings(draft), folder / "results/configuration.json")
     assert replaced_level(draft) == []
     (line,) = replaced_level(read_settings(root, command_line_document({"fidelity": "fine"})))
     assert "results in results that depend on the level are replaced, draft by fine; give this run a name" in line

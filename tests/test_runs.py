@@ -16,6 +16,7 @@ import r37
 from r37 import workflow_process
 from r37core.base.yaml_file import load_yaml, yaml_text
 from r37core.blade.profile import BladeShapeError
+from r37core.config.settings import merged_settings
 from r37core.product.reading import read_settings
 
 pytestmark = pytest.mark.usefixtures("warm_calls")
@@ -170,7 +171,7 @@ def test_a_folder_says_what_the_call_said(config, written, tmp_path):
 
 def test_the_configuration_counts_unless_an_argument_replaces_it(config, written, tmp_path):
     r37.run(config=config, folder=tmp_path / "a")
-    assert written[-1][0].merged() == read_settings(config.parent.parent).merged()
+    assert merged_settings(written[-1][0]) == merged_settings(read_settings(config.parent.parent))
     r37.run(speeds_rpm=[9000], results=["wear"], blades="Ref", scenes="abradable", config=config, targets=["rms", "summary"])
     settings, targets = written[-1]
     assert targets == ["rms", "summary"] and settings.results_of("Ref", "abradable") == ("wear",)

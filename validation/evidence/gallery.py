@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from published import INTERACTIONS, REFERENCE
 
 from r37core.base.dataset_file import read_dataset
+from r37core.config.settings import judged_region
 from r37core.figures import style
 from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_spectral_map
@@ -65,4 +66,4 @@ def instants(model: str, response: Any) -> np.ndarray:
 def shapes(input: Any, output: Any, params: Any) -> None:
     """The rendered pictures. Inputs: mesh, modes."""
     draw_modes(Path(input.modes) / "modes_0.vtu", output.modes)
-    draw_mesh(input.mesh, settings_of(Path.cwd()).judged_region(REFERENCE), output.mesh)
+    draw_mesh(input.mesh, judged_region(settings_of(Path.cwd()), REFERENCE), output.mesh)

@@ -6,6 +6,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from r37core.config import contact_of_blades, operating_range, plain
+from r37core.config.settings import merged_settings
 from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash, page_parts
 from r37core.base.plain import to_plain

@@ -11,7 +11,7 @@ use rule step as configuration with:
     priority: 20
     params:
         **step("results.steps.configuration"),
-        merged=settings.merged(),
+        merged=merged_settings(settings),
 
 
 # all that lies in the folders of the blades, which jobs of a cluster make (docs/cluster.md)

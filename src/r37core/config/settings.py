@@ -158,17 +158,6 @@ class Settings:
         """Folder of the results."""
         return results_folder(self.config.run.name)
 
-    def merged(self) -> dict[str, Any]:
-        """Settings of this run, merged from all files and the command line, as plain values."""
-        # the key of the unit that speeds are not given in has the default
-        other_speeds = set(UNITS) - {key_of_speeds(self.config)}
-        return {
-            "config": {key: value for key, value in plain(self.config).items() if key not in other_speeds},
-            "fidelity": {self.fidelity_name: plain(self.fidelity)},
-            "scenes": {name: plain(self.scene_designs.entries[name]) for name in self.scenes},
-            "blades": to_plain(self.blades),
-        }
-
     def reduction_choice(self, blade: str) -> ReductionChoice:
         """Reduction of a blade: its basis is computed at rest, at half the maximum speed and at the maximum speed."""
         structure = self.structure
@@ -189,17 +178,6 @@ class Settings:
     def linings(self) -> dict[str, Lining]:
         """Lining of each scene that has one."""
         return {name: chosen.scene.lining for name, chosen in self.scenes.items() if chosen.scene.lining}
-
-    def judged_region(self, blade: str) -> RegionChoice:
-        """Region of a blade that decides."""
-        return next(iter(self.stress_regions(blade).values()))
-
-    def contact_nodes(self, blade: str, tip_elements: int) -> int:
-        """Number of a blade's contact nodes on a tip of so many elements; 0 where the mesh of another program decides it."""
-        boundary = self.boundary_choice(blade)
-        if not self.blades[blade].has_profiles:
-            return boundary.nodes or 0
-        return boundary.on(np.linspace(0.0, 1.0, 2 * tip_elements + 1)).most_nodes
 
     def contact_of(self, blade: str) -> str:
         """Contact nodes of a blade: as config.yaml says for all of them, else as its own entry does."""
@@ -263,6 +241,31 @@ def varied_settings(settings: Settings, blades: Mapping[str, BladeSettings], sce
     return changed
 
 
+def merged_settings(settings: Settings) -> dict[str, Any]:
+    """Settings of a run, merged from all files and the command line, as plain values."""
+    # the key of the unit that speeds are not given in has the default
+    other_speeds = set(UNITS) - {key_of_speeds(settings.config)}
+    return {
+        "config": {key: value for key, value in plain(settings.config).items() if key not in other_speeds},
+        "fidelity": {settings.fidelity_name: plain(settings.fidelity)},
+        "scenes": {name: plain(settings.scene_designs.entries[name]) for name in settings.scenes},
+        "blades": to_plain(settings.blades),
+    }
+
+
+def judged_region(settings: Settings, blade: str) -> RegionChoice:
+    """Region of a blade that decides."""
+    return next(iter(settings.stress_regions(blade).values()))
+
+
+def contact_nodes(settings: Settings, blade: str, tip_elements: int) -> int:
+    """Number of a blade's contact nodes on a tip of so many elements; 0 where the mesh of another program decides it."""
+    boundary = settings.boundary_choice(blade)
+    if not settings.blades[blade].has_profiles:
+        return boundary.nodes or 0
+    return boundary.on(np.linspace(0.0, 1.0, 2 * tip_elements + 1)).most_nodes
+
+
 def blades_named(settings: Settings, chosen: Sequence[str] | str) -> list[str]:
     """Blades and designs of families of these names; those that are run for `all`."""
     return settings.blade_names if chosen == "all" else settings.designs.named(chosen)
@@ -295,7 +298,7 @@ def contact_of_blades(settings: Settings) -> dict[str, str]:
     """
     kinds = {}
     for name in settings.blades:
-        number, kinematics = settings.contact_nodes(name, settings.fidelity.mesh.tip_elements), settings.kinematics_of(name)
+        number, kinematics = contact_nodes(settings, name, settings.fidelity.mesh.tip_elements), settings.kinematics_of(name)
         contact = f"{number or ''} {settings.contact_of(name)}".strip()
         kinds[name] = contact if kinematics == LINEAR else f"{contact}, {kinematics}"
     return kinds

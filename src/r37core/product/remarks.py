@@ -10,6 +10,7 @@ import r37core
 from r37core.base.io import InputFileError
 from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_of_pipeline
+from r37core.config.settings import merged_settings
 from r37core.plans.extension import Extension
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
@@ -77,7 +78,7 @@ def replaced_level(settings: Settings) -> list[str]:
         before = json.loads(file.read_text(encoding="utf-8"))["fidelity"]
     except (OSError, ValueError, KeyError):
         return []
-    now = settings.merged()["fidelity"]
+    now = merged_settings(settings)["fidelity"]
     if before == now:
         return []
     name = settings.fidelity_name

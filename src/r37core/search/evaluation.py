@@ -17,6 +17,7 @@ from r37core.blade.definition import shape_from_plain
 from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.config.document import Document
+from r37core.config.settings import judged_region
 from r37core.machine_code.kept import kept_file
 from r37core.plans.provenance import Provenance
 from r37core.results.ranking import robustness
@@ -173,7 +174,7 @@ class Evaluation:
         from r37core.mesh.generate import generate_mesh
 
         level = self.settings.fidelity.mesh
-        region = self.settings.judged_region(self._blade)
+        region = judged_region(self.settings, self._blade)
         try:
             shape = shape_from_plain(runs.structure["geometry"].params["definition"])
             blade = shape.build(round_edges=self.settings.structure.edges == "round")

@@ -13,6 +13,7 @@ from r37core.config.cross_checks import engine_order_is_known
 from r37core.config.document import ConfigRefusals, Document
 from r37core.config.fidelity import Level
 from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, left_out
+from r37core.config.settings import contact_nodes
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 
 from .case import OWN_MESH, Case, ModelChoice
@@ -128,7 +129,7 @@ class BaseCase:
         if self.settings.blades[blade].is_matrices:
             return self.settings.structure.boundary.tip_line
         nodes = level.mesh.nodes if self.settings.blades[blade].has_profiles else OWN_MESH
-        boundary_nodes = self.settings.contact_nodes(blade, level.mesh.tip_elements)
+        boundary_nodes = contact_nodes(self.settings, blade, level.mesh.tip_elements)
         return replace(ModelChoice(nodes, boundary_nodes, level.reduction.fixed_interface_modes, "submesh"), **changes)
 
     def check_names(self, levels: Iterable[str] = ()) -> None:
