@@ -74,9 +74,9 @@ def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades
     drawn = Sweep(settings).drawn["blade"]
     assert drawn == ["Ref", "Sweep_-50", "Sweep_-10", "Sweep_30", "Sweep_70", "Sweep_110", "Sweep_150"]
     assert [names["blade"] for names in targets(Sweep(settings))["<results>/figures/response_{blade}.png"]] == drawn
-    (overview,) = (figure for figure in FIGURES if figure.rule == "campbell_overview")
+    (overview,) = (figure for figure in FIGURES if figure.rule == "comparison_figure")
     parameters = drawing(SimpleNamespace(step=lambda *_: {}), None, overview, Sweep(settings))
-    assert parameters["caption"]({}).endswith("as grey lines. 7 of 102 blades are drawn.")
+    assert parameters["caption"]({"scene": "direct"}).endswith("diverged. 7 of 102 blades are drawn.")
 
 
 def test_lean_is_scaled_apart_from_sweep(with_blades):

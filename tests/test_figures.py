@@ -94,10 +94,8 @@ def drawn(datasets):
     of = {kind: data.sel(blade="Ref") for kind, data in datasets.items()}
     lined = {kind: data.sel(scene="abradable") for kind, data in datasets.items() if kind != "campbell"}
     figures["campbell"] = campbell_diagram.draw_campbell(of["campbell"], "Ref")
-    figures["campbells"] = campbell_diagram.draw_campbell_overview(datasets["campbell"])
     figures["interactions"] = draw_interactions(datasets)
     figures["response"] = response_curves.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
-    figures["responses"] = response_curves.draw_response_overview(datasets["rms"])
     figures["spectrum"] = map_of(datasets, "spectrum", maps.draw_spectral_map)[0]
     figures["wear"] = map_of(datasets, "wear", maps.draw_wear_map)[0]
     room = np.linspace(4e-4, 3e-4, len(SPEEDS))[:, None] * [1.0, 0.9, np.nan]

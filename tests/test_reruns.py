@@ -14,11 +14,11 @@ pytestmark = pytest.mark.slow
 SPEEDS = ("750", "1150", "1550")
 
 # what follows any change of a simulation
-DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure", "response_overview"}
+DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure"}
 DATASETS |= {"spectrum_figure", "wear_figure", "comparison_figure", "ranking", "ranking_figure"}
 DATASETS |= {"interactions_figure"}
 STRUCTURE = {"geometry", "mesh", "abaqus_deck", "reduced_model", "campbell_of_blade", "campbell_figure"}
-OF_ALL_BLADES = {"campbell_of_all", "campbell_overview", "blade_shapes_figure"}
+OF_ALL_BLADES = {"campbell_of_all", "blade_shapes_figure"}
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,7 @@ def test_maps_are_of_the_runs_that_have_their_kind(finished):
     maps = {f"spectrum_{blade}__{scene}" for blade in BLADES for scene in SCENES}
     maps |= {f"wear_{blade}__abradable" for blade in BLADES}
     others = {f"{kind}_{blade}" for kind in ("campbell", "response") for blade in BLADES}
-    others |= {"campbell", "response", "blades", "ranking", "interactions", *(f"comparison_{scene}" for scene in SCENES)}
+    others |= {"blades", "ranking", "interactions", *(f"comparison_{scene}" for scene in SCENES)}
     drawn = {file.name for file in (finished / "results/figures").iterdir()}
     assert drawn == {f"{name}.{suffix}" for name in maps | others for suffix in ("png", "pdf")}
     assert planned_outputs(finished) == {}

@@ -51,5 +51,4 @@ rule campbell:
         rules.campbell_of_all.output,
         expand([rules.mesh.output.msh, *rules.abaqus_deck.output], blade=imported.meshed_blades),
         expand(rules.campbell_figure.output, blade=sweep.drawn["blade"]),
-        rules.campbell_overview.output,
         rules.blade_shapes_figure.output if shaped else [],

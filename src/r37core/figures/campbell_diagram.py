@@ -48,25 +48,6 @@ def draw_campbell(campbell: xr.Dataset, title: str, casings: Mapping[str, Any] |
     return figure
 
 
-def draw_campbell_overview(campbell: xr.Dataset) -> Figure:
-    """All blades: one panel for each named mode."""
-    figure, panels = plt.subplots(1, len(NAMED_MODES), figsize=(style.PAGE, 3.2))
-    speed = campbell["speed"].values
-    styles = style.blade_styles(campbell["blade"].values)
-    for axes, name in zip(panels, NAMED_MODES, strict=True):
-        frequencies = campbell["frequency"].sel(mode=name)
-        for blade in campbell["blade"].values:
-            axes.plot(speed, frequencies.sel(blade=blade), label=str(blade), **styles[str(blade)])
-        low, high = float(frequencies.min()), float(frequencies.max())
-        margin = 0.08 * (high - low)
-        axes.set(xlabel=style.SPEED_LABEL, title=name, xlim=(0.0, speed[-1]), ylim=(low - margin, high + margin))
-        draw_engine_orders(axes, campbell["engine_order"].values, speed, high + margin)
-        style.rpm_axis(axes, most_ticks=5)
-    panels[0].set_ylabel("frequency (Hz)")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=7)
-    return figure
-
-
 def _draw_casings(axes: Axes, campbell: xr.Dataset, casings: Mapping[str, Any]) -> None:
     """Waves of elastic casings, those that scenes share once, and where named modes of the blade meet them."""
     scenes: dict[ElasticCasing, list[str]] = {}

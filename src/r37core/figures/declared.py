@@ -52,16 +52,6 @@ FIGURES = (
         arguments=lambda sweep: {"casings": Datasets(sweep).casings},
     ),
     Figure(
-        rule="campbell_overview",
-        name="campbell",
-        draw="figures.campbell_diagram.draw_campbell_overview",
-        files={"campbell": ALL_CAMPBELL},
-        label="Campbell diagrams",
-        caption="Frequencies of the first bending (1B), first torsion (1T) and second bending mode (2B) of all blades over "
-        "speed, with engine orders as grey lines.",
-        arguments=_drawn("blade"),
-    ),
-    Figure(
         rule="interactions_figure",
         name="interactions",
         draw="figures.interaction_map.draw_interactions",
@@ -88,17 +78,6 @@ FIGURES = (
         "open triangles: its motion or the wear still grows there.",
         arguments=_drawn("scene"),
         offered="motions",
-    ),
-    Figure(
-        rule="response_overview",
-        name="response",
-        draw="figures.response_curves.draw_response_overview",
-        files={"rms": RMS},
-        label="responses",
-        caption="Response of all blades over speed in every scene: root mean square of the leading edge's displacement over "
-        "the last half of the run. Left: normal to the casing; right: tangential, each column on one scale. Red crosses: runs "
-        "that diverged; open circles: cut free, and open triangles: growing at the end of the run.",
-        arguments=_drawn("blade", "scene"),
     ),
     Figure(
         rule="spectrum_figure",

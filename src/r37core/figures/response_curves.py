@@ -53,24 +53,6 @@ def draw_response(
     return figure
 
 
-def draw_response_overview(rms: xr.Dataset) -> Figure:
-    """All blades: normal and tangential rms of the leading edge, a row each, all scenes, each column on one scale."""
-    blades = rms["blade"].values
-    size = (style.PAGE, 0.95 * len(blades) + 0.8)
-    figure, grid = plt.subplots(len(blades), 2, figsize=size, sharex=True, sharey="col", squeeze=False)
-    for row, blade in zip(grid, blades, strict=True):
-        for axes, direction in zip(row, ("normal", "tangential"), strict=True):
-            _draw_scenes(axes, rms.sel(blade=blade), direction)
-        row[0].set_ylabel(str(blade))
-    for axes, title in zip(grid[0], ("normal to the casing", "tangential"), strict=True):
-        axes.set_title(f"rms, {title}, leading edge (mm)")
-        style.rpm_axis(axes)
-    for axes in grid[-1]:
-        axes.set_xlabel(style.SPEED_LABEL)
-    figure.legend(*style.legend_entries(grid.flat), loc="outside lower center", ncols=4)
-    return figure
-
-
 def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
     for scene in rms["scene"].values:
         runs = rms.sel(scene=scene)
