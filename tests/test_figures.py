@@ -98,9 +98,6 @@ def drawn(datasets):
     figures["response"] = response_curves.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
     figures["spectrum"] = map_of(datasets, "spectrum", maps.draw_spectral_map)[0]
     figures["wear"] = map_of(datasets, "wear", maps.draw_wear_map)[0]
-    room = np.linspace(4e-4, 3e-4, len(SPEEDS))[:, None] * [1.0, 0.9, np.nan]
-    growing = lined["rms"].assign(clearance=(("blade", "speed", "contact_node"), np.repeat(room[None], len(BLADES), axis=0)))
-    figures["clearance"] = response_curves.draw_clearance(growing, "growing_abradable")
     figures["comparison"] = draw_comparison(datasets["campbell"], lined["rms"], lined["stress"], "abradable")
     return figures
 

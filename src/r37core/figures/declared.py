@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from r37core.plans.extension import Figure
-from r37core.plans.paths import CAMPBELL, MESH, RESPONSE, Wildcards, of, run_keys
+from r37core.plans.paths import CAMPBELL, MESH, RESPONSE, of, run_keys
 from r37core.plans.sweep_plan import Datasets, Sweep
 
 ALL_CAMPBELL, RMS, STRESS = (f"<results>/{kind}.nc" for kind in ("campbell", "rms", "stress"))
@@ -25,12 +25,6 @@ def _drawn(*names: str) -> Callable[[Sweep], dict[str, Any]]:
 def _about_crossings(sweep: Sweep) -> dict[str, Any]:
     interactions = sweep.settings.config.interactions
     return {"below": interactions.below, "above": interactions.above, **_drawn("blade")(sweep)}
-
-
-def _growing(sweep: Sweep) -> Wildcards:
-    """Scenes whose clearance changes with the speed."""
-    scenes = sweep.settings.scenes
-    return of("scene", [name for name in sweep.drawn["scene"] if scenes[name].scene.casing.changes_with_speed])
 
 
 BLADES = "The blades, seen from the side, each in its colour of all figures. The arrow shows the rotation, LE the leading edge."
@@ -149,17 +143,5 @@ FIGURES = (
         "scene. Dark: in more than half of the revolutions in a run's second half; light: in more than a twentieth of them. "
         "Lines: standard deviation by chance, on the bare casing; with members: the range that contains nine tenths of them.",
         arguments=lambda sweep: {"scenes": sweep.drawn["scene"]},
-    ),
-    Figure(
-        rule="clearance_figure",
-        name="clearance_{scene}",
-        runs=_growing,
-        draw="figures.response_curves.draw_clearance",
-        files={"rms": RMS},
-        label="clearance",
-        caption="Clearance of the round casing over speed, of all blades in scene {scene}, at the first contact node (leading "
-        "edge) and the last one (trailing edge). It is what the casing leaves less what rotation brings the blade nearer to "
-        "it, before anything vibrates.",
-        arguments=_drawn("blade"),
     ),
 )

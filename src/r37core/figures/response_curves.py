@@ -1,4 +1,4 @@
-"""Response over speed: rms of the leading edge, largest stress against yield; clearance where it changes with the speed."""
+"""Response over speed: rms of the leading edge, and largest stress against yield."""
 
 from typing import Any
 
@@ -100,19 +100,3 @@ def _mark_crossings(axes: Axes, campbell: xr.Dataset | None) -> None:
             axes.annotate(
                 f"1B/{order} ", (speed, 0.98), xycoords=("data", "axes fraction"), fontsize=6, color="0.3", ha="right", va="top"
             )
-
-
-def draw_clearance(rms: xr.Dataset, title: str) -> Figure:
-    """Clearance of the round casing at both ends of the tip of all blades in one scene."""
-    figure, axes = plt.subplots(figsize=(style.PAGE, 3.4))
-    styles = style.blade_styles(rms["blade"].values)
-    for blade in rms["blade"].values:
-        # blades may have been run at other speeds, and with fewer contact nodes
-        room = 1e6 * rms["clearance"].sel(blade=blade).dropna("speed", how="all").dropna("contact_node", how="all")
-        for name, node, line in (("leading edge", 0, "-"), ("trailing edge", -1, "--")):
-            curve = room.isel(contact_node=node)
-            axes.plot(curve["speed"], curve, label=f"{blade}, {name}", color=styles[str(blade)]["color"], linestyle=line)
-    axes.set(xlabel=style.SPEED_LABEL, ylabel="clearance before vibration (µm)", title=f"clearance in scene {title}")
-    style.rpm_axis(axes)
-    figure.legend(loc="outside right center")
-    return figure
