@@ -17,7 +17,7 @@ SPEEDS = ("750", "1150", "1550")
 DATASETS = {"configuration", "sweep_dataset", "summary", "explorer", "response_figure"}
 DATASETS |= {"spectrum_figure", "wear_figure", "comparison_figure", "ranking", "ranking_figure"}
 DATASETS |= {"interactions_figure"}
-STRUCTURE = {"geometry", "mesh", "abaqus_deck", "reduced_model", "campbell_of_blade", "campbell_figure"}
+STRUCTURE = {"geometry", "mesh", "reduced_model", "campbell_of_blade", "campbell_figure"}
 OF_ALL_BLADES = {"campbell_of_all", "blade_shapes_figure"}
 
 
@@ -189,7 +189,7 @@ STRENGTHS = "fatigue_strength_pa: 6e+8, ultimate_strength_pa: 1.5e+9"
         ("blades", "Ref: { material: { density_kg_m3: 8001.0 } }", runs(SPEEDS), {"geometry", "mesh"}),
         ("blades", "Ref: { material: { yield_stress_pa: 1.39e+9 } }", set(), OF_MODELS),
         ("blades", f"Ref: {{ material: {{ {STRENGTHS} }} }}", set(), BEFORE_RUNS),
-        ("config", "structure: { spin_softening: true }", runs(SPEEDS), {"geometry", "mesh", "abaqus_deck"}),
+        ("config", "structure: { spin_softening: true }", runs(SPEEDS), {"geometry", "mesh"}),
         ("scenes", "direct: { results: [signal, stress, energy] }", runs(SPEEDS, scenes=["direct"]), OF_MODELS),
         ("scenes", "direct: { stress_history_speeds_rad_s: [1150] }", runs(["1150"], scenes=["direct"]), OF_MODELS),
     ],

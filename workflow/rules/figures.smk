@@ -49,6 +49,6 @@ use rule step as blade_shapes_figure with:
 rule campbell:
     input:
         rules.campbell_of_all.output,
-        expand([rules.mesh.output.msh, *rules.abaqus_deck.output], blade=imported.meshed_blades),
+        expand(rules.mesh.output.msh, blade=imported.meshed_blades),
         expand(rules.campbell_figure.output, blade=sweep.drawn["blade"]),
         rules.blade_shapes_figure.output if shaped else [],

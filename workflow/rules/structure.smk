@@ -52,19 +52,6 @@ use rule step as imported_mesh with:
         **stage(stages["imported_mesh"]),
 
 
-use rule step as abaqus_deck with:
-    input:
-        mesh=paths.MESH,
-    output:
-        deck="<results>/{blade}/mesh.inp",
-    log:
-        "<logs>/{blade}/abaqus_deck.log",
-    params:
-        **step("fem.steps.abaqus_deck"),
-        blade="{blade}",
-        material=structure.elastic,
-
-
 use rule step as reduced_model with:
     input:
         mesh=paths.MESH,

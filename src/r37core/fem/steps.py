@@ -1,17 +1,14 @@
-"""Steps of the workflow (docs/architecture.md): a blade's mesh, and the same as a deck for Abaqus."""
+"""Steps of the workflow (docs/architecture.md): a blade's mesh."""
 
 from typing import Any
 
 import numpy as np
 
 from r37core.base.io import JOB_LOG, atomic_write
-from r37core.base.plain import from_plain
 from r37core.blade.geometry_file import read_geometry
 from r37core.mesh.generate import generate_mesh
-from r37core.mesh.mesh_files import read_vtu, write_vtu
+from r37core.mesh.mesh_files import write_vtu
 
-from .abaqus_deck import write_abaqus
-from .material import Material
 from .mesh_quality import check_quality, mesh_quality
 
 
@@ -25,8 +22,3 @@ def mesh(input: Any, output: Any, params: Any) -> None:
         JOB_LOG.debug(f"scaled Jacobian: minimum {np.min(quality):.3f}, 1% quantile {np.quantile(quality, 0.01):.3f}")
         check_quality(made, quality, level["minimum_scaled_jacobian"])
     write_vtu(made, output.vtu, quality)
-
-
-def abaqus_deck(input: Any, output: Any, params: Any) -> None:
-    """Write the Abaqus/CalculiX deck of a blade. Input: mesh (vtu). Params: material, blade. Output: deck (inp)."""
-    write_abaqus(read_vtu(input.mesh), output.deck, from_plain(Material, params.material), f"blade {params.blade}, SI units")
