@@ -80,6 +80,7 @@ def start(server):
             wildcards={},
             log=files(),
             rule=SimpleNamespace(name="a_rule"),
+            threads=1,
         )
         server.submit("script.py", job, statuses.append)
         return statuses
