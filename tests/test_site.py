@@ -84,7 +84,8 @@ def test_the_site_is_built_without_a_warning_and_opens_offline(built):
             assert page.locator("h1").count()
         page.goto((site / "changelog.html").as_uri())
         assert page.title() == f"Changelog - r37 {r37.__version__}"
-        assert page.locator("h2").first.inner_text().startswith(r37.__version__)
+        # below what is not released yet
+        assert any(title.startswith(r37.__version__) for title in page.locator("h2").all_inner_texts()[:2])
         page.goto((site / "api/r37.sweep.html").as_uri())
         signature = page.locator("dt.sig").inner_text()
         assert "speeds_rpm" in signature and "cores: int" in signature and "options" not in signature

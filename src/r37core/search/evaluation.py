@@ -121,11 +121,13 @@ class Evaluation:
         return DesignRuns(
             structure=recipes(first, blade, dict.fromkeys(_STRUCTURE), kept=self._is_start(first)),
             scenes={
-                scene: {member: blade_sweep(of, blade, scene, kept=self._is_start(of)) for member, of in several.items()}
+                scene: {
+                    member: blade_sweep(varied, blade, scene, kept=self._is_start(varied)) for member, varied in several.items()
+                }
                 for scene, several in members.items()
             },
-            speeds={scene: shared_speeds(of, blade, scene) for scene, of in nominal.items()},
-            about={scene: str(Provenance(of).sweep(Named(blade=blade, scene=scene))) for scene, of in nominal.items()},
+            speeds={scene: shared_speeds(varied, blade, scene) for scene, varied in nominal.items()},
+            about={scene: str(Provenance(varied).sweep(Named(blade=blade, scene=scene))) for scene, varied in nominal.items()},
             density=material.density,
         )
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from r37core.adaptive.rounds import first_round, measure_members, round_after
 from r37core.base.dataset_file import read_dataset
@@ -22,7 +22,6 @@ from .blade_sweep import BladeSweep, SharedSpeeds
 from .counts import count_simulation
 from .recipe import code_of
 
-Result = TypeVar("Result")
 Call = Callable[[], Any]
 RunAll = Callable[[Sequence[Call], str], Sequence[Any]]
 """Gives the results of calls, in their order, on whatever processes; raises what one raises. The text says what they make."""
@@ -61,18 +60,19 @@ class Driver:
         code = code_of("time_integration.speed_job.run_job")
         models = self.run_all([partial(self._models, sweep) for sweep in sweeps.values()], "models")
         runs = [
-            _Runs(self.folder / name, sweep, tuple(of), about[name], code, self.motion)
-            for (name, sweep), of in zip(sweeps.items(), models, strict=True)
+            _Runs(self.folder / name, sweep, tuple(files), about[name], code, self.motion)
+            for (name, sweep), files in zip(sweeps.items(), models, strict=True)
         ]
-        files = self._files(runs, speeds, campbell)
-        return dict(zip(sweeps, self.run_all([partial(run.response, files) for run in runs], "responses"), strict=True))
+        every_speed = self._speeds(runs, speeds, campbell)
+        responses = self.run_all([partial(run.response, every_speed) for run in runs], "responses")
+        return dict(zip(sweeps, responses, strict=True))
 
     def _models(self, sweep: BladeSweep) -> list[tuple[str, str]]:
         """Files of the models of a sweep, each with the digest of its content."""
         files = [str(sweep.file(stage, self.structures, self.attributes)) for stage in sweep.models]
         return [(file, content_digest(file)) for file in files]
 
-    def _files(self, runs: Sequence[_Runs], speeds: SharedSpeeds, campbell: Path | None) -> list[float]:
+    def _speeds(self, runs: Sequence[_Runs], speeds: SharedSpeeds, campbell: Path | None) -> list[float]:
         """Simulate at all speeds; gives them (rad/s), ascending."""
         plan, choice = speeds.plan, speeds.choice
         if not plan.refined:

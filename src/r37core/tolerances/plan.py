@@ -60,8 +60,8 @@ class Tolerances:
         nominal, run = self.settings.blades[wildcards.blade].elastic, vars(_run(wildcards))
         files = dict.fromkeys(("contact_model", "stress_operator", CAMPBELL), "")
         return {
-            name: to_plain(blade_sweep(of, **run, existing=files if member.blade.elastic == nominal else {}, kept=False))
-            for name, member, of in self._varied(wildcards)
+            name: to_plain(blade_sweep(varied, **run, existing=files if member.blade.elastic == nominal else {}, kept=False))
+            for name, member, varied in self._varied(wildcards)
         }
 
     def about(self, wildcards: Any) -> Attributes:
