@@ -94,15 +94,15 @@ def recipes(settings: Settings, blade: str, tip_lines: Mapping[str, str | None],
     imported = _IMPORTED.get(type(settings.blades[blade].definition), {})
 
     @cache
-    def of(stage: str, tip_line: str) -> Recipe:
+    def stage_recipe(stage: str, tip_line: str) -> Recipe:
         made = stages[imported.get(stage, stage)]
-        inputs = {key: of(other, tip_line) for key, other in made.reads.items()}
+        inputs = {key: stage_recipe(other, tip_line) for key, other in made.reads.items()}
         params = made.values(Named(blade=blade, tip_line=tip_line))
         values = {key: value for key, value in params.items() if not isinstance(value, Attributes)}
         values |= {"kept": kept} if "kept" in values else {}
         return Recipe(blade, made.step, made.title, _FILES[stage], inputs, to_plain(values))
 
-    return {stage: of(stage, line or settings.structure.boundary.tip_line) for stage, line in tip_lines.items()}
+    return {stage: stage_recipe(stage, line or settings.structure.boundary.tip_line) for stage, line in tip_lines.items()}
 
 
 def structure_attributes(settings: Settings, blade: str) -> Attributes:
