@@ -6,6 +6,7 @@ import io
 import json
 import os
 import shutil
+import signal
 import sys
 from collections import Counter
 from dataclasses import replace
@@ -133,11 +134,12 @@ def elsewhere(tmp_path_factory):
 
 
 @pytest.fixture(autouse=True)
-def figures_closed():
-    """Whatever a test has drawn is closed after it."""
+def process_as_before():
+    """Figures are closed, and a broken pipe raises again: gmsh.initialize of a page lets it end the process."""
     yield
     if pyplot := sys.modules.get("matplotlib.pyplot"):
         pyplot.close("all")
+    signal.signal(signal.SIGPIPE, signal.SIG_IGN)
 
 
 @pytest.fixture(scope="session")
