@@ -192,7 +192,8 @@ def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
     """Runs `below` with those of `above` in place of them where these are, over the speeds of both and no other coordinate."""
     below, above = (runs.reset_coords(drop=True) for runs in (below, above))
     kept = below.isel(speed=np.flatnonzero(~np.isin(below["speed"].values, above["speed"].values)))
-    over_speeds = [str(name) for name in above.data_vars if "speed" in above[name].dims]
+    # motions of all scenes have the numbers of a lining, and a bare casing's runs have none
+    over_speeds = [str(name) for name in above.data_vars if "speed" in above[name].dims and name in below]
     joined = xr.concat([kept[over_speeds], above[over_speeds]], "speed").sortby("speed")
     return joined.assign({name: above[name] for name in OF_ALL if name in above})
 
