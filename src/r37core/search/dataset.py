@@ -17,39 +17,27 @@ from r37core.base.yaml_file import yaml_text
 from r37core.results.closing import counted
 
 from .plan import BEST, DATASET
-from .problem import (
-    START,
-    UNKNOWN,
-    Design,
-    Evaluated,
-    SearchChoice,
-    best_first,
-    not_dominated,
-    number,
-)
-from .rounds import SearchRound
+from .problem import START, UNKNOWN, Design, SearchChoice, best_first, not_dominated
 from .surrogate import sensitivity, slices
 
 POINTS = 41
 """Number of points of a slice."""
 
 
-def search_dataset(last: SearchRound, choice: SearchChoice) -> xr.Dataset:
-    """All designs of a search, the start first, from its last round."""
-    designs = {START: choice.start_design(last.start), **last.tried}
-    evaluated = {name: design.evaluated(name, choice, last.start) for name, design in designs.items()}
-    known = [each for each in evaluated.values() if not np.isnan(each.values).any()]
-    tried = [each for each in evaluated.values() if each.name != START]
-    order, front = _best(tried, evaluated[START]), {each.name for each in not_dominated(list(evaluated.values()))}
-    dataset = xr.Dataset(coords=_coordinates(list(designs), choice))
-    dataset = dataset.assign(_design_variables(designs, evaluated, choice)).assign(_bound_variables(choice, last))
-    dataset["not_dominated"] = ("design", np.array([name in front for name in designs], "i1"), _NOT_DOMINATED)
-    places = [order.index(name) + 1 if name in order else 0 for name in designs]
+def search_dataset(tried: Mapping[str, Design], choice: SearchChoice) -> xr.Dataset:
+    """All designs of a search that were `tried`, the start first."""
+    designs = list(tried.values())
+    known = [design for design in designs if not np.isnan(design.values).any()]
+    order, front = _best(designs[1:], tried[START]), {design.name for design in not_dominated(designs)}
+    dataset = xr.Dataset(coords=_coordinates(list(tried), choice))
+    dataset = dataset.assign(_design_variables(designs, choice)).assign(_bound_variables(choice, tried[START]))
+    dataset["not_dominated"] = ("design", np.array([name in front for name in tried], "i1"), _NOT_DOMINATED)
+    places = [order.index(name) + 1 if name in order else 0 for name in tried]
     dataset["order"] = ("design", np.array(places, "i4"), _ORDER)
-    return dataset.assign(_surrogate_variables(known, choice, last.tried[order[0]].values)) if order else dataset
+    return dataset.assign(_surrogate_variables(known, choice, tried[order[0]].values)) if order else dataset
 
 
-def _best(tried: Sequence[Evaluated], start: Evaluated) -> list[str]:
+def _best(tried: Sequence[Design], start: Design) -> list[str]:
     """Names of the feasible designs, the best first: those that no other beats, then the others.
 
     Both are in the order of the sum of their objectives, each as a share of the start's, so that what the start has least of
@@ -80,26 +68,29 @@ def _coordinates(designs: list[str], choice: SearchChoice) -> dict[str, object]:
     }
 
 
-def _design_variables(designs: dict[str, Design], evaluated: dict[str, Evaluated], choice: SearchChoice) -> dict[str, object]:
-    def quantities(names: Sequence[str], place: int) -> np.ndarray:
-        rows = [[number(design.quantities.get(name, UNKNOWN)[place]) for name in names] for design in designs.values()]
-        return np.array(rows, float).reshape(len(designs), len(names))
-
-    feasible = [each.is_feasible for each in evaluated.values()]
-    objectives, constraints = list(choice.objectives), list(choice.constraints)
+def _design_variables(designs: Sequence[Design], choice: SearchChoice) -> dict[str, object]:
+    objectives, scatters, feasible = (
+        [getattr(each, name) for each in designs] for name in ("objectives", "scatters", "is_feasible")
+    )
+    constraints = [[design.quantities.get(name, UNKNOWN)[0] for name in choice.constraints] for design in designs]
+    over = ("design", "objective")
     return {
-        "value": (("design", "variable"), [design.values for design in designs.values()], about("1", "in the unit of the key")),
-        "round": ("design", [each.round for each in designs.values()], about("1", "that proposed the design; -1 of the start")),
-        "refused": ("design", [design.refused or "" for design in designs.values()], {"long_name": "why it cannot be built"}),
+        "value": (("design", "variable"), [design.values for design in designs], about("1", "in the unit of the key")),
+        "round": ("design", [design.round for design in designs], about("1", "that proposed the design; -1 of the start")),
+        "refused": ("design", [design.refused for design in designs], {"long_name": "why it cannot be built"}),
         "feasible": ("design", np.array(feasible, "i1"), about("1", "whether it can be built and keeps all constraints")),
-        "objective_value": (("design", "objective"), quantities(objectives, 0), about("1", "in the unit of the objective")),
-        "objective_scatter": (("design", "objective"), quantities(objectives, 1), about("1", "standard deviation by chance")),
-        "constraint_value": (("design", "constraint"), quantities(constraints, 0), about("1", "in the unit of the constraint")),
+        "objective_value": (over, objectives, about("1", "in the unit of the objective")),
+        "objective_scatter": (over, scatters, about("1", "standard deviation by chance")),
+        "constraint_value": (
+            ("design", "constraint"),
+            np.array(constraints, float),
+            about("1", "in the unit of the constraint"),
+        ),
     }
 
 
-def _bound_variables(choice: SearchChoice, last: SearchRound) -> dict[str, object]:
-    bounds = [constraint.bounds(number(last.start[name][0])) for name, constraint in choice.constraints.items()]
+def _bound_variables(choice: SearchChoice, start: Design) -> dict[str, object]:
+    bounds = [constraint.bounds(start.quantities[name][0]) for name, constraint in choice.constraints.items()]
     lowest, highest = np.array(bounds, float).reshape(-1, 2).T
     return {
         "lowest": ("variable", [variable.lowest for variable in choice.variables], about("1", "bound of the variable")),
@@ -109,7 +100,7 @@ def _bound_variables(choice: SearchChoice, last: SearchRound) -> dict[str, objec
     }
 
 
-def _surrogate_variables(known: list[Evaluated], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
+def _surrogate_variables(known: list[Design], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
     """Slices through the best design, and what each variable does."""
     values, mean, deviation = slices(choice.variables, known, at, POINTS, choice.seed)
     first, total, predicted = sensitivity(choice.variables, known, choice.seed)

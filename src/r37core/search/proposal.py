@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from .gaussian_processes import Fit, fit, fit_chance
-from .problem import FEWEST_DONE, Evaluated, SearchVariable, designs_at, shares
+from .problem import FEWEST_DONE, Design, SearchVariable, designs_at, shares
 
 NEAR = 0.01
 """Two designs differ by at least this share of the range of some variable, as long as there is room for it."""
@@ -30,9 +30,7 @@ def first_designs(variables: Sequence[SearchVariable], number: int, seed: int) -
     return designs_at(variables, _sobol(len(variables), number, seed))
 
 
-def propose(
-    variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], batch: int, seed: int
-) -> list[tuple[float, ...]]:
+def propose(variables: Sequence[SearchVariable], evaluated: Sequence[Design], batch: int, seed: int) -> list[tuple[float, ...]]:
     """The next `batch` designs, values in the order of `variables`.
 
     They depend neither on the order of `evaluated` nor on the number of cores. Raises SearchPackageMissing without the library.
@@ -97,7 +95,7 @@ class Models:
         return np.log(np.maximum(best - values, 0.0).mean(0) + 1e-12)
 
 
-def _fitted(tried: np.ndarray, known: Sequence[Evaluated], seed: int) -> Models:
+def _fitted(tried: np.ndarray, known: Sequence[Design], seed: int) -> Models:
     is_done = np.array([design.is_done for design in known], dtype=bool)
     done = [design for design in known if design.is_done]
     points = tried[is_done]

@@ -6,13 +6,13 @@ import numpy as np
 import scipy
 
 from .gaussian_processes import Fit, fit
-from .problem import FEWEST_DONE, Evaluated, SearchVariable, shares
+from .problem import FEWEST_DONE, Design, SearchVariable, shares
 
 _SAMPLE = 1024
 
 
 def slices(
-    variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], at: Sequence[float], points: int, seed: int
+    variables: Sequence[SearchVariable], evaluated: Sequence[Design], at: Sequence[float], points: int, seed: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Surrogate of each objective at `points` values of each variable, the others as in the design `at`.
 
@@ -31,7 +31,7 @@ def slices(
 
 
 def sensitivity(
-    variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], seed: int
+    variables: Sequence[SearchVariable], evaluated: Sequence[Design], seed: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """First-order and total Sobol' indices [objective, variable] of the surrogates, the variables uniform over their ranges.
 
@@ -53,7 +53,7 @@ def sensitivity(
     return first, total, predicted
 
 
-def objective_fits(variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], seed: int) -> list[Fit]:
+def objective_fits(variables: Sequence[SearchVariable], evaluated: Sequence[Design], seed: int) -> list[Fit]:
     """The process of each objective over shares of the ranges; none where fewer than `FEWEST_DONE` designs could be built."""
     known = sorted((design for design in evaluated if design.is_done), key=lambda design: (design.values, design.name))
     if len(known) < FEWEST_DONE:
