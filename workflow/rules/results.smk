@@ -19,14 +19,14 @@ rule responses:
     input:
         expand(paths.CAMPBELL, blade=settings.blades),
         paths.filled({paths.RESPONSE: paths.run_keys(sweep.runs_with("rms"))}),
-        rounds.first_rounds,
+        sweep.first_rounds,
         simulated(sweep),
 
 
 use rule step as sweep_dataset with:
     input:
-        responses=joined.responses,
-        rounds=rounds.first_rounds,
+        responses=lambda wildcards: paths.filled({paths.RESPONSE: paths.run_keys(sweep.runs_with(wildcards.kind))}),
+        rounds=sweep.first_rounds,
     output:
         dataset="<results>/{kind}.nc",
     log:
@@ -36,7 +36,7 @@ use rule step as sweep_dataset with:
     params:
         **step("results.steps.sweep_dataset"),
         kind="{kind}",
-        runs=joined.runs,
+        runs=lambda wildcards: sweep.runs_with(wildcards.kind),
         fidelity=settings.fidelity_name,
 
 
@@ -83,7 +83,7 @@ use rule step as coincidences with:
         "<logs>/coincidences.log",
     params:
         **step("results.steps.coincidences"),
-        casings=joined.casings,
+        casings=to_plain(elastic_casings(settings)),
 
 
 shown_panels = panels(sweep)

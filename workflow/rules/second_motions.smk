@@ -20,7 +20,7 @@ use rule step as second_motion_sweep with:
         **motions_plan.parameters(sweep),
         motion=lambda wildcards: wildcards.motion,
         results=partial(motions_plan.results, sweep),
-        kept=sweep.kept,
+        kept=settings.fidelity.time_integration.kept,
         yield_stress=sweep.yield_stress,
         provenance=made.sweep,
 

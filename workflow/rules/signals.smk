@@ -13,8 +13,8 @@ use rule step as signals_of_run with:
         "<logs>/{blade}/{scene}/signals.log",
     params:
         **step("signals.steps.record"),
-        scene=simulations.plain_scene,
-        choice=simulations.choice_of_scene,
+        scene=sweep.plain_scene,
+        choice=sweep.choice_of_scene,
         speeds=recorded.speeds,
         interactions=plain(settings.config.interactions),
         revolutions=recorded.revolutions,

@@ -7,7 +7,7 @@ from typing import Any
 from r37core.config import plain, si_fields
 
 from .provenance import Provenance
-from .structure_plan import Imported, Structure
+from .structure_plan import Structure
 
 
 @dataclass(frozen=True)
@@ -29,8 +29,8 @@ class Stage:
 
 def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]:
     """Stages from blade shape to Campbell diagram, by the names of their rules."""
-    settings, imported = structure.settings, Imported(structure.settings)
-    source = {"source": imported.source, "folder": imported.folder, "locations": imported.locations}
+    settings = structure.settings
+    source = {"source": structure.definition, "folder": structure.folder, "locations": structure.locations}
     reduction = {
         "boundary": structure.boundary,
         "reduction": structure.reduction,

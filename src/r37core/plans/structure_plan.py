@@ -18,12 +18,12 @@ from .provenance import Attributes
 
 @dataclass(frozen=True)
 class Structure:
-    """Numbers of the rules from shape to Campbell diagram; `wildcards` as of Sweep."""
+    """Inputs and numbers of the rules from shape, or import, to Campbell diagram; `wildcards` as of Sweep."""
 
     settings: Settings
 
     def definition(self, wildcards: Any) -> Any:
-        """Shape of a blade."""
+        """Shape of a blade, or the mesh or matrices to import."""
         return to_plain(self.settings.blades[wildcards.blade].definition)
 
     def material(self, wildcards: Any) -> dict[str, float] | None:
@@ -60,13 +60,6 @@ class Structure:
         """Reduction of the model of the whole blade: the sweep's, recovered everywhere."""
         return to_plain(replace(self.settings.reduction_choice(wildcards.blade), recover_whole_blade=True))
 
-
-@dataclass(frozen=True)
-class Imported:
-    """Blades by what gives them; methods with `wildcards` are inputs and parameters of rules."""
-
-    settings: Settings
-
     def given_by(self, *kinds: Any) -> list[str]:
         """Names of the blades that are given in one of these ways."""
         return [name for name, blade in self.settings.blades.items() if isinstance(blade.definition, kinds)]
@@ -94,10 +87,6 @@ class Imported:
             assert isinstance(source, MatricesSource)
             files = list(matrix_files(source.folder, self.settings.root).values())
         return [_seen_from_here(file) for file in files]
-
-    def source(self, wildcards: Any) -> Any:
-        """Mesh or matrices to import."""
-        return to_plain(self.settings.blades[wildcards.blade].definition)
 
     def locations(self, wildcards: Any) -> Attributes:
         """Where the keys of a blade stand, as `file:line: blade.key`; a new line re-runs nothing."""

@@ -17,7 +17,7 @@ from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
-from r37core.plans.sweep_plan import Simulations, Sweep
+from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import RunUpChoice, RunUpError, check_highest
@@ -71,7 +71,7 @@ class RunUps:
             "run_ups.steps.record",
             {
                 "name": lambda wildcards: wildcards.run_up,
-                "scene": Simulations(self.sweep).plain_scene,
+                "scene": self.sweep.plain_scene,
                 "choice": self.choice,
                 "run_up": self.run_up,
                 "results": lambda wildcards: list(self.sweep.results(wildcards)),

@@ -10,7 +10,7 @@ from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.speed_choice import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.sweep_plan import Simulations, Sweep
+from r37core.plans.sweep_plan import Sweep
 
 from .choice import MOTIONS
 from .section import SECTION, SecondMotionSection, pairs_of
@@ -45,7 +45,7 @@ def parameters(sweep: Sweep) -> dict[str, Any]:
     """Parameters of sweeps and dwells alike."""
     settings, section = sweep.settings, sweep.settings.section(SECTION)
     return {
-        "scene": Simulations(sweep).plain_scene,
+        "scene": sweep.plain_scene,
         # of a run from rest: those of the pipeline
         "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
         # without any speed where there are none, as the rules are there all the same
