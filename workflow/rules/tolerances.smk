@@ -37,10 +37,8 @@ use rule step as tolerances_dataset with:
         "<logs>/tolerances_dataset.log",
     params:
         **step("tolerances.steps.join"),
-        pairs=tolerances.pairs,
-        runs=tolerances.runs,
+        samples=tolerances.samples,
         numbers=tolerances.numbers,
-        values=tolerances.values,
         fidelity=settings.fidelity_name,
 
 
@@ -55,6 +53,5 @@ use rule step as tolerance_table with:
         "<logs>/tolerance_table.log",
     params:
         **step("tolerances.steps.table"),
-        pairs=tolerances.pairs,
-        runs=tolerances.runs,
+        samples=tolerances.samples,
         choice=plain(settings.config.interactions),

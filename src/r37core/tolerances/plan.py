@@ -94,10 +94,10 @@ class Tolerances:
         return self._members.pairs
 
     @property
-    def runs(self) -> list[dict[str, str]]:
-        """Blade, scene and name of all members, in the order of the dataset."""
+    def samples(self) -> list[tuple[str, str, dict[str, list[float | None]]]]:
+        """Blade, scene, and the values of each of its members in the units of the keys, in the order of the dataset."""
         every = self._members.all.items()
-        return [{"blade": blade, "scene": scene, "member": name} for (blade, scene), members in every for name in members]
+        return [(*pair, {name: list(member.values) for name, member in members.items()}) for pair, members in every]
 
     @property
     def nominal(self) -> dict[str, list[str]]:
@@ -115,12 +115,6 @@ class Tolerances:
     def numbers(self) -> list[str]:
         """Keys of the numbers that vary."""
         return [number.key for number in self._members.numbers]
-
-    @property
-    def values(self) -> list[list[float | None]]:
-        """Values of each of the runs, in the units of the keys."""
-        every = self._members.all
-        return [list(every[run["blade"], run["scene"]][run["member"]].values) for run in self.runs]
 
 
 def _run(wildcards: Any) -> Named:
