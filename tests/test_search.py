@@ -13,14 +13,14 @@ from workflow_runs import overlay
 from r37core.base.varied_number import BLADE
 from r37core.config import ConfigError
 from r37core.product.reading import read_settings
-from r37core.search import rounds
+from r37core.search import steps
 from r37core.search.dataset import BLADES_HEADER, search_dataset, search_table, write_entries
 from r37core.search.designs import choice_of, designs_of
 from r37core.search.plan import Search
 from r37core.search.problem import START, Constraint, SearchChoice, SearchVariable
 from r37core.search.proposal import first_designs
 from r37core.search.quantity import DesignStructure, Quantity, contact_value, structure_value
-from r37core.search.rounds import next_designs
+from r37core.search.steps import next_designs
 
 BLADES = """
 Free:
@@ -182,7 +182,7 @@ def test_rounds_spend_the_budget_in_batches_and_the_same_seed_gives_the_same(met
 def test_proposals_know_the_start(monkeypatch):
     """Where its values are known; it is measured anyway."""
     known = []
-    monkeypatch.setattr(rounds, "propose", lambda variables, evaluated, batch, seed: known.append(evaluated) or [])
+    monkeypatch.setattr(steps, "propose", lambda variables, evaluated, batch, seed: known.append(evaluated) or [])
     searched(choice("surrogate"), (3, 2))
     searched(choice("surrogate", start=(0.5, 0.0)), (3, 2))
     without, (start, *others) = known

@@ -67,21 +67,15 @@ class Families:
     @cached_property
     def figures(self) -> dict[str, Compared]:
         """Designs that the figure of each family compares, by its name."""
-        settings = self.settings
-        figures = {}
+        settings, figures, family_of = self.settings, {}, self.settings.scene_designs.family_of
+        # scenes of no family, or all where there are only those of families
+        plain = tuple(name for name in settings.scene_names if name not in family_of) or tuple(settings.scene_names)
         for kind, families in self.families.items():
             for name, family in families.items():
                 designs = tuple(family.designs)
-                blades, scenes = (designs, self._plain_scenes) if kind == BLADE else (tuple(settings.blade_names), designs)
+                blades, scenes = (designs, plain) if kind == BLADE else (tuple(settings.blade_names), designs)
                 figures[name] = Compared(kind, tuple(VariedNumber(kind, key).name for key in family.keys), blades, scenes)
         return figures
-
-    @property
-    def _plain_scenes(self) -> tuple[str, ...]:
-        """Scenes of no family, or all where there are only those of families."""
-        family_of = self.settings.scene_designs.family_of
-        plain = tuple(name for name in self.settings.scene_names if name not in family_of)
-        return plain or tuple(self.settings.scene_names)
 
     @cached_property
     def maps(self) -> dict[str, Compared]:

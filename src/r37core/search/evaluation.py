@@ -21,6 +21,7 @@ from r37core.config.document import Document
 from r37core.config.settings import judged_region
 from r37core.machine_code.kept import kept_file
 from r37core.plans.provenance import Provenance
+from r37core.results.columns import MINIMISED
 from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
 from r37core.rom.contact_model import read_contact_model
@@ -168,7 +169,7 @@ class Evaluation:
             ]
         values = {
             name: contact_value(quantity, nominal, members)
-            if quantity.needs_contact
+            if quantity.measure in MINIMISED
             else (structure_value(quantity, structure, highest), 0.0)
             for name, quantity in quantities.items()
         }

@@ -134,22 +134,19 @@ def _next_point(models: Models, taken: np.ndarray, variables: int, generator: np
         leaders = candidates[np.argsort(-worth, kind="stable")[:8]]
         closer = _around(leaders, spread, generator)
         candidates, worth = np.vstack([candidates, closer]), np.append(worth, _worth(models, closer, taken, draws))
-    return candidates[_far_enough(candidates, worth, taken)]
+    # no near copy of a design; where all are, the one farthest from them
+    distance = scipy.spatial.distance.cdist(candidates, taken, "chebyshev").min(1, initial=np.inf)
+    allowed = distance >= min(NEAR, distance.max())
+    return candidates[int(np.argmax(np.where(allowed, worth, -np.inf)))]
 
 
 def _worth(models: Models, points: np.ndarray, taken: np.ndarray, draws: int) -> np.ndarray:
     """Logarithm [point] of what a design there promises; where no improvement can be said, distance from all others is."""
     promise = models.log_improvement(points, np.random.default_rng(draws))
     if promise is None:
-        promise = np.log(np.maximum(_distance(points, taken), 1e-12))
+        distance = scipy.spatial.distance.cdist(points, taken).min(1) if len(taken) else np.ones(len(points))
+        promise = np.log(np.maximum(distance, 1e-12))
     return models.log_chance(points) + promise
-
-
-def _far_enough(candidates: np.ndarray, worth: np.ndarray, taken: np.ndarray) -> int:
-    """Index of the best candidate that is no near copy of a design; where all are, of the one farthest from them."""
-    distance = scipy.spatial.distance.cdist(candidates, taken, "chebyshev").min(1, initial=np.inf)
-    allowed = distance >= min(NEAR, distance.max())
-    return int(np.argmax(np.where(allowed, worth, -np.inf)))
 
 
 def _around(centres: np.ndarray, spread: float, generator: np.random.Generator) -> np.ndarray:
@@ -158,12 +155,6 @@ def _around(centres: np.ndarray, spread: float, generator: np.random.Generator) 
         return centres
     moved = np.repeat(centres, math.ceil(256 / len(centres)), axis=0)
     return np.clip(moved + spread * generator.standard_normal(moved.shape), 0.0, 1.0)
-
-
-def _distance(points: np.ndarray, taken: np.ndarray) -> np.ndarray:
-    if not len(taken):
-        return np.ones(len(points))
-    return scipy.spatial.distance.cdist(points, taken).min(1)
 
 
 def _scalar(values: np.ndarray, weights: np.ndarray) -> np.ndarray:

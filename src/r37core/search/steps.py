@@ -2,7 +2,9 @@
 
 import hashlib
 import json
+from collections.abc import Mapping
 from functools import partial
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -16,14 +18,15 @@ from r37core.base.plain import to_plain
 from r37core.base.varied_number import BLADE, SCENE
 from r37core.blade.geometry_file import read_geometry
 from r37core.exchange.step_file import write_step
+from r37core.results.closing import counted
 from r37core.results.table_file import write_table
 from r37core.sweep.forks import forked_results
 
 from .dataset import BLADES_HEADER, SCENES_HEADER, search_dataset, search_table, write_entries
 from .designs import choice_of
 from .evaluation import Evaluation
-from .problem import START, Design
-from .rounds import next_designs, progress
+from .problem import QUASI_RANDOM, START, Design, SearchChoice, best_first, not_dominated
+from .proposal import first_designs, propose
 
 
 def search(input: Any, output: Any, params: Any) -> None:
@@ -53,6 +56,37 @@ def search(input: Any, output: Any, params: Any) -> None:
     write_dataset(dataset, output.dataset, {"fidelity": params.fidelity, "input_hash": digest} | origin("Designs of a search"))
     write_table(search_table(dataset), output.table, digits=6)
     _write_best(dataset, evaluation, Path(output.best))
+
+
+def next_designs(tried: Mapping[str, Design], count: int, choice: SearchChoice) -> dict[str, tuple[float, ...]]:
+    """Values of the `count` designs that those `tried`, the start among them, ask for, by name; of the first evenly spread."""
+    done = len([name for name in tried if name != START])
+    if not tried or choice.method == QUASI_RANDOM:
+        values = first_designs(choice.variables, done + count, choice.seed)[done:]
+    else:
+        # a start at values that are not known tells nothing of those between
+        known = [design for design in tried.values() if all(map(isfinite, design.values))]
+        values = propose(choice.variables, known, count, choice.seed)
+    return {f"d{done + place:04d}": each for place, each in enumerate(values)}
+
+
+def progress(asked: int, tried: Mapping[str, Design], choice: SearchChoice, number: int) -> str:
+    """The line of round `number`, which asks for so many designs; of the end where it asks for none."""
+    line = f"search: round {number}, {counted(asked, 'design')}" if asked else "search: the last round is done"
+    return f"{line}; {_so_far(tried, choice)}" if tried else line
+
+
+def _so_far(tried: Mapping[str, Design], choice: SearchChoice) -> str:
+    designs = [design for name, design in tried.items() if name != START]
+    if len(choice.objectives) > 1:
+        best = f"{len(not_dominated(designs))} that none is better than in all objectives"
+    else:
+        ((objective, quantity),) = choice.objectives.items()
+        ahead = best_first(designs)[:1]
+        best = "".join(f"best {each.name}, {objective} {each.objectives[0]:.4g} {quantity.unit}" for each in ahead)
+    refused = sum(bool(design.refused) for design in designs)
+    cannot = f", {refused} of them cannot be built" if refused else ""
+    return f"{len(designs)} tried{cannot}: {best or 'none can be built and keeps all constraints'}"
 
 
 def _write_best(search: xr.Dataset, evaluation: Evaluation, folder: Path) -> None:

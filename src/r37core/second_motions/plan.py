@@ -30,17 +30,6 @@ def motion_keys(pairs: Iterable[tuple[str, str]]) -> paths.Wildcards:
     return [{**key, "motion": motion} for key in paths.run_keys(pairs) for motion in MOTIONS]
 
 
-def swept_files(sweep: Sweep, wildcards: Any) -> dict[str, Any]:
-    """Files that the dwells of a blade and scene start from."""
-    states = paths.filled({STATES: motion_keys([(wildcards.blade, wildcards.scene)])})
-    return {"model": sweep.contact_model(wildcards), "states": states}
-
-
-def results(sweep: Sweep, wildcards: Any) -> list[str]:
-    """Results of a scene that its sweeps keep."""
-    return [each for each in sweep.results(wildcards) if each in KEPT]
-
-
 def parameters(sweep: Sweep) -> dict[str, Any]:
     """Parameters of sweeps and dwells alike."""
     settings, section = sweep.settings, sweep.settings.section(SECTION)
