@@ -17,7 +17,6 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage, structure_stages
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.extensions import sampling_of
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
     linked_figures,
@@ -40,13 +39,11 @@ code = CodeHashes(console.source, SCRIPTS)
 # parameters of rules: a step, which is a function of r37core, and the hash of its code, or what stands for that
 engine = EngineNumbers(Path(settings.config.run.engine)) if settings.config.run.engine else code
 step = engine.step
-# members of an extension that are run next to the sweep, and what is made of them
-sampling = sampling_of(settings)
 made = Provenance(settings)
 structure = Structure(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
 more_motions = offered("motions", sweep)
-run_up_dataset = offered("run_ups", sweep)
+run_up_dataset, members = offered("run_ups", sweep), offered("members", sweep)
 # speeds in operation, by which results are judged as well
 operating = to_plain(operating_range(settings))
 drawing = partial(drawing_of, code, operating)

@@ -46,7 +46,7 @@ datasets = {kind: expand(rules.sweep_dataset.output, kind=kind)[0] for kind in s
 use rule step as summary with:
     input:
         **datasets,
-        **({"ranges": sampling.ranges} if sampling else {}),
+        **offered("ranges", sweep),
         **more_motions,
         campbell=rules.campbell_of_all.output[0],
     output:
@@ -61,7 +61,7 @@ use rule step as summary with:
 use rule step as ranking with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue")},
-        **({"members": sampling.dataset} if sampling else {}),
+        **members,
         **more_motions,
     output:
         table=shown("<results>/ranking.csv", TEXTS / "ranking.rst", TOGETHER, "ranking"),

@@ -159,8 +159,10 @@ EXTENSION = Extension(
     name="run_ups",
     section=SECTION,
     checks=(run_ups_can_be_done,),
-    simulated=lambda sweep: {RUN_UP: RunUps(sweep).files},
-    targets=lambda sweep: dict.fromkeys((DATASET, TABLE, RATES), [{}] if _pairs(sweep) else []),
+    targets=lambda sweep: {
+        RUN_UP: RunUps(sweep).files,
+        **dict.fromkeys((DATASET, TABLE, RATES), [{}] if _pairs(sweep) else []),
+    },
     offers={"run_ups": DATASET},
     remarks=remarks,
     figures=(

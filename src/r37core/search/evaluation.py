@@ -194,8 +194,3 @@ class Evaluation:
                 raise ValueError(f"the stress region ({region.description()}) has no elements")
         except ValueError as error:
             raise Refused(str(error)) from None
-
-
-def start_runs(settings: Settings) -> DesignRuns:
-    """Runs of the start of the search of these settings."""
-    return Evaluation(settings, Path(), one_by_one, 1).runs(START, None)

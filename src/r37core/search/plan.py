@@ -1,6 +1,7 @@
 """The plan of a search: what its job computes with, and what is made of all its designs."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from r37core.base.plain import to_plain
@@ -10,10 +11,12 @@ from r37core.config.speed_choice import most_runs
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.sweep_plan import Sweep
+from r37core.sweep.driver import one_by_one
 
 from .checks import search_can_be_run
 from .designs import FOLDER, choice_of, designs_of, is_asked
-from .evaluation import Carried, start_runs
+from .evaluation import Carried, Evaluation
+from .problem import START
 from .section import SECTION
 
 DATASET, TABLE = "<results>/search.nc", "<results>/search.csv"
@@ -37,11 +40,10 @@ class Search:
         Runs of other designs follow from the same as the start's.
         """
         settings, designs = self.settings, designs_of(self.settings)
+        start = Evaluation(settings, Path(), one_by_one, 1).runs(START, None)
         written = [[designs.varied(kind), designs.entries(kind)] for kind in (BLADE, SCENE)]
         tolerances = designs.entry.tolerances and plain(designs.entry.tolerances)
-        return to_plain(
-            [start_runs(settings), choice_of(settings), tolerances, operating_range(settings), designs.entry.best, written]
-        )
+        return to_plain([start, choice_of(settings), tolerances, operating_range(settings), designs.entry.best, written])
 
     def budget(self, wildcards: Any) -> list[int]:
         """Number of designs of each round."""

@@ -42,10 +42,11 @@ def parameters(sweep: Sweep) -> dict[str, Any]:
     }
 
 
-def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The sweeps and dwells themselves."""
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The sweeps and dwells, and what is made of them."""
     pairs = pairs_of(sweep.settings)
-    return {**dict.fromkeys((RESPONSE, STATES), motion_keys(pairs)), DWELLS: paths.run_keys(pairs)}
+    own: dict[str, paths.Wildcards] = dict.fromkeys((RESPONSE, STATES), motion_keys(pairs)) | {DWELLS: paths.run_keys(pairs)}
+    return own | dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), [{}] if pairs else [])
 
 
 MOST_SPEEDS = 20_000
@@ -96,8 +97,7 @@ EXTENSION = Extension(
     name="second_motions",
     section=SECTION,
     checks=(can_be_swept,),
-    simulated=simulated,
-    targets=lambda sweep: dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), [{}] if pairs_of(sweep.settings) else []),
+    targets=targets,
     offers={"motions": DATASET},
     figures=(
         Figure(

@@ -113,8 +113,7 @@ EXTENSION = Extension(
     name="signals",
     section=SECTION,
     checks=(signals_have_runs,),
-    simulated=lambda sweep: {SIGNALS_OF_RUN: _runs(sweep)},
-    targets=lambda sweep: {DATASET: [{}] if _runs(sweep) else []},
+    targets=lambda sweep: {SIGNALS_OF_RUN: _runs(sweep), DATASET: [{}] if _runs(sweep) else []},
     figures=(
         Figure(
             rule="contact_force_figure",

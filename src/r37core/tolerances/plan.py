@@ -10,7 +10,7 @@ from r37core.base.varied_number import VariedNumber
 from r37core.blade.definition import Shape
 from r37core.config import BladeSettings, Settings, varied_settings
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure, Sampling
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.extent import Pair, extent_of
 from r37core.plans.provenance import Attributes, Provenance
 from r37core.plans.sweep_plan import Sweep
@@ -127,9 +127,10 @@ def _named(blade: BladeSettings, name: str) -> BladeSettings:
     return replace(blade, definition=replace(shape, name=name)) if isinstance(shape, Shape) else blade
 
 
-def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The members of each blade and scene."""
-    return {MEMBERS: paths.run_keys(members_of(sweep.settings).pairs)}
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The members of each blade and scene, and what is made of them."""
+    pairs = members_of(sweep.settings).pairs
+    return {MEMBERS: paths.run_keys(pairs), **dict.fromkeys((DATASET, TABLE), [{}] if pairs else [])}
 
 
 def remarks(settings: Settings) -> list[str]:
@@ -161,9 +162,9 @@ EXTENSION = Extension(
     name=FOLDER,
     section=SECTION,
     checks=(members_can_be_drawn,),
-    sampling=Sampling(lambda settings: settings.made(Tolerances).simulations, ranges=TABLE, dataset=DATASET),
-    simulated=simulated,
-    targets=lambda sweep: dict.fromkeys((DATASET, TABLE), [{}] if members_of(sweep.settings).pairs else []),
+    members=lambda settings: settings.made(Tolerances).simulations,
+    targets=targets,
+    offers={"ranges": TABLE, "members": DATASET},
     remarks=remarks,
     figures=(
         Figure(
