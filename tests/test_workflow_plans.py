@@ -122,7 +122,7 @@ def test_a_member_is_run_like_the_nominal_blade(members):
     assert f"'name': 'Ref, member {next(name for name in drawn if sweeps[name].recipes)} of tolerances'" in str(sweeps)
     share = plan.speeds(REF)["choice"]["largest_share"]
     assert share == 0.4 != Sweep(settings).refinement_choice(REF)["largest_share"]
-    assert len(plan.samples) == 2 and plan.number(REF) == 2
+    assert len(plan.samples) == 2
 
 
 def test_members_with_equal_blades_share_their_model(members):

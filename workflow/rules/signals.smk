@@ -20,7 +20,7 @@ use rule step as signals_of_run with:
         revolutions=recorded.revolutions,
         gauges=recorded.gauges,
         probes=recorded.probes,
-        tip_line=recorded.tip_line,
+        tip_line=lambda wildcards: settings.scenes[wildcards.scene].tip_line,
         provenance=made.sweep,
 
 

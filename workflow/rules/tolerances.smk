@@ -16,7 +16,7 @@ use rule step as tolerance_members with:
     log:
         "<logs>/tolerances/{blade}/{scene}/members.log",
     priority: 3
-    threads: tolerances.number
+    threads: lambda wildcards: len(tolerances.sample.all[wildcards.blade, wildcards.scene])
     resources:
         mem_mb=lambda wildcards, threads: 500 * threads,
     params:
@@ -30,7 +30,7 @@ use rule step as tolerance_members with:
 
 use rule step as tolerances_dataset with:
     input:
-        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.pairs)}),
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.sample.pairs)}),
     output:
         dataset=tolerances_plan.DATASET,
     log:
@@ -38,14 +38,14 @@ use rule step as tolerances_dataset with:
     params:
         **step("tolerances.steps.join"),
         samples=tolerances.samples,
-        numbers=tolerances.numbers,
+        numbers=[number.key for number in tolerances.sample.numbers],
         fidelity=settings.fidelity_name,
 
 
 use rule step as tolerance_table with:
     input:
         **tolerances.nominal,
-        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.pairs)}),
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.sample.pairs)}),
         rounds=tolerances.first_rounds,
     output:
         table=shown(tolerances_plan.TABLE, PACKAGE / "tolerances/report.rst", TOGETHER, "tolerances"),

@@ -43,11 +43,6 @@ class Families:
         }
 
     @property
-    def names(self) -> dict[str, dict[str, str]]:
-        """Kind -> design -> family."""
-        return {BLADE: self.settings.designs.family_of, SCENE: self.settings.scene_designs.family_of}
-
-    @property
     def pairs(self) -> list[tuple[str, str]]:
         """Pairs of blade and scene of which one is a design."""
         designs = self.variables

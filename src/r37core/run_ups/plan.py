@@ -71,8 +71,8 @@ class RunUps:
             {
                 "name": lambda wildcards: wildcards.run_up,
                 "scene": self.sweep.plain_scene,
-                "choice": self.choice,
-                "run_up": self.run_up,
+                "choice": lambda run: to_plain(self.integration_choice(run.blade, run.scene, run.run_up)),
+                "run_up": lambda wildcards: to_plain(self._choice(wildcards)),
                 "results": lambda wildcards: list(self.sweep.results(wildcards)),
                 "highest_order": self.sweep.settings.fidelity.time_integration.spectrum_highest_order,
                 "yield_stress": self.sweep.yield_stress,
@@ -81,16 +81,8 @@ class RunUps:
             },
         )
 
-    def run_up(self, wildcards: Any) -> dict[str, Any]:
-        """Speeds and revolutions, as plain values."""
-        return to_plain(self._choice(wildcards))
-
     def _choice(self, wildcards: Any) -> RunUpChoice:
         return self.choices[wildcards.blade, wildcards.scene][wildcards.run_up]
-
-    def choice(self, wildcards: Any) -> dict[str, Any]:
-        """Numbers of the time integration, as plain values."""
-        return to_plain(self.integration_choice(wildcards.blade, wildcards.scene, wildcards.run_up))
 
     def integration_choice(self, blade: str, scene: str, name: str) -> IntegrationChoice:
         """Numbers of the time integration of a run-up: those of the sweep, with stress in every revolution."""

@@ -73,10 +73,6 @@ class Signals:
         """Number of revolutions at the end that are kept."""
         return self._section.revolutions or self.sweep.settings.scenes[wildcards.scene].revolutions
 
-    def tip_line(self, wildcards: Any) -> str:
-        """The line of the contact nodes of a scene."""
-        return self.sweep.settings.scenes[wildcards.scene].tip_line
-
 
 def _runs(sweep: Sweep) -> paths.Wildcards:
     return paths.run_keys(Signals(sweep).runs)

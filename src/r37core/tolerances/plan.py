@@ -38,7 +38,8 @@ class Tolerances:
     settings: Settings
 
     @property
-    def _members(self) -> Members:
+    def sample(self) -> Members:
+        """The members."""
         return members_of(self.settings)
 
     def _varied(self, wildcards: Any) -> Iterator[tuple[str, Member, Settings]]:
@@ -47,7 +48,7 @@ class Tolerances:
         results = tuple(result for result in settings.results_of(blade, scene) if result in _KEPT)
         chosen = replace(settings.scenes[scene], results=results, stress_history_speeds=())
         first: dict[BladeSettings, str] = {}
-        for name, member in self._members.all[blade, scene].items():
+        for name, member in self.sample.all[blade, scene].items():
             # members with the same blade have one model
             own = _named(member.blade, f"{blade}, member {first.setdefault(member.blade.elastic, name)} of {FOLDER}")
             yield name, member, varied_settings(settings, {blade: own}, {scene: replace(chosen, scene=member.scene)})
@@ -78,43 +79,29 @@ class Tolerances:
         share = self.settings.section(SECTION).largest_share
         return to_plain(shared_speeds(self.settings, **vars(_run(wildcards)), largest_share=share))
 
-    def number(self, wildcards: Any) -> int:
-        """Number of the members of a blade and scene."""
-        return len(self._members.all[wildcards.blade, wildcards.scene])
-
     @property
     def simulations(self) -> dict[Pair, int]:
         """Largest number of simulations of members, by blade and scene."""
         share, plans = self.settings.section(SECTION).largest_share, self.settings.speed_plans
-        return {pair: len(members) * plans[pair].speed_count(share) for pair, members in self._members.all.items()}
-
-    @property
-    def pairs(self) -> list[Pair]:
-        """Blades and scenes that have members."""
-        return self._members.pairs
+        return {pair: len(members) * plans[pair].speed_count(share) for pair, members in self.sample.all.items()}
 
     @property
     def samples(self) -> list[tuple[str, str, dict[str, list[float | None]]]]:
         """Blade, scene, and the values of each of its members in the units of the keys, in the order of the dataset."""
-        every = self._members.all.items()
+        every = self.sample.all.items()
         return [(*pair, {name: list(member.values) for name, member in members.items()}) for pair, members in every]
 
     @property
     def nominal(self) -> dict[str, list[str]]:
         """Responses and Campbell diagrams of the nominal runs."""
-        runs, blades = paths.run_keys(self.pairs), paths.of("blade", [blade for blade, _ in self.pairs])
+        runs, blades = paths.run_keys(self.sample.pairs), paths.of("blade", [blade for blade, _ in self.sample.pairs])
         return {"nominal": paths.filled({paths.RESPONSE: runs}), "nominal_campbells": paths.filled({paths.CAMPBELL: blades})}
 
     @property
     def first_rounds(self) -> list[str]:
         """First rounds of the nominal runs: as of Sweep."""
-        adaptive = paths.run_keys(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
+        adaptive = paths.run_keys(pair for pair in self.sample.pairs if self.settings.speed_plans[pair].refined)
         return paths.filled({paths.ROUND: [{**run, "round": "0"} for run in adaptive]})
-
-    @property
-    def numbers(self) -> list[str]:
-        """Keys of the numbers that vary."""
-        return [number.key for number in self._members.numbers]
 
 
 def _run(wildcards: Any) -> Named:
