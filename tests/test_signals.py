@@ -18,11 +18,10 @@ from r37core.exchange.importing.frame import blade_parameters
 from r37core.figures.style import save
 from r37core.results.joining import join_runs
 from r37core.rom.recovery_nodes import RecoveryNodes
-from r37core.signals.dataset import RUNS, signals_dataset
+from r37core.signals.dataset import RUNS, arrival_times, signals_dataset
 from r37core.signals.figures import draw_contact_forces, draw_tip_timing
 from r37core.signals.gauges import Gauge, gauge_points, gauge_rows
 from r37core.signals.record import Record, record_signals, revolutions_of
-from r37core.signals.tip_timing import arrival_times
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
 from r37core.time_integration.status import RunStatus
