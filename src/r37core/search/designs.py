@@ -53,11 +53,6 @@ class SearchDesigns:
         assert isinstance(entry, BladeEntry | SectionsEntry)
         return entry
 
-    @property
-    def variables(self) -> tuple[SearchVariable, ...]:
-        """Variables with their bounds, in the units of the keys."""
-        return tuple(SearchVariable(key, *bounds) for key, bounds in self.entry.variables.items())
-
     @cached_property
     def scenes(self) -> tuple[str, ...]:
         """Scenes that the objectives and constraints are of, in the order of the run."""
@@ -68,13 +63,11 @@ class SearchDesigns:
     @property
     def start_values(self) -> list[float | None]:
         """Values of the variables that the start has; None where neither its entry says nor a key that is left out."""
-        return [self._start_value(number) for number in self.numbers]
-
-    def _start_value(self, number: VariedNumber) -> float | None:
-        if number.kind == BLADE:
-            return start_value(self.start, number.key)
-        # all scenes that have it agree
-        return next(iter(self.values_in_scenes(number).values()))
+        # all scenes that have a number agree
+        return [
+            start_value(self.start, number.key) if number.kind == BLADE else next(iter(self.values_in_scenes(number).values()))
+            for number in self.numbers
+        ]
 
     @property
     def numbers(self) -> list[VariedNumber]:
@@ -193,8 +186,8 @@ def choice_of(settings: Settings) -> SearchChoice:
         for name, each in entry.constraints.items()
     }
     objectives = {name: each.quantity(is_flown) for name, each in entry.objectives.items()}
-    start = tuple(designs.start_values)
-    return SearchChoice(designs.variables, objectives, constraints, entry.method, entry.seed, start)
+    variables = tuple(SearchVariable(key, *bounds) for key, bounds in entry.variables.items())
+    return SearchChoice(variables, objectives, constraints, entry.method, entry.seed, tuple(designs.start_values))
 
 
 def designs_of(settings: Settings) -> SearchDesigns:
