@@ -262,7 +262,6 @@ def test_plan_of_exports(three):
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")
     structure = Structure(sweep.settings)
     assert structure.whole_blade_model(fan) == "<results>/Fan/whole_blade_pressure_edge.nc"
-    assert structure.whole_blade_reduction(fan)["recover_whole_blade"]
     assert structure.boundary(fan)["tip_line"] == "camber"
     assert exports.orientation(fan)["length_unit"] == "mm"
     assert exports.orientation(SimpleNamespace(blade="Ref")) == to_plain(OURS)

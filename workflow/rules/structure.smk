@@ -76,7 +76,7 @@ use rule reduced_model as whole_blade_model with:
         "<logs>/{blade}/whole_blade_model_{tip_line}.log",
     priority: 0
     params:
-        reduction=structure.whole_blade_reduction,
+        reduction=lambda wildcards: {**structure.reduction(wildcards), "recover_whole_blade": True},
         kept=False,
 
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from r37core.base.plain import to_plain
 from r37core.config import plain, si_fields
 
 from .provenance import Provenance
@@ -38,7 +39,8 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
         "provenance": made.structure,
     }
     shape = {"definition": structure.definition, "edges": settings.structure.edges, "provenance": made.shape}
-    own = {"material": structure.elastic, "stress_regions": structure.stress_regions, "kept": True}
+    regions = {"stress_regions": lambda wildcards: to_plain(settings.stress_regions(wildcards.blade))}
+    own = {"material": structure.elastic, **regions, "kept": True}
     diagram = {
         "campbell": si_fields(settings.config.campbell),
         "maximum_speed": settings.structure.maximum_speed_rad_s,

@@ -2,7 +2,7 @@
 
 import os
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -46,19 +46,11 @@ class Structure:
         """Reduction of a blade."""
         return to_plain(self.settings.reduction_choice(wildcards.blade))
 
-    def stress_regions(self, wildcards: Any) -> dict[str, Any]:
-        """Regions of a blade where stress is looked for."""
-        return to_plain(self.settings.stress_regions(wildcards.blade))
-
     def whole_blade_model(self, wildcards: Any) -> str:
         """The model that recovers the whole blade, with the contact nodes of a scene, or else those of config.yaml."""
         scene = getattr(wildcards, "scene", None)
         tip_line = self.settings.scenes[scene].tip_line if scene else self.settings.structure.boundary.tip_line
         return fill(WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
-
-    def whole_blade_reduction(self, wildcards: Any) -> dict[str, Any]:
-        """Reduction of the model of the whole blade: the sweep's, recovered everywhere."""
-        return to_plain(replace(self.settings.reduction_choice(wildcards.blade), recover_whole_blade=True))
 
     def given_by(self, *kinds: Any) -> list[str]:
         """Names of the blades that are given in one of these ways."""

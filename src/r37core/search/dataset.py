@@ -162,7 +162,7 @@ def sensitivity(
     first, total = np.full((2, objectives, len(variables)), np.nan)
     predicted = np.full(objectives, np.nan)
     for number, process in enumerate(objective_fits(variables, evaluated, seed)):
-        if process.is_constant:
+        if process.process is None:
             continue
         first[number], total[number] = _indices(process, len(variables), seed)
         misses = process.numbers - [process.without(index) for index in range(len(process.numbers))]

@@ -79,7 +79,7 @@ class Models:
         The best is by the mean of the surrogate, not by what was measured, which may have been luck. Several objectives are
         one under random weights: the largest weighted distance from the best of each, and a little of their sum.
         """
-        if not len(self.feasible) or all(each.is_constant for each in self.objectives):
+        if not len(self.feasible) or all(each.process is None for each in self.objectives):
             return None
         here = np.vstack([points, self.feasible])
         means, deviations = (np.array(part) for part in zip(*(each.at(here) for each in self.objectives), strict=True))
