@@ -88,27 +88,23 @@ class Families:
         return to_plain((self.figures | self.maps)[wildcards.family])
 
 
-def families_have_shapes(settings: Settings) -> None:
-    """No family is of an imported blade: what is compared of designs needs their shape."""
+def families_can_be_compared(settings: Settings) -> None:
+    """No family is of an imported blade, as shapes are compared, and none of scenes is called like one of blades."""
     for name, family in Families(settings).families[BLADE].items():
         members = [settings.blades[design] for design in family.designs if design in settings.blades]
         if any(not blade.has_profiles for blade in members):
-            raise settings.documents.blades.refusal(
-                (name,), "a family of an imported blade", "families of blades with profiles"
-            )
-
-
-def families_differ_in_name(settings: Settings) -> None:
-    """No family of scenes is called like one of blades: figures have their names."""
+            allowed = "families of blades with profiles"
+            raise settings.documents.blades.refusal((name,), "a family of an imported blade", allowed)
     taken = {name.lower() for name in settings.designs.families}
     for name in settings.scene_designs.families:
+        # figures have their names
         if name.lower() in taken:
             raise settings.documents.scenes.refusal((name,), f"'{name}', which is a family of blades, too", "another name")
 
 
 EXTENSION = Extension(
     name="designs",
-    checks=(families_have_shapes, families_differ_in_name),
+    checks=(families_can_be_compared,),
     targets=lambda sweep: {TABLE: [{}] if sweep.settings.made(Families).figures else []},
     figures=(
         # a run that has a map names it first

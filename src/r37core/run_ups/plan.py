@@ -46,16 +46,12 @@ class RunUps:
     def choices(self) -> dict[tuple[str, str], dict[str, RunUpChoice]]:
         """Run-ups of each blade and scene, by name."""
         settings = self.sweep.settings
-        pair_choices: dict[tuple[str, str], dict[str, RunUpChoice]] = {
-            (blade, scene): {} for blade in settings.blade_names for scene in settings.scene_names
-        }
+        choices: dict[tuple[str, str], dict[str, RunUpChoice]] = {pair: {} for pair in settings.speed_plans}
         for name, entry in settings.section(SECTION).items():
             blades, scenes = blades_named(settings, entry.blades), scenes_named(settings, entry.scenes)
-            choices = {scene: entry.choice(settings.scenes[scene].revolutions) for scene in scenes if scene in settings.scenes}
-            for blade, (scene, choice) in product(blades, choices.items()):
-                if (blade, scene) in pair_choices:
-                    pair_choices[blade, scene][name] = choice
-        return pair_choices
+            for blade, scene in set(product(blades, scenes)) & set(choices):
+                choices[blade, scene][name] = entry.choice(settings.scenes[scene].revolutions)
+        return choices
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """Files that a run-up starts from, with the stress operator where its stress is wanted."""

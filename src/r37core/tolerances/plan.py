@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from r37core.base.io import Named
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import VariedNumber
 from r37core.blade.definition import Shape
@@ -50,7 +49,10 @@ class Tolerances:
         first: dict[BladeSettings, str] = {}
         for name, member in self.sample.all[blade, scene].items():
             # members with the same blade have one model
-            own = _named(member.blade, f"{blade}, member {first.setdefault(member.blade.elastic, name)} of {FOLDER}")
+            own, shape = member.blade, member.blade.definition
+            if isinstance(shape, Shape):
+                message_name = f"{blade}, member {first.setdefault(own.elastic, name)} of {FOLDER}"
+                own = replace(own, definition=replace(shape, name=message_name))
             yield name, member, varied_settings(settings, {blade: own}, {scene: replace(chosen, scene=member.scene)})
 
     def sweeps(self, wildcards: Any) -> dict[str, Any]:
@@ -58,10 +60,10 @@ class Tolerances:
 
         The parameter is no function of the inputs, because Snakemake would not compare it then.
         """
-        nominal, run = self.settings.blades[wildcards.blade].elastic, vars(_run(wildcards))
+        nominal, run = self.settings.blades[wildcards.blade].elastic, (wildcards.blade, wildcards.scene)
         files = dict.fromkeys(("contact_model", "stress_operator", CAMPBELL), "")
         return {
-            name: to_plain(blade_sweep(varied, **run, existing=files if member.blade.elastic == nominal else {}, kept=False))
+            name: to_plain(blade_sweep(varied, *run, existing=files if member.blade.elastic == nominal else {}, kept=False))
             for name, member, varied in self._varied(wildcards)
         }
 
@@ -77,7 +79,7 @@ class Tolerances:
     def speeds(self, wildcards: Any) -> dict[str, Any]:
         """Speeds of all members of a blade and scene, as plain values."""
         share = self.settings.section(SECTION).largest_share
-        return to_plain(shared_speeds(self.settings, **vars(_run(wildcards)), largest_share=share))
+        return to_plain(shared_speeds(self.settings, wildcards.blade, wildcards.scene, share))
 
     @property
     def simulations(self) -> dict[Pair, int]:
@@ -102,16 +104,6 @@ class Tolerances:
         """First rounds of the nominal runs: as of Sweep."""
         adaptive = paths.run_keys(pair for pair in self.sample.pairs if self.settings.speed_plans[pair].refined)
         return paths.filled({paths.ROUND: [{**run, "round": "0"} for run in adaptive]})
-
-
-def _run(wildcards: Any) -> Named:
-    return Named(blade=wildcards.blade, scene=wildcards.scene)
-
-
-def _named(blade: BladeSettings, name: str) -> BladeSettings:
-    """The blade with this name in messages about its shape."""
-    shape = blade.definition
-    return replace(blade, definition=replace(shape, name=name)) if isinstance(shape, Shape) else blade
 
 
 def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
