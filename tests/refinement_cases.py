@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.adaptive.criterion import RefinementChoice, Window
-from r37core.adaptive.replay import replay
+from r37core.adaptive.rounds import first_round, round_after
 from r37core.base.speeds import plan_speeds
 from r37core.time_integration.status import RunStatus
 
@@ -46,5 +46,12 @@ def spiked(*spikes, yield_stress=1e9, diverged=()):
 
 
 def asked(response, crossings=(), choice=CHOICE, plan=PLAN):
-    rounds = replay(response, campbell(crossings), plan, choice)
+    """New speeds of each round as the sweep asks for them, with the runs looked up in the whole grid, and all of them."""
+    edge, rounds = response.sel(tip_point="leading_edge"), []
+    columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], edge["max_von_mises"] / edge["yield_stress"]]
+    rows = dict(zip(edge["speed"].values.tolist(), np.transpose(columns).tolist(), strict=True))
+    current = first_round(plan, campbell(crossings), choice)
+    while current.new:
+        rounds.append(list(current.new))
+        current = round_after(current, {speed: rows[speed] for speed in current.new}, plan, choice)
     return rounds, sorted(speed for new in rounds for speed in new)

@@ -26,9 +26,9 @@ from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rotation import BucklingError, rotation_amplitudes, shapes_of_rotation
 from r37core.run_ups import revolutions
+from r37core.run_ups.choice import RunUp
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
-from r37core.run_ups.schedule import RunUp
 from r37core.stress.operator import von_mises
 from r37core.time_integration.clearance import NoRoomError, check_room, clearances, growth
 from r37core.time_integration.problem import Problem

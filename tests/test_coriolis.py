@@ -23,8 +23,8 @@ from scipy.optimize import brentq
 from r37core.config import ConfigError, command_line_document
 from r37core.product.reading import read_settings
 from r37core.rom.reduced_model import contact_model
+from r37core.run_ups.choice import RunUp
 from r37core.run_ups.integration import RunUpIntegration
-from r37core.run_ups.schedule import RunUp
 from r37core.time_integration import problem as problem_module
 from r37core.time_integration import step_limit
 from r37core.time_integration.gyroscopic import LARGEST_TURN

@@ -39,8 +39,8 @@ from r37core.product.reading import read_settings
 from r37core.results.casing_coincidence import coincidence_table, coincidences, seen_from_rotor, waves_of
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response
+from r37core.run_ups.choice import RunUp
 from r37core.run_ups.integration import RunUpIntegration
-from r37core.run_ups.schedule import RunUp
 from r37core.time_integration.clearance import NoRoomError
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL
 from r37core.time_integration.kept_numbers import casing_waves

@@ -19,8 +19,8 @@ from r37core.exports.plan import targets as exported_targets
 from r37core.figures.declared import FIGURES
 from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
-from r37core.plans.structure_plan import Imported, Structure
-from r37core.plans.sweep_plan import Simulations, Sweep
+from r37core.plans.structure_plan import Structure
+from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.signals.plan import Signals
@@ -211,7 +211,7 @@ def three(settings_with, config_copy, monkeypatch):
     """A blade of each kind, seen from the project's folder."""
     monkeypatch.chdir(config_copy)
     settings = settings_with(MESH, {"Given": MATRICES}, blades=("Ref", "Fan", "Given"))
-    return Imported(settings), Sweep(settings)
+    return Structure(settings), Sweep(settings)
 
 
 def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
@@ -224,7 +224,7 @@ def test_plan_of_imported_blades(three, tmp_path, monkeypatch):
     assert imported.locations(fan)["tip"].endswith(": Fan.tip")
     assert sweep.runs_with("stress") == [(blade, scene) for blade in ("Ref", "Fan") for scene in ("abradable", "direct")]
     assert "stress" not in sweep.results(given)
-    assert '"snapshots_per_revolution": 0' in Simulations(sweep).task(given)
+    assert '"snapshots_per_revolution": 0' in sweep.task(given)
     response = next(figure for figure in FIGURES if figure.rule == "response_figure")
     stress = response.inputs(sweep)["stress"]
     assert stress({"blade": "Given"}) == [] and stress({"blade": "Fan"}) == "<results>/stress.nc"
@@ -262,7 +262,6 @@ def test_plan_of_exports(three):
     fan = SimpleNamespace(blade="Fan", scene="direct", tip_line="camber")
     structure = Structure(sweep.settings)
     assert structure.whole_blade_model(fan) == "<results>/Fan/whole_blade_pressure_edge.nc"
-    assert structure.whole_blade_reduction(fan)["recover_whole_blade"]
     assert structure.boundary(fan)["tip_line"] == "camber"
     assert exports.orientation(fan)["length_unit"] == "mm"
     assert exports.orientation(SimpleNamespace(blade="Ref")) == to_plain(OURS)

@@ -16,15 +16,14 @@ from scipy.special import wofz
 from r37core.base.io import InputFileError
 from r37core.contact.ring import RingMode
 from r37core.rom.rotation import BucklingError
+from r37core.run_ups import choice as schedule_module
 from r37core.run_ups import integration as integration_module
 from r37core.run_ups import revolutions as revolutions_module
-from r37core.run_ups import schedule as schedule_module
-from r37core.run_ups.choice import Crossing, RunUpChoice, RunUpError, check_highest
+from r37core.run_ups.choice import Crossing, RunUp, RunUpChoice, RunUpError, check_highest, schedule
 from r37core.run_ups.dataset import runs_of, write_run_ups
 from r37core.run_ups.figures import draw_rates, draw_run_ups
 from r37core.run_ups.integration import IntegratedSegments, RunUpIntegration
 from r37core.run_ups.revolutions import largest_stress, record_run_up
-from r37core.run_ups.schedule import RunUp, schedule
 from r37core.run_ups.tables import rate_table, run_up_table
 from r37core.time_integration import integration_choice
 from r37core.time_integration.carrying import resolved_problem

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from r37core.base.plain import from_plain, to_plain
-from r37core.search.problem import Evaluated, SearchVariable, best_first, designs_at, not_dominated, shares
+from r37core.search.dataset import objective_fits, sensitivity, slices
+from r37core.search.problem import Design, SearchVariable, best_first, designs_at, not_dominated, shares
 from r37core.search.proposal import NEAR, first_designs, propose
-from r37core.search.surrogate import objective_fits, sensitivity, slices
 
 SQUARE = (SearchVariable("a", -2.0, 2.0), SearchVariable("b", 0.0, 8.0))
 BEST = np.array([0.6, 5.6])
@@ -31,7 +31,7 @@ def tried(designs, noise=0.0, start=0):
         length, margin, scatter = (bowl(values) + noise * generator.standard_normal(),), (6.4 - values[1],), (noise,)
         built = values[0] <= 1.5
         parts = (length, scatter, margin) if built else (NOTHING, NOTHING, NOTHING)
-        evaluated.append(Evaluated(f"d{number:02}", values, *parts))
+        evaluated.append(Design(f"d{number:02}", values, *parts))
     return evaluated
 
 
@@ -48,7 +48,7 @@ def searches():
 def with_objectives(designs, objective, margin=None):
     margins = [() if margin is None else (margin(values),) for values in designs]
     return [
-        Evaluated(f"d{number:02}", values, objective(values), (0.0,) * len(objective(values)), kept)
+        Design(f"d{number:02}", values, objective(values), (0.0,) * len(objective(values)), kept)
         for number, (values, kept) in enumerate(zip(designs, margins, strict=True))
     ]
 
@@ -63,7 +63,7 @@ def noisy(objective, designs, start=0):
     """An objective that scatters by 1; the designs are counted from `start`."""
     generator = np.random.default_rng(start + 1)
     return [
-        Evaluated(f"d{number:02}", values, (objective(values) + generator.standard_normal(),), (1.0,), ())
+        Design(f"d{number:02}", values, (objective(values) + generator.standard_normal(),), (1.0,), ())
         for number, values in enumerate(designs, start)
     ]
 
@@ -112,7 +112,7 @@ def test_the_same_seed_proposes_the_same_designs_and_another_one_others(searches
     assert propose(SQUARE, evaluated[::-1], 3, 0) == proposed
     assert propose(SQUARE, evaluated, 3, 1) != proposed
     assert first_designs(SQUARE, 8, 0) == first_designs(SQUARE, 13, 0)[:8] != first_designs(SQUARE, 8, 1)
-    recorded = [from_plain(Evaluated, to_plain(design)) for design in searches[1][:16]]
+    recorded = [from_plain(Design, to_plain(design)) for design in searches[1][:16]]
     assert propose(SQUARE, recorded, 4, 1) == [design.values for design in searches[1][16:20]]
 
 
@@ -142,12 +142,12 @@ DESIGNS = first_designs(SQUARE, 9, 0)
 KNOWLEDGE = {
     "nothing": [],
     "one design": with_objectives(DESIGNS[:1], lambda values: (1.0,)),
-    "all refused": [Evaluated(f"d{n}", values, NOTHING, NOTHING, NOTHING) for n, values in enumerate(DESIGNS)],
+    "all refused": [Design(f"d{n}", values, NOTHING, NOTHING, NOTHING) for n, values in enumerate(DESIGNS)],
     "all at zero": with_objectives(DESIGNS, lambda values: (0.0,)),
     "none feasible": with_objectives(DESIGNS, lambda values: (bowl(values),), lambda values: values[1] - 20.0),
     "no margin varies": with_objectives(DESIGNS, lambda values: (bowl(values),), lambda values: -1.0),
     "one design nine times": with_objectives(DESIGNS[:1] * 9, lambda values: (bowl(values),), lambda values: 1.0),
-    "scatter unknown": [Evaluated(f"d{n}", values, (bowl(values),), NOTHING, ()) for n, values in enumerate(DESIGNS)],
+    "scatter unknown": [Design(f"d{n}", values, (bowl(values),), NOTHING, ()) for n, values in enumerate(DESIGNS)],
     "most at zero": with_objectives(DESIGNS, lambda values: (max(0.0, bowl(values) - 30.0),)),
 }
 
@@ -198,7 +198,7 @@ def test_designs_have_few_digits_and_lie_in_the_ranges():
 
 def test_the_front_and_the_order():
     def design(name, objectives, margins):
-        return Evaluated(name, (0.0,), objectives, (0.0,) * len(objectives), margins)
+        return Design(name, (0.0,), objectives, (0.0,) * len(objectives), margins)
 
     pairs = [("a", (1.0, 3.0)), ("b", (2.0, 2.0)), ("c", (2.0, 3.0)), ("d", (2.0, 2.0)), ("e", (3.0, 1.0))]
     tries = [design(name, objectives, (1.0,)) for name, objectives in pairs]

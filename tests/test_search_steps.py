@@ -15,6 +15,7 @@ from workflow_runs import overlay
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import Named
+from r37core.base.varied_number import BLADE
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import scene_numbers
 from r37core.product.leftovers import leftovers
@@ -97,12 +98,7 @@ def search(folder, name="search"):
     """Do the search of a folder; its dataset and table."""
     settings, files = read_settings(folder), folder / name
     plan = Search(settings)
-    params = {"carried": plan.carried(None), "budget": plan.budget(None), "fidelity": "draft", "number": 2, "cores": 1}
-    params |= {
-        "entries": plan.entries(None),
-        "scenes": plan.scene_entries(None),
-        "varied_in_scenes": plan.varied_in_scenes(None),
-    }
+    params = {"carried": plan.carried(None), "budget": plan.budget(None), "fidelity": "draft", "cores": 1}
     # as Snakemake does before each job
     shutil.rmtree(files / "best", ignore_errors=True)
     output = Named(dataset=files / "search.nc", table=files / "search.csv", best=files / "best")
@@ -203,10 +199,10 @@ def test_the_plan_of_a_search(folder):
     overlay(folder, "config.yaml", "search: { designs: 7, first: 3 }")
     settings = read_settings(folder)
     plan = Search(settings)
-    assert (plan.budget(None), plan.threads(None), plan.designs.entry.best) == ([3, 2, 2], 3, 3)
+    assert (plan.budget(None), plan.threads(None)) == ([3, 2, 2], 3)
     assert remarks(settings)[0].startswith("search: 7 designs of 'Free' in rounds of 2, at most 3 simulations of each")
     carried = pickle.loads(pickle.dumps(plan.carried(None))).settings
-    assert Search(carried).start(None) == plan.start(None) and Search(carried).choice(None) == plan.choice(None)
+    assert Search(carried).made_of(None) == plan.made_of(None)
 
 
 def test_members_of_a_design_have_models_of_their_own_where_the_blade_changes(folder):
@@ -274,7 +270,7 @@ def test_a_variable_of_scenes_changes_every_scene_that_has_it_and_no_model(confi
     """The shape of such a design is not meshed, and cannot be refused but by its scene."""
     settings = searched_settings(config_copy, SCENES_ALONE)
     designs = designs_of(settings)
-    assert designs.start_values == [0.005, 0.15] and Search(settings).entries(None) == {}
+    assert designs.start_values == [0.005, 0.15] and designs.varied(BLADE) == {"Free": []}
     nominal = recipes(settings, "Free", {"contact_model": None})["contact_model"]
     for name, values, thickness, friction in (("start", None, 0.005, 0.15), ("d0001", (0.002, 0.1), 0.002, 0.1)):
         lined, bare = (of[NOMINAL].scenes[scene].scene for scene, of in designs.members(name, values).items())

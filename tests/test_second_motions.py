@@ -24,8 +24,7 @@ from r37core.second_motions.dataset import dwell_dataset
 from r37core.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
 from r37core.second_motions.figures import draw_second_motions
 from r37core.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
-from r37core.second_motions.ranges import MotionLevels, motions_differ
-from r37core.second_motions.states import SweptStates, levels_of, write_states
+from r37core.second_motions.states import MotionLevels, SweptStates, levels_of, motions_differ, write_states
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
 from r37core.time_integration.carrying import END_WEAR

@@ -10,9 +10,9 @@ from integration_cases import NARROW
 
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rotation import rotation_amplitudes
+from r37core.run_ups.choice import RunUp
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
-from r37core.run_ups.schedule import RunUp
 from r37core.stress.cycles import StressCycles, rainflow_cycles
 from r37core.stress.damage import largest_damage
 from r37core.stress.operator import StressOperator

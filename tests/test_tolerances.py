@@ -14,7 +14,7 @@ from matplotlib.colors import to_rgb
 from test_interactions import campbell, response
 
 from r37core.adaptive.criterion import RefinementChoice, next_speeds
-from r37core.base.dataset_file import write_dataset
+from r37core.base.dataset_file import write_groups
 from r37core.base.io import InputFileError
 from r37core.base.speeds import RefinedRange
 from r37core.config import ConfigError, Document
@@ -29,7 +29,7 @@ from r37core.results.interactions import find_interactions
 from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
 from r37core.results.ranges import as_ranges_bear, ranged_summary, read_ranges
 from r37core.time_integration.status import RunStatus
-from r37core.tolerances.dataset import MemberRun, tolerances_dataset
+from r37core.tolerances.dataset import tolerances_dataset
 from r37core.tolerances.figures import draw_tolerances
 from r37core.tolerances.members import members_of
 from r37core.tolerances.number_ranks import CONFIDENCE, ranking, share_ends
@@ -306,39 +306,47 @@ def branch(peak):
     return bare.sel(speed=slice(1600.0, 1850.0))
 
 
-def member_run(folder, name, peak, diverged=()):
-    """A response with a branch of 1B/4 that ends at `peak`."""
+def member(peak, diverged=()):
+    """A response with a branch of 1B/4 that ends at `peak`, and its values of NUMBERS."""
     one = branch(peak)
     one["status"] = xr.where(one["speed"].isin(diverged), RunStatus.DIVERGED, one["status"]).astype("i1")
     for curve in ("rms_normal", "rms_tangential", "max_von_mises"):
         one[curve] = one[curve].where(one["status"] != RunStatus.DIVERGED)
-    write_dataset(one, folder / f"{name}.nc")
-    return MemberRun("Ref", "abradable", name, (0.1 + 0.001 * peak, np.nan), folder / f"{name}.nc")
+    return one, (0.1 + 0.001 * peak, None)
+
+
+def sample(folder, members, pair=("Ref", "abradable")):
+    """Sample of members, each a response and its values, and its file."""
+    file = folder / f"{'_'.join(pair)}.nc"
+    write_groups(((f"{row}/response", one) for row, (one, _) in enumerate(members)), file, {})
+    return (*pair, {str(row): values for row, (_, values) in enumerate(members)}), file
+
+
+def dataset_of(folder, members):
+    return tolerances_dataset([sample(folder, members)], NUMBERS).sel(blade="Ref", scene="abradable")
 
 
 def test_the_dataset_of_members(tmp_path):
-    peaks = {str(row): 1700.0 + 5.0 * row for row in range(20)}
-    runs = [member_run(tmp_path, name, peak) for name, peak in peaks.items()]
-    found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
+    peaks = [1700.0 + 5.0 * row for row in range(20)]
+    found = dataset_of(tmp_path, list(map(member, peaks)))
     assert found.sizes["member"] == 20
-    np.testing.assert_array_equal(found["peak_speed"], list(peaks.values()))
-    np.testing.assert_allclose(found["value"].sel(number=NUMBERS[0]), 0.1 + 0.001 * np.array(list(peaks.values())))
+    np.testing.assert_array_equal(found["peak_speed"], peaks)
+    np.testing.assert_allclose(found["value"].sel(number=NUMBERS[0]), 0.1 + 0.001 * np.array(peaks))
     assert found["value"].sel(number=NUMBERS[1]).isnull().all()
-    shares = np.mean([ratio_to_yield(branch(peak)).values > 1.0 for peak in peaks.values()], axis=0)
+    shares = np.mean([ratio_to_yield(branch(peak)).values > 1.0 for peak in peaks], axis=0)
     np.testing.assert_allclose(found["probability_above_yield"], shares)
     assert found["probability_above_yield"].sel(speed=[1600.0, 1750.0, 1795.0]).values.tolist() == [0.0, 0.5, 0.05]
     spread = found["rms_normal"].sel(speed=1700.0).values
     np.testing.assert_allclose(found["rms_normal_quantile"].sel(speed=1700.0), np.sort(spread)[[0, 9, 18]])
     for row in range(20):
-        alone = branch(peaks[str(row)])
+        alone = branch(peaks[row])
         assert found["width_above_yield"][row] == speeds_above_yield(alone).width
         assert found["largest_stress"][row] == pytest.approx(largest_stress(alone)[0])
 
 
 def test_the_chance_of_passing_yield_has_an_interval(root, tmp_path):
     """In the dataset, and in words on its page."""
-    runs = [member_run(tmp_path, str(row), 1700.0 if row % 2 else 1760.0) for row in range(16)]
-    found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
+    found = dataset_of(tmp_path, [member(1700.0 if row % 2 else 1760.0) for row in range(16)])
     names = ("probability_above_yield_low", "probability_above_yield", "probability_above_yield_high")
 
     def at(speed):
@@ -355,8 +363,7 @@ def test_the_chance_of_passing_yield_has_an_interval(root, tmp_path):
 
 
 def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
-    runs = [member_run(tmp_path, str(row), 1700.0, diverged=[1710.0] if row == 3 else ()) for row in range(4)]
-    found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
+    found = dataset_of(tmp_path, [member(1700.0, diverged=[1710.0] if row == 3 else ()) for row in range(4)])
     at = found.sel(speed=1710.0)
     assert at["status"].values.tolist() == [0, 0, 0, RunStatus.DIVERGED]
     assert at["probability_above_yield"] == 0.25
@@ -365,26 +372,22 @@ def test_a_member_that_diverges_is_one_recorded_member(tmp_path):
 
 
 def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
-    runs = [
-        replace(member_run(tmp_path, name, 5.0 * round((1700.0 + 60.0 * place[1]) / 5.0)), values=place)
-        for name, place in sobol_points(2, 8, 0).items()
-    ]
-    found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable", measure="peak_speed")
+    points = sobol_points(2, 8, 0).values()
+    members = dataset_of(tmp_path, [(branch(5.0 * round((1700.0 + 60.0 * place[1]) / 5.0)), place) for place in points])
+    found = members.sel(measure="peak_speed")
     assert found["member"].values.tolist() == list(range(8))
     assert found["rank_place_low"][1] == found["rank_place_high"][1] == 1.0 and np.isnan(found["rank_place_low"][0])
     assert found["rank_coefficient_low"][1] > 0.0 and found["rank_members"] == 8
-    figure = draw_tolerances(tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable"), branch(1700.0), "Ref")
+    figure = draw_tolerances(members, branch(1700.0), "Ref")
     _, part = figure.subfigs
     named = [handle.get_facecolor()[:3] for handle in part.axes[0].get_legend().legend_handles]
     assert named == [to_rgb(colour) for colour in style.COLOURS[:3]]
 
 
 def test_two_scenes_with_other_speeds_and_numbers_stand_in_one_dataset(tmp_path):
-    runs = [member_run(tmp_path, str(row), 1700.0) for row in range(2)]
     bare = response(normal=[(1000.0, 0.01, 6)], step=10.0).drop_vars(["max_von_mises", "yield_stress"])
-    write_dataset(bare.isel(speed=slice(3, 9)), tmp_path / "bare.nc")
-    other = [MemberRun("S100", "direct", str(row), (0.2, 0.3), tmp_path / "bare.nc") for row in range(2)]
-    found = tolerances_dataset([*runs, *other], NUMBERS)
+    other = sample(tmp_path, [(bare.isel(speed=slice(3, 9)), (0.2, 0.3))] * 2, ("S100", "direct"))
+    found = tolerances_dataset([sample(tmp_path, [member(1700.0)] * 2), other], NUMBERS)
     assert found["blade"].values.tolist() == ["Ref", "S100"]
     assert found["rms_normal"].sel(blade="S100", scene="direct").notnull().sum() == 12
     assert found["rms_normal"].sel(blade="S100", scene="abradable").isnull().all()
@@ -472,9 +475,9 @@ def test_a_damaged_table_is_named(tmp_path, text):
 
 
 def test_a_response_that_is_none_is_named(tmp_path):
-    write_dataset(xr.Dataset({"status": ("speed", [0])}), tmp_path / "other.nc")
+    other = sample(tmp_path, [(xr.Dataset({"status": ("speed", [0])}), (0.1, 0.2))], ("other",))
     with pytest.raises(InputFileError, match=r"other\.nc: cannot be read"):
-        tolerances_dataset([MemberRun("Ref", "lined", "0", (0.1,), tmp_path / "other.nc")], NUMBERS[:1])
+        tolerances_dataset([(("Ref", "lined", other[0][1]), other[1])], NUMBERS)
 
 
 def test_ends_of_a_spread():
@@ -497,8 +500,7 @@ def test_a_normal_number_has_a_value_at_the_sample_s_borders(monkeypatch):
 def test_a_member_at_yield_is_not_above_and_speeds_are_there_in_rpm(tmp_path):
     one = branch(1700.0)
     one["max_von_mises"][:] = one["yield_stress"].item()
-    write_dataset(one, tmp_path / "0.nc")
-    dataset = tolerances_dataset([MemberRun("Ref", "abradable", "0", (0.1, 0.2), tmp_path / "0.nc")], NUMBERS)
+    dataset = dataset_of(tmp_path, [(one, (0.1, 0.2))])
     assert (dataset["probability_above_yield"] == 0.0).all()
     np.testing.assert_allclose(dataset["speed_rpm"], dataset["speed"] * 30.0 / np.pi)
 

@@ -9,14 +9,13 @@ import pytest
 
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.base.plain import from_plain
-from r37core.base.speeds import SpeedPlan
 from r37core.config import ConfigError, command_line_document
 from r37core.config.speed_choice import most_runs
 from r37core.contact.scene import Scene
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
-from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep
+from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
@@ -77,9 +76,8 @@ def test_speeds_of_all_rounds_are_reduced_and_a_round_reads_what_the_one_before_
     assert names == ["900.npz", "925.npz", "950.npz", "1000.npz"]
     with pytest.raises(KeyError):
         refining.speed_files(L50)
-    rounds = Rounds(refining)
-    assert rounds.round_inputs(of(blade="Ref", scene="abradable", round="0")) == {"campbell": "<results>/Ref/campbell.nc"}
-    assert rounds.round_inputs(of(blade="Ref", scene="abradable", round="2")) == {
+    assert refining.round_inputs(of(blade="Ref", scene="abradable", round="0")) == {"campbell": "<results>/Ref/campbell.nc"}
+    assert refining.round_inputs(of(blade="Ref", scene="abradable", round="2")) == {
         "before": "<results>/Ref/abradable/round_1.json",
         "speeds": ["<results>/Ref/abradable/speed_925.npz"],
     }
@@ -109,7 +107,7 @@ def test_a_member_is_run_like_the_nominal_blade(members):
     plan, settings = members()
     drawn, sweeps, about = members_of(settings).all["Ref", "abradable"], sweeps_of(plan), plan.about(REF)
     assert list(sweeps) == ["0", "1"] and {member.values[1] for member in drawn.values()} == {100.0, 102.0}
-    task = json.loads(Simulations(Sweep(settings)).task(of(**vars(REF), speed="900")))
+    task = json.loads(Sweep(settings).task(of(**vars(REF), speed="900")))
     for name, sweep in sweeps.items():
         is_nominal = drawn[name].values[1] == 100.0
         stages = {"contact_model", "stress_operator", "campbell_of_blade"}
@@ -123,8 +121,8 @@ def test_a_member_is_run_like_the_nominal_blade(members):
     # messages name the member
     assert f"'name': 'Ref, member {next(name for name in drawn if sweeps[name].recipes)} of tolerances'" in str(sweeps)
     share = plan.speeds(REF)["choice"]["largest_share"]
-    assert share == 0.4 != Rounds(Sweep(settings)).refinement_choice(REF)["largest_share"]
-    assert len(plan.runs) == 2 * 2 and plan.number(REF) == 2
+    assert share == 0.4 != Sweep(settings).refinement_choice(REF)["largest_share"]
+    assert len(plan.samples) == 2
 
 
 def test_members_with_equal_blades_share_their_model(members):
@@ -144,16 +142,15 @@ def test_members_keep_no_history_of_the_stress(members):
     settings = members()[1]
     history = settings.scene_designs.entries["abradable"].model_copy(update={"stress_history_speeds_rad_s": [900.0]})
     settings = with_scene(settings, "abradable", history)
-    nominal = Simulations(Sweep(settings)).task(of(**vars(REF), speed="900"))
+    nominal = Sweep(settings).task(of(**vars(REF), speed="900"))
     tasks = nominal, sweeps_of(Tolerances(settings))["0"].task_at(900.0)
     kept = [json.loads(task)["choice"]["snapshot_revolutions"] for task in tasks]
     assert kept == [settings.scenes["abradable"].revolutions, settings.scenes["abradable"].revolutions // 2]
 
 
 def test_what_a_round_is_told_is_what_it_takes(refining):
-    """Plain values, of which a job makes the plan and the choice again."""
-    assert from_plain(SpeedPlan, json.loads(json.dumps(Rounds(refining).refined_plan(REF)))) == refining.speed_plan(REF)
-    choice = from_plain(RefinementChoice, json.loads(json.dumps(Rounds(refining).refinement_choice(REF))))
+    """Plain values, of which a job makes the choice again."""
+    choice = from_plain(RefinementChoice, json.loads(json.dumps(refining.refinement_choice(REF))))
     assert [window.mode for window in choice.windows] == ["1B", "1T"]
     assert choice.prominence == 0.1
 
@@ -163,16 +160,16 @@ def test_without_a_lining_a_round_has_a_share_of_its_own_and_no_windows(root):
     run = {**REFINED, "blades": ["Ref"]}
     direct, lined = (of(blade="Ref", scene=scene) for scene in ("direct", "abradable"))
     settings = read_settings(root, command_line_document(run))
-    rounds = Rounds(Sweep(settings))
+    rounds = Sweep(settings)
     assert (rounds.refinement_choice(direct)["windows"], rounds.refinement_choice(direct)["largest_share"]) == ([], 0.125)
     assert rounds.refinement_choice(direct)["change"] == rounds.refinement_choice(lined)["change"]
     assert most_runs(settings, "Ref", "direct") < most_runs(settings, "Ref", "abradable")
     window = {"mode": "1B", "highest_engine_order": 3, "first": 0.0, "last": 0.1, "step_rad_s": 5.0}
     chosen = {"refinement": {"direct": {"windows": [window], "largest_share": 0.9}}}
-    rounds = Rounds(Sweep(read_settings(root, command_line_document(run | chosen))))
+    rounds = Sweep(read_settings(root, command_line_document(run | chosen)))
     assert [one["highest_engine_order"] for one in rounds.refinement_choice(direct)["windows"]] == [3]
     assert rounds.refinement_choice(direct)["largest_share"] == 0.9
-    assert rounds.refinement_choice(lined) == Rounds(Sweep(settings)).refinement_choice(lined)
+    assert rounds.refinement_choice(lined) == Sweep(settings).refinement_choice(lined)
     window["highest_engine_order"] = 30
     with pytest.raises(ConfigError, match=r"refinement\.direct\.windows\.0\.highest_engine_order: found 30; allowed"):
         read_settings(root, command_line_document(run | chosen))
@@ -181,20 +178,20 @@ def test_without_a_lining_a_round_has_a_share_of_its_own_and_no_windows(root):
 def test_models_of_a_scene_and_without_stress_no_basis(chosen):
     sweep = Sweep(chosen)
     assert sweep.contact_model(REF) == "<results>/Ref/contact_pressure_edge.npz"
-    assert sweep.stress_operator(L50) == ["<results>/L50/stress_pressure_edge.npz"]
+    assert sweep.models(L50)[1:] == ["<results>/L50/stress_pressure_edge.npz"]
     assert Structure(chosen).boundary(of(blade="Ref", tip_line="camber"))["tip_line"] == "camber"
     plain = chosen.scene_designs.entries["direct"].model_copy(update={"results": ["spectrum"]})
     sweep = Sweep(with_scene(chosen, "direct", plain))
-    assert sweep.stress_operator(L50) == []
-    assert Datasets(sweep).runs(of(kind="stress")) == [("Ref", "abradable"), ("L50", "abradable")]
+    assert sweep.models(L50)[1:] == []
+    assert sweep.runs_with("stress") == [("Ref", "abradable"), ("L50", "abradable")]
 
 
 def test_task_of_a_simulation(chosen):
-    task = json.loads(Simulations(Sweep(chosen)).task(of(blade="Ref", scene="direct", speed="900")))
+    task = json.loads(Sweep(chosen).task(of(blade="Ref", scene="direct", speed="900")))
     assert task["scene"]["lining"] is None
     level = chosen.fidelity.time_integration
     assert task["choice"]["time_step"] == level.largest_time_step_s.direct
-    lined = json.loads(Simulations(Sweep(chosen)).task(of(blade="Ref", scene="abradable", speed="900")))
+    lined = json.loads(Sweep(chosen).task(of(blade="Ref", scene="abradable", speed="900")))
     assert lined["choice"]["time_step"] == level.largest_time_step_s.lined
     assert task["choice"]["revolutions"] == level.revolutions
     assert task["kept"]["wear_angles"] == level.wear_angles
@@ -202,12 +199,10 @@ def test_task_of_a_simulation(chosen):
 
 def test_datasets_join_the_runs_that_have_their_kind(chosen):
     sweep = Sweep(chosen)
-    datasets = Datasets(sweep)
     assert sweep.kinds == ["rms", "spectrum", "stress", "wear"]
     every = [("Ref", "abradable"), ("Ref", "direct"), ("L50", "abradable"), ("L50", "direct")]
-    assert datasets.runs(of(kind="rms")) == every
-    assert datasets.runs(of(kind="wear")) == [("Ref", "abradable"), ("L50", "abradable")]
-    assert datasets.responses(of(kind="wear")) == [f"<results>/{blade}/abradable/response.nc" for blade in ("Ref", "L50")]
+    assert sweep.runs_with("rms") == every
+    assert sweep.runs_with("wear") == [("Ref", "abradable"), ("L50", "abradable")]
 
 
 def test_provenance(chosen):

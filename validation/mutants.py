@@ -61,7 +61,7 @@ TESTS = {
     "search/gaussian_processes.py": "test_search_proposals.py",
     "search/problem.py": "test_search_proposals.py",
     "search/proposal.py": "test_search_proposals.py",
-    "search/surrogate.py": "test_search_proposals.py",
+    "search/dataset.py": "test_search.py test_search_proposals.py",
     "stress/": "test_results.py",
 }
 """Module, or folder with the rest of its modules, -> the test files that are to notice."""

@@ -13,13 +13,13 @@ import numpy as np
 import xarray as xr
 
 from r37core.adaptive.refinement_choice import RefinementChoice
-from r37core.adaptive.replay import replay
+from r37core.adaptive.rounds import first_round, round_after
 from r37core.base.dataset_file import read_dataset
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.base.speeds import SpeedPlan
 from r37core.config import plain
-from r37core.plans.sweep_plan import Rounds, Sweep
+from r37core.plans.sweep_plan import Sweep
 from r37core.results.interactions import Interaction, InteractionChoice, find_interactions
 from r37core.results.measures import leading_edge
 from r37core.results.regions import read_judged
@@ -80,7 +80,7 @@ Outcomes = Mapping[tuple[str, str], Mapping[str, Outcome]]
 def tables(input: Any, output: Any, params: Any) -> None:
     """Each way to choose speeds against every speed. Input: Campbell diagrams of all blades, and `files`, their responses."""
     settings = settings_of(Path.cwd())
-    diagrams, rounds = read_dataset(input.campbell), Rounds(Sweep(settings))
+    diagrams, rounds = read_dataset(input.campbell), Sweep(settings)
     interactions = from_plain(InteractionChoice, plain(settings.config.interactions))
     outcomes: dict[tuple[str, str], dict[str, Outcome]] = {}
     for file in as_list(input.files):
@@ -93,6 +93,26 @@ def tables(input: Any, output: Any, params: Any) -> None:
     write_table(*summary(outcomes), output.table)
     write_table(*by_blade(outcomes), output.blades)
     write_table(*missed(outcomes), output.missed)
+
+
+def replay(response: xr.Dataset, campbell: xr.Dataset, plan: SpeedPlan, choice: RefinementChoice) -> list[list[float]]:
+    """New speeds (rad/s) of each round, as the sweep would ask for them, with the runs looked up in the whole grid."""
+    rows = _measured(response)
+    current = first_round(plan, campbell, choice)
+    rounds = []
+    while current.new:
+        rounds.append(list(current.new))
+        current = round_after(current, {speed: rows[speed] for speed in current.new}, plan, choice)
+    return rounds
+
+
+def _measured(response: xr.Dataset) -> dict[float, list[float]]:
+    """Status and adaptive.criterion.CURVES of each speed (rad/s)."""
+    edge = leading_edge(response)
+    stress = edge["max_von_mises"] / edge["yield_stress"] if "max_von_mises" in edge else edge["rms_normal"] * np.nan
+    columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], stress]
+    rows = np.stack([column.values.astype(float) for column in columns], axis=1)
+    return dict(zip(map(float, response["speed"].values), rows.tolist(), strict=True))
 
 
 def plain_grid(plan: SpeedPlan, step: float) -> list[float]:

@@ -20,9 +20,9 @@ from r37core.rom.contact_model import ContactModel
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import ReducedModel, contact_model
 from r37core.rom.reduction_choice import PATCHES
+from r37core.run_ups.choice import RunUp
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.revolutions import record_run_up
-from r37core.run_ups.schedule import RunUp
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE
 from r37core.time_integration.speed_run import run_speed
 

@@ -19,11 +19,10 @@ from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups import schedule
-from r37core.run_ups.choice import RunUpChoice
+from r37core.run_ups.choice import RunUp, RunUpChoice
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.plan import RunUps
 from r37core.run_ups.revolutions import record_run_up
-from r37core.run_ups.schedule import RunUp
 from r37core.run_ups.tables import safe_rates
 from r37core.stress.recovery import stress_operator
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE

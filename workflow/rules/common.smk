@@ -6,6 +6,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from r37core.config import contact_of_blades, operating_range, plain
+from r37core.config.remarks import elastic_casings
 from r37core.config.settings import merged_settings
 from r37core.console.snakemake_run import begin
 from r37core.explorer import parts_hash, page_parts
@@ -14,9 +15,8 @@ from r37core.plans import paths
 from r37core.plans.code import CodeHashes, EngineNumbers
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage, structure_stages
-from r37core.plans.structure_plan import Imported, Structure
-from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep
-from r37core.product.extensions import sampling_of
+from r37core.plans.structure_plan import Structure
+from r37core.plans.sweep_plan import Sweep
 from r37core.product.reporting import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
     linked_figures,
@@ -39,15 +39,11 @@ code = CodeHashes(console.source, SCRIPTS)
 # parameters of rules: a step, which is a function of r37core, and the hash of its code, or what stands for that
 engine = EngineNumbers(Path(settings.config.run.engine)) if settings.config.run.engine else code
 step = engine.step
-# members of an extension that are run next to the sweep, and what is made of them
-sampling = sampling_of(settings)
 made = Provenance(settings)
 structure = Structure(settings)
-imported = Imported(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
-simulations, rounds, joined = Simulations(sweep), Rounds(sweep), Datasets(sweep)
 more_motions = offered("motions", sweep)
-run_up_dataset = offered("run_ups", sweep)
+run_up_dataset, members = offered("run_ups", sweep), offered("members", sweep)
 # speeds in operation, by which results are judged as well
 operating = to_plain(operating_range(settings))
 drawing = partial(drawing_of, code, operating)

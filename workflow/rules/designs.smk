@@ -18,6 +18,6 @@ use rule step as design_table with:
         **step("designs.steps.tabulate"),
         pairs=families.pairs,
         variables=families.variables,
-        families=families.names,
+        families={"blade": settings.designs.family_of, "scene": settings.scene_designs.family_of},
         densities=families.densities,
         operating=operating,

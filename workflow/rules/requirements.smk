@@ -20,7 +20,7 @@ use rule step as looks with:
 use rule step as verdict with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue", "wear")},
-        **({"members": sampling.dataset} if sampling else {}),
+        **members,
         **more_motions,
         **run_up_dataset,
         campbell=rules.campbell_of_all.output[0],

@@ -19,14 +19,14 @@ rule responses:
     input:
         expand(paths.CAMPBELL, blade=settings.blades),
         paths.filled({paths.RESPONSE: paths.run_keys(sweep.runs_with("rms"))}),
-        rounds.first_rounds,
+        sweep.first_rounds,
         simulated(sweep),
 
 
 use rule step as sweep_dataset with:
     input:
-        responses=joined.responses,
-        rounds=rounds.first_rounds,
+        responses=lambda wildcards: paths.filled({paths.RESPONSE: paths.run_keys(sweep.runs_with(wildcards.kind))}),
+        rounds=sweep.first_rounds,
     output:
         dataset="<results>/{kind}.nc",
     log:
@@ -36,7 +36,7 @@ use rule step as sweep_dataset with:
     params:
         **step("results.steps.sweep_dataset"),
         kind="{kind}",
-        runs=joined.runs,
+        runs=lambda wildcards: sweep.runs_with(wildcards.kind),
         fidelity=settings.fidelity_name,
 
 
@@ -46,7 +46,7 @@ datasets = {kind: expand(rules.sweep_dataset.output, kind=kind)[0] for kind in s
 use rule step as summary with:
     input:
         **datasets,
-        **({"ranges": sampling.ranges} if sampling else {}),
+        **offered("ranges", sweep),
         **more_motions,
         campbell=rules.campbell_of_all.output[0],
     output:
@@ -61,7 +61,7 @@ use rule step as summary with:
 use rule step as ranking with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue")},
-        **({"members": sampling.dataset} if sampling else {}),
+        **members,
         **more_motions,
     output:
         table=shown("<results>/ranking.csv", TEXTS / "ranking.rst", TOGETHER, "ranking"),
@@ -83,7 +83,7 @@ use rule step as coincidences with:
         "<logs>/coincidences.log",
     params:
         **step("results.steps.coincidences"),
-        casings=joined.casings,
+        casings=to_plain(elastic_casings(settings)),
 
 
 shown_panels = panels(sweep)

@@ -19,15 +19,16 @@ use rule step as second_motion_sweep with:
         **step("second_motions.steps.carry"),
         **motions_plan.parameters(sweep),
         motion=lambda wildcards: wildcards.motion,
-        results=partial(motions_plan.results, sweep),
-        kept=sweep.kept,
+        results=lambda wildcards: [each for each in sweep.results(wildcards) if each in motions_plan.KEPT],
+        kept=settings.fidelity.time_integration.kept,
         yield_stress=sweep.yield_stress,
         provenance=made.sweep,
 
 
 use rule step as second_motion_dwells with:
     input:
-        unpack(partial(motions_plan.swept_files, sweep)),
+        model=sweep.contact_model,
+        states=expand(motions_plan.STATES, motion=motions_plan.MOTIONS, allow_missing=True),
     output:
         dwells=motions_plan.DWELLS,
     log:

@@ -13,14 +13,14 @@ use rule step as signals_of_run with:
         "<logs>/{blade}/{scene}/signals.log",
     params:
         **step("signals.steps.record"),
-        scene=simulations.plain_scene,
-        choice=simulations.choice_of_scene,
+        scene=sweep.plain_scene,
+        choice=sweep.choice_of_scene,
         speeds=recorded.speeds,
         interactions=plain(settings.config.interactions),
         revolutions=recorded.revolutions,
         gauges=recorded.gauges,
         probes=recorded.probes,
-        tip_line=recorded.tip_line,
+        tip_line=lambda wildcards: settings.scenes[wildcards.scene].tip_line,
         provenance=made.sweep,
 
 

@@ -13,7 +13,7 @@ use rule step as geometry with:
     log:
         "<logs>/{blade}/geometry.log",
     wildcard_constraints:
-        blade=imported.pattern(Shape),
+        blade=structure.pattern(Shape),
     # an impossible shape should stop the run before any long work
     priority: 10
     params:
@@ -29,7 +29,7 @@ use rule step as mesh with:
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
-        blade=imported.pattern(Shape),
+        blade=structure.pattern(Shape),
     # a mesh or model that fails should do so before the first simulation
     priority: 2
     params:
@@ -38,14 +38,14 @@ use rule step as mesh with:
 
 use rule step as imported_mesh with:
     input:
-        imported.files,
+        structure.files,
     output:
         msh=rules.mesh.output.msh,
         vtu=paths.MESH,
     log:
         "<logs>/{blade}/mesh.log",
     wildcard_constraints:
-        blade=imported.pattern(MeshSource),
+        blade=structure.pattern(MeshSource),
     # an unsuitable mesh, like an impossible shape, should stop the run before any long work
     priority: 10
     params:
@@ -60,7 +60,7 @@ use rule step as reduced_model with:
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
-        blade=imported.pattern(Shape, MeshSource),
+        blade=structure.pattern(Shape, MeshSource),
     priority: 2
     resources:
         mem_mb=memory_of_model,
@@ -76,19 +76,19 @@ use rule reduced_model as whole_blade_model with:
         "<logs>/{blade}/whole_blade_model_{tip_line}.log",
     priority: 0
     params:
-        reduction=structure.whole_blade_reduction,
+        reduction=lambda wildcards: {**structure.reduction(wildcards), "recover_whole_blade": True},
         kept=False,
 
 
 use rule step as imported_matrices with:
     input:
-        imported.files,
+        structure.files,
     output:
         rom=paths.REDUCED_MODEL,
     log:
         "<logs>/{blade}/reduced_model_{tip_line}.log",
     wildcard_constraints:
-        blade=imported.pattern(MatricesSource),
+        blade=structure.pattern(MatricesSource),
     priority: 10
     resources:
         mem_mb=memory_of_model,

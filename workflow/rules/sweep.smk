@@ -37,9 +37,9 @@ use rule step as prepare_time_integration with:
     priority: 15
     params:
         **step("time_integration.speed_job.prepare"),
-        scene=simulations.plain_scene,
+        scene=sweep.plain_scene,
         speed=settings.structure.maximum_speed_rad_s,
-        choice=simulations.choice_of_scene,
+        choice=sweep.choice_of_scene,
 
 
 use rule step as simulate with:
@@ -50,12 +50,14 @@ use rule step as simulate with:
         paths.SPEED,
     log:
         "<logs>/{blade}/{scene}/speed_{speed}.log",
-    priority: simulations.priority
+    # results are to be complete one blade after another
+    priority: lambda wildcards: 1 - list(settings.blades).index(wildcards.blade) / len(settings.blades)
     resources:
         mem_mb=300,
     params:
         **step("time_integration.speed_job.simulate"),
-        job=simulations.job,
+        # one parameter, as Snakemake takes a millisecond to ask for each
+        job=lambda wildcards: {"speed": wildcards.speed, "task": sweep.task(wildcards)},
         about=made.sweep,
 
 
@@ -67,7 +69,7 @@ localrules:
 # adaptive speed sampling: each round asks for some more, from what those before it gave, until one asks for none
 checkpoint refine:
     input:
-        unpack(rounds.round_inputs),
+        unpack(sweep.round_inputs),
     output:
         round=paths.ROUND,
     log:
@@ -82,8 +84,8 @@ checkpoint refine:
         mem_mb=500,
     params:
         **step("adaptive.steps.refine"),
-        plan=rounds.refined_plan,
-        choice=rounds.refinement_choice,
+        plan=lambda wildcards: to_plain(sweep.speed_plan(wildcards)),
+        choice=sweep.refinement_choice,
         yield_stress=sweep.yield_stress,
     script:
         "../scripts/step.py"

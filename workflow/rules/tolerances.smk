@@ -16,7 +16,7 @@ use rule step as tolerance_members with:
     log:
         "<logs>/tolerances/{blade}/{scene}/members.log",
     priority: 3
-    threads: tolerances.number
+    threads: lambda wildcards: len(tolerances.sample.all[wildcards.blade, wildcards.scene])
     resources:
         mem_mb=lambda wildcards, threads: 500 * threads,
     params:
@@ -30,24 +30,22 @@ use rule step as tolerance_members with:
 
 use rule step as tolerances_dataset with:
     input:
-        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.pairs)}),
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.sample.pairs)}),
     output:
         dataset=tolerances_plan.DATASET,
     log:
         "<logs>/tolerances_dataset.log",
     params:
         **step("tolerances.steps.join"),
-        pairs=tolerances.pairs,
-        runs=tolerances.runs,
-        numbers=tolerances.numbers,
-        values=tolerances.values,
+        samples=tolerances.samples,
+        numbers=[number.key for number in tolerances.sample.numbers],
         fidelity=settings.fidelity_name,
 
 
 use rule step as tolerance_table with:
     input:
         **tolerances.nominal,
-        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.pairs)}),
+        members=paths.filled({tolerances_plan.MEMBERS: paths.run_keys(tolerances.sample.pairs)}),
         rounds=tolerances.first_rounds,
     output:
         table=shown(tolerances_plan.TABLE, PACKAGE / "tolerances/report.rst", TOGETHER, "tolerances"),
@@ -55,6 +53,5 @@ use rule step as tolerance_table with:
         "<logs>/tolerance_table.log",
     params:
         **step("tolerances.steps.table"),
-        pairs=tolerances.pairs,
-        runs=tolerances.runs,
+        samples=tolerances.samples,
         choice=plain(settings.config.interactions),

@@ -43,11 +43,6 @@ class Families:
         }
 
     @property
-    def names(self) -> dict[str, dict[str, str]]:
-        """Kind -> design -> family."""
-        return {BLADE: self.settings.designs.family_of, SCENE: self.settings.scene_designs.family_of}
-
-    @property
     def pairs(self) -> list[tuple[str, str]]:
         """Pairs of blade and scene of which one is a design."""
         designs = self.variables
@@ -67,21 +62,15 @@ class Families:
     @cached_property
     def figures(self) -> dict[str, Compared]:
         """Designs that the figure of each family compares, by its name."""
-        settings = self.settings
-        figures = {}
+        settings, figures, family_of = self.settings, {}, self.settings.scene_designs.family_of
+        # scenes of no family, or all where there are only those of families
+        plain = tuple(name for name in settings.scene_names if name not in family_of) or tuple(settings.scene_names)
         for kind, families in self.families.items():
             for name, family in families.items():
                 designs = tuple(family.designs)
-                blades, scenes = (designs, self._plain_scenes) if kind == BLADE else (tuple(settings.blade_names), designs)
+                blades, scenes = (designs, plain) if kind == BLADE else (tuple(settings.blade_names), designs)
                 figures[name] = Compared(kind, tuple(VariedNumber(kind, key).name for key in family.keys), blades, scenes)
         return figures
-
-    @property
-    def _plain_scenes(self) -> tuple[str, ...]:
-        """Scenes of no family, or all where there are only those of families."""
-        family_of = self.settings.scene_designs.family_of
-        plain = tuple(name for name in self.settings.scene_names if name not in family_of)
-        return plain or tuple(self.settings.scene_names)
 
     @cached_property
     def maps(self) -> dict[str, Compared]:
@@ -99,27 +88,23 @@ class Families:
         return to_plain((self.figures | self.maps)[wildcards.family])
 
 
-def families_have_shapes(settings: Settings) -> None:
-    """No family is of an imported blade: what is compared of designs needs their shape."""
+def families_can_be_compared(settings: Settings) -> None:
+    """No family is of an imported blade, as shapes are compared, and none of scenes is called like one of blades."""
     for name, family in Families(settings).families[BLADE].items():
         members = [settings.blades[design] for design in family.designs if design in settings.blades]
         if any(not blade.has_profiles for blade in members):
-            raise settings.documents.blades.refusal(
-                (name,), "a family of an imported blade", "families of blades with profiles"
-            )
-
-
-def families_differ_in_name(settings: Settings) -> None:
-    """No family of scenes is called like one of blades: figures have their names."""
+            allowed = "families of blades with profiles"
+            raise settings.documents.blades.refusal((name,), "a family of an imported blade", allowed)
     taken = {name.lower() for name in settings.designs.families}
     for name in settings.scene_designs.families:
+        # figures have their names
         if name.lower() in taken:
             raise settings.documents.scenes.refusal((name,), f"'{name}', which is a family of blades, too", "another name")
 
 
 EXTENSION = Extension(
     name="designs",
-    checks=(families_have_shapes, families_differ_in_name),
+    checks=(families_can_be_compared,),
     targets=lambda sweep: {TABLE: [{}] if sweep.settings.made(Families).figures else []},
     figures=(
         # a run that has a map names it first

@@ -3,9 +3,11 @@
 from collections.abc import Callable
 from typing import Any
 
+from r37core.base.plain import to_plain
+from r37core.config.remarks import elastic_casings
 from r37core.plans.extension import Figure
 from r37core.plans.paths import CAMPBELL, MESH, RESPONSE, of, run_keys
-from r37core.plans.sweep_plan import Datasets, Sweep
+from r37core.plans.sweep_plan import Sweep
 
 ALL_CAMPBELL, RMS, STRESS = (f"<results>/{kind}.nc" for kind in ("campbell", "rms", "stress"))
 
@@ -43,7 +45,7 @@ FIGURES = (
         "edge, normal to the casing, over the tangential displacement. The blade swings freely in its first bending (1B) or "
         "first torsion mode (1T); below zero the gap closes. With an elastic casing: its waves as seen from the rotor (thin), "
         "and where a named mode meets one (diamonds).",
-        arguments=lambda sweep: {"casings": Datasets(sweep).casings},
+        arguments=lambda sweep: {"casings": to_plain(elastic_casings(sweep.settings))},
     ),
     Figure(
         rule="interactions_figure",

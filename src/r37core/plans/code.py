@@ -3,7 +3,6 @@
 import ast
 import hashlib
 import json
-import os
 from collections.abc import Callable, Collection, Iterator
 from functools import cache
 from itertools import takewhile
@@ -100,23 +99,13 @@ class EngineNumbers:
 @cache
 def module_files(name: str, roots: tuple[Path, ...]) -> tuple[Path, ...]:
     """Files of a dotted name, which may end in something that is no module: it and the packages above it."""
-    return tuple(file for root in roots for file in _files_below(root, *name.split(".")))
+    parts = name.split(".")
+    below = [root.joinpath(*parts[:count]) for root in roots for count in range(1, len(parts) + 1)]
+    return tuple(file for path in below for file in (path.with_suffix(".py"), path / "__init__.py") if _is_file(file))
 
 
-def _files_below(folder: Path, name: str, *rest: str) -> list[Path]:
-    entries = _entries(folder)
-    files = [folder / f"{name}.py"] if f"{name}.py" in entries else []
-    if name not in entries:
-        return files
-    below = folder / name
-    files += [below / "__init__.py"] if "__init__.py" in _entries(below) else []
-    return files + (_files_below(below, *rest) if rest else [])
-
-
-@cache
-def _entries(folder: Path) -> frozenset[str]:
-    """Names in a folder, read once: there are more imports than files."""
-    return frozenset(os.listdir(folder)) if folder.is_dir() else frozenset()
+_is_file = cache(Path.is_file)
+"""There are more imports than files."""
 
 
 def fingerprint(file: Path, function: str = "") -> bytes:

@@ -16,6 +16,9 @@ from .sweep_plan import Sweep
 Targets = Callable[[Sweep], dict[str, Wildcards]]
 """Patterns of files -> the wildcards of each that a run asks for; none where its configuration does without."""
 
+Offer = Literal["motions", "run_ups", "verdict", "ranges", "members"]
+"""Name of a file that other rules take; see Extension.offers."""
+
 
 @dataclass(frozen=True)
 class Panel:
@@ -54,7 +57,7 @@ class Figure:
     caption: str
     category: str = ""
     arguments: Callable[[Sweep], Mapping[str, Any]] = lambda _: {}
-    offered: Literal["motions", "verdict", ""] = ""
+    offered: Offer | Literal[""] = ""
 
     def targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """Files of the figure, as PNG and PDF."""
@@ -71,20 +74,6 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Sampling:
-    """Members of an extension: the nominal blades and scenes with other numbers.
-
-    `simulations`: largest number of their simulations by blade and scene; none where the settings ask for none. What is made
-    of them stands in the tables of all blades: `ranges`, a table as of results/ranges.py, in the summary; `dataset`, with a
-    dimension `member`, in the ranking and the explorer.
-    """
-
-    simulations: Callable[[Settings], Mapping[Pair, int]]
-    ranges: str
-    dataset: str
-
-
-@dataclass(frozen=True)
 class Extension:
     """One capability: a folder of this package, a file of rules, and a line in the registry.
 
@@ -92,12 +81,12 @@ class Extension:
     in place of one, each with a name of its own, which share its file of rules.
     `section`: that section; none without one.
     `checks`: what no model of the section alone can check; each raises ConfigError.
-    `sampling`: members that it has run next to the sweep, and what is made of them.
-    `simulated`: files of its own simulations in the folders of the blades, which other machines may make.
-    `targets`: what is made of them; part of all_blades unless `made_on_request`.
+    `members`: largest number of simulations of members next to the sweep, by blade and scene.
+    `targets`: what is made of it; part of all_blades unless `made_on_request`.
     `offers`: files among the targets that other rules take where a run makes them. `motions`: a dataset of more motions at a
     speed than that from rest (results/other_motions.py), for summary, ranking and the figures of the response; `verdict`: a
-    table of requirements and whether blades meet them, for maps of designs.
+    table of requirements and whether blades meet them, for maps of designs; `ranges`: a table as of results/ranges.py, for
+    the summary; `members`: a dataset with a dimension `member`, for ranking and verdict.
     `remarks`: what a run should say of it before it starts.
     `figures`: what is drawn of them, made with the targets.
     `panel`: what the explorer shows of it.
@@ -110,10 +99,9 @@ class Extension:
     name: str
     section: ExtensionSection[Any] | None = None
     checks: tuple[Callable[[Settings], None], ...] = ()
-    sampling: Sampling | None = None
-    simulated: Targets = lambda _: {}
+    members: Callable[[Settings], Mapping[Pair, int]] = lambda _: {}
     targets: Targets = lambda _: {}
-    offers: Mapping[Literal["motions", "run_ups", "verdict"], str] = field(default_factory=dict)
+    offers: Mapping[Offer, str] = field(default_factory=dict)
     remarks: Callable[[Settings], list[str]] = lambda _: []
     figures: tuple[Figure, ...] = ()
     panel: Panel | None = None
@@ -123,7 +111,11 @@ class Extension:
 
     def all_targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """All that a run makes of it."""
-        targets = {**self.simulated(sweep), **self.targets(sweep)}
+        targets = dict(self.targets(sweep))
         for figure in self.figures:
             targets |= figure.targets(sweep)
         return targets
+
+    def simulated(self, sweep: Sweep) -> dict[str, Wildcards]:
+        """Those in folders of a blade and scene: its own simulations, which other machines may make."""
+        return {pattern: runs for pattern, runs in self.targets(sweep).items() if "{blade}/{scene}/" in pattern}

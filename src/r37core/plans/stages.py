@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from r37core.base.plain import to_plain
 from r37core.config import plain, si_fields
 
 from .provenance import Provenance
-from .structure_plan import Imported, Structure
+from .structure_plan import Structure
 
 
 @dataclass(frozen=True)
@@ -29,8 +30,8 @@ class Stage:
 
 def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]:
     """Stages from blade shape to Campbell diagram, by the names of their rules."""
-    settings, imported = structure.settings, Imported(structure.settings)
-    source = {"source": imported.source, "folder": imported.folder, "locations": imported.locations}
+    settings = structure.settings
+    source = {"source": structure.definition, "folder": structure.folder, "locations": structure.locations}
     reduction = {
         "boundary": structure.boundary,
         "reduction": structure.reduction,
@@ -38,7 +39,8 @@ def structure_stages(structure: Structure, made: Provenance) -> dict[str, Stage]
         "provenance": made.structure,
     }
     shape = {"definition": structure.definition, "edges": settings.structure.edges, "provenance": made.shape}
-    own = {"material": structure.elastic, "stress_regions": structure.stress_regions, "kept": True}
+    regions = {"stress_regions": lambda wildcards: to_plain(settings.stress_regions(wildcards.blade))}
+    own = {"material": structure.elastic, **regions, "kept": True}
     diagram = {
         "campbell": si_fields(settings.config.campbell),
         "maximum_speed": settings.structure.maximum_speed_rad_s,

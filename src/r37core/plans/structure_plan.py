@@ -2,7 +2,7 @@
 
 import os
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +18,12 @@ from .provenance import Attributes
 
 @dataclass(frozen=True)
 class Structure:
-    """Numbers of the rules from shape to Campbell diagram; `wildcards` as of Sweep."""
+    """Inputs and numbers of the rules from shape, or import, to Campbell diagram; `wildcards` as of Sweep."""
 
     settings: Settings
 
     def definition(self, wildcards: Any) -> Any:
-        """Shape of a blade."""
+        """Shape of a blade, or the mesh or matrices to import."""
         return to_plain(self.settings.blades[wildcards.blade].definition)
 
     def material(self, wildcards: Any) -> dict[str, float] | None:
@@ -46,26 +46,11 @@ class Structure:
         """Reduction of a blade."""
         return to_plain(self.settings.reduction_choice(wildcards.blade))
 
-    def stress_regions(self, wildcards: Any) -> dict[str, Any]:
-        """Regions of a blade where stress is looked for."""
-        return to_plain(self.settings.stress_regions(wildcards.blade))
-
     def whole_blade_model(self, wildcards: Any) -> str:
         """The model that recovers the whole blade, with the contact nodes of a scene, or else those of config.yaml."""
         scene = getattr(wildcards, "scene", None)
         tip_line = self.settings.scenes[scene].tip_line if scene else self.settings.structure.boundary.tip_line
         return fill(WHOLE_BLADE_MODEL, blade=wildcards.blade, tip_line=tip_line)
-
-    def whole_blade_reduction(self, wildcards: Any) -> dict[str, Any]:
-        """Reduction of the model of the whole blade: the sweep's, recovered everywhere."""
-        return to_plain(replace(self.settings.reduction_choice(wildcards.blade), recover_whole_blade=True))
-
-
-@dataclass(frozen=True)
-class Imported:
-    """Blades by what gives them; methods with `wildcards` are inputs and parameters of rules."""
-
-    settings: Settings
 
     def given_by(self, *kinds: Any) -> list[str]:
         """Names of the blades that are given in one of these ways."""
@@ -94,10 +79,6 @@ class Imported:
             assert isinstance(source, MatricesSource)
             files = list(matrix_files(source.folder, self.settings.root).values())
         return [_seen_from_here(file) for file in files]
-
-    def source(self, wildcards: Any) -> Any:
-        """Mesh or matrices to import."""
-        return to_plain(self.settings.blades[wildcards.blade].definition)
 
     def locations(self, wildcards: Any) -> Attributes:
         """Where the keys of a blade stand, as `file:line: blade.key`; a new line re-runs nothing."""

@@ -1,7 +1,7 @@
 """The plan of the sweep: simulations, rounds of refinement, and the datasets that are joined of them."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
 from itertools import chain, count, takewhile
@@ -13,7 +13,6 @@ from r37core.base.io import as_list, read_json, readable
 from r37core.base.plain import to_plain
 from r37core.base.speeds import SpeedPlan
 from r37core.config import Settings, si_form
-from r37core.config.remarks import elastic_casings
 from r37core.contact.scene import Scene
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import OF_RUNS
@@ -48,17 +47,13 @@ class Sweep:
 
     def models(self, wildcards: Any) -> list[str]:
         """Contact model of the simulations of a blade and scene, and the operator of the stress, where that is wanted."""
-        return [self.contact_model(wildcards), *self.stress_operator(wildcards)]
-
-    def stress_operator(self, wildcards: Any) -> list[str]:
-        """The stress of a blade per motion, for a scene whose stress is wanted."""
-        return [self._model_file(wildcards, paths.STRESS_OPERATOR)] if "stress" in self.results(wildcards) else []
+        patterns = [paths.CONTACT_MODEL, *([paths.STRESS_OPERATOR] if "stress" in self.results(wildcards) else [])]
+        return [self._model_file(wildcards, pattern) for pattern in patterns]
 
     def run_inputs(self, wildcards: Any) -> dict[str, str]:
         """Files that further runs of a blade and scene start from: prepared, model, and stress where it is wanted."""
         stamp = paths.fill(paths.INTEGRATION_STAMP, blade=wildcards.blade, scene=wildcards.scene)
-        operator = dict(zip(["stress"], self.stress_operator(wildcards), strict=False))
-        return {"prepared": stamp, "model": self.contact_model(wildcards), **operator}
+        return {"prepared": stamp, **dict(zip(("model", "stress"), self.models(wildcards), strict=False))}
 
     def reduced_model(self, wildcards: Any) -> str:
         """The reduced model of a blade, with the contact nodes of a scene."""
@@ -106,11 +101,6 @@ class Sweep:
         return self.settings.scenes[wildcards.scene].stress_history_speeds if "stress" in self.results(wildcards) else ()
 
     @property
-    def kept(self) -> dict[str, int]:
-        """How much of the spectrum and of the wear a simulation keeps."""
-        return self.settings.fidelity.time_integration.kept
-
-    @property
     def kinds(self) -> list[str]:
         """Kinds of datasets that this run ends in."""
         return [kind for kind in KINDS if self.runs_with(kind)]
@@ -122,10 +112,12 @@ class Sweep:
         Blades: all of them; of many those of no family and some designs. Scenes: those of no family, or some designs.
         """
         blades, scenes = list(self.settings.blades), list(self.settings.scenes)
-        plain_blades, designs = _apart(blades, self.settings.designs.family_of)
-        plain_scenes, _ = _apart(scenes, self.settings.scene_designs.family_of)
+        families, scene_families = self.settings.designs.family_of, self.settings.scene_designs.family_of
         if len(blades) > MOST_BLADES_DRAWN:
-            blades = [*_evenly(plain_blades, MOST_BLADES_DRAWN), *_evenly(designs, MOST_DRAWN)]
+            designs = [blade for blade in blades if blade in families]
+            blades = _evenly([blade for blade in blades if blade not in families], MOST_BLADES_DRAWN)
+            blades += _evenly(designs, MOST_DRAWN)
+        plain_scenes = [scene for scene in scenes if scene not in scene_families]
         return {"blade": blades, "scene": plain_scenes or _evenly(scenes, MOST_DRAWN)}
 
     def drawn_runs(self, kind: str) -> list[tuple[str, str]]:
@@ -138,10 +130,46 @@ class Sweep:
         pairs = [(blade, scene) for blade in self.settings.blades for scene in self.settings.scenes]
         return [pair for pair in pairs if kind == KINDS[0] or kind in self.settings.results_of(*pair)]
 
+    def task(self, wildcards: Any) -> str:
+        """Parameters of one simulation, as JSON text."""
+        results = tuple(result for result in self.results(wildcards) if result in OF_RUNS)
+        choice = self.settings.integration_choice(wildcards.blade, wildcards.scene, float(wildcards.speed))
+        kept = tuple(self.settings.fidelity.time_integration.kept.items())
+        return _task(self.settings.scenes[wildcards.scene].scene, choice, results, kept)
 
-def _apart(names: list[str], family_of: Mapping[str, str]) -> tuple[list[str], list[str]]:
-    """Names of no family, and those of designs."""
-    return [name for name in names if name not in family_of], [name for name in names if name in family_of]
+    def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
+        """Numbers of the time integration at the highest speed of the basis."""
+        highest = self.settings.structure.maximum_speed_rad_s
+        return to_plain(self.settings.integration_choice(wildcards.blade, wildcards.scene, highest))
+
+    def plain_scene(self, wildcards: Any) -> dict[str, Any]:
+        """The scene: what the blade meets."""
+        return to_plain(self.settings.scenes[wildcards.scene].scene)
+
+    def first_rounds(self, wildcards: Any) -> list[str]:
+        """First rounds of the runs in one dataset, of all without a kind.
+
+        They are asked for beside the responses: a response that is there is not planned anew for a round that is not.
+        """
+        pairs = self.runs_with(getattr(wildcards, "kind", KINDS[0]))
+        adaptive = [(blade, scene) for blade, scene in pairs if self.settings.speed_plans[blade, scene].refined]
+        return [paths.fill(paths.ROUND, blade=blade, scene=scene, round=0) for blade, scene in adaptive]
+
+    def round_inputs(self, wildcards: Any) -> dict[str, Any]:
+        """Input files of a round: the Campbell diagram, or the runs that the round before it asked for."""
+        number, where = int(wildcards.round), {"blade": wildcards.blade, "scene": wildcards.scene}
+        if number == 0:
+            return {"campbell": paths.fill(paths.CAMPBELL, **where)}
+        files = paths.speed_files(wildcards, self.new_speeds(wildcards, number - 1))
+        return {"before": paths.fill(paths.ROUND, **where, round=number - 1), "speeds": files}
+
+    def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
+        """Criterion for halving intervals of speeds of a scene, as fields of RefinementChoice."""
+        settings = self.settings
+        refinement = settings.config.refinement.scene_refinement(settings.scenes[wildcards.scene].scene)
+        prominence = settings.config.interactions.prominence
+        windows = tuple(si_form(Window, window) for window in refinement.windows)
+        return to_plain(si_form(RefinementChoice, refinement, windows=windows, prominence=prominence))
 
 
 def _evenly(names: list[str], most: int) -> list[str]:
@@ -174,97 +202,7 @@ def _all_of(plan: SpeedPlan) -> frozenset[float]:
     return frozenset(plan.every_speed())
 
 
-@dataclass(frozen=True)
-class Simulations:
-    """Parameters of each simulation of a sweep; methods with `wildcards` as of Sweep."""
-
-    sweep: Sweep
-
-    def task(self, wildcards: Any) -> str:
-        """Parameters of one simulation, as JSON text."""
-        results = tuple(result for result in self.sweep.results(wildcards) if result in OF_RUNS)
-        choice = self._choice(wildcards, float(wildcards.speed))
-        return _task(self.sweep.settings.scenes[wildcards.scene].scene, choice, results, tuple(self.sweep.kept.items()))
-
-    def job(self, wildcards: Any) -> dict[str, str]:
-        """Speed and task of a simulation: one parameter, as Snakemake takes a millisecond to ask for each."""
-        return {"speed": wildcards.speed, "task": self.task(wildcards)}
-
-    def _choice(self, wildcards: Any, speed: float) -> IntegrationChoice:
-        """Numbers of the time integration at a speed (rad/s)."""
-        return self.sweep.settings.integration_choice(wildcards.blade, wildcards.scene, speed)
-
-    def choice_of_scene(self, wildcards: Any) -> dict[str, Any]:
-        """Numbers of the time integration at the highest speed of the basis."""
-        return to_plain(self._choice(wildcards, self.sweep.settings.structure.maximum_speed_rad_s))
-
-    def plain_scene(self, wildcards: Any) -> dict[str, Any]:
-        """The scene: what the blade meets."""
-        return to_plain(self.sweep.settings.scenes[wildcards.scene].scene)
-
-    def priority(self, wildcards: Any) -> float:
-        """Priority of a blade's simulations, above 0 and up to 1: results are to be complete one blade after another."""
-        blades = list(self.sweep.settings.blades)
-        return 1 - blades.index(wildcards.blade) / len(blades)
-
-
 @cache
 def _task(scene: Scene, choice: IntegrationChoice, results: tuple[str, ...], kept: tuple[tuple[str, int], ...]) -> str:
     """Text of a task, made and kept once for the speeds that have the same."""
     return json.dumps({"scene": to_plain(scene), "choice": to_plain(choice), "results": results, "kept": dict(kept)})
-
-
-@dataclass(frozen=True)
-class Rounds:
-    """Plan of the rounds that the adaptive speeds of a sweep ask for; methods with `wildcards` as of Sweep."""
-
-    sweep: Sweep
-
-    def first_rounds(self, wildcards: Any) -> list[str]:
-        """First rounds of the runs in one dataset, of all without a kind.
-
-        They are asked for beside the responses: a response that is there is not planned anew for a round that is not.
-        """
-        pairs = self.sweep.runs_with(getattr(wildcards, "kind", KINDS[0]))
-        adaptive = [(blade, scene) for blade, scene in pairs if self.sweep.settings.speed_plans[blade, scene].refined]
-        return [paths.fill(paths.ROUND, blade=blade, scene=scene, round=0) for blade, scene in adaptive]
-
-    def round_inputs(self, wildcards: Any) -> dict[str, Any]:
-        """Input files of a round: the Campbell diagram, or the runs that the round before it asked for."""
-        number, where = int(wildcards.round), {"blade": wildcards.blade, "scene": wildcards.scene}
-        if number == 0:
-            return {"campbell": paths.fill(paths.CAMPBELL, **where)}
-        files = paths.speed_files(wildcards, self.sweep.new_speeds(wildcards, number - 1))
-        return {"before": paths.fill(paths.ROUND, **where, round=number - 1), "speeds": files}
-
-    def refined_plan(self, wildcards: Any) -> dict[str, Any]:
-        """Speeds of one blade and scene, as plain values."""
-        return to_plain(self.sweep.speed_plan(wildcards))
-
-    def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
-        """Criterion for halving intervals of speeds of a scene, as fields of RefinementChoice."""
-        settings = self.sweep.settings
-        refinement = settings.config.refinement.scene_refinement(settings.scenes[wildcards.scene].scene)
-        prominence = settings.config.interactions.prominence
-        windows = tuple(si_form(Window, window) for window in refinement.windows)
-        return to_plain(si_form(RefinementChoice, refinement, windows=windows, prominence=prominence))
-
-
-@dataclass(frozen=True)
-class Datasets:
-    """Plan of what is joined of the runs of a sweep; methods with `wildcards` as of Sweep."""
-
-    sweep: Sweep
-
-    def runs(self, wildcards: Any) -> list[tuple[str, str]]:
-        """Pairs of blade and scene in one dataset."""
-        return self.sweep.runs_with(wildcards.kind)
-
-    def responses(self, wildcards: Any) -> list[str]:
-        """Responses that one dataset is joined of."""
-        return [paths.fill(paths.RESPONSE, blade=blade, scene=scene) for blade, scene in self.runs(wildcards)]
-
-    @property
-    def casings(self) -> dict[str, Any]:
-        """The casing of each scene with a flexible one, as plain values."""
-        return {name: to_plain(casing) for name, casing in elastic_casings(self.sweep.settings).items()}

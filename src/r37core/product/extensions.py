@@ -4,7 +4,7 @@ from importlib import import_module
 from itertools import chain
 
 from r37core.config import Settings
-from r37core.plans.extension import Extension, Sampling
+from r37core.plans.extension import Extension
 from r37core.plans.extent import Pair
 
 FOLDERS = (
@@ -34,11 +34,4 @@ EXTENSIONS: tuple[Extension, ...] = tuple(chain.from_iterable(map(_declared, FOL
 
 def simulations_of_members(settings: Settings) -> dict[Pair, int]:
     """Largest number of simulations of members, by blade and scene."""
-    sampling = sampling_of(settings)
-    return dict(sampling.simulations(settings)) if sampling else {}
-
-
-def sampling_of(settings: Settings) -> Sampling | None:
-    """Sampling of the extension whose members this run has, if any. Tables have ranges of one sample."""
-    several = (extension.sampling for extension in EXTENSIONS if extension.sampling)
-    return next((sampling for sampling in several if sampling.simulations(settings)), None)
+    return {pair: number for extension in EXTENSIONS for pair, number in extension.members(settings).items()}

@@ -1,10 +1,8 @@
 """Files that the rule all_blades makes where the configuration asks for it, and what extensions add to it and the explorer."""
 
-from typing import Literal
-
 from r37core.config.remarks import elastic_casings
 from r37core.figures.declared import FIGURES
-from r37core.plans.extension import Panel
+from r37core.plans.extension import Offer, Panel
 from r37core.plans.paths import Wildcards, filled
 from r37core.plans.sweep_plan import KINDS, Sweep
 
@@ -44,7 +42,7 @@ def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
     return targets
 
 
-def offered(what: Literal["motions", "run_ups", "verdict"], sweep: Sweep) -> dict[str, str]:
+def offered(what: Offer, sweep: Sweep) -> dict[str, str]:
     """File that an extension offers to other rules under that name, as the input of that name; none without one."""
     offering = ((extension, extension.offers[what]) for extension in EXTENSIONS if what in extension.offers)
     files = [file for extension, file in offering if extension.targets(sweep)[file]]

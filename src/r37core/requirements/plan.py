@@ -17,7 +17,7 @@ from r37core.plans import paths
 from r37core.plans.extension import Extension, Panel
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
-from r37core.plans.sweep_plan import Simulations, Sweep
+from r37core.plans.sweep_plan import Sweep
 from r37core.rom.naming import mode_names
 from r37core.rom.reduction_choice import POINTS
 
@@ -107,14 +107,14 @@ class Judged:
 
     def looks(self, made: Provenance) -> Stage:
         """The stage of the further runs of a blade and scene."""
-        simulations, settings = Simulations(self.sweep), self.sweep.settings
+        settings = self.sweep.settings
         operating = operating_range(settings)
         params = {
-            "scene": simulations.plain_scene,
+            "scene": self.sweep.plain_scene,
             # of a run from rest: those of the pipeline
             "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
             "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in RESULTS],
-            "kept": self.sweep.kept,
+            "kept": settings.fidelity.time_integration.kept,
             "yield_stress": self.sweep.yield_stress,
             "strengths": self.sweep.strengths,
             # nothing else moves a run

@@ -124,22 +124,16 @@ def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
         worst_run = dataset.isel(speed=worst)
         row |= {"worst_speed_rad_s": float(speeds[worst]), "leader_by_motion": int(worst_run["leader"])}
         if "blade_max_von_mises" in dataset:
-            row["leader_by_stress"] = _number_of_largest(worst_run["blade_max_von_mises"])
+            row["leader_by_stress"] = float(worst_run["blade_max_von_mises"].idxmax())
         shares = worst_run["nodal_diameter_share"]
         row |= {
             "leader_motion_m": float(worst_run["blade_rms"].max()),
             "median_motion_m": float(worst_run["blade_rms"].median()),
-            "nodal_diameter": _number_of_largest(shares),
+            "nodal_diameter": float(shares.idxmax()),
             "nodal_diameter_share": float(shares.max()),
         }
         rows.append(row)
     return pd.DataFrame(rows)
-
-
-def _number_of_largest(values: xr.DataArray) -> float:
-    """Coordinate of the largest of values along one dimension; NaN where all are NaN, as of a run that diverged."""
-    numbers = values[values.dims[0]].values
-    return float(numbers[np.nanargmax(values)]) if values.notnull().any() else np.nan
 
 
 def closing(results: Path) -> str:

@@ -27,7 +27,8 @@ def draw_rotor(rotor: xr.Dataset, title: str) -> Figure:
     _draw_worst(panels[0, 1], rotor)
     worst = rotor.isel(speed=int(np.nan_to_num(rotor["blade_rms"].max("blade_number").values).argmax()))
     _draw_growth(panels[1, 0], worst)
-    _draw_waves(panels[1, 1], worst)
+    panels[1, 1].bar(worst["nodal_diameter"], 100.0 * worst["nodal_diameter_share"].fillna(0.0), width=0.8)
+    panels[1, 1].set(xlabel=f"nodal diameters at {float(worst['speed']):g} rad/s", ylabel="share of the motion (%)")
     return figure
 
 
@@ -84,10 +85,3 @@ def _draw_growth(axes: Axes, run: xr.Dataset) -> None:
     axes.set_xlabel(f"revolution at {float(run['speed']):g} rad/s")
     axes.set_ylabel("largest displacement (mm)")
     axes.legend(fontsize=6)
-
-
-def _draw_waves(axes: Axes, run: xr.Dataset) -> None:
-    """Shares of the nodal diameters of the blades' motion."""
-    axes.bar(run["nodal_diameter"], 100.0 * run["nodal_diameter_share"].fillna(0.0), width=0.8)
-    axes.set_xlabel(f"nodal diameters at {float(run['speed']):g} rad/s")
-    axes.set_ylabel("share of the motion (%)")

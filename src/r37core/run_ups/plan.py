@@ -1,6 +1,5 @@
 """The plan of the run-ups: of which blades and scenes, from what, and which files are made of them."""
 
-import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -17,7 +16,7 @@ from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
-from r37core.plans.sweep_plan import Simulations, Sweep
+from r37core.plans.sweep_plan import Sweep
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import RunUpChoice, RunUpError, check_highest
@@ -47,16 +46,12 @@ class RunUps:
     def choices(self) -> dict[tuple[str, str], dict[str, RunUpChoice]]:
         """Run-ups of each blade and scene, by name."""
         settings = self.sweep.settings
-        pair_choices: dict[tuple[str, str], dict[str, RunUpChoice]] = {
-            (blade, scene): {} for blade in settings.blade_names for scene in settings.scene_names
-        }
+        choices: dict[tuple[str, str], dict[str, RunUpChoice]] = {pair: {} for pair in settings.speed_plans}
         for name, entry in settings.section(SECTION).items():
             blades, scenes = blades_named(settings, entry.blades), scenes_named(settings, entry.scenes)
-            choices = {scene: entry.choice(settings.scenes[scene].revolutions) for scene in scenes if scene in settings.scenes}
-            for blade, (scene, choice) in product(blades, choices.items()):
-                if (blade, scene) in pair_choices:
-                    pair_choices[blade, scene][name] = choice
-        return pair_choices
+            for blade, scene in set(product(blades, scenes)) & set(choices):
+                choices[blade, scene][name] = entry.choice(settings.scenes[scene].revolutions)
+        return choices
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
         """Files that a run-up starts from, with the stress operator where its stress is wanted."""
@@ -71,9 +66,9 @@ class RunUps:
             "run_ups.steps.record",
             {
                 "name": lambda wildcards: wildcards.run_up,
-                "scene": Simulations(self.sweep).plain_scene,
-                "choice": self.choice,
-                "run_up": self.run_up,
+                "scene": self.sweep.plain_scene,
+                "choice": lambda run: to_plain(self.integration_choice(run.blade, run.scene, run.run_up)),
+                "run_up": lambda wildcards: to_plain(self._choice(wildcards)),
                 "results": lambda wildcards: list(self.sweep.results(wildcards)),
                 "highest_order": self.sweep.settings.fidelity.time_integration.spectrum_highest_order,
                 "yield_stress": self.sweep.yield_stress,
@@ -82,16 +77,8 @@ class RunUps:
             },
         )
 
-    def run_up(self, wildcards: Any) -> dict[str, Any]:
-        """Speeds and revolutions, as plain values."""
-        return to_plain(self._choice(wildcards))
-
     def _choice(self, wildcards: Any) -> RunUpChoice:
         return self.choices[wildcards.blade, wildcards.scene][wildcards.run_up]
-
-    def choice(self, wildcards: Any) -> dict[str, Any]:
-        """Numbers of the time integration, as plain values."""
-        return to_plain(self.integration_choice(wildcards.blade, wildcards.scene, wildcards.run_up))
 
     def integration_choice(self, blade: str, scene: str, name: str) -> IntegrationChoice:
         """Numbers of the time integration of a run-up: those of the sweep, with stress in every revolution."""
@@ -118,7 +105,7 @@ def remarks(settings: Settings) -> list[str]:
 
 
 def run_ups_can_be_done(settings: Settings) -> None:
-    """Run-ups name blades, scenes and orders that are there, wear a lining, and change little from sample to sample."""
+    """Run-ups name blades, scenes and orders that are there, and can be done in them at these speeds."""
     refusals = ConfigRefusals()
     for name, entry in settings.section(SECTION).items():
         refusals.of(_can_be_done, settings, name, entry)
@@ -128,64 +115,42 @@ def run_ups_can_be_done(settings: Settings) -> None:
 def _can_be_done(settings: Settings, name: str, entry: RunUpEntry) -> None:
     path: KeyPath = ("run_ups", name)
     names_are_there(settings, path, entry)
-    per_revolution, document = settings.fidelity.time_integration.samples_per_revolution, settings.documents.config
-    choice, highest = entry.choice(1), settings.structure.maximum_speed_rad_s
+    time, document = settings.fidelity.time_integration, settings.documents.config
+    choice, highest = entry.choice(time.revolutions), settings.structure.maximum_speed_rad_s
     try:
         # of a crossing what holds wherever it lies: the higher, the more revolutions
-        choice.run_up(per_revolution, highest if entry.crossing else None)
+        run_up = choice.run_up(time.samples_per_revolution, highest if entry.crossing else None)
         if entry.crossing is None:
             check_highest(max(choice.start, choice.stop), highest)
     except RunUpError as error:
         raise document.error((*path, entry.key_of_length), str(error)) from None
     if entry.crossing:
         engine_order_is_known(settings, (*path, "crossing", "engine_order"), entry.crossing.engine_order)
+    if settings.structure.coriolis:
+        allowed = "none; run-ups do not carry the Coriolis force yet"
+        raise document.refusal(path, "a run-up with structure.coriolis: true", allowed)
     for scene in scenes_named(settings, entry.scenes):
         if entry.lining == "worn" and settings.scene_designs.entries[scene].lining is None:
             lining = f"worn in the scene '{scene}', which has no lining"
             raise document.refusal((*path, "lining"), lining, "new, or scenes with a lining")
-
-
-def slowest_speeds_can_be_run(settings: Settings) -> None:
-    """Neither the run-up nor a revolution at its slowest speed, whose steps all have, has too many steps."""
-    for name, entry in settings.section(SECTION).items():
-        if entry.crossing is not None:
-            continue
-        choice = entry.choice(settings.fidelity.time_integration.revolutions)
-        squares, changing = abs(choice.stop**2 - choice.start**2), choice.revolutions or 0.0
-        if choice.rate is not None:
-            changing = squares / (4.0 * math.pi * choice.rate)
-        for scene in settings.scenes:
-            revolutions = choice.before + changing + choice.after
-            run = length_of_run(settings, scene, min(choice.start, choice.stop), revolutions)
-            slow_run_can_be_done(run, settings, ("run_ups", name))
-
-
-def no_rotors(settings: Settings) -> None:
-    """Run-ups are wanted of single blades."""
-    rotors = [name for name, chosen in settings.scenes.items() if chosen.scene.rotor is not None]
-    for name, entry in settings.section(SECTION).items():
-        for scene in [scene for scene in scenes_named(settings, entry.scenes) if scene in rotors]:
-            raise settings.documents.config.refusal(
-                ("run_ups", name, "scenes"),
-                f"'{scene}', which has a rotor",
-                "scenes of a single blade; the speed of a rotor does not change while it runs",
-            )
-
-
-def no_coriolis(settings: Settings) -> None:
-    """The Coriolis force is wanted of runs at constant speed alone."""
-    for name in settings.section(SECTION) if settings.structure.coriolis else ():
-        raise settings.documents.config.refusal(
-            ("run_ups", name), "a run-up with structure.coriolis: true", "none; run-ups do not carry the Coriolis force yet"
-        )
+        if scene in settings.scenes and settings.scenes[scene].scene.rotor is not None:
+            allowed = "scenes of a single blade; the speed of a rotor does not change while it runs"
+            raise document.refusal((*path, "scenes"), f"'{scene}', which has a rotor", allowed)
+    # neither the run-up nor a revolution at its slowest speed, whose steps all have, may have too many steps
+    for scene in settings.scenes if entry.crossing is None else ():
+        revolutions = choice.before + run_up.revolutions + choice.after
+        run = length_of_run(settings, scene, min(choice.start, choice.stop), revolutions)
+        slow_run_can_be_done(run, settings, path)
 
 
 EXTENSION = Extension(
     name="run_ups",
     section=SECTION,
-    checks=(run_ups_can_be_done, slowest_speeds_can_be_run, no_coriolis, no_rotors),
-    simulated=lambda sweep: {RUN_UP: RunUps(sweep).files},
-    targets=lambda sweep: dict.fromkeys((DATASET, TABLE, RATES), [{}] if _pairs(sweep) else []),
+    checks=(run_ups_can_be_done,),
+    targets=lambda sweep: {
+        RUN_UP: RunUps(sweep).files,
+        **dict.fromkeys((DATASET, TABLE, RATES), [{}] if _pairs(sweep) else []),
+    },
     offers={"run_ups": DATASET},
     remarks=remarks,
     figures=(

@@ -37,7 +37,8 @@ def record_run_up(
     `time` (s, at its end), shape (revolutions,); `rms` and `maximum` (m), shape (revolutions, 2, 3): TIP_POINTS by DIRECTIONS.
     `amplitude` (m), shape (revolutions, 2, orders): whole engine orders of the leading edge's normal and tangential motion;
     `max_von_mises` (Pa) and `max_wear` (m, by the end of the constant-speed segment that the revolution ends in), shape
-    (revolutions,). With fatigue: numbers of _Cycles, by these `strengths`, infinite damage of a run that diverges. Such a run
+    (revolutions,). With fatigue: `largest_stress_range` (Pa) and `miner_sum`, the share of the life that is used, by these
+    `strengths`, infinite of a run that diverges. Such a run
     has the revolutions before; one that diverges while it wears the lining is that of the lining as new.
     """
     orders, run_up, choice = highest_order if "spectrum" in results else None, integration.run_up, integration.choice
@@ -48,12 +49,15 @@ def record_run_up(
         if repeats:
             integration.start(integration.state.wear)
         revolutions, reached = _Revolutions(integration.model, choice, orders, stress, "static_stress" in results), 0
-        cycles = _Cycles(integration.model, stress) if stress is not None and "fatigue" in results else None
+        # numbers that the stress of all nodes is made of, rotation's in it, at all instants
+        cycles: list[np.ndarray] = []
         for segments in integration.segments():
             diverged, reached = segments.diverged, reached + len(segments.samples)
             revolutions.add(segments)
-            if cycles is not None:
-                cycles.add(segments)
+            if stress is not None and "fatigue" in results:
+                rotation = rotation_amplitudes(integration.model.rotation_stiffening, segments.snapshot_speeds)
+                shapes = integration.model.to_reduced @ segments.shapes
+                cycles.append(operator_numbers(stress, segments.snapshots, shapes, rotation))
         if diverged:
             break
     totals = integration.state.totals
@@ -70,10 +74,12 @@ def record_run_up(
         "worn": np.array(int(run_up.worn)),
         "yield_stress": np.array(yield_stress),
     }
-    if cycles is not None:
-        unknown = {"largest_stress_range": np.array(np.nan), "miner_sum": np.array(np.inf if strengths.have_line else np.nan)}
-        first = run_up.before * choice.snapshots_per_revolution
-        result |= unknown if diverged else cycles.numbers(first, strengths)
+    if stress is not None and cycles:
+        largest, damage = np.nan, np.inf if strengths.have_line else np.nan
+        if not diverged:
+            after = np.concatenate(cycles)[run_up.before * choice.snapshots_per_revolution :]
+            largest, damage = largest_damage(stress, after, strengths)
+        result |= {"largest_stress_range": np.array(largest), "miner_sum": np.array(damage)}
     if "wear" not in results:
         del result["max_wear"]
     if "energy" in results:
@@ -152,26 +158,6 @@ class _Revolutions:
         if self.stress is not None:
             reduced["max_von_mises"] = largest_stress(self.stress, arrays["coordinates"], arrays["bound"])
         self.reduced.append(reduced)
-
-
-@dataclass
-class _Cycles:
-    """Stress of all nodes, rotation's in it, at all instants of a run-up; `stress`: their operator."""
-
-    model: ContactModel
-    stress: StressOperator
-    parts: list[np.ndarray] = field(default_factory=list)
-
-    def add(self, segments: IntegratedSegments) -> None:
-        """Add the numbers that the stress of some segments is made of."""
-        rotation = rotation_amplitudes(self.model.rotation_stiffening, segments.snapshot_speeds)
-        shapes = self.model.to_reduced @ segments.shapes
-        self.parts.append(operator_numbers(self.stress, segments.snapshots, shapes, rotation))
-
-    def numbers(self, first: int, strengths: Strengths) -> dict[str, np.ndarray]:
-        """`largest_stress_range` (Pa) and `miner_sum`, the share of the life that is used, from the instant `first` on."""
-        largest, damage = largest_damage(self.stress, np.concatenate(self.parts)[first:], strengths)
-        return {"largest_stress_range": np.array(largest), "miner_sum": np.array(damage)}
 
 
 def largest_stress(stress: StressOperator, coordinates: np.ndarray, bound: np.ndarray) -> np.ndarray:

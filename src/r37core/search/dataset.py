@@ -1,4 +1,4 @@
-"""search.nc, search.csv and blades.yaml of the best designs: what a search writes."""
+"""search.nc, search.csv and blades.yaml of the best designs: what a search writes, with predictions between its designs."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import scipy
 import xarray as xr
 
 from r37core.base.dataset_file import about, read_dataset
@@ -16,40 +17,40 @@ from r37core.base.varied_number import VariedNumber, with_value
 from r37core.base.yaml_file import yaml_text
 from r37core.results.closing import counted
 
+from .gaussian_processes import Fit, fit
 from .plan import BEST, DATASET
 from .problem import (
+    FEWEST_DONE,
     START,
     UNKNOWN,
     Design,
-    Evaluated,
     SearchChoice,
+    SearchVariable,
     best_first,
     not_dominated,
-    number,
+    shares,
 )
-from .rounds import SearchRound
-from .surrogate import sensitivity, slices
 
 POINTS = 41
 """Number of points of a slice."""
 
+_SAMPLE = 1024
 
-def search_dataset(last: SearchRound, choice: SearchChoice) -> xr.Dataset:
-    """All designs of a search, the start first, from its last round."""
-    designs = {START: choice.start_design(last.start), **last.tried}
-    evaluated = {name: design.evaluated(name, choice, last.start) for name, design in designs.items()}
-    known = [each for each in evaluated.values() if not np.isnan(each.values).any()]
-    tried = [each for each in evaluated.values() if each.name != START]
-    order, front = _best(tried, evaluated[START]), {each.name for each in not_dominated(list(evaluated.values()))}
-    dataset = xr.Dataset(coords=_coordinates(list(designs), choice))
-    dataset = dataset.assign(_design_variables(designs, evaluated, choice)).assign(_bound_variables(choice, last))
-    dataset["not_dominated"] = ("design", np.array([name in front for name in designs], "i1"), _NOT_DOMINATED)
-    places = [order.index(name) + 1 if name in order else 0 for name in designs]
+
+def search_dataset(tried: Mapping[str, Design], choice: SearchChoice) -> xr.Dataset:
+    """All designs of a search that were `tried`, the start first."""
+    designs = list(tried.values())
+    known = [design for design in designs if not np.isnan(design.values).any()]
+    order, front = _best(designs[1:], tried[START]), {design.name for design in not_dominated(designs)}
+    dataset = xr.Dataset(coords=_coordinates(list(tried), choice))
+    dataset = dataset.assign(_design_variables(designs, choice)).assign(_bound_variables(choice, tried[START]))
+    dataset["not_dominated"] = ("design", np.array([name in front for name in tried], "i1"), _NOT_DOMINATED)
+    places = [order.index(name) + 1 if name in order else 0 for name in tried]
     dataset["order"] = ("design", np.array(places, "i4"), _ORDER)
-    return dataset.assign(_surrogate_variables(known, choice, last.tried[order[0]].values)) if order else dataset
+    return dataset.assign(_surrogate_variables(known, choice, tried[order[0]].values)) if order else dataset
 
 
-def _best(tried: Sequence[Evaluated], start: Evaluated) -> list[str]:
+def _best(tried: Sequence[Design], start: Design) -> list[str]:
     """Names of the feasible designs, the best first: those that no other beats, then the others.
 
     Both are in the order of the sum of their objectives, each as a share of the start's, so that what the start has least of
@@ -80,26 +81,29 @@ def _coordinates(designs: list[str], choice: SearchChoice) -> dict[str, object]:
     }
 
 
-def _design_variables(designs: dict[str, Design], evaluated: dict[str, Evaluated], choice: SearchChoice) -> dict[str, object]:
-    def quantities(names: Sequence[str], place: int) -> np.ndarray:
-        rows = [[number(design.quantities.get(name, UNKNOWN)[place]) for name in names] for design in designs.values()]
-        return np.array(rows, float).reshape(len(designs), len(names))
-
-    feasible = [each.is_feasible for each in evaluated.values()]
-    objectives, constraints = list(choice.objectives), list(choice.constraints)
+def _design_variables(designs: Sequence[Design], choice: SearchChoice) -> dict[str, object]:
+    objectives, scatters, feasible = (
+        [getattr(each, name) for each in designs] for name in ("objectives", "scatters", "is_feasible")
+    )
+    constraints = [[design.quantities.get(name, UNKNOWN)[0] for name in choice.constraints] for design in designs]
+    over = ("design", "objective")
     return {
-        "value": (("design", "variable"), [design.values for design in designs.values()], about("1", "in the unit of the key")),
-        "round": ("design", [each.round for each in designs.values()], about("1", "that proposed the design; -1 of the start")),
-        "refused": ("design", [design.refused or "" for design in designs.values()], {"long_name": "why it cannot be built"}),
+        "value": (("design", "variable"), [design.values for design in designs], about("1", "in the unit of the key")),
+        "round": ("design", [design.round for design in designs], about("1", "that proposed the design; -1 of the start")),
+        "refused": ("design", [design.refused for design in designs], {"long_name": "why it cannot be built"}),
         "feasible": ("design", np.array(feasible, "i1"), about("1", "whether it can be built and keeps all constraints")),
-        "objective_value": (("design", "objective"), quantities(objectives, 0), about("1", "in the unit of the objective")),
-        "objective_scatter": (("design", "objective"), quantities(objectives, 1), about("1", "standard deviation by chance")),
-        "constraint_value": (("design", "constraint"), quantities(constraints, 0), about("1", "in the unit of the constraint")),
+        "objective_value": (over, objectives, about("1", "in the unit of the objective")),
+        "objective_scatter": (over, scatters, about("1", "standard deviation by chance")),
+        "constraint_value": (
+            ("design", "constraint"),
+            np.array(constraints, float),
+            about("1", "in the unit of the constraint"),
+        ),
     }
 
 
-def _bound_variables(choice: SearchChoice, last: SearchRound) -> dict[str, object]:
-    bounds = [constraint.bounds(number(last.start[name][0])) for name, constraint in choice.constraints.items()]
+def _bound_variables(choice: SearchChoice, start: Design) -> dict[str, object]:
+    bounds = [constraint.bounds(start.quantities[name][0]) for name, constraint in choice.constraints.items()]
     lowest, highest = np.array(bounds, float).reshape(-1, 2).T
     return {
         "lowest": ("variable", [variable.lowest for variable in choice.variables], about("1", "bound of the variable")),
@@ -109,7 +113,7 @@ def _bound_variables(choice: SearchChoice, last: SearchRound) -> dict[str, objec
     }
 
 
-def _surrogate_variables(known: list[Evaluated], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
+def _surrogate_variables(known: list[Design], choice: SearchChoice, at: Sequence[float]) -> dict[str, object]:
     """Slices through the best design, and what each variable does."""
     values, mean, deviation = slices(choice.variables, known, at, POINTS, choice.seed)
     first, total, predicted = sensitivity(choice.variables, known, choice.seed)
@@ -122,6 +126,69 @@ def _surrogate_variables(known: list[Evaluated], choice: SearchChoice, at: Seque
         "sensitivity_total": (axes, total, about("1", "share in which the variable has a part")),
         "surrogate_q2": ("objective", predicted, about("1", "share of the variance that it predicts, each left out")),
     }
+
+
+def slices(
+    variables: Sequence[SearchVariable], evaluated: Sequence[Design], at: Sequence[float], points: int, seed: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Surrogate of each objective at `points` values of each variable, the others as in the design `at`.
+
+    These values [variable, point], its mean and its standard deviation [objective, variable, point], in units of the
+    objectives; NaN where too few designs could be built.
+    """
+    along = np.linspace(0.0, 1.0, points)
+    places = np.tile(shares(variables, [at])[0], (len(variables), points, 1))
+    for number in range(len(variables)):
+        places[number, :, number] = along
+    bands = np.full((2, len(evaluated[0].objectives), len(variables), points), np.nan)
+    for number, process in enumerate(objective_fits(variables, evaluated, seed)):
+        bands[:, number] = np.reshape(process.at(places.reshape(-1, len(variables))), (2, len(variables), points))
+    values = [variable.lowest + along * (variable.highest - variable.lowest) for variable in variables]
+    return np.array(values), *bands
+
+
+def sensitivity(
+    variables: Sequence[SearchVariable], evaluated: Sequence[Design], seed: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """First-order and total Sobol' indices [objective, variable] of the surrogates, the variables uniform over their ranges.
+
+    The third [objective] is the share of the variance that a surrogate predicts at designs it was not told of, 1 at best, 0
+    or less where the indices mean nothing: designs are left out one at a time with the hyperparameters of all. NaN where all
+    designs have the same objective, or too few could be built.
+    Source: Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270, in scipy.stats.sobol_indices; Q2 as in Marrel et al.
+    (2009), Reliab. Eng. Syst. Saf. 94, 742-751.
+    """
+    objectives = len(evaluated[0].objectives)
+    first, total = np.full((2, objectives, len(variables)), np.nan)
+    predicted = np.full(objectives, np.nan)
+    for number, process in enumerate(objective_fits(variables, evaluated, seed)):
+        if process.process is None:
+            continue
+        first[number], total[number] = _indices(process, len(variables), seed)
+        misses = process.numbers - [process.without(index) for index in range(len(process.numbers))]
+        predicted[number] = 1.0 - np.mean(misses**2) / np.var(process.numbers)
+    return first, total, predicted
+
+
+def objective_fits(variables: Sequence[SearchVariable], evaluated: Sequence[Design], seed: int) -> list[Fit]:
+    """The process of each objective over shares of the ranges; none where fewer than `FEWEST_DONE` designs could be built."""
+    known = sorted((design for design in evaluated if design.is_done), key=lambda design: (design.values, design.name))
+    if len(known) < FEWEST_DONE:
+        return []
+    points = shares(variables, [design.values for design in known])
+    objectives = np.array([design.objectives for design in known]).T
+    scatters = np.array([design.scatters for design in known]).T
+    return [fit(points, *each, seed) for each in zip(objectives, scatters, strict=True)]
+
+
+def _indices(process: Fit, variables: int, seed: int) -> np.ndarray:
+    """First-order and total index of each variable [2, variable]."""
+    if variables == 1:
+        # all of the variance is of the one variable, for which scipy has no indices
+        return np.ones((2, 1))
+    dists = [scipy.stats.uniform()] * variables
+    sobol = scipy.stats.sobol_indices(func=lambda points: process.at(points.T)[0], n=_SAMPLE, dists=dists, rng=seed)
+    return np.array([sobol.first_order, sobol.total_order])
 
 
 def search_table(search: xr.Dataset) -> pd.DataFrame:

@@ -1,11 +1,15 @@
 """Designs of a search: the blade that it starts at and its scenes, with other values of some keys."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
+
+from pydantic import BaseModel
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber, value_at, values_of
 from r37core.blade.definition import Shape
+from r37core.blade.profile_tables import stacking_table_rows
 from r37core.config import BladeSettings, Settings, operating_range, plain, varied_settings
 from r37core.config.blades import BladeEntry, blade_settings
 from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
@@ -49,11 +53,6 @@ class SearchDesigns:
         assert isinstance(entry, BladeEntry | SectionsEntry)
         return entry
 
-    @property
-    def variables(self) -> tuple[SearchVariable, ...]:
-        """Variables with their bounds, in the units of the keys."""
-        return tuple(SearchVariable(key, *bounds) for key, bounds in self.entry.variables.items())
-
     @cached_property
     def scenes(self) -> tuple[str, ...]:
         """Scenes that the objectives and constraints are of, in the order of the run."""
@@ -64,13 +63,11 @@ class SearchDesigns:
     @property
     def start_values(self) -> list[float | None]:
         """Values of the variables that the start has; None where neither its entry says nor a key that is left out."""
-        return [self._start_value(number) for number in self.numbers]
-
-    def _start_value(self, number: VariedNumber) -> float | None:
-        if number.kind == BLADE:
-            return start_value(self.start, number.key)
-        # all scenes that have it agree
-        return next(iter(self.values_in_scenes(number).values()))
+        # all scenes that have a number agree
+        return [
+            start_value(self.start, number.key) if number.kind == BLADE else next(iter(self.values_in_scenes(number).values()))
+            for number in self.numbers
+        ]
 
     @property
     def numbers(self) -> list[VariedNumber]:
@@ -87,10 +84,25 @@ class SearchDesigns:
         """Numbers of each scene of the search by dotted keys."""
         return {scene: scene_numbers(self.settings.scene_designs.entries[scene]) for scene in self.scenes}
 
-    @property
-    def blade_varies(self) -> bool:
-        """True if a variable is of the blade."""
-        return any(number.kind == BLADE for number in self.numbers)
+    def varied(self, kind: str) -> dict[str, list[str]]:
+        """Entry -> variables of the search that it has: of the start (BLADE), or of each scene of the search (SCENE)."""
+        if kind == BLADE:
+            return {self.entry.blade: [number.name for number in self.numbers if number.kind == BLADE]}
+        return {
+            scene: [number.name for number in self.numbers if scene in self.values_in_scenes(number)] for scene in self.scenes
+        }
+
+    def entries(self, kind: str) -> dict[str, Any]:
+        """Entries that the designs start at, as plain values: of blades the bases first, the start with its table last."""
+        if kind == SCENE:
+            return _written(self.settings.scene_designs.entries, self.scenes)
+        entries, chain = self.settings.designs.entries, [self.entry.blade]
+        while (base := getattr(entries[chain[0]], "base", None)) is not None:
+            chain.insert(0, base)
+        written = _written(entries, chain)
+        if (table := written[chain[-1]].pop("stacking_table", None)) is not None:
+            written[chain[-1]]["sweep_lean"] = stacking_table_rows(self.settings.root / table, chain[-1])
+        return written
 
     def varied_entry(self, name: str, values: Mapping[str, float]) -> BladeEntry | SectionsEntry:
         """The entry with other values of some variables. Raises ConfigError for one that a blade cannot have."""
@@ -103,7 +115,7 @@ class SearchDesigns:
     def blade(self, name: str, values: Sequence[float] | None) -> BladeSettings:
         """A design as a blade, the start without `values`. Raises ConfigError where its shape is impossible."""
         blade, designs = self.entry.blade, self.settings.designs
-        if values is None or not self.blade_varies:
+        if values is None or not any(self.varied(BLADE).values()):
             return self.settings.blades[blade]
         changed = self.varied_entry(name, dict(zip(self.entry.variables, values, strict=True)))
         # the name is that of the start, by which tables of sweep and lean know it
@@ -152,6 +164,11 @@ class SearchDesigns:
         }
 
 
+def _written(entries: Mapping[str, BaseModel], names: Iterable[str]) -> dict[str, Any]:
+    """Entries as their file has them."""
+    return {name: entries[name].model_dump(exclude_none=True, exclude_unset=True) for name in names}
+
+
 def start_value(entry: ShapeKeys, key: str) -> float | None:
     """Value of a dotted key of an entry, for a share or law that is left out one that changes nothing; None without a value."""
     first = key.split(".")[0]
@@ -169,8 +186,8 @@ def choice_of(settings: Settings) -> SearchChoice:
         for name, each in entry.constraints.items()
     }
     objectives = {name: each.quantity(is_flown) for name, each in entry.objectives.items()}
-    start = tuple(designs.start_values)
-    return SearchChoice(designs.variables, objectives, constraints, entry.method, entry.seed, start)
+    variables = tuple(SearchVariable(key, *bounds) for key, bounds in entry.variables.items())
+    return SearchChoice(variables, objectives, constraints, entry.method, entry.seed, tuple(designs.start_values))
 
 
 def designs_of(settings: Settings) -> SearchDesigns:

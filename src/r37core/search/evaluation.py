@@ -13,6 +13,7 @@ import numpy as np
 from r37core.base.dataset_file import read_dataset
 from r37core.base.io import Named, read_json, write_json
 from r37core.base.plain import to_plain
+from r37core.base.varied_number import BLADE
 from r37core.blade.definition import shape_from_plain
 from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.changed_numbers import ImpossibleValueError
@@ -20,6 +21,7 @@ from r37core.config.document import Document
 from r37core.config.settings import judged_region
 from r37core.machine_code.kept import kept_file
 from r37core.plans.provenance import Provenance
+from r37core.results.columns import MINIMISED
 from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
 from r37core.rom.contact_model import read_contact_model
@@ -28,8 +30,8 @@ from r37core.sweep.blade_sweep import CAMPBELL, BladeSweep, SharedSpeeds, blade_
 from r37core.sweep.driver import Driver, RunAll, one_by_one
 from r37core.sweep.recipe import STRUCTURES, Recipe, code_of, recipes, structure_attributes
 
-from .designs import NOMINAL, choice_of, designs_of
-from .problem import START, Value
+from .designs import NOMINAL, SearchDesigns, choice_of, designs_of
+from .problem import START
 from .quantity import DesignStructure, contact_value, static_stress, structure_value
 
 _STRUCTURE = ("geometry", CAMPBELL, "contact_model", "stress_operator")
@@ -82,14 +84,19 @@ class Evaluation:
         return structure_attributes(self.settings, self._blade)
 
     @property
+    def designs(self) -> SearchDesigns:
+        """Designs of the search."""
+        return designs_of(self.settings)
+
+    @property
     def _blade(self) -> str:
-        return designs_of(self.settings).entry.blade
+        return self.designs.entry.blade
 
     @property
     def _structures(self) -> Path:
         return self.folder / STRUCTURES
 
-    def quantities(self, designs: Mapping[str, Sequence[float] | None]) -> list[dict[str, Value] | str]:
+    def quantities(self, designs: Mapping[str, Sequence[float] | None]) -> list[dict[str, Any] | str]:
         """Quantities of designs by the values of their variables (None: the start), or why one cannot be built."""
         self._structures.mkdir(parents=True, exist_ok=True)
         if len(designs) < self.cores:
@@ -101,7 +108,7 @@ class Evaluation:
         """File with the shape of a design."""
         return self.runs(name, values).structure["geometry"].file(self._structures, self._attributes)
 
-    def _quantities(self, name: str, values: Sequence[float] | None, run_all: RunAll) -> dict[str, Value] | str:
+    def _quantities(self, name: str, values: Sequence[float] | None, run_all: RunAll) -> dict[str, Any] | str:
         try:
             runs = self.runs(name, values)
             made_of = [to_plain((runs.structure, runs.scenes, runs.speeds)), to_plain(choice_of(self.settings).quantities)]
@@ -113,7 +120,7 @@ class Evaluation:
 
     def runs(self, name: str, values: Sequence[float] | None) -> DesignRuns:
         """Runs of a design. Raises ConfigError and ImpossibleValueError for one that is impossible."""
-        members, blade = designs_of(self.settings).members(name, values), self._blade
+        members, blade = self.designs.members(name, values), self._blade
         nominal = {scene: several[NOMINAL] for scene, several in members.items()}
         first = next(iter(nominal.values()))
         material = first.blades[blade].material
@@ -137,7 +144,7 @@ class Evaluation:
 
     def _measure(self, name: str, runs: DesignRuns, run_all: RunAll, file: Path) -> None:
         """Build the design, run it, and write its quantities. Raises Refused where it cannot be built."""
-        if name != START and designs_of(self.settings).blade_varies:
+        if name != START and any(self.designs.varied(BLADE).values()):
             self._check_shape(name, runs)
         made = {stage: part.file(self._structures, self._attributes) for stage, part in runs.structure.items()}
         operating, quantities = operating_range(self.settings), choice_of(self.settings).quantities
@@ -162,7 +169,7 @@ class Evaluation:
             ]
         values = {
             name: contact_value(quantity, nominal, members)
-            if quantity.needs_contact
+            if quantity.measure in MINIMISED
             else (structure_value(quantity, structure, highest), 0.0)
             for name, quantity in quantities.items()
         }
@@ -187,8 +194,3 @@ class Evaluation:
                 raise ValueError(f"the stress region ({region.description()}) has no elements")
         except ValueError as error:
             raise Refused(str(error)) from None
-
-
-def start_runs(settings: Settings) -> DesignRuns:
-    """Runs of the start of the search of these settings."""
-    return Evaluation(settings, Path(), one_by_one, 1).runs(START, None)

@@ -82,7 +82,9 @@ def draw_slices(search: xr.Dataset) -> Figure:
             if place % columns:
                 axes.tick_params(labelleft=False)
             else:
-                axes.set_ylabel(objective.label + _quality(search, name))
+                # how much of the designs' variance the surrogate foretells
+                share = float(search["surrogate_q2"].sel(objective=name)) if "surrogate_q2" in search else np.nan
+                axes.set_ylabel(objective.label + (f"\n$Q^2$ {share:.2f}" if np.isfinite(share) else ""))
             if rows_of_one > 1 or number == len(names) - 1:
                 axes.set_xlabel(broken_key(str(key)), fontsize=7)
             else:
@@ -104,20 +106,11 @@ def _objective(search: xr.Dataset, name: str) -> _Objective:
 
 def _title(search: xr.Dataset) -> str:
     """How many designs there are, and how many of them are of use."""
-    designs = search.isel(design=_tried(search))
+    designs = search.isel(design=slice(1, None))
     feasible, refused = int(designs["feasible"].sum()), int(np.sum(designs["refused"].values != ""))
     built = f", {refused} cannot be built" if refused else ""
     constraints = f", {feasible} keep all constraints" if search.sizes["constraint"] else ""
     return f"search: {designs.sizes['design']} designs{constraints}{built}"
-
-
-def _is_start(search: xr.Dataset) -> np.ndarray:
-    return search["design"].values == START
-
-
-def _tried(search: xr.Dataset) -> np.ndarray:
-    """Places of all designs but the start."""
-    return np.flatnonzero(~_is_start(search))
 
 
 def _panels(figure: Any, rows: int, columns: int) -> list[Axes]:
@@ -126,10 +119,10 @@ def _panels(figure: Any, rows: int, columns: int) -> list[Axes]:
 
 def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: str) -> None:
     """Best feasible value so far over the number of designs, the start as a line, and where the first designs end."""
-    tried = _tried(search)
-    values = np.where(search["feasible"].values == 1, objective.values, np.inf)[tried]
+    # the start is the first of all
+    values = np.where(search["feasible"].values == 1, objective.values, np.inf)[1:]
     best = np.minimum.accumulate(np.where(np.isnan(values), np.inf, values))
-    numbers = np.arange(1, len(tried) + 1)
+    numbers = np.arange(1, len(values) + 1)
     if np.isfinite(best).any():
         axes.plot(numbers, np.where(np.isfinite(best), best, np.nan), drawstyle="steps-post", color=colour)
         axes.plot(numbers[-1], best[-1], "o", color=colour, markersize=4, clip_on=False)
@@ -138,15 +131,15 @@ def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: st
     else:
         why = "no design keeps all constraints" if search.sizes["constraint"] else "no design could be built"
         axes.set_title(why, fontsize=7)
-    (level,) = objective.values[_is_start(search)]
+    level = objective.values[0]
     if np.isfinite(level):
         axes.axhline(level, color=_START_LOOK["color"], linewidth=0.9, linestyle="--")
         near = {"transform": axes.get_yaxis_transform(), "va": "bottom", "ha": "right", "fontsize": 7}
         axes.text(1.0, level, f"start {level:.4g}", color=_START_LOOK["color"], **near)
-    first = int(np.sum(search["round"].values[tried] == 0))
-    if first < len(tried):
+    first = int(np.sum(search["round"].values == 0))
+    if first < len(values):
         axes.axvline(first + 0.5, color="0.5", linewidth=0.8, linestyle=":")
-    axes.set_xlim(0.0, len(tried) + 1.0)
+    axes.set_xlim(0.0, len(values) + 1.0)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_ylabel(f"best {objective.label}")
     axes.set_ylim(_limits(np.append(best[np.isfinite(best)], level)))
@@ -154,19 +147,18 @@ def _draw_best(axes: Axes, search: xr.Dataset, objective: _Objective, colour: st
 
 def _draw_pair(axes: Axes, search: xr.Dataset, across: _Objective, up: _Objective, joined: bool) -> None:
     """An objective against another: lower left is better."""
-    start = _is_start(search)
     for kept, look in _kinds(search):
-        _bars(axes, across, up, kept & ~start)
-        _points(axes, across.values[kept & ~start], up.values[kept & ~start], **look)
+        _bars(axes, across, up, kept)
+        _points(axes, across.values[kept], up.values[kept], **look)
     front = search["not_dominated"].values.astype(bool)
     order = np.flatnonzero(front)[np.lexsort((up.values[front], across.values[front]))]
     look = {**_FRONT_LOOK, "linestyle": "-" if joined else "none", "label": "none is better in all objectives"}
     _points(axes, across.values[order], up.values[order], drawstyle="steps-post", **look)
     if len(order) <= _MOST_NAMED:
-        for index in order[~start[order]]:
+        for index in order[order > 0]:
             at = across.values[index], up.values[index]
             axes.annotate(str(search["design"].values[index]), at, (4, 3), textcoords="offset points", fontsize=6, color="0.2")
-    _points(axes, across.values[start], up.values[start], label=START, clip_on=False, **_START_LOOK)
+    _points(axes, across.values[:1], up.values[:1], label=START, clip_on=False, **_START_LOOK)
     axes.set_xlabel(across.label)
     axes.set_ylabel(up.label)
     axes.set_xlim(_limits(across.values))
@@ -175,14 +167,13 @@ def _draw_pair(axes: Axes, search: xr.Dataset, across: _Objective, up: _Objectiv
 
 def _draw_rounds(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
     """The single objective over the rounds, the start before the first."""
-    start, rounds = _is_start(search), search["round"].values
+    rounds = search["round"].values
     for kept, look in _kinds(search):
-        at = kept & ~start
-        _bars(axes, _Objective("", rounds.astype(float), np.full(len(rounds), np.nan)), objective, at)
-        _points(axes, rounds[at], objective.values[at], **look)
+        _bars(axes, _Objective("", rounds.astype(float), np.full(len(rounds), np.nan)), objective, kept)
+        _points(axes, rounds[kept], objective.values[kept], **look)
     best = search["order"].values == 1
     _points(axes, rounds[best], objective.values[best], label="best", **_BEST_LOOK)
-    _points(axes, rounds[start], objective.values[start], label=START, **_START_LOOK)
+    _points(axes, rounds[:1], objective.values[:1], label=START, **_START_LOOK)
     axes.set_xlabel("round, 0 the first designs")
     axes.set_ylabel(objective.label)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -192,9 +183,9 @@ def _draw_rounds(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
 
 def _draw_slice(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
     """One objective along one variable."""
-    values, start = search["value"].values, _is_start(search)
+    values = search["value"].values
     for kept, look in _kinds(search):
-        _points(axes, values[kept & ~start], objective.values[kept & ~start], **{**look, "markersize": 2.5, "alpha": 0.5})
+        _points(axes, values[kept], objective.values[kept], **{**look, "markersize": 2.5, "alpha": 0.5})
     if "slice_mean" in search and search["slice_mean"].notnull().any():
         factor = shown_unit(search["objective_unit"].item())[1]
         along, mean, deviation = (search[f"slice_{part}"].values for part in ("value", "mean", "deviation"))
@@ -206,7 +197,7 @@ def _draw_slice(axes: Axes, search: xr.Dataset, objective: _Objective) -> None:
         if np.isfinite(share):
             axes.set_title(f"total {max(share, 0.0):.2f}", fontsize=7, pad=2)
     best = search["order"].values == 1
-    _points(axes, values[start], objective.values[start], label=START, **{**_START_LOOK, "markersize": 4})
+    _points(axes, values[:1], objective.values[:1], label=START, **{**_START_LOOK, "markersize": 4})
     _points(axes, values[best], objective.values[best], label="best", **_BEST_LOOK)
     lowest, highest = float(search["lowest"]), float(search["highest"])
     room = 0.04 * (highest - lowest)
@@ -221,8 +212,9 @@ def _kinds(search: xr.Dataset) -> Iterator[tuple[np.ndarray, dict[str, Any]]]:
     breaks, keeps = "breaks a constraint", "keeps all constraints" if search.sizes.get("constraint", 1) else "designs"
     pale = {**common, "color": "0.72", "markerfacecolor": "none", "markeredgewidth": 0.7, "zorder": 2, "label": breaks}
     plain = {**common, "color": style.COLOURS[0], "markeredgewidth": 0.0, "zorder": 3, "label": keeps}
-    for kept, look in ((~feasible, pale), (feasible, plain)):
-        if (kept & ~_is_start(search)).any():
+    tried = np.arange(len(feasible)) > 0
+    for kept, look in ((tried & ~feasible, pale), (tried & feasible, plain)):
+        if kept.any():
             yield kept, look
 
 
@@ -241,14 +233,6 @@ def _bars(axes: Axes, across: _Objective, up: _Objective, kept: np.ndarray) -> N
         width, height = (of[there] for of in widths)
         look: dict[str, Any] = {"linestyle": "none", "ecolor": "0.6", "elinewidth": 0.6, "zorder": 1}
         axes.errorbar(across.values[there], up.values[there], height, width, label="standard deviation by chance", **look)
-
-
-def _quality(search: xr.Dataset, name: str) -> str:
-    """How much of the designs' variance the surrogate of an objective foretells."""
-    if "surrogate_q2" not in search:
-        return ""
-    share = float(search["surrogate_q2"].sel(objective=name))
-    return f"\n$Q^2$ {share:.2f}" if np.isfinite(share) else ""
 
 
 def _limits(values: np.ndarray) -> tuple[float, float]:

@@ -50,11 +50,6 @@ class Fit:
     numbers: np.ndarray
     variances: np.ndarray
 
-    @property
-    def is_constant(self) -> bool:
-        """True if all numbers are equal, so that nothing was fitted."""
-        return self.process is None
-
     def at(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mean and standard deviation [point] of the number itself, without its noise."""
         if self.process is None:

@@ -1,19 +1,22 @@
 """The plan of a search: what its job computes with, and what is made of all its designs."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from r37core.base.plain import to_plain
-from r37core.blade.profile_tables import stacking_table_rows
-from r37core.config import Settings, plain
+from r37core.base.varied_number import BLADE, SCENE
+from r37core.config import Settings, operating_range, plain
 from r37core.config.speed_choice import most_runs
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.sweep_plan import Sweep
+from r37core.sweep.driver import one_by_one
 
 from .checks import search_can_be_run
-from .designs import FOLDER, SearchDesigns, choice_of, designs_of, is_asked
-from .evaluation import Carried, start_runs
+from .designs import FOLDER, choice_of, designs_of, is_asked
+from .evaluation import Carried, Evaluation
+from .problem import START
 from .section import SECTION
 
 DATASET, TABLE = "<results>/search.nc", "<results>/search.csv"
@@ -27,67 +30,30 @@ class Search:
 
     settings: Settings
 
-    @property
-    def designs(self) -> SearchDesigns:
-        """Designs of the search."""
-        return designs_of(self.settings)
-
     def carried(self, wildcards: Any) -> Carried:
         """The settings, of which designs are made."""
         return Carried(self.settings)
 
-    def start(self, wildcards: Any) -> dict[str, Any]:
-        """All that the start's runs follow from, as plain values: those of other designs follow from the same."""
-        return to_plain(start_runs(self.settings))
+    def made_of(self, wildcards: Any) -> list[Any]:
+        """All that a search follows from, as plain values.
 
-    def choice(self, wildcards: Any) -> dict[str, Any]:
-        """Variables, objectives and constraints, as plain values."""
-        return to_plain(choice_of(self.settings))
-
-    def tolerances(self, wildcards: Any) -> dict[str, Any] | None:
-        """Tolerances about each design, as plain values."""
-        tolerances = self.designs.entry.tolerances
-        return None if tolerances is None else plain(tolerances)
+        Runs of other designs follow from the same as the start's.
+        """
+        settings, designs = self.settings, designs_of(self.settings)
+        start = Evaluation(settings, Path(), one_by_one, 1).runs(START, None)
+        written = [[designs.varied(kind), designs.entries(kind)] for kind in (BLADE, SCENE)]
+        tolerances = designs.entry.tolerances and plain(designs.entry.tolerances)
+        return to_plain([start, choice_of(settings), tolerances, operating_range(settings), designs.entry.best, written])
 
     def budget(self, wildcards: Any) -> list[int]:
         """Number of designs of each round."""
-        entry = self.designs.entry
+        entry = designs_of(self.settings).entry
         more = range(entry.first, entry.designs, entry.batch)
         return [entry.first, *(min(entry.batch, entry.designs - done) for done in more)]
 
     def threads(self, wildcards: Any) -> int:
         """Number of designs of the largest round."""
         return max(self.budget(wildcards))
-
-    def entries(self, wildcards: Any) -> dict[str, Any]:
-        """Entries of blades.yaml that the designs start at, as plain values: bases first, the start with its table last.
-
-        None where no variable is of the blade.
-        """
-        if not self.designs.blade_varies:
-            return {}
-        entries, chain = self.settings.designs.entries, [self.designs.entry.blade]
-        while (base := getattr(entries[chain[0]], "base", None)) is not None:
-            chain.insert(0, base)
-        plain = {name: entries[name].model_dump(exclude_none=True, exclude_unset=True) for name in chain}
-        if (table := plain[chain[-1]].pop("stacking_table", None)) is not None:
-            plain[chain[-1]]["sweep_lean"] = stacking_table_rows(self.settings.root / table, chain[-1])
-        return plain
-
-    def scene_entries(self, wildcards: Any) -> dict[str, Any]:
-        """Entries of scenes.yaml that the designs start at, as plain values; none where no variable is of scenes."""
-        if not any(self.varied_in_scenes(wildcards).values()):
-            return {}
-        entries = self.settings.scene_designs.entries
-        return {scene: entries[scene].model_dump(exclude_none=True, exclude_unset=True) for scene in self.designs.scenes}
-
-    def varied_in_scenes(self, wildcards: Any) -> dict[str, list[str]]:
-        """Scene -> variables that are of numbers which it has."""
-        designs = self.designs
-        return {
-            scene: [number.name for number in designs.numbers if scene in designs.values_in_scenes(number)]
-            for scene in designs.scenes
-        }
 
 
 def _once(sweep: Sweep) -> paths.Wildcards:

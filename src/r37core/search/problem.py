@@ -5,7 +5,8 @@ All are plain values, which `r37core.base.plain` carries. Light: the workflow im
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,17 @@ from .quantity import Quantity
 
 FEWEST_DONE = 3
 """Fewest built designs for a fit; with fewer, proposals stay away from all that was tried."""
+
+QUASI_RANDOM = "quasi_random"
+"""Method without a surrogate."""
+
+START = "start"
+"""Name of the design that the search starts at."""
+
+Value = tuple[float, float]
+"""Value of a quantity, and its standard deviation; NaN for what is not known."""
+
+UNKNOWN: Value = (math.nan, math.nan)
 
 
 @dataclass(frozen=True)
@@ -25,12 +37,13 @@ class SearchVariable:
 
 
 @dataclass(frozen=True)
-class Evaluated:
+class Design:
     """A design that has been tried.
 
     `values` has a number for each variable. Every one of the `objectives` is to be minimised; its standard deviation stands in
     `scatters`, 0 or NaN where it is not known. Every one of the `margins` is at least 0 where its constraint is kept. Of a
-    design that could not be built objectives, scatters and margins are NaN.
+    design that could not be built objectives, scatters and margins are NaN, and `refused` says why. `round`: which proposed
+    it; `quantities`: by name, as they were measured.
     """
 
     name: str
@@ -38,6 +51,9 @@ class Evaluated:
     objectives: tuple[float, ...]
     scatters: tuple[float, ...]
     margins: tuple[float, ...]
+    round: int = 0
+    refused: str = ""
+    quantities: Mapping[str, Value] = field(default_factory=dict)
 
     @property
     def is_done(self) -> bool:
@@ -75,7 +91,7 @@ def _ranges(variables: Sequence[SearchVariable]) -> tuple[np.ndarray, np.ndarray
     return lowest, np.array([variable.highest for variable in variables]) - lowest
 
 
-def not_dominated(evaluated: Sequence[Evaluated]) -> list[Evaluated]:
+def not_dominated(evaluated: Sequence[Design]) -> list[Design]:
     """The feasible designs than which no feasible one is better in an objective and as good in all, in the same order."""
     feasible = [design for design in evaluated if design.is_feasible]
     values = np.array([design.objectives for design in feasible])
@@ -83,8 +99,8 @@ def not_dominated(evaluated: Sequence[Evaluated]) -> list[Evaluated]:
     return [design for design, own in pairs if not np.any((values <= own).all(1) & (values < own).any(1))]
 
 
-def best_first(evaluated: Sequence[Evaluated], objective: int = 0) -> list[Evaluated]:
-    """The feasible designs by one objective, the lowest first.
+def best_first(evaluated: Sequence[Design]) -> list[Design]:
+    """The feasible designs by the first objective, the lowest first.
 
     Of equals the one with the larger smallest margin comes first, each margin in multiples of its standard deviation over all
     designs, since units differ; then the name decides.
@@ -92,23 +108,11 @@ def best_first(evaluated: Sequence[Evaluated], objective: int = 0) -> list[Evalu
     done = [design for design in evaluated if design.is_done]
     deviations = np.std([design.margins for design in done], axis=0) if done else np.array([])
 
-    def rank(design: Evaluated) -> tuple[float, float, str]:
+    def rank(design: Design) -> tuple[float, float, str]:
         scaled = np.array(design.margins) / np.where(deviations > 0, deviations, 1.0)
-        return design.objectives[objective], -float(scaled.min(initial=np.inf)), design.name
+        return design.objectives[0], -float(scaled.min(initial=np.inf)), design.name
 
     return sorted((design for design in done if design.is_feasible), key=rank)
-
-
-QUASI_RANDOM = "quasi_random"
-"""Method without a surrogate."""
-
-START = "start"
-"""Name of the design that the search starts at."""
-
-Value = tuple[float | None, float | None]
-"""Value of a quantity, and its standard deviation; None for what is not known."""
-
-UNKNOWN: Value = (None, None)
 
 
 @dataclass(frozen=True)
@@ -143,20 +147,29 @@ class SearchChoice:
     seed: int
     start: tuple[float | None, ...]
 
-    def start_design(self, quantities: Mapping[str, Value]) -> "Design":
-        """The start, with its `quantities`."""
-        return Design(tuple(map(number, self.start)), -1, None, quantities)
-
     @property
     def quantities(self) -> dict[str, Quantity]:
         """Quantities of objectives and constraints, by name."""
         return {**self.objectives, **{name: constraint.quantity for name, constraint in self.constraints.items()}}
 
+    def design(
+        self, name: str, values: Sequence[float | None], number: int, gave: Mapping[str, Any] | str, tried: Mapping[str, Design]
+    ) -> Design:
+        """The design of round `number` that `gave` quantities, or the reason why it cannot be built; `tried`: those before it.
+
+        What is None is not known.
+        """
+        measured, refused = ({}, gave) if isinstance(gave, str) else (gave, "")
+        quantities = {name: (_number(value), _number(scatter)) for name, (value, scatter) in measured.items()}
+        objectives, scatters = zip(*(quantities.get(objective, UNKNOWN) for objective in self.objectives), strict=True)
+        margins = tuple(self.margins(quantities, tried[START].quantities if tried else quantities))
+        return Design(name, tuple(map(_number, values)), objectives, scatters, margins, number, refused, quantities)
+
     def margins(self, values: Mapping[str, Value], start: Mapping[str, Value]) -> list[float]:
         """Margins by which each bound is kept, in its quantity's unit, below 0 where it is not: constraint by constraint."""
         margins = []
         for name, constraint in self.constraints.items():
-            value, reference = (number(of.get(name, UNKNOWN)[0]) for of in (values, start))
+            value, reference = (of.get(name, UNKNOWN)[0] for of in (values, start))
             lowest, highest = constraint.bounds(reference)
             if lowest > -math.inf:
                 margins.append(value - lowest)
@@ -165,25 +178,5 @@ class SearchChoice:
         return margins
 
 
-@dataclass(frozen=True)
-class Design:
-    """A design that has been tried: `values` of the variables, the `round` that proposed it, and its quantities by name.
-
-    `refused`: why it could not be built; its quantities are not there then.
-    """
-
-    values: tuple[float, ...]
-    round: int
-    refused: str | None
-    quantities: Mapping[str, Value]
-
-    def evaluated(self, name: str, choice: SearchChoice, start: Mapping[str, Value]) -> Evaluated:
-        """The design as proposals take it."""
-        of = [self.quantities.get(objective, UNKNOWN) for objective in choice.objectives]
-        objectives, scatters = (tuple(number(each[place]) for each in of) for place in range(2))
-        return Evaluated(name, self.values, objectives, scatters, tuple(choice.margins(self.quantities, start)))
-
-
-def number(value: float | None) -> float:
-    """The value; NaN for one that is not known."""
+def _number(value: float | None) -> float:
     return math.nan if value is None else value

@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from .gaussian_processes import Fit, fit, fit_chance
-from .problem import FEWEST_DONE, Evaluated, SearchVariable, designs_at, shares
+from .problem import FEWEST_DONE, Design, SearchVariable, designs_at, shares
 
 NEAR = 0.01
 """Two designs differ by at least this share of the range of some variable, as long as there is room for it."""
@@ -30,9 +30,7 @@ def first_designs(variables: Sequence[SearchVariable], number: int, seed: int) -
     return designs_at(variables, _sobol(len(variables), number, seed))
 
 
-def propose(
-    variables: Sequence[SearchVariable], evaluated: Sequence[Evaluated], batch: int, seed: int
-) -> list[tuple[float, ...]]:
+def propose(variables: Sequence[SearchVariable], evaluated: Sequence[Design], batch: int, seed: int) -> list[tuple[float, ...]]:
     """The next `batch` designs, values in the order of `variables`.
 
     They depend neither on the order of `evaluated` nor on the number of cores. Raises SearchPackageMissing without the library.
@@ -81,7 +79,7 @@ class Models:
         The best is by the mean of the surrogate, not by what was measured, which may have been luck. Several objectives are
         one under random weights: the largest weighted distance from the best of each, and a little of their sum.
         """
-        if not len(self.feasible) or all(each.is_constant for each in self.objectives):
+        if not len(self.feasible) or all(each.process is None for each in self.objectives):
             return None
         here = np.vstack([points, self.feasible])
         means, deviations = (np.array(part) for part in zip(*(each.at(here) for each in self.objectives), strict=True))
@@ -97,7 +95,7 @@ class Models:
         return np.log(np.maximum(best - values, 0.0).mean(0) + 1e-12)
 
 
-def _fitted(tried: np.ndarray, known: Sequence[Evaluated], seed: int) -> Models:
+def _fitted(tried: np.ndarray, known: Sequence[Design], seed: int) -> Models:
     is_done = np.array([design.is_done for design in known], dtype=bool)
     done = [design for design in known if design.is_done]
     points = tried[is_done]
@@ -136,22 +134,19 @@ def _next_point(models: Models, taken: np.ndarray, variables: int, generator: np
         leaders = candidates[np.argsort(-worth, kind="stable")[:8]]
         closer = _around(leaders, spread, generator)
         candidates, worth = np.vstack([candidates, closer]), np.append(worth, _worth(models, closer, taken, draws))
-    return candidates[_far_enough(candidates, worth, taken)]
+    # no near copy of a design; where all are, the one farthest from them
+    distance = scipy.spatial.distance.cdist(candidates, taken, "chebyshev").min(1, initial=np.inf)
+    allowed = distance >= min(NEAR, distance.max())
+    return candidates[int(np.argmax(np.where(allowed, worth, -np.inf)))]
 
 
 def _worth(models: Models, points: np.ndarray, taken: np.ndarray, draws: int) -> np.ndarray:
     """Logarithm [point] of what a design there promises; where no improvement can be said, distance from all others is."""
     promise = models.log_improvement(points, np.random.default_rng(draws))
     if promise is None:
-        promise = np.log(np.maximum(_distance(points, taken), 1e-12))
+        distance = scipy.spatial.distance.cdist(points, taken).min(1) if len(taken) else np.ones(len(points))
+        promise = np.log(np.maximum(distance, 1e-12))
     return models.log_chance(points) + promise
-
-
-def _far_enough(candidates: np.ndarray, worth: np.ndarray, taken: np.ndarray) -> int:
-    """Index of the best candidate that is no near copy of a design; where all are, of the one farthest from them."""
-    distance = scipy.spatial.distance.cdist(candidates, taken, "chebyshev").min(1, initial=np.inf)
-    allowed = distance >= min(NEAR, distance.max())
-    return int(np.argmax(np.where(allowed, worth, -np.inf)))
 
 
 def _around(centres: np.ndarray, spread: float, generator: np.random.Generator) -> np.ndarray:
@@ -160,12 +155,6 @@ def _around(centres: np.ndarray, spread: float, generator: np.random.Generator) 
         return centres
     moved = np.repeat(centres, math.ceil(256 / len(centres)), axis=0)
     return np.clip(moved + spread * generator.standard_normal(moved.shape), 0.0, 1.0)
-
-
-def _distance(points: np.ndarray, taken: np.ndarray) -> np.ndarray:
-    if not len(taken):
-        return np.ones(len(points))
-    return scipy.spatial.distance.cdist(points, taken).min(1)
 
 
 def _scalar(values: np.ndarray, weights: np.ndarray) -> np.ndarray:

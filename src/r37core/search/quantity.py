@@ -69,11 +69,6 @@ class Quantity:
     quantile: float | None = None
 
     @property
-    def needs_contact(self) -> bool:
-        """True if it needs simulations."""
-        return self.measure in MINIMISED
-
-    @property
     def unit(self) -> str:
         """Unit of the values, as the name of the measure ends."""
         return unit_of(self.measure)

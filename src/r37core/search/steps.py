@@ -1,7 +1,10 @@
 """Steps of the workflow (docs/architecture.md): a search, round by round, and what is made of all its designs."""
 
-from collections.abc import Sequence
+import hashlib
+import json
+from collections.abc import Mapping
 from functools import partial
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -11,66 +14,90 @@ import xarray as xr
 from r37core.base.dataset_file import write_dataset
 from r37core.base.io import JOB_NEWS
 from r37core.base.origin import origin
-from r37core.base.varied_number import BLADE, VariedNumber
+from r37core.base.plain import to_plain
+from r37core.base.varied_number import BLADE, SCENE
 from r37core.blade.geometry_file import read_geometry
 from r37core.exchange.step_file import write_step
+from r37core.results.closing import counted
 from r37core.results.table_file import write_table
 from r37core.sweep.forks import forked_results
 
 from .dataset import BLADES_HEADER, SCENES_HEADER, search_dataset, search_table, write_entries
 from .designs import choice_of
 from .evaluation import Evaluation
-from .problem import START
-from .rounds import SearchRound, first_round, progress, round_after, tried_after
+from .problem import QUASI_RANDOM, START, Design, SearchChoice, best_first, not_dominated
+from .proposal import first_designs, propose
 
 
 def search(input: Any, output: Any, params: Any) -> None:
     """Search for designs, round by round. Outputs: dataset (nc), table (csv), best (folder).
 
-    Params: carried (the settings), budget (designs of each round), fidelity, number, entries, scenes, varied_in_scenes (see
-    `_write_best`), cores.
+    Params: carried (the settings), budget (designs of each round), fidelity, cores.
     """
     settings, folder = params.carried.settings, Path(output.best).parent
     choice, run_all = choice_of(settings), partial(forked_results, params.cores)
     evaluation = Evaluation(settings, folder, run_all, params.cores)
-    asked = first_round(params.budget[0], choice)
-    for number, count in enumerate([*params.budget[1:], 0], 1):
-        JOB_NEWS.info(progress(asked, choice, number - 1))
-        asked = _after(asked, number, count, evaluation)
-    JOB_NEWS.info(progress(asked, choice, len(params.budget)))
-    dataset = search_dataset(asked, choice)
-    provenance = {"fidelity": params.fidelity, "input_hash": asked.digest} | origin("Designs of a search")
-    write_dataset(dataset, output.dataset, provenance)
+    tried: dict[str, Design] = {}
+    for number, count in enumerate(params.budget):
+        new = next_designs(tried, count, choice)
+        JOB_NEWS.info(progress(count, tried, choice, number))
+        asked = new if tried else {START: None, **new}
+        for name, gave in zip(asked, evaluation.quantities(asked), strict=True):
+            if name != START:
+                tried[name] = choice.design(name, new[name], number, gave, tried)
+            elif isinstance(gave, str):
+                # what is wrong with the start is no result
+                raise ValueError(gave)
+            else:
+                tried[START] = choice.design(START, choice.start, -1, gave, {})
+    JOB_NEWS.info(progress(0, tried, choice, len(params.budget)))
+    dataset = search_dataset(tried, choice)
+    digest = hashlib.sha256(json.dumps(to_plain(tried)).encode()).hexdigest()[:32]
+    write_dataset(dataset, output.dataset, {"fidelity": params.fidelity, "input_hash": digest} | origin("Designs of a search"))
     write_table(search_table(dataset), output.table, digits=6)
-    _write_best(dataset, asked, evaluation, params, Path(output.best))
+    _write_best(dataset, evaluation, Path(output.best))
 
 
-def _after(before: SearchRound, number: int, count: int, evaluation: Evaluation) -> SearchRound:
-    """The round of `count` designs after one whose designs are evaluated now."""
-    start: dict[str, Sequence[float] | None] = {} if before.start else {START: None}
-    gave = dict(zip([*start, *before.new], evaluation.quantities({**start, **before.new}), strict=True))
-    of_start = gave.pop(START, before.start)
-    if isinstance(of_start, str):
-        # what is wrong with the start is no result
-        raise ValueError(of_start)
-    refused = {name: reason for name, reason in gave.items() if isinstance(reason, str)}
-    done = {name: values for name, values in gave.items() if not isinstance(values, str)}
-    return round_after(tried_after(before, number, refused, done), of_start, count, choice_of(evaluation.settings))
+def next_designs(tried: Mapping[str, Design], count: int, choice: SearchChoice) -> dict[str, tuple[float, ...]]:
+    """Values of the `count` designs that those `tried`, the start among them, ask for, by name; of the first evenly spread."""
+    done = len([name for name in tried if name != START])
+    if not tried or choice.method == QUASI_RANDOM:
+        values = first_designs(choice.variables, done + count, choice.seed)[done:]
+    else:
+        # a start at values that are not known tells nothing of those between
+        known = [design for design in tried.values() if all(map(isfinite, design.values))]
+        values = propose(choice.variables, known, count, choice.seed)
+    return {f"d{done + place:04d}": each for place, each in enumerate(values)}
 
 
-def _write_best(search: xr.Dataset, last: SearchRound, evaluation: Evaluation, params: Any, folder: Path) -> None:
-    """Write the best designs. `params`: number; entries, of the start and its bases, where its blade varies; scenes, entries
-    where they vary, and varied_in_scenes, by which variables.
-    """
-    ordered = search.isel(design=np.flatnonzero(search["order"].values > 0)).sortby("order")
-    designs = ordered["design"].values[: params.number].tolist()
+def progress(asked: int, tried: Mapping[str, Design], choice: SearchChoice, number: int) -> str:
+    """The line of round `number`, which asks for so many designs; of the end where it asks for none."""
+    line = f"search: round {number}, {counted(asked, 'design')}" if asked else "search: the last round is done"
+    return f"{line}; {_so_far(tried, choice)}" if tried else line
+
+
+def _so_far(tried: Mapping[str, Design], choice: SearchChoice) -> str:
+    designs = [design for name, design in tried.items() if name != START]
+    if len(choice.objectives) > 1:
+        best = f"{len(not_dominated(designs))} that none is better than in all objectives"
+    else:
+        ((objective, quantity),) = choice.objectives.items()
+        ahead = best_first(designs)[:1]
+        best = "".join(f"best {each.name}, {objective} {each.objectives[0]:.4g} {quantity.unit}" for each in ahead)
+    refused = sum(bool(design.refused) for design in designs)
+    cannot = f", {refused} of them cannot be built" if refused else ""
+    return f"{len(designs)} tried{cannot}: {best or 'none can be built and keeps all constraints'}"
+
+
+def _write_best(search: xr.Dataset, evaluation: Evaluation, folder: Path) -> None:
+    """Write entries of the best designs, of blades and of scenes where a variable is of these, and STEP files of blades."""
+    ordered, designs = search.isel(design=np.flatnonzero(search["order"].values > 0)).sortby("order"), evaluation.designs
+    best = ordered["design"].values[: designs.entry.best].tolist()
     folder.mkdir(parents=True)
-    if params.scenes:
-        scenes = params.scenes, params.varied_in_scenes
-        write_entries(search, designs, *scenes, SCENES_HEADER, folder / "scenes.yaml")
-    if params.entries:
-        numbers = map(VariedNumber.named, search["variable"].values.tolist())
-        varied = {list(params.entries)[-1]: [number.key for number in numbers if number.kind == BLADE]}
-        names = write_entries(search, designs, params.entries, varied, BLADES_HEADER, folder / "blades.yaml")
-        for name, design in zip(names, designs, strict=True):
-            write_step(read_geometry(evaluation.geometry(design, last.tried[design].values)), folder / f"{name}.step")
+    for kind, header, file in ((BLADE, BLADES_HEADER, "blades.yaml"), (SCENE, SCENES_HEADER, "scenes.yaml")):
+        varied = designs.varied(kind)
+        if any(varied.values()):
+            names = write_entries(search, best, designs.entries(kind), varied, header, folder / file)
+            for name, design in zip(names, best, strict=True) if kind == BLADE else ():
+                values = search["value"].sel(design=design).values.tolist()
+                write_step(read_geometry(evaluation.geometry(design, values)), folder / f"{name}.step")

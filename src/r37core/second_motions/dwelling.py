@@ -13,8 +13,7 @@ from r37core.time_integration.state import SimulationState
 
 from .choice import DOWN, MOTIONS, UP, DwellChoice
 from .lasting import HIGH, LOW, RANDOM
-from .ranges import MotionLevels
-from .states import SweptStates, levels_of
+from .states import MotionLevels, SweptStates, levels_of
 from .sweeping import CarriedSweep
 
 AT_ONCE = 100

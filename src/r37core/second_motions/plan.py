@@ -10,7 +10,7 @@ from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
 from r37core.config.speed_choice import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.sweep_plan import Simulations, Sweep
+from r37core.plans.sweep_plan import Sweep
 
 from .choice import MOTIONS
 from .section import SECTION, SecondMotionSection, pairs_of
@@ -30,22 +30,11 @@ def motion_keys(pairs: Iterable[tuple[str, str]]) -> paths.Wildcards:
     return [{**key, "motion": motion} for key in paths.run_keys(pairs) for motion in MOTIONS]
 
 
-def swept_files(sweep: Sweep, wildcards: Any) -> dict[str, Any]:
-    """Files that the dwells of a blade and scene start from."""
-    states = paths.filled({STATES: motion_keys([(wildcards.blade, wildcards.scene)])})
-    return {"model": sweep.contact_model(wildcards), "states": states}
-
-
-def results(sweep: Sweep, wildcards: Any) -> list[str]:
-    """Results of a scene that its sweeps keep."""
-    return [each for each in sweep.results(wildcards) if each in KEPT]
-
-
 def parameters(sweep: Sweep) -> dict[str, Any]:
     """Parameters of sweeps and dwells alike."""
     settings, section = sweep.settings, sweep.settings.section(SECTION)
     return {
-        "scene": Simulations(sweep).plain_scene,
+        "scene": sweep.plain_scene,
         # of a run from rest: those of the pipeline
         "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
         # without any speed where there are none, as the rules are there all the same
@@ -53,10 +42,11 @@ def parameters(sweep: Sweep) -> dict[str, Any]:
     }
 
 
-def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The sweeps and dwells themselves."""
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The sweeps and dwells, and what is made of them."""
     pairs = pairs_of(sweep.settings)
-    return {**dict.fromkeys((RESPONSE, STATES), motion_keys(pairs)), DWELLS: paths.run_keys(pairs)}
+    own: dict[str, paths.Wildcards] = dict.fromkeys((RESPONSE, STATES), motion_keys(pairs)) | {DWELLS: paths.run_keys(pairs)}
+    return own | dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), [{}] if pairs else [])
 
 
 MOST_SPEEDS = 20_000
@@ -107,8 +97,7 @@ EXTENSION = Extension(
     name="second_motions",
     section=SECTION,
     checks=(can_be_swept,),
-    simulated=simulated,
-    targets=lambda sweep: dict.fromkeys((DATASET, TABLE, ALL_DWELLS, DWELL_TABLE), [{}] if pairs_of(sweep.settings) else []),
+    targets=targets,
     offers={"motions": DATASET},
     figures=(
         Figure(

@@ -1,17 +1,20 @@
-"""States at the end of each speed of a sweep, in a file for the motions that go on from them."""
+"""States at the end of each speed of a sweep, in a file for the motions that go on from them, and where motions differ."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 
 from r37core.base.io import atomic_write, readable
 from r37core.time_integration.carrying import END_WEAR, CarriedMotion, motion_names
+from r37core.time_integration.settling import SAME, SCATTERS
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.status import RunStatus
 
-from .choice import MOTIONS
-from .ranges import MotionLevels
+from .choice import MOTIONS, REST
 
 
 class SweptStates:
@@ -59,6 +62,80 @@ def _counted(run: Mapping[str, np.ndarray]) -> np.ndarray:
         return np.full(count, np.nan)
     last = run["revolution_rms"][:end][-count:]
     return np.concatenate([np.full(count - len(last), np.nan), last])
+
+
+@dataclass(frozen=True, eq=False)
+class MotionLevels:
+    """Level of the motions (MOTIONS) at ascending `speeds` (rad/s).
+
+    `mean` (m): of the rms of the leading edge's motion, normal and tangential together, over the revolutions that count,
+    infinite of a motion that diverged; `scatter` (m): standard deviation of these; both of shape (motions, speeds). `compared`:
+    places of the motions that are compared, all but that from rest where the others have a worn lining. `differ`, shape
+    (speeds,): whether some two of these do.
+    """
+
+    speeds: np.ndarray
+    mean: np.ndarray
+    scatter: np.ndarray
+    compared: tuple[int, ...]
+    differ: np.ndarray
+
+    @classmethod
+    def averaged(cls, speeds: np.ndarray, rms: Mapping[str, np.ndarray], clearance: float, *, worn: bool) -> "MotionLevels":
+        """Levels by the rms (m) of the revolutions that count, motion -> shape (speeds, revolutions); NaN after a run's end."""
+        counted = [np.ma.masked_invalid(rms[motion]) for motion in MOTIONS]
+        mean = np.array([part.mean(axis=1).filled(np.inf) for part in counted])
+        scatter = np.array([part.std(axis=1).filled(0.0) for part in counted])
+        compared = tuple(place for place, motion in enumerate(MOTIONS) if not (worn and motion == REST))
+        differ = motions_differ(mean[list(compared)], scatter[list(compared)], clearance)
+        return cls(np.asarray(speeds), mean, scatter, compared, differ)
+
+    @classmethod
+    def read(cls, pair: xr.Dataset) -> "MotionLevels":
+        """Levels of one blade and scene of second_motions.nc."""
+        mean, scatter = (pair[f"motion_{name}"].transpose("motion", "speed").values for name in ("mean", "scatter"))
+        compared = tuple(np.flatnonzero(pair["compared"].values > 0.0).tolist())
+        differ = pair["differ"].values > 0.0
+        return cls(pair["speed"].values, np.nan_to_num(mean, nan=np.inf), np.nan_to_num(scatter), compared, differ)
+
+    @property
+    def high(self) -> np.ndarray:
+        """Place of the largest of the compared motions at each speed, shape (speeds,)."""
+        return np.array(self.compared)[np.argmax(self.mean[list(self.compared)], axis=0)]
+
+    @property
+    def low(self) -> np.ndarray:
+        """Place of the smallest of the compared motions at each speed, shape (speeds,)."""
+        return np.array(self.compared)[np.argmin(self.mean[list(self.compared)], axis=0)]
+
+    def ranges(self) -> list[slice]:
+        """Places of the speeds of each range of hysteresis: neighbours at which motions differ."""
+        differ = np.concatenate([[False], self.differ, [False]])
+        firsts, ends = np.flatnonzero(~differ[:-1] & differ[1:]), np.flatnonzero(differ[:-1] & ~differ[1:])
+        return [slice(int(first), int(end)) for first, end in zip(firsts, ends, strict=True)]
+
+    def worst(self, part: slice) -> int:
+        """Place of the speed in a range at which the largest motion is most above the smallest."""
+        places = np.arange(len(self.speeds))[part]
+        smallest = np.maximum(self.mean[self.low[part], places], np.finfo(float).tiny)
+        return int(places[np.argmax(self.mean[self.high[part], places] / smallest)])
+
+
+def motions_differ(mean: np.ndarray, scatter: np.ndarray, clearance: float) -> np.ndarray:
+    """True at speeds where some two motions differ, shape (speeds,), by their `mean` and `scatter` (m); see MotionLevels.
+
+    They do where their means differ by more than SCATTERS of their common standard deviation and by more than SAME, and the
+    larger one is above the `clearance` (m): within it the blade is quiet, as in settling.motion_at_end. One that diverged
+    differs from one that did not.
+    """
+    differ = np.zeros(mean.shape[1], dtype=bool)
+    for first, second in combinations(range(len(mean)), 2):
+        diverged = np.isinf(mean[[first, second]])
+        both = np.where(diverged.any(axis=0), 0.0, mean[[first, second]])
+        common, larger = np.sqrt(0.5 * (scatter[first] ** 2 + scatter[second] ** 2)), both.max(axis=0)
+        apart = np.abs(both[0] - both[1]) > np.maximum(SCATTERS * common, SAME * larger)
+        differ |= (apart & (larger > clearance)) | (diverged[0] != diverged[1])
+    return differ
 
 
 def levels_of(states: Mapping[str, SweptStates]) -> MotionLevels:

@@ -50,12 +50,13 @@ class CarriedSweep:
 
         A sweep that was interrupted goes on from its files in the `folder`. `made_of`: all that they follow from.
         """
-        run = self.run_from_rest if self.motion == REST else self.run_on
+        # from rest: as the sweep of the pipeline has it, with lobes that grow
+        run = (
+            self.run_on
+            if self.motion != REST
+            else lambda speed, _: self._numbers(Simulation(self.model, speed, self.scene, self.choice).run())
+        )
         return Parts(folder, made_of).carried(self.speeds, None, run)
-
-    def run_from_rest(self, speed: float, _: CarriedMotion | None = None) -> dict[str, np.ndarray]:
-        """Numbers of the run at a speed (rad/s) as the sweep of the pipeline has it: from rest, with lobes that grow."""
-        return self._numbers(Simulation(self.model, speed, self.scene, self.choice).run())
 
     def run_on(self, speed: float, carried: CarriedMotion | None) -> dict[str, np.ndarray]:
         """Numbers of the revolutions at a speed (rad/s) from a motion on, in a casing with full-grown lobes.

@@ -15,7 +15,7 @@ from r37core.time_integration.status import MotionKind
 
 from .choice import MOTIONS, REST
 from .lasting import HIGH, LOW, STARTS, VERDICT, Lasting, judged
-from .ranges import MotionLevels
+from .states import MotionLevels
 
 _MOTIONS = {
     "rms_normal_{}_m": ("rms_normal", "rms normal to the casing"),

@@ -6,7 +6,7 @@ from r37core.config.section import ExtensionSection, Section
 from r37core.exchange.importing.source import MeshSource
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.structure_plan import Imported
+from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 
 
@@ -30,7 +30,7 @@ def _runs(sweep: Sweep) -> paths.Wildcards:
 
 def _blades(sweep: Sweep) -> paths.Wildcards:
     """Blades with modes: those of the runs, and meshes of other programs."""
-    meshes = Imported(sweep.settings).given_by(MeshSource) if sweep.settings.section(SECTION).imported else []
+    meshes = Structure(sweep.settings).given_by(MeshSource) if sweep.settings.section(SECTION).imported else []
     wanted = {*meshes, *(blade for blade, _ in sweep.runs_with("shapes"))}
     return paths.of("blade", [blade for blade in sweep.settings.blades if blade in wanted])
 

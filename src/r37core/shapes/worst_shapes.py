@@ -39,7 +39,10 @@ def write_worst_shapes(
     entries = []
     for speed, instant in instants.items():
         displacement = np.linalg.norm(displacement_of(model, instant.revolution)[:, nodes], axis=2)
-        magnification = _round_down(LARGEST_SHOWN * blade_height(mesh.points) / displacement.max())
+        magnification = LARGEST_SHOWN * blade_height(mesh.points) / displacement.max()
+        # with one digit, not larger
+        power = 10.0 ** np.floor(np.log10(magnification))
+        magnification = float(f"{np.floor(magnification / power) * power:.0e}")
         title = [
             titles[speed],
             f"at {speed:g} rad/s ({RPM * speed:.0f} rpm):",
@@ -54,9 +57,3 @@ def write_worst_shapes(
 def blade_height(points: np.ndarray) -> float:
     """Height of a blade (m), from the lowest to the highest radius of its `points`, shape (points, 3)."""
     return float(np.ptp(np.hypot(points[:, 0], points[:, 1])))
-
-
-def _round_down(number: float) -> float:
-    """A number with one digit, not larger."""
-    power = 10.0 ** np.floor(np.log10(number))
-    return float(f"{np.floor(number / power) * power:.0e}")

@@ -26,29 +26,23 @@ class _SurfacePoint:
     parameters: np.ndarray
 
 
-def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> np.ndarray:
-    """Strain of every gauge per unit of each reduced coordinate, shape (gauges, coordinates).
+def gauge_rows(mesh: BladeMesh, basis: np.ndarray, gauges: Sequence[Gauge]) -> tuple[np.ndarray, np.ndarray]:
+    """Strain of every gauge per unit of each reduced coordinate, shape (gauges, coordinates), and its place (m), (gauges, 3).
 
     `basis`, shape (nodes, 3, coordinates): displacement of all nodes. The strain is that of the element under the gauge, at
     the gauge: n . e n with e = (grad u + grad u^T) / 2 and n the unit vector along the grid. Of the vibration: the static
     strain of the rotation is no part of it. Raises ValueError for a place that is not on the blade's surface.
     """
-    return np.array([_row(mesh, basis, gauge) for gauge in gauges])
-
-
-def gauge_points(mesh: BladeMesh, gauges: Sequence[Gauge]) -> np.ndarray:
-    """Places of the gauges (m), shape (gauges, 3)."""
-    points = [_surface_point(mesh, gauge) for gauge in gauges]
-    return np.array([point.element.shape_functions(point.local[None])[0] @ mesh.points[point.nodes] for point in points])
-
-
-def _row(mesh: BladeMesh, basis: np.ndarray, gauge: Gauge) -> np.ndarray:
-    point = _surface_point(mesh, gauge)
-    coordinates = mesh.points[point.nodes][None]
-    tangents = point.slopes @ point.element.jacobian(coordinates, point.local[None])[0, 0].T
-    direction = _direction(tangents, point.parameters, gauge.angle)
-    gradients, _ = point.element.physical_gradients(coordinates, point.local[None])
-    return np.einsum("a,aij,i->j", gradients[0, 0] @ direction, basis[point.nodes], direction, optimize=True)
+    rows, places = [], []
+    for gauge in gauges:
+        point = _surface_point(mesh, gauge)
+        corners, local = mesh.points[point.nodes], point.local[None]
+        tangents = point.slopes @ point.element.jacobian(corners[None], local)[0, 0].T
+        direction = _direction(tangents, point.parameters, gauge.angle)
+        gradients, _ = point.element.physical_gradients(corners[None], local)
+        rows.append(np.einsum("a,aij,i->j", gradients[0, 0] @ direction, basis[point.nodes], direction, optimize=True))
+        places.append(point.element.shape_functions(local)[0] @ corners)
+    return np.array(rows), np.array(places)
 
 
 def _direction(tangents: np.ndarray, parameters: np.ndarray, angle: float) -> np.ndarray:

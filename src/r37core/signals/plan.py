@@ -9,7 +9,7 @@ from r37core.config.cross_checks import slow_run_can_be_done
 from r37core.config.speed_choice import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
-from r37core.plans.structure_plan import Imported, Structure
+from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 
 from .gauge import Gauge
@@ -34,13 +34,13 @@ class Signals:
         """Pairs of blade and scene with signals; without speeds those of imported blades whose runs have a fixed length."""
         pairs, scenes = self.sweep.runs_with("signal"), self.sweep.settings.scenes
         if self._section.speeds() is None:
-            blades = Imported(self.sweep.settings).blades if self._section.imported else []
+            blades = Structure(self.sweep.settings).blades if self._section.imported else []
             pairs = [(blade, scene) for blade, scene in pairs if blade in blades and not scenes[scene].until_settled]
         return [(blade, scene) for blade, scene in pairs if self._section.blades == "all" or blade in self._section.blades]
 
     def gauges(self, wildcards: Any) -> dict[str, dict[str, Any]]:
         """Gauges of a blade as plain values; a blade given by matrices has none."""
-        gauges = self._section.gauges if wildcards.blade in Imported(self.sweep.settings).meshed_blades else {}
+        gauges = self._section.gauges if wildcards.blade in Structure(self.sweep.settings).meshed_blades else {}
         return {name: to_plain(si_form(Gauge, entry)) for name, entry in gauges.items()}
 
     def inputs(self, wildcards: Any) -> dict[str, str]:
@@ -72,10 +72,6 @@ class Signals:
     def revolutions(self, wildcards: Any) -> int:
         """Number of revolutions at the end that are kept."""
         return self._section.revolutions or self.sweep.settings.scenes[wildcards.scene].revolutions
-
-    def tip_line(self, wildcards: Any) -> str:
-        """The line of the contact nodes of a scene."""
-        return self.sweep.settings.scenes[wildcards.scene].tip_line
 
 
 def _runs(sweep: Sweep) -> paths.Wildcards:
@@ -113,8 +109,7 @@ EXTENSION = Extension(
     name="signals",
     section=SECTION,
     checks=(signals_have_runs,),
-    simulated=lambda sweep: {SIGNALS_OF_RUN: _runs(sweep)},
-    targets=lambda sweep: {DATASET: [{}] if _runs(sweep) else []},
+    targets=lambda sweep: {SIGNALS_OF_RUN: _runs(sweep), DATASET: [{}] if _runs(sweep) else []},
     figures=(
         Figure(
             rule="contact_force_figure",

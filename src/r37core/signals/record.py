@@ -55,22 +55,17 @@ def record_signals(
         tip[reached] = record.samples[:good].reshape(-1, *tip.shape[1:])
         strain[reached] = record.snapshots[:good] @ rows.T
         if choice.second_order:
-            contact_force[reached] = _normal_force(simulation, record.snapshots[:good])
+            # the last numbers of a snapshot are forces
+            nodes = len(simulation.problem.casing.tip.theta)
+            forces = record.snapshots[:good, -3 * nodes :].reshape(good, 3, nodes)
+            contact_force[reached] = -forces[:, 0].sum(axis=1)
         if record.diverged:
             status = RunStatus.DIVERGED
     recorded = slice(-min(last, choice.revolutions) * per_revolution, None)
-    turn = np.arange(1, len(tip) + 1) / per_revolution
-    turn = turn[recorded]
+    turn = (np.arange(1, len(tip) + 1) / per_revolution)[recorded]
     normal, tangential = (tip[recorded, :, DIRECTIONS.index(name)] for name in ("normal", "tangential"))
     clearance = _clearance(simulation, turn)
     return Record(turn, normal, tangential, strain[recorded], contact_force[recorded], clearance, status)
-
-
-def _normal_force(simulation: Simulation, snapshots: np.ndarray) -> np.ndarray:
-    """Normal force (N) on all contact nodes together, shape (snapshots,): the last numbers of a snapshot are forces."""
-    nodes = len(simulation.problem.casing.tip.theta)
-    forces = snapshots[:, -3 * nodes :].reshape(len(snapshots), 3, nodes)
-    return -forces[:, 0].sum(axis=1)
 
 
 def _clearance(simulation: Simulation, turn: np.ndarray) -> np.ndarray:

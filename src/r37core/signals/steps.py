@@ -15,7 +15,7 @@ from r37core.rom.rom_file import read_reduced_model
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .dataset import RUNS, signals_dataset
-from .gauges import Gauge, gauge_points, gauge_rows
+from .gauges import Gauge, gauge_rows
 from .record import record_signals
 
 
@@ -34,8 +34,8 @@ def record(input: Any, output: Any, params: Any) -> None:
         mesh, gauges = read_vtu(input.mesh), from_plain(list[Gauge], list(params.gauges.values()))
         whole = read_reduced_model(input.whole).whole_blade
         assert whole is not None
-        rows = gauge_rows(mesh, whole.basis, gauges)
-        positions = dict(zip(params.gauges, gauge_points(mesh, gauges), strict=True))
+        rows, places = gauge_rows(mesh, whole.basis, gauges)
+        positions = dict(zip(params.gauges, places, strict=True))
     model, scene = read_contact_model(input.model), from_plain(Scene, params.scene)
     choice = from_plain(IntegrationChoice, params.choice)
     speeds = params.speeds or sorted(named)

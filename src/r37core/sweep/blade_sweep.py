@@ -12,7 +12,7 @@ from r37core.base.io import Named
 from r37core.base.plain import from_plain
 from r37core.base.speeds import SpeedPlan, exact_text
 from r37core.config import Settings
-from r37core.plans.sweep_plan import Rounds, Simulations, Sweep
+from r37core.plans.sweep_plan import Sweep
 from r37core.stress.statistic import Strengths
 
 from .recipe import Recipe, recipes
@@ -62,13 +62,13 @@ def blade_sweep(
 ) -> BladeSweep:
     """The sweep of a blade in a scene of these settings; `existing` and `kept` as of BladeSweep and `recipes`."""
     run, sweep, there = Named(blade=blade, scene=scene), Sweep(settings), existing or {}
-    simulations, tip_line = Simulations(sweep), settings.scenes[scene].tip_line
+    tip_line = settings.scenes[scene].tip_line
     models = ("contact_model", *(["stress_operator"] if "stress" in sweep.results(run) else []))
     lines = {**dict.fromkeys(models, tip_line), CAMPBELL: None}
     history = sweep.stress_history_speeds(run)
 
     def task(speed: float) -> str:
-        return simulations.task(Named(**vars(run), speed=exact_text(speed)))
+        return sweep.task(Named(**vars(run), speed=exact_text(speed)))
 
     return BladeSweep(
         existing=there,
@@ -85,5 +85,5 @@ def blade_sweep(
 def shared_speeds(settings: Settings, blade: str, scene: str, largest_share: float | None = None) -> SharedSpeeds:
     """Speeds of a blade in a scene, adaptive ones at most at `largest_share` of the finest grid, else as config.yaml says."""
     run, sweep = Named(blade=blade, scene=scene), Sweep(settings)
-    choice = from_plain(RefinementChoice, Rounds(sweep).refinement_choice(run))
+    choice = from_plain(RefinementChoice, sweep.refinement_choice(run))
     return SharedSpeeds(sweep.speed_plan(run), replace(choice, largest_share=largest_share or choice.largest_share))

@@ -12,14 +12,13 @@ from typing import Any
 from r37core.adaptive.rounds import first_round, measure_members, round_after
 from r37core.base.dataset_file import read_dataset
 from r37core.base.speeds import exact_text
-from r37core.machine_code.kept import content_digest, kept_file
+from r37core.machine_code.kept import content_digest
 from r37core.results.response import write_response
 from r37core.time_integration.initial_motion import InitialMotion
-from r37core.time_integration.speed_file import read_status
 from r37core.time_integration.speed_job import run_job
 
 from .blade_sweep import BladeSweep, SharedSpeeds
-from .counts import count_simulation
+from .parts import part
 from .recipe import code_of
 
 Call = Callable[[], Any]
@@ -104,18 +103,14 @@ class _Runs:
 
     def simulation(self, speed: float) -> Path:
         """File of the simulation at a speed (rad/s), run now where it is missing."""
-        self.folder.mkdir(parents=True, exist_ok=True)
-        text, task = exact_text(speed), self.sweep.task_at(speed)
+        task = self.sweep.task_at(speed)
+        motion = self.motion and [each if each is None else each.tolist() for each in vars(self.motion).values()]
+        models, digests = zip(*self.models, strict=True)
 
         def run(file: Path) -> None:
-            run_job(text, str(file), task, self.about, *(model for model, _ in self.models), motion=self.motion)
-            count_simulation(read_status(file))
+            run_job(exact_text(speed), str(file), task, self.about, *models, motion=self.motion)
 
-        return kept_file(f"speed_{text}.npz", self._made_of(task), run, self.folder)
-
-    def _made_of(self, task: str) -> list[Any]:
-        motion = self.motion and [part if part is None else part.tolist() for part in vars(self.motion).values()]
-        return [task, [digest for _, digest in self.models], motion, self.code]
+        return part(self.folder, speed, [task, list(digests), motion, self.code], run)
 
     def response(self, speeds: Sequence[float]) -> Path:
         """File of the response over the speeds (rad/s), which have been simulated."""

@@ -10,12 +10,23 @@ import numpy as np
 from r37core.base.speeds import exact_text
 from r37core.machine_code.kept import kept_file
 from r37core.time_integration.carrying import CarriedMotion
-from r37core.time_integration.speed_file import read_speed, write_speed
+from r37core.time_integration.speed_file import read_speed, read_status, write_speed
 
 from .counts import count_simulation
 
 Numbers = Mapping[str, np.ndarray]
 """Numbers of a simulation, its status among them."""
+
+
+def part(folder: Path, speed: float, made_of: object, write: Callable[[Path], None]) -> Path:
+    """File of a simulation at a speed (rad/s), written now where it is missing or damaged, and counted then."""
+    folder.mkdir(parents=True, exist_ok=True)
+
+    def write_and_count(file: Path) -> None:
+        write(file)
+        count_simulation(read_status(file))
+
+    return kept_file(f"speed_{exact_text(speed)}.npz", made_of, write_and_count, folder)
 
 
 @dataclass(frozen=True)
@@ -30,14 +41,7 @@ class Parts:
 
         `made_of`: what this one follows from. Raises what `run` raises.
         """
-        self.folder.mkdir(parents=True, exist_ok=True)
-
-        def write(file: Path) -> None:
-            numbers = run()
-            write_speed(numbers, file, {})
-            count_simulation(int(numbers["status"]))
-
-        return kept_file(f"speed_{exact_text(speed)}.npz", (self.made_of, made_of), write, self.folder)
+        return part(self.folder, speed, (self.made_of, made_of), lambda file: write_speed(run(), file, {}))
 
     def carried(
         self, speeds: Sequence[float], made_of: object, run: Callable[[float, CarriedMotion | None], Numbers]
@@ -48,10 +52,6 @@ class Parts:
         """
         files: list[Path] = []
         for place, speed in enumerate(speeds):
-            go_on = partial(_go_on, run, speed, files[-1] if files else None)
-            files.append(self.file(speed, (made_of, speeds[:place]), go_on))
+            before = CarriedMotion.at_end(read_speed(files[-1])) if files else None
+            files.append(self.file(speed, (made_of, speeds[:place]), partial(run, speed, before)))
         return files
-
-
-def _go_on(run: Callable[[float, CarriedMotion | None], Numbers], speed: float, before: Path | None) -> Numbers:
-    return run(speed, CarriedMotion.at_end(read_speed(before)) if before else None)

@@ -20,7 +20,7 @@ from r37core.machine_code.kept import kept_file, numerics
 from r37core.plans.code import CodeHashes
 from r37core.plans.provenance import Attributes, Provenance
 from r37core.plans.stages import structure_stages
-from r37core.plans.structure_plan import Imported, Structure
+from r37core.plans.structure_plan import Structure
 
 LOGGER = logging.getLogger("r37")
 """Logger of what a call or a job does now."""
@@ -107,9 +107,9 @@ def recipes(settings: Settings, blade: str, tip_lines: Mapping[str, str | None],
 
 def structure_attributes(settings: Settings, blade: str) -> Attributes:
     """Parameters of the stages of a blade's structure that are for messages: where its keys stand, and its files."""
-    structure, imported, wildcards = Structure(settings), Imported(settings), Named(blade=blade)
-    contact, locations = structure.location_of_contact(wildcards), imported.locations(wildcards)
-    return Attributes(contact=contact, locations=locations, folder=imported.folder)
+    structure, wildcards = Structure(settings), Named(blade=blade)
+    contact, locations = structure.location_of_contact(wildcards), structure.locations(wildcards)
+    return Attributes(contact=contact, locations=locations, folder=structure.folder)
 
 
 def run_step(step: str, input: Mapping[str, Any], output: Mapping[str, Any], params: Mapping[str, Any]) -> Any:

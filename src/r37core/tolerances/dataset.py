@@ -1,7 +1,6 @@
 """tolerances.nc: what the members of all samples gave, their quantiles, and where their spread comes from."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -43,34 +42,27 @@ INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
 """Measures for which the numbers are ranked."""
 
 
-@dataclass(frozen=True)
-class MemberRun:
-    """A member and its response in the `group` of a file: `values` of the numbers, NaN for one that it does not have."""
+RESPONSE, CAMPBELL_GROUP = "{}/response", "{}/campbell"
+"""Groups of a member in the file of its blade and scene."""
 
-    blade: str
-    scene: str
-    member: str
-    values: tuple[float, ...]
-    file: Path | str
-    group: str | None = None
+Sample = tuple[str, str, Mapping[str, Sequence[float | None]]]
+"""Blade, scene, and member -> its value of each of the numbers, None for one that it does not have."""
 
 
-def tolerances_dataset(runs: Iterable[MemberRun], numbers: Sequence[str]) -> xr.Dataset:
-    """Dataset of all members, over (blade, scene, member, speed, number); one response is in memory at a time.
+def tolerances_dataset(samples: Iterable[tuple[Sample, Path | str]], numbers: Sequence[str]) -> xr.Dataset:
+    """Dataset of all members by their files, over (blade, scene, member, speed, number); one response is in memory at a time.
 
     Where nothing was run numbers are NaN. Raises InputFileError for a response that cannot be read.
     """
-    groups: dict[tuple[str, str], list[xr.Dataset]] = {}
-    for run in runs:
-        response = read_judged(run.file, run.group)
-        with readable(run.file):
-            values = _measured(response)
-        groups.setdefault((run.blade, run.scene), []).append(_kept(response, run, numbers, values))
-    parts = [_pair_dataset(pair, members) for pair, members in groups.items()]
+    parts, pairs = [], []
+    for (blade, scene, members), file in samples:
+        pairs.append((blade, scene))
+        kept = [_kept(file, name, dict(zip(numbers, values, strict=True))) for name, values in members.items()]
+        parts.append(_pair_dataset(pairs[-1], kept))
     joined = xr.merge(parts, join="outer", compat="no_conflicts", combine_attrs="override")
     joined["status"] = joined["status"].fillna(RunStatus.NOT_RUN).astype("i1")
     joined = joined.assign_coords(speed_rpm=("speed", RPM * joined["speed"].values, SPEED_RPM.attributes))
-    blades, scenes = (list(dict.fromkeys(pair[axis] for pair in groups)) for axis in (0, 1))
+    blades, scenes = (list(dict.fromkeys(names)) for names in zip(*pairs, strict=True))
     return joined.sel(blade=blades, scene=scenes)
 
 
@@ -86,14 +78,19 @@ def _measured(response: xr.Dataset) -> dict[str, float]:
     return measures
 
 
-def _kept(response: xr.Dataset, run: MemberRun, numbers: Sequence[str], values: Mapping[str, float]) -> xr.Dataset:
-    """Curves and measures of one member, and what requirements are judged by."""
+def _kept(file: Path | str, name: str, numbers: Mapping[str, float | None]) -> xr.Dataset:
+    """Curves and measures of one member by its `numbers`, and what requirements are judged by."""
+    response = read_judged(file, RESPONSE.format(name))
+    with readable(file):
+        values = _measured(response)
     edge = leading_edge(response)
-    kept = [name for name in ("status", *_CURVES, *_JUDGED, *_OF_ALL) if name in edge]
-    member = edge[kept].drop_vars("speed_rpm", errors="ignore")
-    member = member.assign({name: ((), value, MEASURES[name].attributes) for name, value in values.items()})
-    member["value"] = ("number", list(run.values), {"long_name": "value of the number, in the unit of its key"})
-    return member.assign_coords(number=list(numbers)).expand_dims(member=[int(run.member)])
+    member = edge[[each for each in ("status", *_CURVES, *_JUDGED, *_OF_ALL) if each in edge]].drop_vars(
+        "speed_rpm", errors="ignore"
+    )
+    member = member.assign({each: ((), value, MEASURES[each].attributes) for each, value in values.items()})
+    known = np.array([*numbers.values()], dtype=float)
+    member["value"] = ("number", known, {"long_name": "value of the number, in the unit of its key"})
+    return member.assign_coords(number=list(numbers)).expand_dims(member=[int(name)])
 
 
 def _pair_dataset(pair: tuple[str, str], members: Sequence[xr.Dataset]) -> xr.Dataset:

@@ -90,22 +90,20 @@ class Members:
 
         Raises ConfigError for a number that is not there, and for a value that is impossible.
         """
-        return {pair: self._run_members(*pair) for pair in self.pairs}
+        points = sobol_points(len(self.numbers), self._entry.members, self._entry.seed) if self.pairs else {}
+        return {pair: self._run_members(*pair, points) for pair in self.pairs}
 
-    @cached_property
-    def _points(self) -> dict[str, tuple[float, ...]]:
-        return sobol_points(len(self.numbers), self._entry.members, self._entry.seed)
-
-    def _run_members(self, blade: str, scene: str) -> dict[str, Member]:
-        nominal = self._nominals[blade, scene]
-        self._check_ends(blade, scene, nominal)
-        return {name: self._member(name, blade, scene, nominal) for name in self._points}
-
-    def _check_ends(self, blade: str, scene: str, nominal: Sequence[float | None]) -> None:
-        """Every value that a bounded number can take at most is possible: more members then meet nothing new."""
+    def _run_members(self, blade: str, scene: str, points: Mapping[str, Sequence[float]]) -> dict[str, Member]:
+        nominal, members = self._nominals[blade, scene], {}
+        # every value that a bounded number can take at most is possible: more members then meet nothing new
         for (number, tolerance), value in zip(self.numbers.items(), nominal, strict=True):
             for end in tolerance.ends(value) if value is not None else ():
                 self._changed(blade, scene, {number: end}, f"the end of its range of {blade} in {scene}")
+        for name, point in points.items():
+            values = drawn(self.numbers, nominal, point)
+            changed = self._changed(blade, scene, values, f"member {name} of {blade} in {scene}")
+            members[name] = Member(*changed, tuple(map(values.get, self.numbers)))
+        return members
 
     def _nominal(self, number: VariedNumber, blade: str, scene: str) -> float | None:
         """Value without tolerance; None where the blade or the scene has no such number."""
@@ -117,11 +115,6 @@ class Members:
         if nominal == 0.0 and self.numbers[number].percent:
             raise self._refusal(path, f"percent of {number.key}, which is 0", "uniform, normal, between or values")
         return nominal
-
-    def _member(self, name: str, blade: str, scene: str, nominal: Sequence[float | None]) -> Member:
-        values = drawn(self.numbers, nominal, self._points[name])
-        changed = self._changed(blade, scene, values, f"member {name} of {blade} in {scene}")
-        return Member(*changed, tuple(map(values.get, self.numbers)))
 
     def _changed(self, blade: str, scene: str, values: Mapping[VariedNumber, float], who: str) -> tuple[BladeSettings, Scene]:
         """A blade and a scene with other values of some numbers."""

@@ -77,15 +77,12 @@ NAMES_THE_FIRST, RANKS = 32, 128
 
 def remarks_on_rankings(members: int, numbers: int) -> list[str]:
     """Remarks before a run whose members are too few to rank so many numbers."""
-    lines, where = [], "(docs/tolerances.md#how-many-members)"
-    if numbers < 2:
+    if numbers < 2 or members >= RANKS:
         return []
+    what = f"name the first of the numbers at best; {RANKS} tell most apart"
     if members < NAMES_THE_FIRST:
         what = f"do not rank the numbers; {NAMES_THE_FIRST} name the first, {RANKS} tell most apart"
-        lines.append(f"tolerances: {members} members {what} {where}")
-    elif members < RANKS:
-        lines.append(f"tolerances: {members} members name the first of the numbers at best; {RANKS} tell most apart {where}")
-    return lines
+    return [f"tolerances: {members} members {what} (docs/tolerances.md#how-many-members)"]
 
 
 CONFIDENCE = 0.95

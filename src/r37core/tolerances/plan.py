@@ -4,13 +4,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from r37core.base.io import Named
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import VariedNumber
 from r37core.blade.definition import Shape
 from r37core.config import BladeSettings, Settings, varied_settings
 from r37core.plans import paths
-from r37core.plans.extension import Extension, Figure, Sampling
+from r37core.plans.extension import Extension, Figure
 from r37core.plans.extent import Pair, extent_of
 from r37core.plans.provenance import Attributes, Provenance
 from r37core.plans.sweep_plan import Sweep
@@ -38,7 +37,8 @@ class Tolerances:
     settings: Settings
 
     @property
-    def _members(self) -> Members:
+    def sample(self) -> Members:
+        """The members."""
         return members_of(self.settings)
 
     def _varied(self, wildcards: Any) -> Iterator[tuple[str, Member, Settings]]:
@@ -47,9 +47,12 @@ class Tolerances:
         results = tuple(result for result in settings.results_of(blade, scene) if result in _KEPT)
         chosen = replace(settings.scenes[scene], results=results, stress_history_speeds=())
         first: dict[BladeSettings, str] = {}
-        for name, member in self._members.all[blade, scene].items():
+        for name, member in self.sample.all[blade, scene].items():
             # members with the same blade have one model
-            own = _named(member.blade, f"{blade}, member {first.setdefault(member.blade.elastic, name)} of {FOLDER}")
+            own, shape = member.blade, member.blade.definition
+            if isinstance(shape, Shape):
+                message_name = f"{blade}, member {first.setdefault(own.elastic, name)} of {FOLDER}"
+                own = replace(own, definition=replace(shape, name=message_name))
             yield name, member, varied_settings(settings, {blade: own}, {scene: replace(chosen, scene=member.scene)})
 
     def sweeps(self, wildcards: Any) -> dict[str, Any]:
@@ -57,10 +60,10 @@ class Tolerances:
 
         The parameter is no function of the inputs, because Snakemake would not compare it then.
         """
-        nominal, run = self.settings.blades[wildcards.blade].elastic, vars(_run(wildcards))
+        nominal, run = self.settings.blades[wildcards.blade].elastic, (wildcards.blade, wildcards.scene)
         files = dict.fromkeys(("contact_model", "stress_operator", CAMPBELL), "")
         return {
-            name: to_plain(blade_sweep(varied, **run, existing=files if member.blade.elastic == nominal else {}, kept=False))
+            name: to_plain(blade_sweep(varied, *run, existing=files if member.blade.elastic == nominal else {}, kept=False))
             for name, member, varied in self._varied(wildcards)
         }
 
@@ -76,66 +79,37 @@ class Tolerances:
     def speeds(self, wildcards: Any) -> dict[str, Any]:
         """Speeds of all members of a blade and scene, as plain values."""
         share = self.settings.section(SECTION).largest_share
-        return to_plain(shared_speeds(self.settings, **vars(_run(wildcards)), largest_share=share))
-
-    def number(self, wildcards: Any) -> int:
-        """Number of the members of a blade and scene."""
-        return len(self._members.all[wildcards.blade, wildcards.scene])
+        return to_plain(shared_speeds(self.settings, wildcards.blade, wildcards.scene, share))
 
     @property
     def simulations(self) -> dict[Pair, int]:
         """Largest number of simulations of members, by blade and scene."""
         share, plans = self.settings.section(SECTION).largest_share, self.settings.speed_plans
-        return {pair: len(members) * plans[pair].speed_count(share) for pair, members in self._members.all.items()}
+        return {pair: len(members) * plans[pair].speed_count(share) for pair, members in self.sample.all.items()}
 
     @property
-    def pairs(self) -> list[Pair]:
-        """Blades and scenes that have members."""
-        return self._members.pairs
-
-    @property
-    def runs(self) -> list[dict[str, str]]:
-        """Blade, scene and name of all members, in the order of the dataset."""
-        every = self._members.all.items()
-        return [{"blade": blade, "scene": scene, "member": name} for (blade, scene), members in every for name in members]
+    def samples(self) -> list[tuple[str, str, dict[str, list[float | None]]]]:
+        """Blade, scene, and the values of each of its members in the units of the keys, in the order of the dataset."""
+        every = self.sample.all.items()
+        return [(*pair, {name: list(member.values) for name, member in members.items()}) for pair, members in every]
 
     @property
     def nominal(self) -> dict[str, list[str]]:
         """Responses and Campbell diagrams of the nominal runs."""
-        runs, blades = paths.run_keys(self.pairs), paths.of("blade", [blade for blade, _ in self.pairs])
+        runs, blades = paths.run_keys(self.sample.pairs), paths.of("blade", [blade for blade, _ in self.sample.pairs])
         return {"nominal": paths.filled({paths.RESPONSE: runs}), "nominal_campbells": paths.filled({paths.CAMPBELL: blades})}
 
     @property
     def first_rounds(self) -> list[str]:
         """First rounds of the nominal runs: as of Sweep."""
-        adaptive = paths.run_keys(pair for pair in self.pairs if self.settings.speed_plans[pair].refined)
+        adaptive = paths.run_keys(pair for pair in self.sample.pairs if self.settings.speed_plans[pair].refined)
         return paths.filled({paths.ROUND: [{**run, "round": "0"} for run in adaptive]})
 
-    @property
-    def numbers(self) -> list[str]:
-        """Keys of the numbers that vary."""
-        return [number.key for number in self._members.numbers]
 
-    @property
-    def values(self) -> list[list[float | None]]:
-        """Values of each of the runs, in the units of the keys."""
-        every = self._members.all
-        return [list(every[run["blade"], run["scene"]][run["member"]].values) for run in self.runs]
-
-
-def _run(wildcards: Any) -> Named:
-    return Named(blade=wildcards.blade, scene=wildcards.scene)
-
-
-def _named(blade: BladeSettings, name: str) -> BladeSettings:
-    """The blade with this name in messages about its shape."""
-    shape = blade.definition
-    return replace(blade, definition=replace(shape, name=name)) if isinstance(shape, Shape) else blade
-
-
-def simulated(sweep: Sweep) -> dict[str, paths.Wildcards]:
-    """The members of each blade and scene."""
-    return {MEMBERS: paths.run_keys(members_of(sweep.settings).pairs)}
+def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
+    """The members of each blade and scene, and what is made of them."""
+    pairs = members_of(sweep.settings).pairs
+    return {MEMBERS: paths.run_keys(pairs), **dict.fromkeys((DATASET, TABLE), [{}] if pairs else [])}
 
 
 def remarks(settings: Settings) -> list[str]:
@@ -167,9 +141,9 @@ EXTENSION = Extension(
     name=FOLDER,
     section=SECTION,
     checks=(members_can_be_drawn,),
-    sampling=Sampling(lambda settings: settings.made(Tolerances).simulations, ranges=TABLE, dataset=DATASET),
-    simulated=simulated,
-    targets=lambda sweep: dict.fromkeys((DATASET, TABLE), [{}] if members_of(sweep.settings).pairs else []),
+    members=lambda settings: settings.made(Tolerances).simulations,
+    targets=targets,
+    offers={"ranges": TABLE, "members": DATASET},
     remarks=remarks,
     figures=(
         Figure(

@@ -21,11 +21,8 @@ from r37core.sweep.driver import Driver
 from r37core.sweep.forks import forked_results
 from r37core.sweep.recipe import STRUCTURES
 
-from .dataset import MemberRun, tolerances_dataset
+from .dataset import CAMPBELL_GROUP, RESPONSE, tolerances_dataset
 from .table import range_table, ranges
-
-_RESPONSE, _CAMPBELL = "{}/response", "{}/campbell"
-"""Groups of a member in the file of its blade and scene."""
 
 
 def run(input: Any, output: Any, params: Any) -> None:
@@ -43,46 +40,34 @@ def run(input: Any, output: Any, params: Any) -> None:
 
     def groups() -> Iterator[tuple[str, xr.Dataset]]:
         for name, response in responses.items():
-            yield _RESPONSE.format(name), read_dataset(response)
-            yield _CAMPBELL.format(name), read_dataset(sweeps[name].file(CAMPBELL, structures, params.structure))
+            yield RESPONSE.format(name), read_dataset(response)
+            yield CAMPBELL_GROUP.format(name), read_dataset(sweeps[name].file(CAMPBELL, structures, params.structure))
 
     write_groups(groups(), output.members, params.provenance)
 
 
 def join(input: Any, output: Any, params: Any) -> None:
-    """Join the members. Inputs: members, of each of the pairs. Params: pairs, runs, numbers, values, fidelity.
-
-    Output: dataset (nc).
-    """
-    files = dict(zip(map(tuple, params.pairs), as_list(input.members), strict=True))
-    runs = (
-        MemberRun(
-            **run,
-            values=tuple(math.nan if value is None else value for value in values),
-            file=files[run["blade"], run["scene"]],
-            group=_RESPONSE.format(run["member"]),
-        )
-        for run, values in zip(params.runs, params.values, strict=True)
-    )
-    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files.values()))}
-    dataset = tolerances_dataset(runs, params.numbers)
+    """Join the members. Inputs: members, of each sample. Params: samples, numbers, fidelity. Output: dataset (nc)."""
+    files = as_list(input.members)
+    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files))}
+    dataset = tolerances_dataset(zip(params.samples, files, strict=True), params.numbers)
     write_dataset(dataset, output.dataset, made | origin("Members under tolerances"))
 
 
 def table(input: Any, output: Any, params: Any) -> None:
-    """List interactions with their ranges. Params: pairs, runs, choice. Output: table (csv).
+    """List interactions with their ranges. Params: samples, choice. Output: table (csv).
 
-    Inputs: members, of each of the pairs, and nominal and nominal_campbells of the nominal runs.
+    Inputs: members, of each sample, and nominal and nominal_campbells of the nominal runs.
     """
     choice = from_plain(InteractionChoice, params.choice)
     rows = []
     inputs = map(as_list, (input.members, input.nominal, input.nominal_campbells))
-    for pair, file, *nominal in zip(map(tuple, params.pairs), *inputs, strict=True):
+    for (blade, scene, names), file, *nominal in zip(params.samples, *inputs, strict=True):
         members, speeds = {}, (0.0, math.inf)
-        for name in (run["member"] for run in params.runs if (run["blade"], run["scene"]) == pair):
-            response = read_judged(file, _RESPONSE.format(name))
-            members[name] = find_interactions(response, read_dataset(file, group=_CAMPBELL.format(name)), choice)
+        for name in names:
+            response = read_judged(file, RESPONSE.format(name))
+            members[name] = find_interactions(response, read_dataset(file, group=CAMPBELL_GROUP.format(name)), choice)
             speeds = float(response["speed"][0]), float(response["speed"][-1])
         interactions = find_interactions(read_judged(nominal[0]), read_dataset(nominal[1]), choice)
-        rows += [(*pair, row) for row in ranges(interactions, members, choice, speeds)]
+        rows += [(blade, scene, row) for row in ranges(interactions, members, choice, speeds)]
     write_table(range_table(rows), output.table)

@@ -54,19 +54,14 @@ def peak_memory() -> float:
 
 
 def run_case(case: Case, model: ContactModel, recovery: StressOperators | None, parts: Parts) -> xr.Dataset:
-    """The response of a case with speeds in rad/s, or the refusal of one that a time step or a model refuses.
+    """The response of a case with speeds in rad/s, with COSTS and the stress at instants, or the refusal of one.
 
-    A case that was interrupted goes on from its `parts`.
+    A time step or a model may refuse it. A case that was interrupted goes on from its `parts`.
     """
     try:
-        return _response(case, model, recovery, parts)
+        files = [parts.file(speed, case, partial(_run, case, model, recovery, speed)) for speed in case.speeds]
     except ValueError as error:
         return refusal(str(error))
-
-
-def _response(case: Case, model: ContactModel, recovery: StressOperators | None, parts: Parts) -> xr.Dataset:
-    """The response of all speeds, with COSTS and the stress at instants."""
-    files = [parts.file(speed, case, partial(_run, case, model, recovery, speed)) for speed in case.speeds]
     costs = np.transpose([read_speed(file)[_COSTS_OF_RUN] for file in files])
     file = parts.folder / "response.nc"
     reduce = partial(

@@ -64,7 +64,10 @@ def gather_cases(
     compared = np.stack([together[name].values for name in QUANTITIES], axis=2)
     pairs = [_errors(compared[..., place == name], compared[rows][..., place == name]) for name in places]
     errors, scatters = (np.stack(several, axis=2) for several in zip(*pairs, strict=True))
-    centre = _centre_of_peak(together)
+    # smooth where the largest one jumps
+    near = np.isin(place, ["peak", "jump"])
+    weight = np.compress(near, together["rms_normal"].values ** 2 + together["rms_tangential"].values ** 2, axis=-1)
+    centre = (together["speed"].values[near] * weight).sum(axis=-1) / weight.sum(axis=-1)
     together = together.assign_coords(quantity=list(QUANTITIES), at=list(places))
     dims = (*_DIMS[:2], "at", "quantity")
     together["error"] = (dims, errors, about("1", "relative difference of means over neighbouring speeds"))
@@ -118,16 +121,6 @@ def _errors(ours: np.ndarray, theirs: np.ndarray) -> tuple[np.ndarray, np.ndarra
     mean, positive = theirs.mean(axis=-1), np.all(theirs > 0.0, axis=-1, keepdims=True)
     error = abs(ours.mean(axis=-1) / np.where(mean > 0.0, mean, np.nan) - 1.0)
     return error, np.sqrt(np.mean((ours / np.where(positive, theirs, np.nan) - 1.0) ** 2, axis=-1))
-
-
-def _centre_of_peak(cases: xr.Dataset) -> np.ndarray:
-    """Mean speeds (rad/s) over peak and jump, weighted with the squared rms: smooth where the largest one jumps.
-
-    Shape (cases, scenes).
-    """
-    rows = np.isin(cases["place"].values, ["peak", "jump"])
-    weight = np.compress(rows, cases["rms_normal"].values ** 2 + cases["rms_tangential"].values ** 2, axis=-1)
-    return (cases["speed"].values[rows] * weight).sum(axis=-1) / weight.sum(axis=-1)
 
 
 def parameter_table(together: xr.Dataset, references: Mapping[str, str]) -> pd.DataFrame:
