@@ -148,9 +148,9 @@ class Progress(logging.Filter):
 
     def beat(self) -> None:
         """Write the line if there was none for long."""
-        silent = _SILENT_S if self.stream.isatty() else _SILENT_ELSEWHERE_S
-        # a terminal that is gone ends no run
+        # a terminal that is gone, or a stream that is closed, ends no run
         with self._lock, contextlib.suppress(OSError, ValueError):
+            silent = _SILENT_S if self.stream.isatty() else _SILENT_ELSEWHERE_S
             waiting = bool(self._jobs) or not self._known
             if waiting and not self._ended.is_set() and self.clock() - max(self._written, self._made) >= silent:
                 self._write(immediately=True)
