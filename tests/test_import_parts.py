@@ -16,8 +16,7 @@ from r37core.blade.sense import check_profile_sense, sense_of_line, sense_of_pro
 from r37core.config import ConfigError
 from r37core.exchange.importing import ends, meshio_reader, tip
 from r37core.exchange.importing.fitting_entry import find_axes
-from r37core.exchange.importing.frame import blade_parameters
-from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.importing.import_mesh import blade_parameters, import_mesh
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.exchange.importing.source import matrix_files

@@ -21,8 +21,8 @@ from scipy.linalg import eigh
 from workflow_runs import copy_finished, copy_project, own_package
 
 import r37
+from r37.calculation import cache_folder, structure_file
 from r37.command import main
-from r37.structure_files import cache_folder, structure_file
 from r37core.base.dataset_file import read_dataset
 from r37core.config import command_line_document
 from r37core.exports.matrices_out import write_reduced_matrices

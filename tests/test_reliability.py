@@ -37,7 +37,7 @@ from r37core.product.leftovers import leftovers
 from r37core.product.leftovers import main as clean
 from r37core.product.reading import read_settings
 from r37core.product.remarks import replaced_level, source_folder
-from r37core.results.netcdf import create_axis, create_variable
+from r37core.results.joining import create_axis, create_variable
 from r37core.rom.rotation import BucklingError
 from r37core.sweep import recipe
 from r37core.time_integration.simulate import Simulation

@@ -12,11 +12,10 @@ import r37
 from r37.call_settings import call_of
 from r37.run_folder import write_run
 from r37core.base.plain import to_plain
-from r37core.blade.definition import shape_from_plain
+from r37core.blade.definition import SectionsDefinition, shape_from_plain
 from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.section_changes import SpanLaw
-from r37core.blade.sections_definition import SectionsDefinition
 from r37core.config import ConfigError
 from r37core.exchange.step_file import write_step
 from r37core.fem.matrices import assemble

@@ -9,16 +9,16 @@ from pathlib import Path
 from typing import Any
 
 from r37core.base.io import Named
-from r37core.config import Settings
+from r37core.config import ConfigError, Settings
+from r37core.machine_code.kept import named_folder, writable_folder
 from r37core.plans.provenance import Attributes, Provenance
 from r37core.sweep.blade_sweep import CAMPBELL, BladeSweep, blade_sweep, shared_speeds
 from r37core.sweep.driver import SIMULATIONS, Driver
-from r37core.sweep.recipe import LOGGER, structure_attributes
+from r37core.sweep.recipe import LOGGER, recipes, structure_attributes
 from r37core.time_integration.initial_motion import InitialMotion
 
 from .jobs import parallel_results
 from .stages import simulations_in_words
-from .structure_files import cache_folder
 
 
 @dataclass(frozen=True)
@@ -63,3 +63,19 @@ class Calculation:
             return parallel_results(calls, self.cores)
         LOGGER.info("%s", simulations_in_words(self.settings, self.run.blade, self.run.scene, str(len(calls))))
         return parallel_results(calls, self.cores, what, "run")
+
+
+def structure_file(settings: Settings, blade: str, stage: str, tip_line: str | None = None) -> Path:
+    """The file of a stage, with the numbers that one thread of linear algebra gives. Raises what making it raises."""
+    made = recipes(settings, blade, {stage: tip_line})[stage]
+    (file,) = parallel_results([partial(made.file, cache_folder(), structure_attributes(settings, blade))], 1)
+    return file
+
+
+def cache_folder() -> Path:
+    """The user's cache folder. ConfigError if it cannot be written."""
+    try:
+        return writable_folder()
+    except OSError as error:
+        refusal = f"R37_CACHE: found the cache folder {named_folder()}, which cannot be written ({error.strerror})"
+        raise ConfigError(f"{refusal}; allowed: a folder that can") from None

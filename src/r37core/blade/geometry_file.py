@@ -12,9 +12,8 @@ from r37core.base.io import readable
 
 from .blade_map import BladeMap
 from .blade_surface import Blade
-from .meridian import Meridian
 from .profile import PRESSURE, SUCTION, Profile, ProfileParameters
-from .section_blade import SectionBlade
+from .section_blade import Meridian, SectionBlade
 from .section_curve import SectionCurve
 from .stacking import Placement, conical_stacking
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from r37core.base.io import TextFileError
-from r37core.blade.sections_definition import SectionsDefinition
+from r37core.blade.definition import SectionsDefinition
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused
 from r37core.exchange.sections.placed import (

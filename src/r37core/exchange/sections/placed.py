@@ -9,9 +9,9 @@ import numpy as np
 
 from r37core.base.io import TextFileError
 from r37core.base.units import LENGTH_UNITS
+from r37core.blade.definition import SectionsDefinition
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.section_curve import CurvePart, SectionCurve
-from r37core.blade.sections_definition import SectionsDefinition
 from r37core.blade.sense import sense_of_line
 from r37core.exchange.orientation import Orientation, fitting_units
 from r37core.exchange.refusal import ImportRefused

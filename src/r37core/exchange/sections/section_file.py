@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from r37core.base.io import TextFileError, read_text
+from r37core.blade.definition import FEWEST_SECTIONS
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.section_curve import FEWEST_POINTS
-from r37core.blade.sections_definition import FEWEST_SECTIONS
 
 from .geomturbo_file import read_geomturbo
 from .section_text import FileSection, SectionFile, closed_section, joined_sides, number_in, point_in
