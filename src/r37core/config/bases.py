@@ -1,7 +1,5 @@
 """Bases of blades and scenes: entries of the same file that others start from."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from functools import reduce

@@ -1,15 +1,13 @@
 """blades.yaml: blades by their shape, mesh or matrices, and their materials."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
-from pydantic import Discriminator, Field, RootModel, Tag, model_validator
+from pydantic import Discriminator, Field, RootModel, Tag
 
 from r37core.base.io import TextFileError
 from r37core.blade.definition import BladeDefinition, Shape
@@ -65,13 +63,12 @@ class BladeEntry(ShapeKeys, GivenShape):
     combine: Combine = COMBINE
     designs: DesignTable = designs_field("blade")
 
-    @model_validator(mode="after")
-    def _has_one_shape(self) -> BladeEntry:
+    def _check(self) -> None:
+        super()._check()
         if self.profiles is not None and self.base is not None:
             raise refused((), "both profiles and base", "one of them")
         if self.profiles is None and self.base is None:
             raise refused((), "neither profiles nor base", "one of them, or sections, or a mesh or matrices of another program")
-        return self
 
 
 def _kind(value: Any) -> str:
@@ -130,7 +127,7 @@ class BladeSettings:
         return Strengths(material.fatigue_strength, material.ultimate_strength, *life)
 
     @property
-    def elastic(self) -> BladeSettings:
+    def elastic(self) -> Self:
         """Blade without the strengths of its material: a new one asks for no new model."""
         return self if self.material is None else replace(self, material=self.material.elastic)
 

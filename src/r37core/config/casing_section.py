@@ -1,7 +1,5 @@
 """casing of a scene: its shape, and its distance from the blade's tip."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from itertools import pairwise
@@ -33,8 +31,7 @@ class GrowthSection(Section):
         min_length=2, description="Growth away from the blade at each speed, normal to the casing; 0 at the first"
     )
 
-    @model_validator(mode="after")
-    def _table(self) -> GrowthSection:
+    def _check(self) -> None:
         keys = [key for key in ("speeds_rad_s", "speeds_rpm") if getattr(self, key) is not None]
         if len(keys) != 1:
             raise refused((), " and ".join(keys) or "no speeds", "speeds_rad_s or speeds_rpm")
@@ -45,7 +42,6 @@ class GrowthSection(Section):
             raise refused(("growth_m",), f"{len(self.growth_m)} numbers for {len(speeds)} speeds", "one for each speed")
         if self.growth_m[0] != 0.0:
             raise refused(("growth_m", 0), f"{self.growth_m[0]:g} at speed 0", "0; the clearance there is cold_m")
-        return self
 
 
 class ClearanceSection(Section):
@@ -62,11 +58,9 @@ class ClearanceSection(Section):
 class RingSection(Section):
     """A flexible casing: a thin ring of one material on an elastic foundation, its flanges."""
 
-    @model_validator(mode="after")
-    def _thin(self) -> RingSection:
+    def _check(self) -> None:
         if self.thickness_m > 0.2 * self.radius_m:
             raise refused(("thickness_m",), f"{self.thickness_m:g}", f"at most a fifth of radius_m, {0.2 * self.radius_m:g}")
-        return self
 
 
 @declared_by(RingMode)
@@ -114,8 +108,7 @@ class CasingSection(Section):
             return {**data, _HEIGHTS[0]: Casing.amplitude}
         return data
 
-    @model_validator(mode="after")
-    def _one_clearance_height_and_ring(self) -> CasingSection:
+    def _check(self) -> None:
         if (self.clearance_m is None) == (self.clearance is None):
             value = "neither of clearance_m and clearance" if self.clearance is None else "clearance_m and clearance"
             raise refused((), value, "one of clearance_m and clearance")
@@ -123,7 +116,6 @@ class CasingSection(Section):
             raise refused((), " and ".join(_HEIGHTS), "one of them; null (None in Python) leaves out that of the base")
         if self.ring is not None and self.ring_modes is not None:
             raise refused((), "ring and ring_modes", "one of them")
-        return self
 
     @property
     def clearance_key(self) -> str:

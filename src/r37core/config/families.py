@@ -1,7 +1,5 @@
 """Families of designs: one entry of blades.yaml or scenes.yaml with `vary` or `designs` is many blades or scenes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace
 from itertools import product

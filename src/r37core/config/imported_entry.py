@@ -1,11 +1,9 @@
 """Blades of other programs in blades.yaml: a mesh, or a directory of matrices."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
@@ -37,15 +35,13 @@ class SurfaceRule(Section):
     z_at_least_m: Length = left_out("Lower bound of the axial coordinate")
     z_at_most_m: Length = left_out("Upper bound of the axial coordinate")
 
-    @model_validator(mode="after")
-    def _says_something(self) -> SurfaceRule:
+    def _check(self) -> None:
         if not self._limits() and self.cone_zr_m is None:
             raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m")
         if self.cone_zr_m is not None and self.cone_zr_m[0] == self.cone_zr_m[1]:
             raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
         if self.cone_zr_m is not None and min(radius for _, radius in self.cone_zr_m) < 0.0:
             raise refused(("cone_zr_m",), f"{self.cone_zr_m}", "two points [z, r], with radii of 0 or more")
-        return self
 
     def _limits(self) -> tuple[tuple[str, str, float], ...]:
         names = [(axis, bound) for axis in "rxz" for bound in ("at_least", "at_most")]
@@ -121,10 +117,8 @@ class MeshEntry(Oriented):
     kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
     stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
 
-    @model_validator(mode="after")
-    def _has_names_of_its_own(self) -> MeshEntry:
+    def _check(self) -> None:
         refuse_taken_names(self.stress_regions or ())
-        return self
 
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""

@@ -1,14 +1,12 @@
 """rotor of a scene: the blades that meet it together, and how they differ."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
-from pydantic import BeforeValidator, Field, ValidatorFunctionWrapHandler, WithJsonSchema, WrapValidator, model_validator
+from pydantic import BeforeValidator, Field, ValidatorFunctionWrapHandler, WithJsonSchema, WrapValidator
 
 from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Rotor
@@ -84,8 +82,7 @@ class RotorSection(Section):
         default="shared", description="One abradable lining for all blades (shared), or one for each"
     )
 
-    @model_validator(mode="after")
-    def _numbers_are_places(self) -> RotorSection:
+    def _check(self) -> None:
         named: list[tuple[KeyPath, int]] = [(("missing",), number) for number in self.missing or ()]
         for key in _SPREADS:
             named += [((key, number), int(number)) for number in getattr(self, key)]
@@ -96,10 +93,6 @@ class RotorSection(Section):
             raise refused(("angles_deg",), f"{len(self.angles_deg)} angles", f"{self.blades}, one for each of the blades")
         if len(self.missing or ()) == self.blades:
             raise refused(("missing",), "all blades", "at least one that is there")
-        return self
-
-    @model_validator(mode="after")
-    def _blades_stand_apart(self) -> RotorSection:
         angles, around = self._angles, sorted(self._present, key=lambda number: self._angles[number - 1] % 360.0)
         for before, after in zip(around, [*around[1:], around[0]], strict=True):
             apart = (angles[after - 1] - angles[before - 1]) % 360.0
@@ -107,13 +100,8 @@ class RotorSection(Section):
                 both = f"{angles[after - 1]:g}, and blade {before} at {angles[before - 1]:g}"
                 allowed = f"at least {LEAST_APART:g} degrees between blades that are there"
                 raise refused(("angles_deg", after - 1), both, allowed)
-        return self
-
-    @model_validator(mode="after")
-    def _what_is_drawn_is_possible(self) -> RotorSection:
         self._refuse_beyond("mistuning_spread_percent", *_CHANGES, self._values("mistuning_percent"))
         self._refuse_beyond("longer_spread_m", *_LENGTHS, self._values("longer_m"))
-        return self
 
     def _refuse_beyond(self, key: str, least: float, most: float, values: list[float]) -> None:
         """Raise the error of a spread beyond the bounds, and of a blade's value that is drawn there."""

@@ -1,11 +1,9 @@
 """scenes.yaml: what the blade meets."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, RootModel, Tag, model_validator
+from pydantic import Discriminator, Field, RootModel, Tag
 
 from r37core.contact.scene import DampingTable, Friction, Lining, Scene
 from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
@@ -32,8 +30,7 @@ Result = Literal[
 class LiningSection(Section):
     """The abradable lining in front of the casing."""
 
-    @model_validator(mode="after")
-    def _one_pressed_area(self) -> LiningSection:
+    def _check(self) -> None:
         published = [key for key in ("bar_width_m", "bar_area_m2") if getattr(self, key) is not None]
         # the default contact length may be there without being asked for
         asked = self.contact_length_m != type(self).model_fields["contact_length_m"].default
@@ -41,7 +38,6 @@ class LiningSection(Section):
         if published and len(given) > 1:
             allowed = f"one of them; {' and '.join(published)} of the published model; null leaves out that of the base"
             raise refused((given[0],), " and ".join(given), allowed)
-        return self
 
 
 @declared_by(Friction)
@@ -60,14 +56,12 @@ class DampingSection(Section):
     frequencies_hz: list[Annotated[float, Field(ge=0, le=1e12)]] = Field(min_length=2, description="Ascending frequencies")
     ratios: list[DampingNumber] = Field(min_length=2, description="Damping ratio at each frequency")
 
-    @model_validator(mode="after")
-    def _table(self) -> DampingSection:
+    def _check(self) -> None:
         if any(after <= before for before, after in pairwise(self.frequencies_hz)):
             raise refused(("frequencies_hz",), f"{self.frequencies_hz}", "ascending frequencies")
         if len(self.ratios) != len(self.frequencies_hz):
             lengths = f"{len(self.ratios)} numbers for {len(self.frequencies_hz)} frequencies"
             raise refused(("ratios",), lengths, "one for each frequency")
-        return self
 
 
 DampingRatio: Any = Annotated[
@@ -107,8 +101,7 @@ class SceneEntry(Section):
     combine: Combine = COMBINE
     designs: DesignTable = designs_field("scene")
 
-    @model_validator(mode="after")
-    def _results_fit(self) -> SceneEntry:
+    def _check(self) -> None:
         is_family(self)
         histories = ("stress_history_speeds_rad_s", "stress_history_speeds_rpm")
         if all(getattr(self, key) for key in histories):
@@ -128,20 +121,14 @@ class SceneEntry(Section):
         for key in histories:
             if getattr(self, key) and "stress" not in self.results:
                 raise refused((key,), "speeds", "only with stress among the results")
-        return self
-
-    @model_validator(mode="after")
-    def _elastic_casing_has_linear_gap(self) -> SceneEntry:
         if self.casing.elastic and self.gap == "exact":
             raise refused(
                 ("gap",), "exact with an elastic casing", "linear; the exact gap is that of a casing that keeps its shape"
             )
-        return self
+        if self.rotor is not None:
+            self._check_rotor()
 
-    @model_validator(mode="after")
-    def _rotor_can_be_run(self) -> SceneEntry:
-        if self.rotor is None:
-            return self
+    def _check_rotor(self) -> None:
         refusal = refusal_of(self.scene())
         if refusal:
             raise refused(("rotor",), "a rotor in this scene", refusal)
@@ -152,7 +139,6 @@ class SceneEntry(Section):
                 raise refused(
                     ("results",), f"{result} with a rotor", "results of all blades together; a scene without rotor has it"
                 )
-        return self
 
     def stress_history_speeds(self) -> tuple[float, ...]:
         """Speeds (rad/s) at which the largest stress of every revolution is kept."""

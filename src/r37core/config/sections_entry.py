@@ -1,12 +1,10 @@
 """Blades in blades.yaml that are given by a file of section curves."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag
 
 from r37core.base.io import TextFileError
 from r37core.blade.definition import SectionsDefinition
@@ -49,13 +47,11 @@ class EndSurface(Section):
         "Two points [z, r] of a cone's straight meridian"
     )
 
-    @model_validator(mode="after")
-    def _is_one(self) -> EndSurface:
+    def _check(self) -> None:
         if (self.radius_m is None) == (self.cone_zr_m is None):
             raise refused((), "none of radius_m and cone_zr_m, or both", "one of them")
         if self.cone_zr_m is not None and self.cone_zr_m[0][0] == self.cone_zr_m[1][0]:
             raise refused(("cone_zr_m",), "the same z twice", "two points [z, r] of different z")
-        return self
 
     def meridian(self) -> Meridians:
         """Points (z, r) of the surface (m)."""

@@ -1,10 +1,8 @@
 """Keys of blades.yaml that change a shape: sweep, lean, stagger, camber, chord and thickness."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from .section import FileName, LeftOut, Section, left_out, refused
 from .section_laws import Angles, Shares
@@ -46,10 +44,8 @@ class ShapeKeys(Section):
     chord_percent: Shares | LeftOut = left_out("Share of the chord that is kept, on the same cones")
     thickness_percent: Shares | LeftOut = left_out("Share of all thicknesses that is kept")
 
-    @model_validator(mode="after")
-    def _one_shift(self) -> ShapeKeys:
+    def _check(self) -> None:
         is_family(self)
         shifts = [key for key in SHIFTS if getattr(self, key) is not None]
         if len(shifts) > 1:
             raise refused((), " and ".join(shifts), f"at most one of {', '.join(SHIFTS)}")
-        return self

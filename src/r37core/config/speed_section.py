@@ -1,10 +1,8 @@
 """Speeds of config.yaml: numbers and ranges, in rad/s or in revolutions per minute, of which one plan in rad/s is made."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag
 
 from .section import LeftOut, Names, Rpm, Section, Speed, Unique, left_out, refused
 
@@ -23,11 +21,9 @@ class SpeedRange(Section):
     step: Speed | LeftOut = _STEP
     refine_to: Speed | LeftOut = _REFINE_TO
 
-    @model_validator(mode="after")
-    def _forward(self) -> SpeedRange:
+    def _check(self) -> None:
         if self.stop < self.start:
             raise refused((), f"a range from {self.start:g} to {self.stop:g}", "stop not below start")
-        return self
 
 
 class RpmRange(SpeedRange):
@@ -57,13 +53,11 @@ class SpeedRule(Section):
     speeds: SpeedList | LeftOut = left_out("Speeds of these blades and scenes")
     speeds_rpm: RpmList | LeftOut = left_out("The same speeds in revolutions per minute")
 
-    @model_validator(mode="after")
-    def _one_unit(self) -> SpeedRule:
+    def _check(self) -> None:
         if self.speeds is not None and self.speeds_rpm is not None:
             refuse_both_units("speeds", "speeds_rpm")
         if self.speeds is None and self.speeds_rpm is None:
             raise refused((), "neither speeds nor speeds_rpm", "one of them")
-        return self
 
 
 def word_or_speeds(*words: str) -> Any:
