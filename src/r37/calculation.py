@@ -1,7 +1,5 @@
 """A blade in a scene, calculated in this process: its structure comes from the user's cache."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial

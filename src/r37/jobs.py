@@ -1,7 +1,5 @@
 """Steps of the workflow called from Python, on one core or on several: the numbers do not depend on how many."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager

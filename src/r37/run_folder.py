@@ -1,7 +1,5 @@
 """The folder of a call of many runs: a configuration that says all of it, from which Snakemake runs the workflow."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import tempfile

@@ -1,7 +1,5 @@
 """Sections of a file in the blade's frame, checked, and what fits where an entry asks for it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Files of section curves, by their endings."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Sections as files give them, and the numbers in their lines."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Sequence
