@@ -154,10 +154,15 @@ class SectionsDefinition:
         """Build the blade; BladeShapeError, with the blade's name, where the shape is impossible."""
         try:
             places = self.places()
+            placement = Placement(np.zeros(len(places)), np.zeros(len(places)))
+            if self.stacking is not None:
+                placement = sweep_and_lean(places, np.array(self.stacking))
+            elif self.chordwise_sweep_angle is not None:
+                placement = chordwise_sweep(self.curves, self.chordwise_sweep_angle)
             return SectionBlade(
                 self.curves,
                 places,
-                self._placement(places),
+                placement,
                 None if self.hub is None else Meridian(self.hub),
                 None if self.tip is None else Meridian(self.tip),
                 round_edges,
@@ -165,13 +170,6 @@ class SectionsDefinition:
             )
         except BladeShapeError as error:
             raise BladeShapeError(f"blade {self.name}: {error}") from None
-
-    def _placement(self, places: np.ndarray) -> Placement:
-        if self.stacking is not None:
-            return sweep_and_lean(places, np.array(self.stacking))
-        if self.chordwise_sweep_angle is not None:
-            return chordwise_sweep(self.curves, self.chordwise_sweep_angle)
-        return Placement(np.zeros(len(places)), np.zeros(len(places)))
 
 
 # designs of a family start from the same sections, and a call reads them several times; one takes 0.3 MB

@@ -118,19 +118,9 @@ class CasingSection(Section):
             raise refused((), "ring and ring_modes", "one of them")
 
     @property
-    def clearance_key(self) -> str:
-        """Dotted key of the number that is the clearance, or the cold one."""
-        return "casing.clearance_m" if self.clearance is None else "casing.clearance.cold_m"
-
-    @property
     def cold_clearance(self) -> float:
         """Clearance (m) at rest, which is that of every speed where it does not depend on speed."""
         return self.clearance_m if self.clearance is None else self.clearance.cold_m
-
-    @property
-    def lobes_scale(self) -> bool:
-        """True if a larger clearance has higher lobes."""
-        return self.lobes > 0 and bool(self.amplitude_clearances)
 
     @property
     def elastic(self) -> bool:

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from r37core.results.columns import MOST_REVOLUTIONS
 from r37core.results.exceedance import SpeedRange, exceedance_of
@@ -279,7 +278,8 @@ def _above_yield(evidence: Evidence) -> Columns:
     exceedance = exceedance_of(response)
     inside = [part for part in exceedance.ranges(MOST_REVOLUTIONS) if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
-    notes = [evidence.divergence, _without_rotation(response)]
+    has_rotation = "static_stress" in response and bool(response["static_stress"])
+    notes = [evidence.divergence, "" if has_rotation else VIBRATION_ALONE]
     return {
         "value": operating.length(inside),
         "from_rad_s": max(widest.begin, operating.first),
@@ -287,11 +287,6 @@ def _above_yield(evidence: Evidence) -> Columns:
         "scatter": scatter_of_length(response, operating, MOST_REVOLUTIONS),
         "note": "; ".join(filter(None, notes)),
     }
-
-
-def _without_rotation(response: xr.Dataset) -> str:
-    """The note on a response whose stress lacks that of rotation; empty where it has it."""
-    return "" if "static_stress" in response and bool(response["static_stress"]) else VIBRATION_ALONE
 
 
 def _goodman_share(evidence: Evidence) -> Columns:

@@ -87,7 +87,7 @@ class Judged:
         """Pairs of blade and scene of which further runs may be needed: their runs are judged, and cover the range."""
         settings = self.sweep.settings
         operating, requirements = operating_range(settings), settings.section(SECTION).requirements()
-        if operating is None or not requirements.any_of_runs:
+        if operating is None or not requirements.run_requirements.any:
             return []
         short = pairs_not_covered(settings, operating)
         pairs = self.sweep.runs_with("rms")

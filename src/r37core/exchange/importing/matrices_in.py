@@ -8,7 +8,6 @@ nodes of the tip line, from which the patches are made.
 """
 
 import math
-import warnings
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -22,7 +21,7 @@ import scipy.linalg as la
 import scipy.sparse as sp
 
 from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
-from r37core.exchange.refusal import ImportRefused, MeshWarning, blamed
+from r37core.exchange.refusal import ImportRefused, blamed, warn_of
 from r37core.fem.solver import Solve, factorise
 from r37core.rom.contact_weights import TipContact, contact_along, tip_lengths
 from r37core.rom.craig_bampton import (
@@ -322,7 +321,7 @@ def check_frequency(model: ReducedModel, chord: float) -> None:
     )
     if not _IN_SOME[0] <= frequency * chord <= _IN_SOME[1]:
         raise ImportRefused(text)
-    warnings.warn(text, MeshWarning, stacklevel=2)
+    warn_of(text)
 
 
 def _first_frequency(model: ReducedModel) -> float:

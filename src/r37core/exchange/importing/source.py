@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,7 +14,7 @@ import numpy as np
 from r37core.base.declared import Key
 from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
 from r37core.exchange.orientation import Orientation
-from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.exchange.refusal import ImportRefused, warn_of
 from r37core.fem.elements import ELEMENTS
 
 from .deck_text import included_files, is_deck
@@ -215,10 +214,8 @@ def _edge_nodes(what: str, name: str, mesh: RawMesh, members: np.ndarray) -> np.
             between[nodes[members[nodes[:, list(edge)]].all(axis=1), middle_node]] = True
     if (members & middle).any() or not between.any():
         return members
-    warnings.warn(
+    warn_of(
         f"{what}: the set '{name}' has corners of elements alone ({members.sum()} nodes); the {between.sum()} mid-nodes "
         "between them are taken too",
-        MeshWarning,
-        stacklevel=2,
     )
     return members | between
