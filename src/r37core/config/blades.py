@@ -36,9 +36,8 @@ from .declaring import si_fields, si_form
 from .document import ConfigError, ConfigRefusals, Document
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
-from .section_laws import SECTION_KEYS, changed_keys, section_laws, shape_by_laws
 from .sections_entry import SectionsEntry
-from .shape_keys import SHARES, SHIFTS, ShapeKeys
+from .shape_keys import SECTION_KEYS, SHARES, SHIFTS, ShapeKeys, changed_keys, section_laws, shape_by_laws
 from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
 
 

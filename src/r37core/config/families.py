@@ -21,9 +21,8 @@ from .imported_entry import MatricesEntry, MeshEntry
 from .messages import did_you_mean, single_line
 from .scenes import SceneEntry
 from .section import check_name, check_names, plain
-from .section_laws import END_KEYS, SECTION_KEYS
 from .sections_entry import SectionsEntry
-from .shape_keys import SHARES
+from .shape_keys import END_KEYS, SECTION_KEYS, SHARES
 from .varied import FAMILY_KEYS, LARGEST_FAMILY, Variation, is_family
 
 AnyEntry = BladeEntry | MeshEntry | MatricesEntry | SectionsEntry | SceneEntry
