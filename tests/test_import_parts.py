@@ -29,7 +29,7 @@ from r37core.fem.surface import outer_faces
 from r37core.figures.blade_shapes import draw_blade_shapes
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 
 
 def raw(mesh):

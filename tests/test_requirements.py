@@ -12,7 +12,7 @@ from r37core.base.io import write_json
 from r37core.config import ConfigError, command_line_document
 from r37core.fem.assembly import mesh_volume
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.requirements.choice import CampbellMargin, Requirements
 from r37core.requirements.evidence import Evidence, extended, overlaid, worst_of
 from r37core.requirements.judging import (

@@ -21,7 +21,7 @@ from r37core.exchange.step_file import write_step
 from r37core.fem.matrices import assemble
 from r37core.fem.mesh_quality import mesh_quality
 from r37core.mesh.generate import generate_mesh
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.rom.reduce import reduce_blade
 
 MATERIAL = {"youngs_modulus_pa": 115e9, "density_kg_m3": 4430.0, "poissons_ratio": 0.32, "yield_stress_pa": 9e8}

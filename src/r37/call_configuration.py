@@ -13,8 +13,7 @@ from r37core.config.config_file import Config
 from r37core.config.cross_checks import history_speeds_are_run
 from r37core.config.messages import single_line
 from r37core.config.reading import together
-from r37core.product.extensions import EXTENSIONS
-from r37core.product.reading import CONFIG, READER
+from r37core.product.extensions import CONFIG, EXTENSIONS, READER
 
 _PACKAGE = Path(__file__).parent
 _FOLDER = "config"

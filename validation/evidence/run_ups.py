@@ -15,7 +15,7 @@ import xarray as xr
 from r37core.base.dataset_file import read_dataset
 from r37core.config.document import read_document
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
 from r37core.run_ups import schedule

@@ -17,7 +17,7 @@ from r37core.plans.stages import Stage, structure_stages
 from r37core.plans.structure_plan import Imported, Structure
 from r37core.plans.sweep_plan import Datasets, Rounds, Simulations, Sweep
 from r37core.product.extensions import sampling_of
-from r37core.product.reporting import EVERY_SCENE, TOGETHER, drawing as drawing_of
+from r37core.product.targets import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
     linked_figures,
     offered,

@@ -12,9 +12,8 @@ import numpy as np
 
 from r37core.base.plain import from_plain
 
-from .blade_surface import Blade
+from .blade_map import BEYOND, Blade, Meridian, SectionBlade
 from .profile import BladeShapeError, Profile, ProfileParameters
-from .section_blade import BEYOND, Meridian, SectionBlade
 from .section_changes import SectionChange, SectionChangeError, SpanLaw, changed_profiles
 from .section_curve import Point, SectionCurve
 from .stacking import Placement, chordwise_sweep, plane_section_stacking, sweep_and_lean

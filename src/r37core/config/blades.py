@@ -22,7 +22,6 @@ from r37core.rom.reduction_choice import PATCHES, QUADRATIC
 from r37core.rom.region_choice import RegionChoice
 from r37core.stress.statistic import Strengths
 
-from .bases import chain_of_bases
 from .blade_sections import (
     CONTACT_IN_WORDS,
     KINEMATICS_IN_WORDS,
@@ -33,7 +32,7 @@ from .blade_sections import (
     chosen_regions,
 )
 from .declaring import si_fields, si_form
-from .document import ConfigError, ConfigRefusals, Document
+from .document import ConfigError, ConfigRefusals, Document, chain_of_bases
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
 from .sections_entry import SectionsEntry

@@ -8,8 +8,7 @@ from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.source import MeshSource
 from r37core.rom.reduction_choice import MOST_USUAL_PATCHES, POINTS, QUADRATIC
 
-from .settings import Settings, contact_of_blades, direct_on_points
-from .speed_choice import fastest_of, length_of_run, most_runs, slowest_speeds
+from .settings import Settings, contact_of_blades, direct_on_points, fastest_of, length_of_run, most_runs, slowest_speeds
 from .spread import Spreads
 
 LONG_RUN = 10.0

@@ -17,9 +17,8 @@ from r37core.contact.ring import Ring, RingMode
 from r37core.contact.scene import DampingTable, Friction, Lining, Rotor, Scene
 from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
-from .bases import complete_scenes
 from .declaring import DECLARED, declared_by, si_fields, si_form
-from .document import ConfigRefusals, Document
+from .document import ConfigRefusals, Document, complete_scenes
 from .section import ByName, LeftOut, Name, Rpm, Section, Speed, Unique, Without, left_out, refused
 from .speed_section import refuse_both_units
 from .spread import SpreadEntry
