@@ -23,8 +23,7 @@ from r37core.exchange.sections.placed import (
     placed_meridian,
     placed_sections,
 )
-from r37core.exchange.sections.section_file import read_meridian_file, read_section_file
-from r37core.exchange.sections.section_text import SectionFile
+from r37core.exchange.sections.section_file import SectionFile, read_meridian_file, read_section_file
 
 from .blade_sections import CONTACT_IN_WORDS, KINEMATICS_IN_WORDS, Contact, Kinematics, MaterialSection
 from .declaring import si_form

@@ -14,7 +14,7 @@ from r37core.blade.sense import sense_of_line
 from r37core.exchange.orientation import Orientation, fitting_units
 from r37core.exchange.refusal import ImportRefused
 
-from .section_text import FileSection, SectionFile
+from .section_file import FileSection, SectionFile
 
 ASKED = "?"
 """Value of a key that asks what fits."""
