@@ -1,12 +1,10 @@
 """A blade's definition: profiles plus sweep and lean, or sections, and the blade built from it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -47,7 +45,7 @@ class BladeDefinition:
         """Height of the leading edge (m)."""
         return self.profiles[-1].inlet_radius - self.profiles[0].inlet_radius
 
-    def changed(self, laws: Mapping[str, SpanLaw]) -> BladeDefinition:
+    def changed(self, laws: Mapping[str, SpanLaw]) -> Self:
         """The definition with profiles changed by laws, by the names of SectionChange's fields. Raises SectionChangeError."""
         return replace(self, profiles=changed_profiles(self.profiles, laws))
 
@@ -134,7 +132,7 @@ class SectionsDefinition:
                 )
         return places
 
-    def changed(self, laws: Mapping[str, SpanLaw]) -> SectionsDefinition:
+    def changed(self, laws: Mapping[str, SpanLaw]) -> Self:
         """The definition with another stagger, by a law over the span. Raises SectionChangeError for any other change."""
         others = sorted(set(laws) - set(self.changes))
         if others:

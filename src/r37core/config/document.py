@@ -1,12 +1,10 @@
 """A configuration file's content, several on top of each other, where each value stands, and bases of entries."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import reduce
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
@@ -97,11 +95,11 @@ class Document:
         ConfigRefusals(*(str(self.error(path, text, key)) for path, key, text in own)).tell()
         raise AssertionError("a model refuses for a reason")
 
-    def overlaid(self, above: Document) -> Document:
+    def overlaid(self, above: Self) -> Self:
         """Document with the values of another one on top: mappings are joined, all else is replaced."""
         locations = dict(self.locations)
         content = _overlay(self.content, above.content, (), locations)
-        return Document(self.name, content, locations | dict(above.locations))
+        return replace(self, content=content, locations=locations | dict(above.locations), sources={})
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,12 @@
 """Settings of a run of the workflow: config.yaml, the files it names, and what it chooses of them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import product
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 
@@ -80,7 +78,7 @@ class Settings:
         return getattr(self.config, declared.name)
 
     @cached_property
-    def made(self) -> Callable[[Callable[[Settings], Any]], Any]:
+    def made(self) -> Callable[[Callable[[Self], Any]], Any]:
         """Gives what a function makes of these settings, made once: for an extension's own part of them that takes long."""
         return cache(lambda make: make(self))
 

@@ -1,7 +1,5 @@
 """Description of a blade of another program: its files, where root and tip are. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from collections.abc import Iterable
@@ -25,6 +23,64 @@ DECK = ".inp"
 
 SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
 """Endings of mesh files that can be read."""
+
+
+@dataclass(frozen=True)
+class Where:
+    """A part of the mesh: the nodes in the set `set_name`, or those that keep all the limits given.
+
+    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
+    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and
+    cone.
+    """
+
+    set_name: str | None = None
+    limits: tuple[tuple[str, str, float], ...] = ()
+    cone_zr: Annotated[
+        tuple[tuple[float, float], tuple[float, float]] | None,
+        Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
+    ] = None
+    tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", ge=1e-9, le=0.1)] = 1e-4
+
+    def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
+        """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
+        if self.set_name is None:
+            return self.within(mesh.points)
+        return _edge_nodes(what, self.set_name, mesh, _set_members(what, self.set_name, mesh))
+
+    def within(self, points: np.ndarray) -> np.ndarray:
+        """Mask over `points` (m), shape (n, 3), that keep limits and cone."""
+        x, y, z = points.T
+        coordinates = {"r": np.hypot(x, y), "x": x, "z": z}
+        members = np.ones(len(points), dtype=bool)
+        for name, bound, value in self.limits:
+            sign = 1.0 if bound == "at_least" else -1.0
+            members &= sign * (coordinates[name] - value) >= -self.tolerance
+        if self.cone_zr is not None:
+            members &= np.abs(self.off_cone(points)) <= self.tolerance
+        return members
+
+    def off_cone(self, points: np.ndarray) -> np.ndarray:
+        """Distance (m) of `points`, shape (n, 3), from the cone, shape (n,)."""
+        assert self.cone_zr is not None
+        (z0, r0), (z1, r1) = self.cone_zr
+        radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+        return ((radius - r0) * (z1 - z0) - (z - z0) * (r1 - r0)) / np.hypot(z1 - z0, r1 - r0)
+
+    def describe(self) -> str:
+        """The rule in words."""
+        if self.set_name is not None:
+            return f"the set '{self.set_name}'"
+        parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
+        if self.cone_zr is not None:
+            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
+        return f"the rule '{' and '.join(parts)}, to {self.tolerance:g} m'"
+
+    def as_yaml(self) -> str:
+        """The rule of a cone as an entry of blades.yaml has it."""
+        assert self.cone_zr is not None
+        points = ", ".join(f"[{_plain(z)}, {_plain(r)}]" for z, r in self.cone_zr)
+        return f"{{ cone_zr_m: [{points}], tolerance_m: {_plain(self.tolerance)} }}"
 
 
 @dataclass(frozen=True)
@@ -127,64 +183,6 @@ def digest_of(files: Iterable[Path]) -> str:
 
 
 _MOST_NAMES = 30
-
-
-@dataclass(frozen=True)
-class Where:
-    """A part of the mesh: the nodes in the set `set_name`, or those that keep all the limits given.
-
-    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
-    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and
-    cone.
-    """
-
-    set_name: str | None = None
-    limits: tuple[tuple[str, str, float], ...] = ()
-    cone_zr: Annotated[
-        tuple[tuple[float, float], tuple[float, float]] | None,
-        Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
-    ] = None
-    tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", ge=1e-9, le=0.1)] = 1e-4
-
-    def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
-        """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
-        if self.set_name is None:
-            return self.within(mesh.points)
-        return _edge_nodes(what, self.set_name, mesh, _set_members(what, self.set_name, mesh))
-
-    def within(self, points: np.ndarray) -> np.ndarray:
-        """Mask over `points` (m), shape (n, 3), that keep limits and cone."""
-        x, y, z = points.T
-        coordinates = {"r": np.hypot(x, y), "x": x, "z": z}
-        members = np.ones(len(points), dtype=bool)
-        for name, bound, value in self.limits:
-            sign = 1.0 if bound == "at_least" else -1.0
-            members &= sign * (coordinates[name] - value) >= -self.tolerance
-        if self.cone_zr is not None:
-            members &= np.abs(self.off_cone(points)) <= self.tolerance
-        return members
-
-    def off_cone(self, points: np.ndarray) -> np.ndarray:
-        """Distance (m) of `points`, shape (n, 3), from the cone, shape (n,)."""
-        assert self.cone_zr is not None
-        (z0, r0), (z1, r1) = self.cone_zr
-        radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
-        return ((radius - r0) * (z1 - z0) - (z - z0) * (r1 - r0)) / np.hypot(z1 - z0, r1 - r0)
-
-    def describe(self) -> str:
-        """The rule in words."""
-        if self.set_name is not None:
-            return f"the set '{self.set_name}'"
-        parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
-        if self.cone_zr is not None:
-            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
-        return f"the rule '{' and '.join(parts)}, to {self.tolerance:g} m'"
-
-    def as_yaml(self) -> str:
-        """The rule of a cone as an entry of blades.yaml has it."""
-        assert self.cone_zr is not None
-        points = ", ".join(f"[{_plain(z)}, {_plain(r)}]" for z, r in self.cone_zr)
-        return f"{{ cone_zr_m: [{points}], tolerance_m: {_plain(self.tolerance)} }}"
 
 
 def _plain(number: float) -> str:
