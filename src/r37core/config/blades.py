@@ -1,7 +1,7 @@
 """blades.yaml: blades by their shape, mesh or matrices, and their materials."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -32,7 +32,7 @@ from .blade_sections import (
     chosen_regions,
 )
 from .declaring import si_fields, si_form
-from .document import ConfigError, ConfigRefusals, Document, chain_of_bases
+from .document import ConfigError, Document, chain_of_bases
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
 from .sections_entry import SectionsEntry
@@ -128,26 +128,6 @@ class BladeSettings:
     def elastic(self) -> Self:
         """Blade without the strengths of its material: a new one asks for no new model."""
         return self if self.material is None else replace(self, material=self.material.elastic)
-
-
-def all_blades(
-    names: Iterable[str], entries: Mapping[str, Any], family_of: Mapping[str, str], root: Path, document: Document
-) -> dict[str, BladeSettings]:
-    """The blades of these names. Raises the ConfigErrors of all of them, but not of one whose base is refused before it.
-
-    Of designs of one family, `family_of` design -> family, the first refusal is enough: they have nearly all in common.
-    """
-    refusals = ConfigRefusals()
-    blades: dict[str, BladeSettings | None] = {}
-    refused_families: set[str] = set()
-    for name in names:
-        base, family = getattr(entries[name], "base", None), family_of.get(name, "")
-        known = (base not in blades or blades[base] is not None) and family not in refused_families
-        blades[name] = refusals.of(blade_settings, name, entries, root, document) if known else None
-        if family and blades[name] is None:
-            refused_families.add(family)
-    refusals.tell()
-    return {name: blade for name, blade in blades.items() if blade is not None}
 
 
 def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: Document) -> BladeSettings:

@@ -20,7 +20,7 @@ from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integration_choice import SECONDS_PER_STEP, IntegrationChoice
 
 from .blade_sections import chosen_regions
-from .blades import BladeSettings, all_blades, link_with
+from .blades import BladeSettings, blade_settings, link_with
 from .config_file import Config, StructureSection
 from .declaring import si_form
 from .document import ConfigRefusals, Document, Documents, chain_of_bases
@@ -92,8 +92,22 @@ class Settings:
 
     @cached_property
     def blades(self) -> dict[str, BladeSettings]:
-        """Blades to run. Raises ConfigError for tables or files that cannot be read, and shapes that are impossible."""
-        return all_blades(self.blade_names, self.designs.entries, self.designs.family_of, self.root, self.documents.blades)
+        """Blades to run, each with its tables and files read.
+
+        Raises the ConfigErrors of all of them, but not of one whose base is refused before it. Of designs of one family the
+        first refusal is enough: they have nearly all in common.
+        """
+        entries, family_of, refusals = self.designs.entries, self.designs.family_of, ConfigRefusals()
+        blades: dict[str, BladeSettings | None] = {}
+        refused_families: set[str] = set()
+        for name in self.blade_names:
+            base, family = getattr(entries[name], "base", None), family_of.get(name, "")
+            known = (base not in blades or blades[base] is not None) and family not in refused_families
+            blades[name] = refusals.of(blade_settings, name, entries, self.root, self.documents.blades) if known else None
+            if family and blades[name] is None:
+                refused_families.add(family)
+        refusals.tell()
+        return {name: blade for name, blade in blades.items() if blade is not None}
 
     @cached_property
     def scene_names(self) -> list[str]:
