@@ -127,8 +127,14 @@ def _kind(entry: Any) -> str:
 
 
 def _family(name: str, entry: Any, root: Path, document: Document) -> Family:
-    if entry.designs is not None:
-        return _table_family(name, entry, root, document)
+    if (file := entry.designs) is not None:
+        with readable_table(file, (name, "designs"), document):
+            try:
+                keys, table_designs = read_designs(root / file, _kind(entry))
+            except (TextFileError, BladeShapeError) as error:
+                raise ConfigError(f"{file}: family {name}: {error}") from None
+        _check_size(table_designs, name, "designs", document)
+        return Family(keys, table_designs)
     values = {key: way.values() if isinstance(way, Variation) else list(map(float, way)) for key, way in entry.vary.items()}
     if entry.combine == "pairs":
         lengths = {key: len(several) for key, several in values.items()}
@@ -148,17 +154,6 @@ def _family(name: str, entry: Any, root: Path, document: Document) -> Family:
 def _check_size(designs: Sized, family: str, key: str, document: Document) -> None:
     if len(designs) > LARGEST_FAMILY:
         raise document.refusal((family, key), f"{len(designs)} designs", f"at most {LARGEST_FAMILY}")
-
-
-def _table_family(name: str, entry: Any, root: Path, document: Document) -> Family:
-    file = entry.designs
-    with readable_table(file, (name, "designs"), document):
-        try:
-            keys, rows = read_designs(root / file, _kind(entry))
-        except (TextFileError, BladeShapeError) as error:
-            raise ConfigError(f"{file}: family {name}: {error}") from None
-    _check_size(rows, name, "designs", document)
-    return Family(keys, rows)
 
 
 def design_name(family: str, values: Sequence[float]) -> str:

@@ -74,17 +74,13 @@ class Progress(logging.Filter):
 
     def filter(self, record: logging.LogRecord) -> bool:
         """True where Snakemake's own handler should write the record."""
+        event, message = str(getattr(record, "event", None) or ""), record.getMessage().strip()
+        passes = bool(message) and event not in QUIET_EVENTS and not (not event and message.startswith(_CHATTER))
         with self._lock:
-            return self._passes(record)
-
-    def _passes(self, record: logging.LogRecord) -> bool:
-        event = str(getattr(record, "event", None) or "")
-        self._take(event, record)
-        message = record.getMessage().strip()
-        if event in QUIET_EVENTS or not message or (not event and message.startswith(_CHATTER)):
-            return False
-        self._close_line()
-        return True
+            self._take(event, record)
+            if passes:
+                self._close_line()
+        return passes
 
     def _take(self, event: str, record: logging.LogRecord) -> None:
         self._began = self.clock() if self._began is None else self._began

@@ -15,7 +15,11 @@ from .extensions import EXTENSIONS
 
 def targets(sweep: Sweep) -> dict[str, Wildcards]:
     """Pattern of files -> wildcards of each that is asked for; none where a configuration does without."""
-    targets = _pipeline_targets(sweep)
+    targets: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
+    targets["<results>/ranking.csv"] = [{}]
+    targets["<results>/coincidences.csv"] = [{}] if elastic_casings(sweep.settings) else []
+    for figure in PIPELINE:
+        targets |= figure.targets(sweep)
     for extension in EXTENSIONS:
         if not extension.made_on_request:
             targets |= extension.all_targets(sweep)
@@ -35,15 +39,6 @@ def everything(sweep: Sweep) -> dict[str, Wildcards]:
 def simulated(sweep: Sweep) -> list[str]:
     """Files of the extensions' own simulations."""
     return [file for extension in EXTENSIONS for file in filled(extension.simulated(sweep))]
-
-
-def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
-    targets: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
-    targets["<results>/ranking.csv"] = [{}]
-    targets["<results>/coincidences.csv"] = [{}] if elastic_casings(sweep.settings) else []
-    for figure in PIPELINE:
-        targets |= figure.targets(sweep)
-    return targets
 
 
 def offered(what: Literal["motions", "run_ups", "verdict"], sweep: Sweep) -> dict[str, str]:
