@@ -166,15 +166,12 @@ def complete_docstring(call: Callable[..., object], arguments: Iterable[str], se
     own = {section.partition(":")[0]: section for section in sections}
     entries = re.split(r"\n(?=    \S)", own.get("Args", ""))[1:]
     described = {name: entry for entry in entries for name in re.findall(r"\w+", entry.partition(":")[0])}
-    texts = {**_key_descriptions(section), **_DESCRIPTIONS}
+    # keys of a section, with their declared descriptions and defaults, and the keys of sections in them
+    keys = {} if section is None else {name: _key_description(field) for name, field in section.model_fields.items()}
+    texts = {**keys, **_DESCRIPTIONS}
     own["Args"] = "\n".join(["Args:", *dict.fromkeys(described.get(name) or _entry(name, texts[name]) for name in arguments)])
     usual = {"Returns": _FIGURE, "Raises": _ERRORS}
     return "\n\n".join([purpose, *(own.get(title) or usual[title] for title in ("Args", "Returns", "Raises", "Examples"))])
-
-
-def _key_descriptions(section: Any) -> dict[str, str]:
-    """Keys of a section, with their declared descriptions and defaults, and the keys of sections in them."""
-    return {} if section is None else {name: _key_description(field) for name, field in section.model_fields.items()}
 
 
 def _key_description(field: Any) -> str:

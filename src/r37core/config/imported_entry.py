@@ -18,7 +18,7 @@ from .blade_sections import (
     refuse_taken_names,
 )
 from .declaring import DECLARED, declared_by, si_form
-from .section import ByName, FileName, LeftOut, Section, left_out, refused
+from .section import ByName, FileName, LeftOut, Section, left_out, or_section, refused
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
 Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
@@ -53,10 +53,7 @@ class SurfaceRule(Section):
         return si_form(Where, self, limits=self._limits())
 
 
-SetOrRule = Annotated[
-    Annotated[FileName, Tag("name")] | Annotated[SurfaceRule, Tag("SurfaceRule")],
-    Discriminator(lambda value: "SurfaceRule" if isinstance(value, dict | SurfaceRule) else "name"),
-]
+SetOrRule: Any = or_section(FileName, SurfaceRule)
 
 
 _LEAST_METRES, _MOST_METRES = 1e-9, 1e3

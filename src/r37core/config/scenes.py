@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
-from pydantic import BeforeValidator, Discriminator, Field, RootModel, Tag, WithJsonSchema, WrapValidator, model_validator
+from pydantic import BeforeValidator, Field, RootModel, WithJsonSchema, WrapValidator, model_validator
 
 from r37core.base.yaml_file import KeyPath
 from r37core.contact.casing import Casing
@@ -19,7 +19,7 @@ from r37core.time_integration.rotor_blades import NO_ROTOR, refusal_of
 
 from .declaring import DECLARED, declared_by, si_fields, si_form
 from .document import ConfigRefusals, Document, complete_scenes
-from .section import ByName, LeftOut, Name, Rpm, Section, Speed, Unique, Without, left_out, refused
+from .section import ByName, LeftOut, Name, Rpm, Section, Speed, Unique, Without, left_out, or_section, refused
 from .speed_section import refuse_both_units
 from .spread import SpreadEntry
 from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, is_family, vary_field
@@ -336,10 +336,7 @@ class DampingSection(Section):
             raise refused(("ratios",), lengths, "one for each frequency")
 
 
-DampingRatio: Any = Annotated[
-    Annotated[DampingNumber, Tag("number")] | Annotated[DampingSection, Tag("table")],
-    Discriminator(lambda value: "table" if isinstance(value, dict | Section) else "number"),
-]
+DampingRatio: Any = or_section(DampingNumber, DampingSection)
 
 
 @declared_by(Scene)

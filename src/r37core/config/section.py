@@ -123,6 +123,13 @@ Rpm = Annotated[float, Field(ge=0.01, le=9.5e6)]
 """An angular speed in revolutions per minute."""
 
 
+def or_section(kind: Any, section: type[Section]) -> Any:
+    """Type of a key with a value of a `kind`, or a section in its place."""
+    name = section.__name__
+    kinds = Annotated[kind, Tag("value")] | Annotated[section, Tag(name)]  # type: ignore[valid-type]
+    return Annotated[kinds, Discriminator(lambda value: name if isinstance(value, dict | section) else "value")]
+
+
 def check_names(names: dict[str, T]) -> dict[str, T]:
     """The entries by name; raises the error of two names that differ in capitals only: some systems would have one file."""
     seen: dict[str, str] = {}

@@ -28,7 +28,7 @@ from r37core.exchange.sections.section_file import SectionFile, read_meridian_fi
 from .blade_sections import CONTACT_IN_WORDS, KINEMATICS_IN_WORDS, Contact, Kinematics, MaterialSection
 from .declaring import si_form
 from .imported_entry import LengthUnit, Oriented
-from .section import FileName, LeftOut, Section, left_out, refused
+from .section import FileName, LeftOut, Section, left_out, or_section, refused
 from .shape_keys import ShapeKeys
 from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
 
@@ -60,10 +60,7 @@ class EndSurface(Section):
         return ((0.0, self.radius_m),)
 
 
-End = Annotated[
-    Annotated[FileName, Tag("name")] | Annotated[EndSurface, Tag("EndSurface")],
-    Discriminator(lambda value: "EndSurface" if isinstance(value, dict | EndSurface) else "name"),
-]
+End: Any = or_section(FileName, EndSurface)
 
 
 def _end(which: str, other: str) -> Any:

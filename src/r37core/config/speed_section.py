@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from .section import LeftOut, Names, Rpm, Section, Speed, Unique, left_out, refused
+from .section import LeftOut, Names, Rpm, Section, Speed, Unique, left_out, or_section, refused
 
 UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
@@ -35,14 +35,8 @@ class RpmRange(SpeedRange):
     refine_to: Rpm | LeftOut = _REFINE_TO
 
 
-def _kind(value: Any) -> str:
-    return "range" if isinstance(value, dict | SpeedRange) else "number"
-
-
-SpeedEntry = Annotated[Annotated[Speed, Tag("number")] | Annotated[SpeedRange, Tag("range")], Discriminator(_kind)]
-SpeedList = Annotated[list[SpeedEntry], Field(min_length=1)]
-RpmEntry = Annotated[Annotated[Rpm, Tag("number")] | Annotated[RpmRange, Tag("range")], Discriminator(_kind)]
-RpmList = Annotated[list[RpmEntry], Field(min_length=1)]
+SpeedList: Any = Annotated[list[or_section(Speed, SpeedRange)], Field(min_length=1)]  # type: ignore[misc]
+RpmList: Any = Annotated[list[or_section(Rpm, RpmRange)], Field(min_length=1)]  # type: ignore[misc]
 
 
 class SpeedRule(Section):
