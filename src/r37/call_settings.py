@@ -1,5 +1,7 @@
 """Settings of a call: its blades and scenes, with other keys of config.yaml."""
 
+from __future__ import annotations
+
 import inspect
 import os
 import warnings
