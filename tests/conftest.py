@@ -144,7 +144,7 @@ def process_as_before():
 
 @pytest.fixture(scope="session")
 def settings(root):
-    from r37core.product.reading import read_settings
+    from r37core.product.extensions import read_settings
 
     return read_settings(root)
 
@@ -279,7 +279,7 @@ def config_copy(root, tmp_path):
 def with_blades(config_copy):
     """Settings of a copy, with some text added to blades.yaml and, if given, a table of designs and other changes."""
     from r37core.config import command_line_document
-    from r37core.product.reading import read_settings
+    from r37core.product.extensions import read_settings
 
     def read(text, table="", **changes):
         with open(config_copy / "config/blades.yaml", "a") as stream:

@@ -20,7 +20,7 @@ from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import factorise
 from r37core.fem.stress import nodal_stress
-from r37core.product.reading import load_settings
+from r37core.product.extensions import load_settings
 from r37core.results.response import write_response
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model

@@ -18,8 +18,8 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.stages import structure_stages
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import read_settings
-from r37core.product.reporting import FIGURES, drawing
+from r37core.product.extensions import read_settings
+from r37core.product.targets import FIGURES, drawing
 from r37core.requirements.plan import Judged
 from r37core.run_ups.plan import RunUps
 

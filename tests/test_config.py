@@ -15,7 +15,7 @@ from r37core.config import ConfigError, command_line_document, plain, read_docum
 from r37core.config.document import ConfigRefusals
 from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws
 from r37core.plans.provenance import structure_hash
-from r37core.product.reading import load_settings, read_settings
+from r37core.product.extensions import load_settings, read_settings
 from r37core.product.schemas import schemas
 
 

@@ -179,6 +179,8 @@ def test_no_run_is_silent(clock):
     clock.now, written = 400.0, log.getvalue()
     progress.beat()
     assert log.getvalue() == written
+    log.close()
+    progress.beat()
 
 
 def test_a_message_of_a_job_takes_the_place_of_the_line(clock):

@@ -22,7 +22,7 @@ from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.traces import edge_traces
 from r37core.plans.provenance import structure_hash
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.rom.contact_weights import contact_along, mean_fields, mean_positions, tip_contact
 from r37core.rom.reduce import reduce_blade
 from r37core.rom.reduced_model import contact_model

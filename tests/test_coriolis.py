@@ -21,7 +21,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from r37core.config import ConfigError, command_line_document
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.rom.reduced_model import contact_model
 from r37core.run_ups.choice import RunUp
 from r37core.run_ups.integration import RunUpIntegration

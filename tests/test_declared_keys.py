@@ -14,8 +14,8 @@ from pydantic import Field
 from r37core.base.declared import Key, declared_keys
 from r37core.base.units import SUFFIXES
 from r37core.config import ConfigError, Document, checked_scene, si_fields, si_form
-from r37core.config.casing_section import CasingSection
 from r37core.config.declaring import DECLARED, declared_by
+from r37core.config.scenes import CasingSection
 from r37core.config.section import Section
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Friction, Lining, Scene

@@ -10,7 +10,7 @@ from yaml import safe_dump, safe_load
 
 from r37core.base.yaml_file import load_yaml
 from r37core.config import command_line_document
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 
 
 def section(page, name):

@@ -35,7 +35,7 @@ from r37core.contact.elastic_casing import (
 from r37core.contact.ring import RingMode, RingMotion, critical_speed
 from r37core.figures.campbell_diagram import draw_campbell
 from r37core.figures.maps import draw_casing_map
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.results.casing_coincidence import coincidence_table, coincidences, seen_from_rotor, waves_of
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.response import write_response

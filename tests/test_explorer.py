@@ -14,7 +14,7 @@ from r37core.config import command_line_document
 from r37core.explorer import write_page
 from r37core.explorer.contents import bin_starts, explorer_contents, joined, order_bins, packed, rounded
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import load_settings
+from r37core.product.extensions import load_settings
 from r37core.product.targets import linked_figures
 from r37core.results.table_file import read_table
 from r37core.time_integration.status import RunStatus

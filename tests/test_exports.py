@@ -20,8 +20,7 @@ from box_operator import box_operator
 from defaults import MatricesSource, Orientation
 
 from r37core.exchange.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
-from r37core.exchange.importing.matrices_in import import_matrices, wording
-from r37core.exchange.importing.matrix_file import read_matrix
+from r37core.exchange.importing.matrices_in import import_matrices, read_matrix, wording
 from r37core.exchange.importing.source import matrix_files
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning

@@ -17,9 +17,8 @@ from r37core.designs.figures import draw_designs
 from r37core.designs.plan import Families
 from r37core.designs.table import MEASURES, design_table
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import read_settings
-from r37core.product.reporting import FIGURES, drawing
-from r37core.product.targets import targets
+from r37core.product.extensions import read_settings
+from r37core.product.targets import FIGURES, drawing, targets
 from r37core.results.columns import names
 from r37core.run_ups.plan import RunUps
 from r37core.time_integration.status import RunStatus

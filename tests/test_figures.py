@@ -15,7 +15,7 @@ from PIL import Image
 
 from r37core.figures import campbell_diagram, comparison, interaction_map, maps, response_curves, style
 from r37core.figures.style import save
-from r37core.product.reporting import FIGURES
+from r37core.product.targets import FIGURES
 from r37core.results.columns import INTERACTIONS, names
 from r37core.results.table_file import read_table
 from r37core.time_integration.settling import MotionAtEnd

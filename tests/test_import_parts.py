@@ -16,8 +16,7 @@ from r37core.blade.sense import check_profile_sense, sense_of_line, sense_of_pro
 from r37core.config import ConfigError
 from r37core.exchange.importing import ends, meshio_reader, tip
 from r37core.exchange.importing.fitting_entry import find_axes
-from r37core.exchange.importing.frame import blade_parameters
-from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.importing.import_mesh import blade_parameters, import_mesh
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.exchange.importing.source import matrix_files
@@ -30,7 +29,7 @@ from r37core.fem.surface import outer_faces
 from r37core.figures.blade_shapes import draw_blade_shapes
 from r37core.mesh.generate import generate_mesh
 from r37core.mesh.mesh_files import write_vtu
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 
 
 def raw(mesh):

@@ -21,7 +21,7 @@ from r37core.plans.paths import filled
 from r37core.plans.provenance import structure_hash
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
 from r37core.signals.plan import Signals
 from r37core.trials import stability, tradeoff

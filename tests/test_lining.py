@@ -16,7 +16,7 @@ from r37core.config import ConfigError, checked_scene, command_line_document
 from r37core.config.changed_numbers import scene_numbers
 from r37core.config.remarks import remarks_on_laws
 from r37core.config.scenes import SceneEntry
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.product.remarks import remarks as remarks_of_run
 from r37core.rom.contact_weights import tip_lengths
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL

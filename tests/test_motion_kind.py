@@ -11,7 +11,7 @@ from reference_engine import ReferenceSimulation
 
 from r37core.base.dataset_file import read_dataset
 from r37core.config import ConfigError, checked_scene, command_line_document, plain
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.results.response import write_response
 from r37core.time_integration import motion_kind as kinds
 from r37core.time_integration.carrying import CarriedMotion

@@ -21,13 +21,13 @@ from scipy.linalg import eigh
 from workflow_runs import copy_finished, copy_project, own_package
 
 import r37
+from r37.calculation import cache_folder, structure_file
 from r37.command import main
-from r37.structure_files import cache_folder, structure_file
 from r37core.base.dataset_file import read_dataset
 from r37core.config import command_line_document
 from r37core.exports.matrices_out import write_reduced_matrices
 from r37core.machine_code.kept import kept_file
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.rom.rom_file import read_reduced_model
 from r37core.sweep import recipe
 

@@ -15,8 +15,8 @@ from stubbed_runs import BLADES, REFINED, SCENES, copy_stubbed, refine, runs, si
 from workflow_runs import copy_finished, digests, kill_snakemake, lose_speed, overlay, planned_outputs, snakemake
 
 import r37
+from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
-from r37core.product.reading import read_settings
 from r37core.time_integration.status import RunStatus
 
 pytestmark = pytest.mark.slow

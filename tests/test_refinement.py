@@ -24,7 +24,7 @@ from r37core.config import ConfigError, command_line_document
 from r37core.config.settings import merged_settings
 from r37core.exports.plan import Exports
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import load_settings, read_settings
+from r37core.product.extensions import load_settings, read_settings
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
 

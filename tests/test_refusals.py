@@ -11,7 +11,7 @@ from r37core.base.speeds import LARGEST_NUMBER, SpeedError, exact_text, plan_spe
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, Document, command_line_document
 from r37core.config.remarks import remarks_on_speeds
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.product.schemas import MODELS
 
 

@@ -33,11 +33,11 @@ from r37core.exchange.write_mesh import write_mesh
 from r37core.machine_code import kept
 from r37core.mesh.mesh_files import save_grid, vtk_grid
 from r37core.plans.sweep_plan import speeds_of_round
+from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
 from r37core.product.leftovers import main as clean
-from r37core.product.reading import read_settings
 from r37core.product.remarks import replaced_level, source_folder
-from r37core.results.netcdf import create_axis, create_variable
+from r37core.results.joining import create_axis, create_variable
 from r37core.rom.rotation import BucklingError
 from r37core.sweep import recipe
 from r37core.time_integration.simulate import Simulation

@@ -16,7 +16,7 @@ from r37core.base.io import InputFileError
 from r37core.base.speeds import plan_speeds
 from r37core.fem.material import Material
 from r37core.results.datasets import write_sweep_dataset
-from r37core.results.netcdf import create_axis, create_variable
+from r37core.results.joining import create_axis, create_variable
 from r37core.results.response import write_response
 from r37core.rom.recovery_nodes import RecoveryNodes
 from r37core.rom.reduced_model import contact_model

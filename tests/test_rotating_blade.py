@@ -16,7 +16,7 @@ from r37core.fem.material import Material
 from r37core.fem.matrices import assemble
 from r37core.fem.solver import lowest_modes
 from r37core.fem.stress import nodal_second_order_stress, nodal_stress
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.rom.contact_model import read_contact_model, write_contact_model
 from r37core.rom.reduced_model import contact_model
 from r37core.rom.rom_file import read_reduced_model, write_reduced_model

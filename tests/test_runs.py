@@ -17,7 +17,7 @@ from r37 import workflow_process
 from r37core.base.yaml_file import load_yaml, yaml_text
 from r37core.blade.profile import BladeShapeError
 from r37core.config.settings import merged_settings
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 
 pytestmark = pytest.mark.usefixtures("warm_calls")
 

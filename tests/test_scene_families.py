@@ -22,7 +22,7 @@ from r37core.designs.panel import contents
 from r37core.designs.plan import EXTENSION, Families
 from r37core.designs.table import compared_in
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.product.targets import targets as all_targets
 
 SHIPPED = "abradable, direct, material_abradable"

@@ -12,7 +12,7 @@ from workflow_runs import overlay
 
 from r37core.base.varied_number import BLADE
 from r37core.config import ConfigError
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.search import steps
 from r37core.search.dataset import BLADES_HEADER, search_dataset, search_table, write_entries
 from r37core.search.designs import choice_of, designs_of

@@ -18,8 +18,8 @@ from r37core.base.io import Named
 from r37core.base.varied_number import BLADE
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import scene_numbers
+from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
-from r37core.product.reading import read_settings
 from r37core.search import evaluation, steps
 from r37core.search.designs import NOMINAL, designs_of
 from r37core.search.evaluation import Evaluation, Refused

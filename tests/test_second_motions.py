@@ -15,7 +15,7 @@ from r37core.base.dataset_file import read_dataset
 from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.figures.response_curves import draw_response
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.results.other_motions import ranking_with_motions, summary_with_motions
 from r37core.rom.contact_model import write_contact_model
 from r37core.second_motions import steps

@@ -10,7 +10,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import r37
-from r37core.blade.blade_surface import Blade
+from r37core.blade.blade_map import Blade
 from r37core.blade.profile import BladeShapeError, Profile
 from r37core.blade.section_changes import SectionChange, SectionChangeError, SpanLaw, changed_profile, changed_profiles
 from r37core.blade.stacking import conical_stacking

@@ -14,7 +14,7 @@ from test_run_statistics import FREE, SPEED, with_tip
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import InputFileError
-from r37core.exchange.importing.frame import blade_parameters
+from r37core.exchange.importing.import_mesh import blade_parameters
 from r37core.figures.style import save
 from r37core.results.joining import join_runs
 from r37core.rom.recovery_nodes import RecoveryNodes

@@ -69,13 +69,13 @@ def test_names_are_imported_when_they_are_used():
         _ = r37.sweeps
 
 
-@pytest.mark.parametrize("name", ["__init__", "command", "study_folder", "stages", "docstrings"])
+@pytest.mark.parametrize("name", ["__init__", "command", "study_folder", "stages"])
 def test_a_word_that_computes_nothing_imports_nothing_that_computes(root, name):
     tree = ast.parse((root / f"src/r37/{name}.py").read_text())
     imports = [node for node in tree.body if isinstance(node, ast.Import | ast.ImportFrom)]
     names = {alias.name for node in imports if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module for node in imports if isinstance(node, ast.ImportFrom)}
-    assert {name.split(".")[0] for name in names} <= {*sys.stdlib_module_names, "r37", "r37core", "stages", "docstrings"}
+    assert {name.split(".")[0] for name in names} <= {*sys.stdlib_module_names, "r37", "r37core", "stages"}
     assert "r37core.config" not in names or name == "study_folder"
 
 

@@ -18,7 +18,7 @@ from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import SpeedPlan, plan_speeds
 from r37core.config import command_line_document
 from r37core.plans.provenance import Provenance
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.stress.statistic import Strengths
 from r37core.sweep import counts, driver
 from r37core.sweep.blade_sweep import BladeSweep, SharedSpeeds

@@ -21,8 +21,8 @@ from r37core.config import ConfigError, Document
 from r37core.config.spread import SpreadEntry
 from r37core.figures import style
 from r37core.plans.member_values import sobol_points
+from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
-from r37core.product.reading import read_settings
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.columns import ENDS, INTERACTIONS, names
 from r37core.results.interactions import find_interactions

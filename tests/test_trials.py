@@ -27,8 +27,7 @@ from r37core.config.fidelity import recommended_level
 from r37core.plans.extent import extent_of, extents
 from r37core.plans.paths import filled
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.extensions import simulations_of_members
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings, simulations_of_members
 from r37core.rom.contact_model import read_contact_model
 from r37core.sweep.parts import Parts
 from r37core.trials import estimate, estimate_tables, runner, stability, stability_tables, steps, tradeoff

@@ -10,13 +10,13 @@ import pytest
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.base.plain import from_plain
 from r37core.config import ConfigError, command_line_document
-from r37core.config.speed_choice import most_runs
+from r37core.config.settings import most_runs
 from r37core.contact.scene import Scene
 from r37core.plans.paths import filled
 from r37core.plans.provenance import Provenance
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
 from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.plan import RunUps

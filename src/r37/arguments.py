@@ -1,7 +1,5 @@
 """Speeds and other numbers as arguments of a call."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from itertools import islice
 from typing import Any

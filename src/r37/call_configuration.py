@@ -1,35 +1,20 @@
-"""Which configuration a call is made with: the shipped one, or one's own; and the settings of one blade and scene of it."""
-
-from __future__ import annotations
+"""Which configuration a call is made with: the shipped one, or one's own."""
 
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
-from r37core.config import ConfigError, Document, Settings, command_line_document, read_document
+from r37core.config import ConfigError, Document, command_line_document, read_document
 from r37core.config.config_file import Config
-from r37core.config.cross_checks import history_speeds_are_run
 from r37core.config.messages import single_line
 from r37core.config.reading import together
-from r37core.product.extensions import EXTENSIONS
-from r37core.product.reading import CONFIG, READER
+from r37core.product.extensions import CONFIG
 
 _PACKAGE = Path(__file__).parent
 _FOLDER = "config"
 """Folder of the repository and of this package, where it is a link or, once installed, a copy."""
-
-_SPEEDS = ("speeds", "speeds_rpm", "speeds_for")
-
-_JUDGING = "requirements"
-"""Extension whose section judges results of any call, as `interactions` of the pipeline does."""
-
-_OF_A_RUN = ("run", *_SPEEDS, *(extension.name for extension in EXTENSIONS if extension.name != _JUDGING))
-"""Sections of config.yaml that say what a run of the workflow makes, and nothing of a single simulation."""
-
-_READER = replace(READER, checks=tuple(check for check in READER.checks if check is not history_speeds_are_run))
-"""A call names its speeds: of those with a stress history it has the ones that it runs."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +24,7 @@ class Configuration:
     document: Document
     root: Path
 
-    def changed_by(self, files: Iterable[Path | str]) -> Configuration:
+    def changed_by(self, files: Iterable[Path | str]) -> Self:
         """Configuration with files of changes on top, each on those before it. Raises ConfigError."""
         return replace(self, document=together(self.document, [read_document(Path.cwd(), str(file)) for file in files]))
 
@@ -48,7 +33,7 @@ class Configuration:
         """The content as a model. Raises ConfigError."""
         return self.document.check(CONFIG)
 
-    def changed_file(self, key: str, file: Path | str | None) -> Configuration:
+    def changed_file(self, key: str, file: Path | str | None) -> Self:
         """Configuration with another file, if any, under `blades_file` or `scenes_file`; tables of blades lie next to it.
 
         Raises ConfigError.
@@ -57,26 +42,7 @@ class Configuration:
             return self
         path = existing_file("file", file, "a file that is there").absolute()
         document = self.document.overlaid(command_line_document({key: str(path)}, f"{key[:-5]} file"))
-        return Configuration(document, _root_of(path) if key == "blades_file" else self.root)
-
-    def settings(
-        self,
-        keys: Mapping[str, Any],
-        caller: str,
-        blades_above: Document | None = None,
-        scenes_above: Document | None = None,
-        whole: bool = False,
-    ) -> Settings:
-        """Checked settings of these `keys` on top of this configuration; a message names the `caller` as its place.
-
-        `blades_above`, `scenes_above`: changes on top of these files. What the configuration says of a run counts if it is
-        taken `whole`, but for its section run. Raises ConfigError.
-        """
-        left_out = {"run", *(_SPEEDS if keys.keys() & set(_SPEEDS) else ())} if whole else set(_OF_A_RUN)
-        content = {key: value for key, value in self.document.content.items() if key not in left_out}
-        locations = {path: line for path, line in self.document.locations.items() if not path or path[0] not in left_out}
-        document = replace(self.document, content=content, locations=locations).overlaid(command_line_document(keys, caller))
-        return _READER.load_settings(document, self.root, blades_above=blades_above, scenes_above=scenes_above)
+        return replace(self, document=document, root=_root_of(path) if key == "blades_file" else self.root)
 
 
 def read_configuration(file: Path | str | None = None) -> Configuration:

@@ -11,13 +11,26 @@ from functools import cached_property, reduce
 from pathlib import Path
 from typing import Any, TypedDict
 
-from r37core.config import ConfigError, Document, Settings
+from r37core.config import ConfigError, Document, Settings, command_line_document
+from r37core.config.cross_checks import history_speeds_are_run
 from r37core.config.messages import single_line
 from r37core.config.remarks import remarks_on_input, remarks_on_points
+from r37core.product.extensions import EXTENSIONS, READER
 
 from .arguments import finite
 from .call_configuration import Configuration, read_configuration
 from .choices import BladeChoice, Choice, SceneChoice
+
+_SPEEDS = ("speeds", "speeds_rpm", "speeds_for")
+
+_JUDGING = "requirements"
+"""Extension whose section judges results of any call, as `interactions` of the pipeline does."""
+
+_OF_A_RUN = ("run", *_SPEEDS, *(extension.name for extension in EXTENSIONS if extension.name != _JUDGING))
+"""Sections of config.yaml that say what a run of the workflow makes, and nothing of a single simulation."""
+
+_READER = replace(READER, checks=tuple(check for check in READER.checks if check is not history_speeds_are_run))
+"""A call names its speeds: of those with a stress history it has the ones that it runs."""
 
 
 class OneOptions(TypedDict, total=False):
@@ -32,7 +45,7 @@ class OneOptions(TypedDict, total=False):
 class Call:
     """Blades of one file in scenes of one file, with `keys` of config.yaml on top of `base`; `name`: of the call, for messages.
 
-    Without blades or scenes those of `base` are taken. `whole`: what `base` says of a run counts, too.
+    Without blades or scenes those of `base` are taken. `whole`: what `base` says of a run counts, too, but for its section run.
     """
 
     name: str
@@ -44,12 +57,17 @@ class Call:
 
     @cached_property
     def settings(self) -> Settings:
-        """Checked settings. Raises ConfigError."""
-        changes = dict(self.keys)
+        """Checked settings; a message names the call as its place. Raises ConfigError."""
+        keys, below = dict(self.keys), self.configuration.document
         for kind, choices in (("blades", self.blades), ("scenes", self.scenes)):
             if choices:
-                changes |= {kind: [choice.name for choice in choices], f"{kind}_file": _one_file(kind, choices)}
-        return self.configuration.settings(changes, self.name, above(self.blades), above(self.scenes), self.whole)
+                keys |= {kind: [choice.name for choice in choices], f"{kind}_file": _one_file(kind, choices)}
+        left_out = {"run", *(_SPEEDS if keys.keys() & set(_SPEEDS) else ())} if self.whole else set(_OF_A_RUN)
+        content = {key: value for key, value in below.content.items() if key not in left_out}
+        locations = {path: line for path, line in below.locations.items() if not path or path[0] not in left_out}
+        document = replace(below, content=content, locations=locations).overlaid(command_line_document(keys, self.name))
+        changes = {"blades_above": above(self.blades), "scenes_above": above(self.scenes)}
+        return _READER.load_settings(document, self.configuration.root, **changes)
 
     @property
     def configuration(self) -> Configuration:

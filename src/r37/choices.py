@@ -18,8 +18,7 @@ from r37core.config.messages import did_you_mean, single_line
 from r37core.config.reading import blades_of_file
 from r37core.config.scenes import SceneEntry, checked_scenes
 from r37core.config.section import Without
-from r37core.config.section_laws import SECTION_KEYS
-from r37core.config.shape_keys import SHARES
+from r37core.config.shape_keys import SECTION_KEYS, SHARES
 
 from .arguments import plain_value
 from .call_configuration import Configuration, read_configuration

@@ -127,8 +127,7 @@ def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
 def _check(options: argparse.Namespace) -> None:
     from r37core.config.remarks import remarks_on_points
     from r37core.plans.extent import extent_of
-    from r37core.product.extensions import simulations_of_members
-    from r37core.product.reading import load_settings
+    from r37core.product.extensions import load_settings, simulations_of_members
     from r37core.product.remarks import remarks
 
     from .call_configuration import read_configuration

@@ -1,7 +1,5 @@
 """Snakemake in a process of its own that runs the workflow in a folder, and tells this one how far it is."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

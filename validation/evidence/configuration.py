@@ -8,7 +8,7 @@ from typing import Any
 from r37core.config import Settings, command_line_document, read_document
 from r37core.config.document import Document
 from r37core.config.reading import together
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 
 
 def overlay(root: Path, *files: str, **keys: Any) -> dict[str, Any]:

@@ -15,10 +15,10 @@ import xarray as xr
 from r37core.base.dataset_file import read_dataset
 from r37core.config.document import read_document
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.run_ups import schedule
+from r37core.run_ups import choice as run_up_choice
 from r37core.run_ups.choice import RunUp, RunUpChoice
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.plan import RunUps
@@ -107,7 +107,7 @@ def segments(input: Any, output: Any, params: Any) -> None:
     speed = _crossing(read_dataset(input.campbell), "Ref")
 
     def rms(rate: float, lead: float, stiffening: float) -> np.ndarray:
-        schedule.LARGEST_LEAD, schedule.LARGEST_STIFFENING = lead, stiffening
+        run_up_choice.LARGEST_LEAD, run_up_choice.LARGEST_STIFFENING = lead, stiffening
         choice_of_rate = RunUpChoice(0.98 * speed, 1.012 * speed, None, rate, None, choice.revolutions, 0, worn=False)
         integration = RunUpIntegration(model, scene.scene, choice, choice_of_rate.run_up(choice.samples_per_revolution))
         result = record_run_up(integration, (), highest_order=20, stress=None, yield_stress=np.inf)

@@ -13,7 +13,7 @@ from test_declared_keys import SealSection
 from r37core.base.units import SUFFIXES
 from r37core.config import ConfigError, read_document
 from r37core.product import schemas
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 
 
 @pytest.fixture(scope="module")

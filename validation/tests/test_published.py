@@ -15,7 +15,7 @@ from evidence.published_tables import SHORT, checks_table, choices_table, differ
 from evidence.published_windows import BARE
 from published import BLADES, INTERACTIONS
 
-from r37core.product.reading import read_settings
+from r37core.product.extensions import read_settings
 
 YIELD = 1.38e9
 UNITS = ("rms_normal", "rms_radial", "rms_tangential", "max_von_mises", "max_wear", "casing_hits", "status")

@@ -17,7 +17,7 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage, structure_stages
 from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reporting import EVERY_SCENE, TOGETHER, drawing as drawing_of
+from r37core.product.targets import EVERY_SCENE, TOGETHER, drawing as drawing_of
 from r37core.product.targets import (
     linked_figures,
     offered,

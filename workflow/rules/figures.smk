@@ -1,6 +1,6 @@
 # Figures, each with a rule that its declaration makes: its datasets, the function that draws it, and a caption.
 from r37core.figures.declared import BLADES
-from r37core.product.reporting import FIGURES
+from r37core.product.targets import FIGURES
 
 for figure in FIGURES:
     category = figure.category or ("{blade}" if "{blade}" in figure.name else TOGETHER)

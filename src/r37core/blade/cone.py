@@ -5,9 +5,8 @@ angle `theta` about the axis. The unrolled cone is a plane, in which lengths and
 formula below also holds for a cylinder (half angle zero).
 """
 
-from __future__ import annotations
-
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -98,10 +97,10 @@ class ConstantRatePath:
         theta = self.theta + 0.5 * s * (integrand @ _GAUSS_WEIGHTS)
         return self.meridional(s), theta
 
-    def started_at(self, s: float) -> ConstantRatePath:
+    def started_at(self, s: float) -> Self:
         """Path begun at its path length `s` (m)."""
         m, theta = (float(coordinate) for coordinate in self.point(s))
-        return ConstantRatePath(self.cone, m, theta, float(self.angle(s)), self.rate)
+        return replace(self, m=m, theta=theta, kappa=float(self.angle(s)))
 
     def length_to(self, m: float) -> float:
         """Path length (m) from the start to meridional distance `m`; sin(kappa) is linear in m."""

@@ -10,11 +10,8 @@ import xarray as xr
 from r37core.base.dataset_file import about, read_dataset, write_dataset
 from r37core.base.io import readable
 
-from .blade_map import BladeMap
-from .blade_surface import Blade
-from .meridian import Meridian
+from .blade_map import Blade, BladeMap, Meridian, SectionBlade
 from .profile import PRESSURE, SUCTION, Profile, ProfileParameters
-from .section_blade import SectionBlade
 from .section_curve import SectionCurve
 from .stacking import Placement, conical_stacking
 

@@ -7,11 +7,10 @@ alike, and all lengths scaled alike, until the chord line has the wanted directi
 changed in one solution, and none of them moves another.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
+from typing import Self
 
 import numpy as np
 import scipy
@@ -31,12 +30,12 @@ class SpanLaw:
     values: tuple[float, ...]
 
     @classmethod
-    def constant(cls, value: float) -> SpanLaw:
+    def constant(cls, value: float) -> Self:
         """Constant law: one value at every span."""
         return cls((0.0,), (value,))
 
     @classmethod
-    def linear(cls, hub: float, tip: float) -> SpanLaw:
+    def linear(cls, hub: float, tip: float) -> Self:
         """Linear law: in proportion to the span from hub to tip."""
         return cls((0.0, 1.0), (hub, tip))
 
@@ -122,7 +121,7 @@ class _Centreline:
     thickest: float
 
     @classmethod
-    def build(cls, p: ProfileParameters) -> _Centreline:
+    def build(cls, p: ProfileParameters) -> Self:
         line = centreline(p)
         cone, lengths = line.front.cone, np.array([line.front_length, line.rear_length])
         m_thickest = p.maximum_thickness_axial / np.cos(cone.half_angle)
@@ -130,11 +129,11 @@ class _Centreline:
         thickest = line.front.length_to(m_thickest) if is_front else line.front_length + line.rear.length_to(m_thickest)
         return cls(cone, np.array([p.inlet_angle, p.transition_angle, p.outlet_angle]), lengths, thickest)
 
-    def turned(self, camber: float, rotation: float, scale: float) -> _Centreline:
+    def turned(self, camber: float, rotation: float, scale: float) -> Self:
         """Section with added turning, spread evenly over the length, all angles rotated alike and all lengths scaled."""
         share = np.array([0.0, self.lengths[0], self.lengths.sum()]) / self.lengths.sum()
         angles = self.angles + camber * (0.5 - share) + rotation
-        return _Centreline(self.cone, angles, scale * self.lengths, scale * self.thickest)
+        return replace(self, angles=angles, lengths=scale * self.lengths, thickest=scale * self.thickest)
 
     def paths(self) -> tuple[ConstantRatePath, ConstantRatePath]:
         rates = np.diff(self.angles) / self.lengths

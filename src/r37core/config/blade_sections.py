@@ -1,9 +1,7 @@
 """Sections of all kinds of blades: a material, and regions of the stress."""
 
 from collections.abc import Iterable, Mapping
-from typing import Literal, Self
-
-from pydantic import model_validator
+from typing import Literal
 
 from r37core.base.declared import declared_keys
 from r37core.fem.material import Material
@@ -32,13 +30,11 @@ REQUIRED_OF_MATERIAL = tuple(declared.name for declared in declared_keys(Materia
 class RegionSection(Section):
     """Region of the stress: unclamped nodes within these bounds."""
 
-    @model_validator(mode="after")
-    def _has_a_size(self) -> Self:
+    def _check(self) -> None:
         bounds = ("minimum_z_m", "maximum_z_m"), ("minimum_span", "maximum_span")
         for (lower, lowest), (upper, highest) in (((key, getattr(self, key)) for key in keys) for keys in bounds):
             if None not in (lowest, highest) and not lowest < highest:
                 raise refused((lower,), f"{lowest:g}", f"less than {upper} ({highest:g})")
-        return self
 
 
 def refuse_taken_names(regions: Iterable[str]) -> None:

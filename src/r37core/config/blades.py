@@ -1,15 +1,13 @@
 """blades.yaml: blades by their shape, mesh or matrices, and their materials."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
-from pydantic import Discriminator, Field, RootModel, Tag, model_validator
+from pydantic import Discriminator, Field, RootModel, Tag
 
 from r37core.base.io import TextFileError
 from r37core.blade.definition import BladeDefinition, Shape
@@ -24,7 +22,6 @@ from r37core.rom.reduction_choice import PATCHES, QUADRATIC
 from r37core.rom.region_choice import RegionChoice
 from r37core.stress.statistic import Strengths
 
-from .bases import chain_of_bases
 from .blade_sections import (
     CONTACT_IN_WORDS,
     KINEMATICS_IN_WORDS,
@@ -35,12 +32,11 @@ from .blade_sections import (
     chosen_regions,
 )
 from .declaring import si_fields, si_form
-from .document import ConfigError, ConfigRefusals, Document
+from .document import ConfigError, Document, chain_of_bases
 from .imported_entry import MatricesEntry, MeshEntry
 from .section import ByName, FileName, LeftOut, Name, Section, left_out, plain, refused
-from .section_laws import SECTION_KEYS, changed_keys, section_laws, shape_by_laws
 from .sections_entry import SectionsEntry
-from .shape_keys import SHARES, SHIFTS, ShapeKeys
+from .shape_keys import SECTION_KEYS, SHARES, SHIFTS, ShapeKeys, changed_keys, section_laws, shape_by_laws
 from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
 
 
@@ -65,13 +61,12 @@ class BladeEntry(ShapeKeys, GivenShape):
     combine: Combine = COMBINE
     designs: DesignTable = designs_field("blade")
 
-    @model_validator(mode="after")
-    def _has_one_shape(self) -> BladeEntry:
+    def _check(self) -> None:
+        super()._check()
         if self.profiles is not None and self.base is not None:
             raise refused((), "both profiles and base", "one of them")
         if self.profiles is None and self.base is None:
             raise refused((), "neither profiles nor base", "one of them, or sections, or a mesh or matrices of another program")
-        return self
 
 
 def _kind(value: Any) -> str:
@@ -130,29 +125,9 @@ class BladeSettings:
         return Strengths(material.fatigue_strength, material.ultimate_strength, *life)
 
     @property
-    def elastic(self) -> BladeSettings:
+    def elastic(self) -> Self:
         """Blade without the strengths of its material: a new one asks for no new model."""
         return self if self.material is None else replace(self, material=self.material.elastic)
-
-
-def all_blades(
-    names: Iterable[str], entries: Mapping[str, Any], family_of: Mapping[str, str], root: Path, document: Document
-) -> dict[str, BladeSettings]:
-    """The blades of these names. Raises the ConfigErrors of all of them, but not of one whose base is refused before it.
-
-    Of designs of one family, `family_of` design -> family, the first refusal is enough: they have nearly all in common.
-    """
-    refusals = ConfigRefusals()
-    blades: dict[str, BladeSettings | None] = {}
-    refused_families: set[str] = set()
-    for name in names:
-        base, family = getattr(entries[name], "base", None), family_of.get(name, "")
-        known = (base not in blades or blades[base] is not None) and family not in refused_families
-        blades[name] = refusals.of(blade_settings, name, entries, root, document) if known else None
-        if family and blades[name] is None:
-            refused_families.add(family)
-    refusals.tell()
-    return {name: blade for name, blade in blades.items() if blade is not None}
 
 
 def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: Document) -> BladeSettings:

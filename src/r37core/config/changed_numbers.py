@@ -23,8 +23,17 @@ from .document import Document
 from .messages import did_you_mean, explain_all, single_line
 from .scenes import SceneEntry
 from .section import Section, plain
-from .section_laws import END_KEYS, SECTION_KEYS, changed_keys, neutral_value, section_laws, shape_by_laws
-from .shape_keys import SHARES, ShapeKeys, SweepLean
+from .shape_keys import (
+    END_KEYS,
+    SECTION_KEYS,
+    SHARES,
+    ShapeKeys,
+    SweepLean,
+    changed_keys,
+    neutral_value,
+    section_laws,
+    shape_by_laws,
+)
 from .varied import FAMILY_KEYS
 
 E = TypeVar("E", bound=Section)

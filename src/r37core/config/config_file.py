@@ -1,11 +1,9 @@
 """config.yaml: what to run."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
-from pydantic import Field, create_model, model_validator
+from pydantic import Field, create_model
 
 from r37core.adaptive.refinement_choice import RefinementChoice, Window
 from r37core.contact.scene import Scene
@@ -52,12 +50,10 @@ class StructureSection(Section):
     )
     recover_whole_blade: Any = DECLARED
 
-    @model_validator(mode="after")
-    def _has_a_region(self) -> StructureSection:
+    def _check(self) -> None:
         if not any(self.stress_regions.values()):
             raise refused(("stress_regions",), "no region", "one or more")
         refuse_taken_names(self.stress_regions)
-        return self
 
 
 class CampbellSection(Section):
@@ -80,11 +76,9 @@ class Interactions(Section):
 class WindowSection(Section):
     """Speeds above the crossings of a mode, sampled first."""
 
-    @model_validator(mode="after")
-    def _has_a_length(self) -> WindowSection:
+    def _check(self) -> None:
         if not self.first < self.last:
             raise refused(("last",), f"{self.last:g}", f"more than first ({self.first:g})")
-        return self
 
 
 class DirectRefinementSection(Section):
@@ -117,7 +111,7 @@ class RefinementSection(Section):
     largest_share: Any = DECLARED
     direct: DirectRefinementSection = DirectRefinementSection()
 
-    def scene_refinement(self, scene: Scene) -> RefinementSection:
+    def scene_refinement(self, scene: Scene) -> Self:
         """Refinement in a scene: without lining with windows and share of its own."""
         return self if scene.lined else self.model_copy(update=dict(self.direct))
 
@@ -138,13 +132,11 @@ def _one_of_each(section: Section, names: tuple[str, str]) -> tuple[str, str]:
 class OperatingDwellSection(Section):
     """A share of the operating time that is spent between two speeds."""
 
-    @model_validator(mode="after")
-    def _ascends(self) -> OperatingDwellSection:
+    def _check(self) -> None:
         _, last_key = _one_of_each(self, ("from", "to"))
         dwell = si_form(OperatingDwell, self)
         if dwell.stop <= dwell.start:
             raise refused((last_key,), f"{getattr(self, last_key):g}", "a speed above the lowest one")
-        return self
 
 
 @declared_by(OperatingRange)
@@ -155,8 +147,7 @@ class OperatingSection(Section):
         default=[], description="Speeds at which more time is spent; the rest of it is spread evenly over the range"
     )
 
-    @model_validator(mode="after")
-    def _complete(self) -> OperatingSection:
+    def _check(self) -> None:
         _, last_key = _one_of_each(self, ("idle", "redline"))
         operating = self.operating()
         if operating.redline <= operating.idle:
@@ -168,7 +159,6 @@ class OperatingSection(Section):
         total = sum(dwell.share for dwell in operating.dwell)
         if total > 1.0 + 1e-9:
             raise refused(("dwell",), f"{100.0 * total:g} percent of the time", "at most 100 percent together")
-        return self
 
     def operating(self) -> OperatingRange:
         """The range in SI units."""
@@ -211,11 +201,9 @@ class Config(Section):
     run: Run = Run()
     campbell: CampbellSection = CampbellSection()
 
-    @model_validator(mode="after")
-    def _one_unit(self) -> Config:
+    def _check(self) -> None:
         if self.speeds_rpm is not None and "speeds" in self.model_fields_set:
             refuse_both_units("speeds", "speeds_rpm")
-        return self
 
 
 def config_model(sections: Iterable[ExtensionSection[Any]]) -> type[Config]:

@@ -27,8 +27,7 @@ from r37core.time_integration.integrators import EXACT_MODAL
 from r37core.time_integration.rotor_blades import NO_ROTOR
 
 from .document import ConfigRefusals
-from .settings import Settings
-from .speed_choice import RunLength, fastest_of, length_of_run, slowest_speeds
+from .settings import RunLength, Settings, fastest_of, length_of_run, slowest_speeds
 from .speed_section import key_of_speeds
 
 LARGEST_NUMBER_OF_SIMULATIONS = 200_000

@@ -1,7 +1,5 @@
 """Families of designs: one entry of blades.yaml or scenes.yaml with `vary` or `designs` is many blades or scenes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence, Sized
 from dataclasses import dataclass, replace
 from itertools import product
@@ -23,9 +21,8 @@ from .imported_entry import MatricesEntry, MeshEntry
 from .messages import did_you_mean, single_line
 from .scenes import SceneEntry
 from .section import check_name, check_names, plain
-from .section_laws import END_KEYS, SECTION_KEYS
 from .sections_entry import SectionsEntry
-from .shape_keys import SHARES
+from .shape_keys import END_KEYS, SECTION_KEYS, SHARES
 from .varied import FAMILY_KEYS, LARGEST_FAMILY, Variation, is_family
 
 AnyEntry = BladeEntry | MeshEntry | MatricesEntry | SectionsEntry | SceneEntry
@@ -130,8 +127,14 @@ def _kind(entry: Any) -> str:
 
 
 def _family(name: str, entry: Any, root: Path, document: Document) -> Family:
-    if entry.designs is not None:
-        return _table_family(name, entry, root, document)
+    if (file := entry.designs) is not None:
+        with readable_table(file, (name, "designs"), document):
+            try:
+                keys, table_designs = read_designs(root / file, _kind(entry))
+            except (TextFileError, BladeShapeError) as error:
+                raise ConfigError(f"{file}: family {name}: {error}") from None
+        _check_size(table_designs, name, "designs", document)
+        return Family(keys, table_designs)
     values = {key: way.values() if isinstance(way, Variation) else list(map(float, way)) for key, way in entry.vary.items()}
     if entry.combine == "pairs":
         lengths = {key: len(several) for key, several in values.items()}
@@ -151,17 +154,6 @@ def _family(name: str, entry: Any, root: Path, document: Document) -> Family:
 def _check_size(designs: Sized, family: str, key: str, document: Document) -> None:
     if len(designs) > LARGEST_FAMILY:
         raise document.refusal((family, key), f"{len(designs)} designs", f"at most {LARGEST_FAMILY}")
-
-
-def _table_family(name: str, entry: Any, root: Path, document: Document) -> Family:
-    file = entry.designs
-    with readable_table(file, (name, "designs"), document):
-        try:
-            keys, rows = read_designs(root / file, _kind(entry))
-        except (TextFileError, BladeShapeError) as error:
-            raise ConfigError(f"{file}: family {name}: {error}") from None
-    _check_size(rows, name, "designs", document)
-    return Family(keys, rows)
 
 
 def design_name(family: str, values: Sequence[float]) -> str:

@@ -1,9 +1,7 @@
 """fidelity.yaml: accuracy levels."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from pydantic import Field, RootModel, model_validator
 
@@ -84,8 +82,7 @@ class TimeIntegration(Section):
     spectrum_highest_order: int = Field(default=20, ge=1, le=10000, description="Highest engine order of the kept spectrum")
     wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="Angles of the kept wear profile")
 
-    @model_validator(mode="after")
-    def _one_step_and_signal_fits(self) -> TimeIntegration:
+    def _check(self) -> None:
         if (self.time_step_s is None) == (self.largest_time_step_s is None):
             value = "neither of them" if self.time_step_s is None else "both"
             raise refused(("time_step_s",), value, "time_step_s or largest_time_step_s, one of them")
@@ -94,7 +91,6 @@ class TimeIntegration(Section):
             value = f"{self.revolutions} of {self.samples_per_revolution} samples, {size / 2**30:.1f} GiB"
             samples = "stress_instants times samples_per_stress_instant are the samples"
             raise refused(("revolutions",), value, f"at most {_LARGEST_SIGNAL / 2**30:g} GiB ({samples})")
-        return self
 
     @property
     def samples_per_revolution(self) -> int:
@@ -140,7 +136,7 @@ class Levels(RootModel[ByName[Level]]):
     """fidelity.yaml, accuracy levels by name."""
 
     @model_validator(mode="after")
-    def _auto_is_no_level(self) -> Levels:
+    def _auto_is_no_level(self) -> Self:
         if "auto" in self.root:
             raise refused(("auto",), "the level 'auto'", "another name; fidelity: auto picks a level")
         return self

@@ -1,11 +1,9 @@
 """Blades of other programs in blades.yaml: a mesh, or a directory of matrices."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag
 
 from r37core.exchange.importing.source import MatricesSource, MeshSource, Where, digest_of, matrix_files, mesh_files
 from r37core.exchange.orientation import Orientation
@@ -20,7 +18,7 @@ from .blade_sections import (
     refuse_taken_names,
 )
 from .declaring import DECLARED, declared_by, si_form
-from .section import ByName, FileName, LeftOut, Section, left_out, refused
+from .section import ByName, FileName, LeftOut, Section, left_out, or_section, refused
 
 Length = Annotated[float, Field(ge=-100, le=100)] | LeftOut
 Radius = Annotated[float, Field(ge=0, le=100)] | LeftOut
@@ -37,15 +35,13 @@ class SurfaceRule(Section):
     z_at_least_m: Length = left_out("Lower bound of the axial coordinate")
     z_at_most_m: Length = left_out("Upper bound of the axial coordinate")
 
-    @model_validator(mode="after")
-    def _says_something(self) -> SurfaceRule:
+    def _check(self) -> None:
         if not self._limits() and self.cone_zr_m is None:
             raise refused((), "a rule without limits", "a limit such as r_at_least_m, or cone_zr_m")
         if self.cone_zr_m is not None and self.cone_zr_m[0] == self.cone_zr_m[1]:
             raise refused(("cone_zr_m",), "one point twice", "two points [z, r]")
         if self.cone_zr_m is not None and min(radius for _, radius in self.cone_zr_m) < 0.0:
             raise refused(("cone_zr_m",), f"{self.cone_zr_m}", "two points [z, r], with radii of 0 or more")
-        return self
 
     def _limits(self) -> tuple[tuple[str, str, float], ...]:
         names = [(axis, bound) for axis in "rxz" for bound in ("at_least", "at_most")]
@@ -57,10 +53,7 @@ class SurfaceRule(Section):
         return si_form(Where, self, limits=self._limits())
 
 
-SetOrRule = Annotated[
-    Annotated[FileName, Tag("name")] | Annotated[SurfaceRule, Tag("SurfaceRule")],
-    Discriminator(lambda value: "SurfaceRule" if isinstance(value, dict | SurfaceRule) else "name"),
-]
+SetOrRule: Any = or_section(FileName, SurfaceRule)
 
 
 _LEAST_METRES, _MOST_METRES = 1e-9, 1e3
@@ -121,10 +114,8 @@ class MeshEntry(Oriented):
     kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
     stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
 
-    @model_validator(mode="after")
-    def _has_names_of_its_own(self) -> MeshEntry:
+    def _check(self) -> None:
         refuse_taken_names(self.stress_regions or ())
-        return self
 
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""

@@ -8,8 +8,7 @@ from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.source import MeshSource
 from r37core.rom.reduction_choice import MOST_USUAL_PATCHES, POINTS, QUADRATIC
 
-from .settings import Settings, contact_of_blades, direct_on_points
-from .speed_choice import fastest_of, length_of_run, most_runs, slowest_speeds
+from .settings import Settings, contact_of_blades, direct_on_points, fastest_of, length_of_run, most_runs, slowest_speeds
 from .spread import Spreads
 
 LONG_RUN = 10.0
@@ -122,9 +121,10 @@ def remarks_on_laws(settings: Settings) -> list[str]:
 def remarks_on_lobes(settings: Settings, changed: Collection[str] = ()) -> list[str]:
     """Remark on lobes given in clearances in scenes whose clearance is spread, `changed` by a call, or differs in this run."""
     casings = {name: settings.scene_designs.entries[name].casing for name in settings.scene_names}
-    scaled = {name: casing for name, casing in casings.items() if casing.lobes_scale}
+    scaled = {name: casing for name, casing in casings.items() if casing.lobes and casing.amplitude_clearances}
     spread, differ = _spread_numbers(settings), len({casing.cold_clearance for casing in scaled.values()}) > 1
-    names = [name for name, casing in scaled.items() if differ or name in changed or casing.clearance_key in spread]
+    keys = {name: "clearance_m" if casing.clearance is None else "clearance.cold_m" for name, casing in scaled.items()}
+    names = [name for name, key in keys.items() if differ or name in changed or f"casing.{key}" in spread]
     if not names:
         return []
     return [

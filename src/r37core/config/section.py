@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, Self, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, WithJsonSchema, model_validator
 from pydantic.json_schema import SkipJsonSchema
@@ -48,6 +48,14 @@ class Section(BaseModel):
                     raise refused((key,), "nothing", "a value, or the key left out")
             return {key: value for key, value in data.items() if value is not Without.KEY or key not in cls.model_fields}
         return data
+
+    @model_validator(mode="after")
+    def _checked(self) -> Self:
+        self._check()
+        return self
+
+    def _check(self) -> None:
+        """Raise the error (`refused`) of keys that do not go together."""
 
 
 def plain(section: BaseModel) -> dict[str, Any]:
@@ -113,6 +121,13 @@ Speed = Annotated[float, Field(ge=1e-3, le=1e6)]
 
 Rpm = Annotated[float, Field(ge=0.01, le=9.5e6)]
 """An angular speed in revolutions per minute."""
+
+
+def or_section(kind: Any, section: type[Section]) -> Any:
+    """Type of a key with a value of a `kind`, or a section in its place."""
+    name = section.__name__
+    kinds = Annotated[kind, Tag("value")] | Annotated[section, Tag(name)]  # type: ignore[valid-type]
+    return Annotated[kinds, Discriminator(lambda value: name if isinstance(value, dict | section) else "value")]
 
 
 def check_names(names: dict[str, T]) -> dict[str, T]:

@@ -1,15 +1,13 @@
 """Blades in blades.yaml that are given by a file of section curves."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag
 
 from r37core.base.io import TextFileError
-from r37core.blade.sections_definition import SectionsDefinition
+from r37core.blade.definition import SectionsDefinition
 from r37core.exchange.orientation import Orientation
 from r37core.exchange.refusal import ImportRefused
 from r37core.exchange.sections.placed import (
@@ -25,13 +23,12 @@ from r37core.exchange.sections.placed import (
     placed_meridian,
     placed_sections,
 )
-from r37core.exchange.sections.section_file import read_meridian_file, read_section_file
-from r37core.exchange.sections.section_text import SectionFile
+from r37core.exchange.sections.section_file import SectionFile, read_meridian_file, read_section_file
 
 from .blade_sections import CONTACT_IN_WORDS, KINEMATICS_IN_WORDS, Contact, Kinematics, MaterialSection
 from .declaring import si_form
 from .imported_entry import LengthUnit, Oriented
-from .section import FileName, LeftOut, Section, left_out, refused
+from .section import FileName, LeftOut, Section, left_out, or_section, refused
 from .shape_keys import ShapeKeys
 from .varied import COMBINE, Combine, DesignTable, Vary, designs_field, vary_field
 
@@ -49,13 +46,11 @@ class EndSurface(Section):
         "Two points [z, r] of a cone's straight meridian"
     )
 
-    @model_validator(mode="after")
-    def _is_one(self) -> EndSurface:
+    def _check(self) -> None:
         if (self.radius_m is None) == (self.cone_zr_m is None):
             raise refused((), "none of radius_m and cone_zr_m, or both", "one of them")
         if self.cone_zr_m is not None and self.cone_zr_m[0][0] == self.cone_zr_m[1][0]:
             raise refused(("cone_zr_m",), "the same z twice", "two points [z, r] of different z")
-        return self
 
     def meridian(self) -> Meridians:
         """Points (z, r) of the surface (m)."""
@@ -65,10 +60,7 @@ class EndSurface(Section):
         return ((0.0, self.radius_m),)
 
 
-End = Annotated[
-    Annotated[FileName, Tag("name")] | Annotated[EndSurface, Tag("EndSurface")],
-    Discriminator(lambda value: "EndSurface" if isinstance(value, dict | EndSurface) else "name"),
-]
+End: Any = or_section(FileName, EndSurface)
 
 
 def _end(which: str, other: str) -> Any:

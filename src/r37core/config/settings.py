@@ -1,13 +1,12 @@
 """Settings of a run of the workflow: config.yaml, the files it names, and what it chooses of them."""
 
-from __future__ import annotations
-
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import product
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 
@@ -18,14 +17,13 @@ from r37core.contact.scene import Lining, Scene
 from r37core.results.operating_range import OperatingRange
 from r37core.rom.reduction_choice import LINEAR, POINTS, BoundaryChoice, ReductionChoice
 from r37core.rom.region_choice import RegionChoice
-from r37core.time_integration.integration_choice import IntegrationChoice
+from r37core.time_integration.integration_choice import SECONDS_PER_STEP, IntegrationChoice
 
-from .bases import chain_of_bases
 from .blade_sections import chosen_regions
-from .blades import BladeSettings, all_blades, link_with
+from .blades import BladeSettings, blade_settings, link_with
 from .config_file import Config, StructureSection
 from .declaring import si_form
-from .document import ConfigRefusals, Document, Documents
+from .document import ConfigRefusals, Document, Documents, chain_of_bases
 from .families import AnyEntry, Designs
 from .fidelity import Level, cheapest_level
 from .scenes import SceneEntry
@@ -80,7 +78,7 @@ class Settings:
         return getattr(self.config, declared.name)
 
     @cached_property
-    def made(self) -> Callable[[Callable[[Settings], Any]], Any]:
+    def made(self) -> Callable[[Callable[[Self], Any]], Any]:
         """Gives what a function makes of these settings, made once: for an extension's own part of them that takes long."""
         return cache(lambda make: make(self))
 
@@ -94,8 +92,22 @@ class Settings:
 
     @cached_property
     def blades(self) -> dict[str, BladeSettings]:
-        """Blades to run. Raises ConfigError for tables or files that cannot be read, and shapes that are impossible."""
-        return all_blades(self.blade_names, self.designs.entries, self.designs.family_of, self.root, self.documents.blades)
+        """Blades to run, each with its tables and files read.
+
+        Raises the ConfigErrors of all of them, but not of one whose base is refused before it. Of designs of one family the
+        first refusal is enough: they have nearly all in common.
+        """
+        entries, family_of, refusals = self.designs.entries, self.designs.family_of, ConfigRefusals()
+        blades: dict[str, BladeSettings | None] = {}
+        refused_families: set[str] = set()
+        for name in self.blade_names:
+            base, family = getattr(entries[name], "base", None), family_of.get(name, "")
+            known = (base not in blades or blades[base] is not None) and family not in refused_families
+            blades[name] = refusals.of(blade_settings, name, entries, self.root, self.documents.blades) if known else None
+            if family and blades[name] is None:
+                refused_families.add(family)
+        refusals.tell()
+        return {name: blade for name, blade in blades.items() if blade is not None}
 
     @cached_property
     def scene_names(self) -> list[str]:
@@ -318,3 +330,61 @@ def location_of_contact(settings: Settings, blade: str) -> str:
 def checked_scene(entry: Mapping[str, Any]) -> Scene:
     """The scene of one entry of scenes.yaml; ConfigError where the model of scenes forbids it."""
     return Document("scenes.yaml", dict(entry)).check(SceneEntry).scene()
+
+
+@dataclass(frozen=True)
+class RunLength:
+    """A run at a `speed` (rad/s): of so many `revolutions` and `blades`, in steps of `time_step` (s)."""
+
+    speed: float
+    revolutions: float
+    blades: int
+    time_step: float
+
+    @property
+    def steps_per_revolution(self) -> float:
+        """Steps in a revolution of one blade."""
+        return 2.0 * math.pi / (self.speed * self.time_step)
+
+    @property
+    def steps(self) -> float:
+        """Steps of all blades together."""
+        return self.revolutions * self.blades * self.steps_per_revolution
+
+    @property
+    def cpu_time(self) -> float:
+        """About how long it takes (s)."""
+        return self.steps * SECONDS_PER_STEP
+
+    @property
+    def wording(self) -> str:
+        """How many steps it has."""
+        blade_text = f" of {self.blades} blades" if self.blades > 1 else ""
+        return f"a run of {self.steps:.3g} steps ({self.revolutions:.6g} revolutions{blade_text})"
+
+
+def length_of_run(settings: Settings, scene: str, speed: float, revolutions: float | None = None) -> RunLength:
+    """Length of a run in a scene at a speed (rad/s), with the level's revolutions unless they are given."""
+    steps, chosen = settings.fidelity.time_integration, settings.scenes[scene].scene
+    blades = 1 if chosen.rotor is None else len(chosen.rotor.numbers)
+    step = steps.largest_step(chosen)
+    return RunLength(speed, steps.revolutions if revolutions is None else revolutions, blades, step)
+
+
+def slowest_speeds(settings: Settings) -> dict[str, float]:
+    """The lowest speed (rad/s) of each scene's simulations in the sweep."""
+    slowest: dict[str, float] = {}
+    for (_, scene), plan in settings.speed_plans.items():
+        slowest[scene] = min(plan.certain[0], slowest.get(scene, plan.certain[0]))
+    return slowest
+
+
+def most_runs(settings: Settings, blade: str, scene: str) -> int:
+    """Simulations of a blade and scene, at most where speeds are adaptive."""
+    refinement = settings.config.refinement.scene_refinement(settings.scenes[scene].scene)
+    return settings.speed_plans[blade, scene].speed_count(refinement.largest_share)
+
+
+def fastest_of(settings: Settings, scene: str) -> float:
+    """The highest speed (rad/s) of a scene's simulations in the sweep."""
+    return max(settings.speed_plans[blade, scene].certain[-1] for blade in settings.blade_names)

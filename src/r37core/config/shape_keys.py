@@ -1,14 +1,92 @@
 """Keys of blades.yaml that change a shape: sweep, lean, stagger, camber, chord and thickness."""
 
-from __future__ import annotations
+from collections.abc import Mapping
+from typing import Annotated, Any
 
-from typing import Annotated
+from pydantic import Discriminator, Field, Tag, create_model
 
-from pydantic import Field, model_validator
+from r37core.base.units import si_name
+from r37core.blade.definition import Shape
+from r37core.blade.profile import BladeShapeError
+from r37core.blade.profile_tables import check_spans
+from r37core.blade.section_changes import SectionChangeError, SpanLaw
 
 from .section import FileName, LeftOut, Section, left_out, refused
-from .section_laws import Angles, Shares
 from .varied import is_family
+
+SECTION_KEYS = ("stagger_deg", "camber_deg", "chord_percent", "thickness_percent")
+"""Keys of the changes of a blade's profiles."""
+
+END_KEYS = tuple(f"{key}.{end}" for key in SECTION_KEYS for end in ("hub", "tip"))
+"""Keys of their values at hub and tip."""
+
+
+def neutral_value(key: str) -> float:
+    """Value of a number of a blade's shape that changes nothing: the whole of a share, no angle or length added."""
+    return 100.0 if key.split(".")[0].endswith("_percent") else 0.0
+
+
+class Ends(Section):
+    """Values at hub and tip, linear between them."""
+
+
+def _form(law: Any) -> str:
+    if isinstance(law, list | tuple):
+        return "table"
+    return "ends" if isinstance(law, dict | Ends) else "number"
+
+
+def _law(name: str, purpose: str, value: Any, neutral: float) -> Any:
+    """Type of a key: a number of the kind `value`, its values at hub and tip, where `neutral` changes nothing, or a table."""
+    end_fields: dict[str, Any] = {
+        end: (value, Field(default=neutral, description=f"Value at the {end}")) for end in ("hub", "tip")
+    }
+    ends = create_model(f"{name}Ends", __base__=Ends, __doc__=f"{purpose}, linear from hub to tip.", **end_fields)
+    row = create_model(
+        f"{name}Row",
+        __base__=Section,
+        __doc__=f"{purpose} at one span.",
+        span_percent=Annotated[float, Field(ge=0, le=100, description="Position from the hub (0) to the tip (100)")],
+        value=(value, Field(description="Value at this position")),
+    )
+    forms = Annotated[value, Tag("number")] | Annotated[ends, Tag("ends")]  # type: ignore[valid-type]
+    return Annotated[forms | Annotated[list[row], Field(min_length=2), Tag("table")], Discriminator(_form)]  # type: ignore[valid-type]
+
+
+Angles: Any = _law("Angle", "An added angle", Annotated[float, Field(ge=-90, le=90)], 0.0)
+Shares: Any = _law("Share", "A share that is kept", Annotated[float, Field(ge=10, le=1000)], 100.0)
+
+
+def section_laws(entry: Section) -> dict[str, SpanLaw]:
+    """Laws of an entry by key, in the SI. Raises SectionChangeError for a table whose spans do not rise from 0 to 100%."""
+    laws = {key: getattr(entry, key) for key in SECTION_KEYS}
+    return {key: span_law(key, law) for key, law in laws.items() if law is not None}
+
+
+def span_law(key: str, law: Any) -> SpanLaw:
+    """A checked value of one of SECTION_KEYS in the SI. Raises as section_laws."""
+    factor = si_name(key)[1] or 1.0
+    if isinstance(law, Ends):
+        return SpanLaw.linear(law.hub * factor, law.tip * factor)
+    if not isinstance(law, list):
+        return SpanLaw.constant(law * factor)
+    spans = tuple(0.01 * row.span_percent for row in law)
+    try:
+        check_spans(spans)
+    except BladeShapeError as error:
+        raise SectionChangeError(str(error), [si_name(key)[0]]) from None
+    return SpanLaw(spans, tuple(row.value * factor for row in law))
+
+
+def shape_by_laws(shape: Shape, laws: Mapping[str, SpanLaw]) -> Shape:
+    """The shape, changed by laws of SECTION_KEYS. Raises SectionChangeError for impossible profiles and those that cross."""
+    return shape.changed({si_name(key)[0]: law for key, law in laws.items()})
+
+
+def changed_keys(error: SectionChangeError) -> list[str]:
+    """Keys of the changes that an error is of."""
+    return [key for key in SECTION_KEYS if si_name(key)[0] in error.names]
+
 
 SHIFTS = ("stacking_table", "sweep_lean", "chordwise_sweep_deg")
 """Keys of the ways to give sweep and lean, of which a blade has at most one."""
@@ -46,10 +124,8 @@ class ShapeKeys(Section):
     chord_percent: Shares | LeftOut = left_out("Share of the chord that is kept, on the same cones")
     thickness_percent: Shares | LeftOut = left_out("Share of all thicknesses that is kept")
 
-    @model_validator(mode="after")
-    def _one_shift(self) -> ShapeKeys:
+    def _check(self) -> None:
         is_family(self)
         shifts = [key for key in SHIFTS if getattr(self, key) is not None]
         if len(shifts) > 1:
             raise refused((), " and ".join(shifts), f"at most one of {', '.join(SHIFTS)}")
-        return self

@@ -1,12 +1,10 @@
 """Speeds of config.yaml: numbers and ranges, in rad/s or in revolutions per minute, of which one plan in rad/s is made."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag
 
-from .section import LeftOut, Names, Rpm, Section, Speed, Unique, left_out, refused
+from .section import LeftOut, Names, Rpm, Section, Speed, Unique, left_out, or_section, refused
 
 UNITS = {"speeds": "rad/s", "speeds_rpm": "rpm"}
 """Keys that give speeds, of which a section has one, and their units."""
@@ -23,11 +21,9 @@ class SpeedRange(Section):
     step: Speed | LeftOut = _STEP
     refine_to: Speed | LeftOut = _REFINE_TO
 
-    @model_validator(mode="after")
-    def _forward(self) -> SpeedRange:
+    def _check(self) -> None:
         if self.stop < self.start:
             raise refused((), f"a range from {self.start:g} to {self.stop:g}", "stop not below start")
-        return self
 
 
 class RpmRange(SpeedRange):
@@ -39,14 +35,8 @@ class RpmRange(SpeedRange):
     refine_to: Rpm | LeftOut = _REFINE_TO
 
 
-def _kind(value: Any) -> str:
-    return "range" if isinstance(value, dict | SpeedRange) else "number"
-
-
-SpeedEntry = Annotated[Annotated[Speed, Tag("number")] | Annotated[SpeedRange, Tag("range")], Discriminator(_kind)]
-SpeedList = Annotated[list[SpeedEntry], Field(min_length=1)]
-RpmEntry = Annotated[Annotated[Rpm, Tag("number")] | Annotated[RpmRange, Tag("range")], Discriminator(_kind)]
-RpmList = Annotated[list[RpmEntry], Field(min_length=1)]
+SpeedList: Any = Annotated[list[or_section(Speed, SpeedRange)], Field(min_length=1)]  # type: ignore[misc]
+RpmList: Any = Annotated[list[or_section(Rpm, RpmRange)], Field(min_length=1)]  # type: ignore[misc]
 
 
 class SpeedRule(Section):
@@ -57,13 +47,11 @@ class SpeedRule(Section):
     speeds: SpeedList | LeftOut = left_out("Speeds of these blades and scenes")
     speeds_rpm: RpmList | LeftOut = left_out("The same speeds in revolutions per minute")
 
-    @model_validator(mode="after")
-    def _one_unit(self) -> SpeedRule:
+    def _check(self) -> None:
         if self.speeds is not None and self.speeds_rpm is not None:
             refuse_both_units("speeds", "speeds_rpm")
         if self.speeds is None and self.speeds_rpm is None:
             raise refused((), "neither speeds nor speeds_rpm", "one of them")
-        return self
 
 
 def word_or_speeds(*words: str) -> Any:

@@ -1,12 +1,10 @@
 """Distributions of numbers that are never known exactly, as a configuration gives them."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Annotated
 
 import scipy
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field
 
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 
@@ -51,12 +49,10 @@ class SpreadEntry(Section):
     log_between: PositiveBounds | LeftOut = left_out("Bounds of a distribution whose logarithm is uniform")
     values: Unique[Number] | LeftOut = left_out("Equally likely values")
 
-    @model_validator(mode="after")
-    def _one_kind(self) -> SpreadEntry:
+    def _check(self) -> None:
         kinds = list(plain(self))
         if len(kinds) != 1:
             raise refused((), " and ".join(kinds) or "nothing", f"one of {', '.join(type(self).model_fields)}")
-        return self
 
     @cached_property
     def distribution(self) -> tuple[str, list[float]]:

@@ -1,11 +1,9 @@
 """Keys that make one entry a family of designs: `vary`, `combine` and `designs`, of blades and of scenes."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag
 
 from .section import FileName, LeftOut, Section, Unique, left_out, refused
 
@@ -20,15 +18,13 @@ class Variation(Section):
     stop: float = Field(ge=-1e12, le=1e12, description="Last value, if the step reaches it")
     step: float = Field(ge=1e-12, le=1e12, description="Distance between values")
 
-    @model_validator(mode="after")
-    def _forward(self) -> Variation:
+    def _check(self) -> None:
         if self.stop < self.start:
             raise refused(("stop",), f"{self.stop:g}", f"not below start ({self.start:g})")
         if self.step > self.stop - self.start > 0.0:
             raise refused(("step",), f"{self.step:g}", f"at most stop - start ({self.stop - self.start:g})")
         if (self.stop - self.start) / self.step >= LARGEST_FAMILY:
             raise refused(("step",), f"{self.step:g}", f"at most {LARGEST_FAMILY} values")
-        return self
 
     def values(self) -> list[float]:
         """All values of the range, with twelve digits: what rounding leaves of a sum is no other value."""

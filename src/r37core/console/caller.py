@@ -1,7 +1,5 @@
 """The Python call that has started this run of Snakemake: it gets events as lines of JSON in place of messages."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import logging
@@ -9,7 +7,7 @@ import os
 import signal
 import sys
 import threading
-from typing import Any, TextIO
+from typing import Any, Self, TextIO
 
 CALLER = "R37_CALLER"
 """Environment variable with the number of the file descriptor that events are written to; its jobs do not have it."""
@@ -28,7 +26,7 @@ class Caller(logging.Filter):
         threading.Thread(target=_end_with_caller, daemon=True).start()
 
     @classmethod
-    def current(cls) -> Caller | None:
+    def current(cls) -> Self | None:
         """The caller of this process; None where a person has started it."""
         number = os.environ.pop(CALLER, None)
         return None if number is None else cls(open(int(number), "w", encoding="utf-8"))

@@ -74,17 +74,13 @@ class Progress(logging.Filter):
 
     def filter(self, record: logging.LogRecord) -> bool:
         """True where Snakemake's own handler should write the record."""
+        event, message = str(getattr(record, "event", None) or ""), record.getMessage().strip()
+        passes = bool(message) and event not in QUIET_EVENTS and not (not event and message.startswith(_CHATTER))
         with self._lock:
-            return self._passes(record)
-
-    def _passes(self, record: logging.LogRecord) -> bool:
-        event = str(getattr(record, "event", None) or "")
-        self._take(event, record)
-        message = record.getMessage().strip()
-        if event in QUIET_EVENTS or not message or (not event and message.startswith(_CHATTER)):
-            return False
-        self._close_line()
-        return True
+            self._take(event, record)
+            if passes:
+                self._close_line()
+        return passes
 
     def _take(self, event: str, record: logging.LogRecord) -> None:
         self._began = self.clock() if self._began is None else self._began
@@ -148,9 +144,9 @@ class Progress(logging.Filter):
 
     def beat(self) -> None:
         """Write the line if there was none for long."""
-        silent = _SILENT_S if self.stream.isatty() else _SILENT_ELSEWHERE_S
-        # a terminal that is gone ends no run
+        # a terminal that is gone, or a stream that is closed, ends no run
         with self._lock, contextlib.suppress(OSError, ValueError):
+            silent = _SILENT_S if self.stream.isatty() else _SILENT_ELSEWHERE_S
             waiting = bool(self._jobs) or not self._known
             if waiting and not self._ended.is_set() and self.clock() - max(self._written, self._made) >= silent:
                 self._write(immediately=True)

@@ -23,8 +23,7 @@ from r37core.config import ConfigError, Settings
 from r37core.config.remarks import remarks_on_points
 from r37core.plans.extent import extent_of
 from r37core.product.closing import closing_lines
-from r37core.product.extensions import simulations_of_members
-from r37core.product.reading import settings_of_run
+from r37core.product.extensions import settings_of_run, simulations_of_members
 from r37core.product.remarks import check_asked, lines_of_extensions, remarks, replaced_level, source_folder
 
 from . import failures, lock

@@ -1,6 +1,5 @@
 """Unit and axes of a file, and the way to the blade's frame and back."""
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated
@@ -13,7 +12,7 @@ from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.fem.elements import ELEMENTS
 from r37core.mesh.blade_mesh import BladeMesh
 
-from .refusal import ImportRefused, MeshWarning
+from .refusal import ImportRefused, warn_of
 
 Vector = tuple[float, float, float]
 
@@ -102,11 +101,9 @@ class Orientation:
         """Warn of `points` (m) of the blade's frame, shape (n, 3), that reach as far from the axis as hardly any blade does."""
         tip, (low, high) = float(np.hypot(points[:, 0], points[:, 1]).max()), _USUAL_TIP_RADIUS
         if not low <= tip <= high:
-            warnings.warn(
+            warn_of(
                 f"length_unit {self.length_unit} gives a tip radius of {tip:.3g} m; those of blades are {low:g} to {high:g} m: "
                 "check length_unit, rotor_axis and axis_point",
-                MeshWarning,
-                stacklevel=2,
             )
 
     def points_to_blade(self, points: np.ndarray) -> np.ndarray:

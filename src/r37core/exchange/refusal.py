@@ -1,5 +1,6 @@
 """Errors of meshes and matrices from other programs, and their messages."""
 
+import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
@@ -21,6 +22,11 @@ class ImportRefused(ValueError):
 
 class MeshWarning(UserWarning):
     """Something in an imported mesh that works but that the user should know."""
+
+
+def warn_of(text: str) -> None:
+    """Warn of an imported mesh or matrices, from the function that found it."""
+    warnings.warn(text, MeshWarning, stacklevel=3)
 
 
 @contextmanager

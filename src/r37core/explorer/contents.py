@@ -12,7 +12,7 @@ import xarray as xr
 from r37core.base.units import shown_unit
 from r37core.results.closing import interaction_title
 from r37core.results.columns import RANKING, SUMMARY, Column, column_named
-from r37core.results.interaction_sizes import sized
+from r37core.results.interactions import sized
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranges import as_ranges_bear
 from r37core.results.variables import VARIABLES

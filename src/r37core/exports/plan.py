@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from r37core.base.plain import to_plain
 from r37core.base.speeds import exact_text
@@ -44,12 +44,10 @@ class ExportSection(Section):
         default=False, description="Whether matrices of all nodes (hundreds of MB) replace the reduced ones"
     )
 
-    @model_validator(mode="after")
-    def _one_unit(self) -> Self:
+    def _check(self) -> None:
         # the shipped config.yaml gives the default of stress_speeds_rad_s
         if self.stress_speeds_rpm is not None and self.stress_speeds_rad_s != "worst":
             refuse_both_units("stress_speeds_rad_s", "stress_speeds_rpm")
-        return self
 
     def stress_speeds(self) -> tuple[float, ...] | None:
         """Speeds (rad/s) that are named; None for `worst` and `all`."""

@@ -15,7 +15,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 from r37core.results.closing import interaction_title
-from r37core.results.interaction_sizes import sized
+from r37core.results.interactions import sized
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 

@@ -19,7 +19,7 @@ from .style import mark_operating, picture_figure, save
 def draw(input: Any, output: Any, params: Any) -> None:
     """Draw a figure. Inputs: named as its function takes them. Outputs: png, pdf.
 
-    Params: those of `reporting.drawing`; draw: the function, `module.function`; of: the wildcards; drawn: blades and scenes
+    Params: those of `targets.drawing`; draw: the function, `module.function`; of: the wildcards; drawn: blades and scenes
     in it, without all of them; caption; operating.
     """
     arguments = dict(params.items())

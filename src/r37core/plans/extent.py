@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from r37core.config import Settings
-from r37core.config.speed_choice import most_runs
+from r37core.config.settings import most_runs
 
 Pair = tuple[str, str]
 """Blade and scene."""

@@ -11,7 +11,7 @@ from r37core.base.speeds import SpeedPlan, exact_text
 from r37core.config import Settings
 from r37core.plans import paths
 from r37core.plans.sweep_plan import Sweep, speeds_of_round
-from r37core.product.reading import RESERVED, read_settings
+from r37core.product.extensions import RESERVED, read_settings
 from r37core.product.targets import everything
 from r37core.sweep.recipe import STRUCTURES
 

@@ -56,15 +56,11 @@ def line_of_extension(extension: Extension, sweep: Sweep, results: Path, began: 
         # a file that cannot be read, or lacks a column, is no failure of the run that has ended: what reads it next refuses it
         with suppress(InputFileError, KeyError):
             closing = getattr(import_module(module), name)(results)
-    return f"{extension.name}: {closing}; look at {_look_at(extension, files, results)}"
-
-
-def _look_at(extension: Extension, files: list[Path], results: Path) -> Path:
-    if extension.look_at:
-        return results / extension.look_at.removeprefix("<results>/")
     # what a person opens, the best first
     order = {".html": 0, ".png": 1, ".csv": 2}
-    return min((file for file in files if file.exists()), key=lambda file: order.get(file.suffix, len(order)))
+    best = min((file for file in files if file.exists()), key=lambda file: order.get(file.suffix, len(order)))
+    look_at = results / extension.look_at.removeprefix("<results>/") if extension.look_at else best
+    return f"{extension.name}: {closing}; look at {look_at}"
 
 
 CONFIGURATION = "configuration.json"

@@ -15,7 +15,7 @@ from r37core.config.blades import Blades
 from r37core.config.fidelity import Levels
 from r37core.config.scenes import Scenes
 
-from .reading import CONFIG
+from .extensions import CONFIG
 
 MODELS: dict[str, type[BaseModel]] = {"config": CONFIG, "blades": Blades, "scenes": Scenes, "fidelity": Levels}
 

@@ -1,8 +1,12 @@
-"""Files that the rule all_blades makes where the configuration asks for it, and what extensions add to it and the explorer."""
+"""Files that the rule all_blades makes where the configuration asks for it, and what extensions add."""
+
+from collections.abc import Mapping
+from typing import Any
 
 from r37core.config.remarks import elastic_casings
-from r37core.figures.declared import FIGURES
-from r37core.plans.extension import Offer, Panel
+from r37core.figures.declared import FIGURES as PIPELINE
+from r37core.plans.code import CodeHashes
+from r37core.plans.extension import Figure, Offer, Panel
 from r37core.plans.paths import Wildcards, filled
 from r37core.plans.sweep_plan import KINDS, Sweep
 
@@ -11,7 +15,11 @@ from .extensions import EXTENSIONS
 
 def targets(sweep: Sweep) -> dict[str, Wildcards]:
     """Pattern of files -> wildcards of each that is asked for; none where a configuration does without."""
-    targets = _pipeline_targets(sweep)
+    targets: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
+    targets["<results>/ranking.csv"] = [{}]
+    targets["<results>/coincidences.csv"] = [{}] if elastic_casings(sweep.settings) else []
+    for figure in PIPELINE:
+        targets |= figure.targets(sweep)
     for extension in EXTENSIONS:
         if not extension.made_on_request:
             targets |= extension.all_targets(sweep)
@@ -31,15 +39,6 @@ def everything(sweep: Sweep) -> dict[str, Wildcards]:
 def simulated(sweep: Sweep) -> list[str]:
     """Files of the extensions' own simulations."""
     return [file for extension in EXTENSIONS for file in filled(extension.simulated(sweep))]
-
-
-def _pipeline_targets(sweep: Sweep) -> dict[str, Wildcards]:
-    targets: dict[str, Wildcards] = {f"<results>/{kind}.nc": [{}] if kind in sweep.kinds else [] for kind in KINDS}
-    targets["<results>/ranking.csv"] = [{}]
-    targets["<results>/coincidences.csv"] = [{}] if elastic_casings(sweep.settings) else []
-    for figure in FIGURES:
-        targets |= figure.targets(sweep)
-    return targets
 
 
 def offered(what: Offer, sweep: Sweep) -> dict[str, str]:
@@ -63,3 +62,34 @@ def panels(sweep: Sweep) -> dict[str, Panel]:
     """Extension -> its panel, of those that have one in this run."""
     declared = ((extension, extension.panel) for extension in EXTENSIONS if extension.panel)
     return {each.name: panel for each, panel in declared if each.targets(sweep)[panel.table] and panel.shown(sweep)}
+
+
+TOGETHER = "All blades"
+EVERY_SCENE = "every scene"
+
+FIGURES: tuple[Figure, ...] = (*PIPELINE, *(figure for extension in EXTENSIONS for figure in extension.figures))
+"""All figures that are drawn from data."""
+
+
+def drawing(code: CodeHashes, operating: Mapping[str, Any] | None, figure: Figure, sweep: Sweep) -> dict[str, Any]:
+    """Parameters of the rule of a figure, with the code of its drawing function alone.
+
+    `operating`: range of speeds that is marked in the figure, as plain values. The caption says where not all blades are drawn.
+    """
+    arguments, every = figure.arguments(sweep), sweep.settings.blades
+    shown = arguments.get("drawn", {}).get("blade", every)
+    caption = figure.caption + (f" {len(shown)} of {len(every)} blades are drawn." if len(shown) < len(every) else "")
+    return {
+        **code.step("figures.steps.draw", figure.draw.rpartition(".")[0]),
+        "draw": f"r37core.{figure.draw}",
+        "of": _title_parts,
+        "caption": lambda wildcards: caption.format(**dict(wildcards.items())),
+        **({"operating": operating} if operating else {}),
+        **arguments,
+    }
+
+
+def _title_parts(wildcards: Any) -> dict[str, str]:
+    """Names of what a figure shows, as its title says it and as datasets have it."""
+    values = dict(wildcards.items())
+    return {name: values[name] for name in ("family", "blade", "scene") if name in values}

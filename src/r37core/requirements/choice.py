@@ -76,11 +76,6 @@ class Requirements:
         return replace(self, miner_sum=None, clearance=None, mass=None, campbell_margins=())
 
     @property
-    def any_of_runs(self) -> bool:
-        """True if there is one on what runs give."""
-        return self.run_requirements.any
-
-    @property
     def any(self) -> bool:
         """True if there is one."""
         numbers = (self.above_yield, self.goodman_share, self.miner_sum, self.used_lining, self.clearance, self.mass)

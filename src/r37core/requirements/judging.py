@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from r37core.results.columns import MOST_REVOLUTIONS
 from r37core.results.exceedance import SpeedRange, exceedance_of
@@ -268,18 +267,22 @@ def _worst_at(value: float, speed: float, note: str = "") -> Columns:
     return {"value": value, "from_rad_s": speed, "to_rad_s": speed, "note": note}
 
 
+def _not_known(evidence: Evidence, name: str, result: str) -> str:
+    """Why a number of the runs, of a `result` of scenes, is not known in operation; empty where it is."""
+    if name not in evidence.response:
+        return f"{result} is not computed: add it to the scene's results"
+    return evidence.not_covered or lacking(evidence, name)
+
+
 def _above_yield(evidence: Evidence) -> Columns:
     operating, response = evidence.operating, evidence.response
-    if "share_of_revolutions_above_yield" not in response:
-        return {"note": "stress is not computed: add it to the scene's results"}
-    if evidence.not_covered:
-        return {"note": evidence.not_covered}
-    if without := lacking(evidence, "share_of_revolutions_above_yield"):
-        return {"note": without}
+    if reason := _not_known(evidence, "share_of_revolutions_above_yield", "stress"):
+        return {"note": reason}
     exceedance = exceedance_of(response)
     inside = [part for part in exceedance.ranges(MOST_REVOLUTIONS) if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
-    notes = [evidence.divergence, _without_rotation(response)]
+    has_rotation = "static_stress" in response and bool(response["static_stress"])
+    notes = [evidence.divergence, "" if has_rotation else VIBRATION_ALONE]
     return {
         "value": operating.length(inside),
         "from_rad_s": max(widest.begin, operating.first),
@@ -289,20 +292,11 @@ def _above_yield(evidence: Evidence) -> Columns:
     }
 
 
-def _without_rotation(response: xr.Dataset) -> str:
-    """The note on a response whose stress lacks that of rotation; empty where it has it."""
-    return "" if "static_stress" in response and bool(response["static_stress"]) else VIBRATION_ALONE
-
-
 def _goodman_share(evidence: Evidence) -> Columns:
-    if "goodman_share" not in evidence.response:
-        return {"note": "fatigue is not computed: add it to the scene's results"}
-    if not has_strengths(evidence.response):
+    if "goodman_share" in evidence.response and not has_strengths(evidence.response):
         return {"note": "the material has no strengths"}
-    if evidence.not_covered:
-        return {"note": evidence.not_covered}
-    if without := lacking(evidence, "goodman_share"):
-        return {"note": without}
+    if reason := _not_known(evidence, "goodman_share", "fatigue"):
+        return {"note": reason}
     share, speed = evidence.worst(np.where(evidence.diverged, np.inf, evidence.response["goodman_share"].values))
     if not np.isfinite(share):
         return _diverged(evidence, speed)
@@ -326,12 +320,8 @@ def _used_lining(evidence: Evidence) -> Columns:
     response = evidence.response
     if not np.isfinite(evidence.thickness):
         return {"verdict": NOT_APPLICABLE, "note": "no lining"}
-    if "used_thickness" not in response:
-        return {"note": "wear is not computed: add it to the scene's results"}
-    if evidence.not_covered:
-        return {"note": evidence.not_covered}
-    if without := lacking(evidence, "used_thickness"):
-        return {"note": without}
+    if reason := _not_known(evidence, "used_thickness", "wear"):
+        return {"note": reason}
     # what is worn through has used all, and would use more
     through = (
         response["worn_through_share"].values > 0.0 if "worn_through_share" in response else np.zeros_like(evidence.diverged)

@@ -129,7 +129,8 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     if (long_enough and fails_clearly(requirements, evidence)) or not evidence.touches:
         return
     first, last = evidence.operating.first, evidence.operating.last
-    runs = blade.runs_from_rest(_closer(_speeds_within(evidence.speeds, first, last), STEP))
+    inside = [float(speed) for speed in evidence.speeds if first < speed < last]
+    runs = blade.runs_from_rest(_closer([first, *inside, last], STEP))
     while len(new := _speeds_about_peaks(runs["speed"].values, nearness(requirements, evidence.replaced(runs)))):
         runs = overlaid(runs, blade.runs_from_rest(new))
     yield REST, runs
@@ -161,11 +162,6 @@ def looks_in(joined: xr.Dataset) -> dict[str, xr.Dataset]:
     """The looks of a joined dataset, each at the speeds that it was run at."""
     looks = {str(name): joined.sel(look=name, drop=True) for name in joined["look"].values}
     return {name: runs.isel(speed=np.flatnonzero(runs["status"].notnull().values)) for name, runs in looks.items()}
-
-
-def _speeds_within(speeds: np.ndarray, first: float, last: float) -> list[float]:
-    """Speeds in a range, with its ends."""
-    return [first, *(float(speed) for speed in speeds if first < speed < last), last]
 
 
 def _closer(speeds: Sequence[float], step: float) -> list[float]:

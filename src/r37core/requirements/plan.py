@@ -12,7 +12,7 @@ from r37core.config import Settings, operating_range
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import ExtensionSection, Section
-from r37core.config.speed_choice import length_of_run
+from r37core.config.settings import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Panel
 from r37core.plans.provenance import Provenance
@@ -87,7 +87,7 @@ class Judged:
         """Pairs of blade and scene of which further runs may be needed: their runs are judged, and cover the range."""
         settings = self.sweep.settings
         operating, requirements = operating_range(settings), settings.section(SECTION).requirements()
-        if operating is None or not requirements.any_of_runs:
+        if operating is None or not requirements.run_requirements.any:
             return []
         short = pairs_not_covered(settings, operating)
         pairs = self.sweep.runs_with("rms")

@@ -22,7 +22,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 from .choice import Requirements
 from .evidence import Evidence, judged_part
 from .looks import JudgedBlade, joined_looks, looks_in, looks_of
-from .table import Sureness, operating_table, verdict_table
+from .table import operating_table, verdict_table
 
 
 def look(input: Any, output: Any, params: Any) -> None:
@@ -70,8 +70,10 @@ def judge(input: Any, output: Any, params: Any) -> None:
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     requirements, operating = from_plain(Requirements, params.requirements), from_plain(OperatingRange, params.operating)
     pairs = [(blade, scene) for blade, scene in params.pairs]
-    sureness = Sureness(looks, params.not_looked, dict(zip(pairs, params.errors, strict=True)), params.point_contact)
-    write_table(verdict_table(pairs, requirements, operating, datasets, numbers, sureness), output.verdict, digits=6)
+    doubts = {"looks": looks, "not_looked": params.not_looked, "point_contact": params.point_contact}
+    errors = dict(zip(pairs, params.errors, strict=True))
+    table = verdict_table(pairs, requirements, operating, datasets, numbers, errors=errors, **doubts)
+    write_table(table, output.verdict, digits=6)
 
 
 def _volume(file: str) -> float:

@@ -1,7 +1,7 @@
 """verdict.csv and operating.csv: what each blade keeps in operation, and what lies inside the operating range."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -49,32 +49,24 @@ OPERATING_COLUMNS = (
 """Columns of operating.csv."""
 
 
-@dataclass(frozen=True)
-class Sureness:
-    """Certainty of what is judged: `looks` of each blade and scene (requirements.looks), and why scenes have none.
-
-    `errors`: relative error of stress and wear by mesh and step, of each blade and scene where it is known. `point_contact`:
-    blades whose contact acts on points.
-    """
-
-    looks: Mapping[tuple[str, str], Mapping[str, xr.Dataset]] = field(default_factory=dict)
-    not_looked: Mapping[str, str] = field(default_factory=dict)
-    errors: Mapping[tuple[str, str], float] = field(default_factory=dict)
-    point_contact: Sequence[str] = ()
-
-
 def verdict_table(
     pairs: Sequence[tuple[str, str]],
     requirements: Requirements,
     operating: OperatingRange,
     datasets: Mapping[str, xr.Dataset],
     numbers: Mapping[str, Mapping[str, float]],
-    sureness: Sureness,
+    *,
+    looks: Mapping[tuple[str, str], Mapping[str, xr.Dataset]],
+    not_looked: Mapping[str, str],
+    errors: Mapping[tuple[str, str], float],
+    point_contact: Sequence[str],
 ) -> pd.DataFrame:
     """A row for each requirement of each of the `pairs` of blade and scene: COLUMNS.
 
     `datasets`: campbell, rms and, if there, stress, wear, members and motions. `numbers`: clearance and thickness by scene,
-    mass by blade, of Evidence, where they are known; `run_ups` among the datasets has run-ups by blade and scene.
+    mass by blade, of Evidence, where they are known; `run_ups` among the datasets has run-ups by blade and scene. `looks`
+    of each blade and scene (requirements.looks), and why scenes have none; `errors`: relative error of stress and wear by mesh
+    and step, where it is known; `point_contact`: blades whose contact acts on points.
     """
     rows = []
     damage = _miner_sums(datasets.get("run_ups"))
@@ -83,12 +75,12 @@ def verdict_table(
         more |= {name: known.get(blade if name == "mass" else scene, np.nan) for name, known in numbers.items()}
         more["miner_sum"] = damage.get((blade, scene), np.nan)
         response, campbell = response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade)
-        error, point_contact = sureness.errors.get((blade, scene), 0.0), blade in sureness.point_contact
-        evidence = Evidence(response, campbell=campbell, operating=operating, error=error, point_contact=point_contact, **more)
-        looks = sureness.looks.get((blade, scene), {})
-        failed = fails_clearly(requirements, evidence.replaced(looks[REST]) if REST in looks else evidence)
-        reason = f"no further runs, as {failed[0]} fails" if failed else sureness.not_looked.get(scene, "")
-        evidence = replace(evidence, looks=looks, not_looked=reason)
+        more |= {"error": errors.get((blade, scene), 0.0), "point_contact": blade in point_contact}
+        evidence = Evidence(response, campbell=campbell, operating=operating, looks=looks.get((blade, scene), {}), **more)
+        rest = evidence.replaced(evidence.looks[REST]) if REST in evidence.looks else evidence
+        failed = fails_clearly(requirements, rest)
+        reason = f"no further runs, as {failed[0]} fails" if failed else not_looked.get(scene, "")
+        evidence = replace(evidence, not_looked=reason)
         rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
     return pd.DataFrame(rows, columns=["blade", "scene", *COLUMNS])
 
@@ -215,7 +207,9 @@ _MOST_LINES = 8
 
 def closing(results: Path) -> str:
     """The verdict of each blade and scene; of many how many meet all, and which; without a verdict what lies in operation."""
-    if not _is_judged(results):
+    # the verdict of a run before the last one says nothing of it
+    requirements = read_json(results / "configuration.json")["config"].get("requirements", {})
+    if all(value in (None, []) for value in requirements.values()):
         return counted(len(read_table(results / "operating.csv")), "line") + " on what lies in operation"
     table = read_table(results / "verdict.csv")
     judged = overall(table)
@@ -233,9 +227,3 @@ def closing(results: Path) -> str:
     unknown = int((judged["verdict"] == UNKNOWN).sum())
     text = f"{len(good)} of {counted(len(judged), 'pair')} of blade and scene meet all requirements{named}"
     return f"{text}; of {unknown} one cannot tell" if unknown else text
-
-
-def _is_judged(results: Path) -> bool:
-    """True if the last run had requirements: the verdict of one before it says nothing of this."""
-    requirements = read_json(results / "configuration.json")["config"].get("requirements", {})
-    return any(value not in (None, []) for value in requirements.values())

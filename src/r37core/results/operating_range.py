@@ -1,7 +1,5 @@
 """The range of speeds that an engine flies in, and the time at each speed. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Annotated, Any

@@ -79,7 +79,9 @@ def robustness(
             measures["exceedance_integral_scatter_rad_s"] = exceedance.scatter_of_integral
         measures["length_ever_rad_s"] = speeds_above_yield(response, "max_von_mises_ever").length
         if "motion_at_end" in response:
-            measures["length_lasting_rad_s"] = _length_lasting(response)
+            shares = response["share_of_revolutions_above_yield"].where(lasts(response), 0.0)
+            lasting = exceedance_of(response.assign(share_of_revolutions_above_yield=shares))
+            measures["length_lasting_rad_s"] = lasting.length(MOST_REVOLUTIONS)
         above_yield = exceedance.ranges(MOST_REVOLUTIONS)
         widest = max(above_yield, key=lambda above: above.length, default=SpeedRange(np.nan, np.nan, False))
         measures["widest_range_rad_s"], measures["widest_range_from_rad_s"] = np.nan_to_num(widest.length), widest.begin
@@ -99,12 +101,6 @@ def length_most_revolutions(response: xr.Dataset) -> float:
         return np.nan
     exceedance = exceedance_of(response)
     return exceedance.length(MOST_REVOLUTIONS) if len(exceedance.speeds) else np.nan
-
-
-def _length_lasting(response: xr.Dataset) -> float:
-    """Length (rad/s) of the speeds above yield in most revolutions of the statistic whose motion lasts or grows."""
-    share = response["share_of_revolutions_above_yield"].where(lasts(response), 0.0)
-    return exceedance_of(response.assign(share_of_revolutions_above_yield=share)).length(MOST_REVOLUTIONS)
 
 
 def measures_of_members(members: xr.Dataset) -> MeasuresOfMembers:

@@ -11,8 +11,8 @@ from r37core.stress.statistic import UNKNOWN, Strengths, goodman_statistic, stre
 from r37core.time_integration.simulate import DIRECTIONS, TIP_POINTS
 from r37core.time_integration.speed_file import read_speed
 
+from .joining import create_axis, create_variable
 from .measures import first_yield
-from .netcdf import create_axis, create_variable
 from .variables import AXES, HISTORIES, OF_ALL_SPEEDS, PLACES, VARIABLES
 
 _BLOCK = 32

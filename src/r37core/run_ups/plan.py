@@ -11,7 +11,7 @@ from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.cross_checks import engine_order_is_known, names_are_there, slow_run_can_be_done
 from r37core.config.document import ConfigRefusals
 from r37core.config.remarks import elastic_casings, remark_on_overtaken_waves
-from r37core.config.speed_choice import fastest_of, length_of_run
+from r37core.config.settings import fastest_of, length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.provenance import Provenance

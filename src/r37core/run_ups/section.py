@@ -1,8 +1,8 @@
 """run_ups of config.yaml: speeds that change while the blade rubs."""
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field
 
 from r37core.config.declaring import DECLARED, declared_by, si_form
 from r37core.config.section import AllOrNames, ExtensionSection, LeftOut, Name, Section, check_names, refused
@@ -36,8 +36,7 @@ class RunUpEntry(Section):
     to_rpm: Any = DECLARED
     crossing: CrossingSection | LeftOut = Field(default=None, description="Speeds about a crossing, in place of numbers")
 
-    @model_validator(mode="after")
-    def _complete(self) -> Self:
+    def _check(self) -> None:
         for keys in ((*_START, "crossing"), (*_STOP, "crossing"), _LENGTH):
             present = [key for key in keys if getattr(self, key) is not None]
             if len(present) != 1:
@@ -46,7 +45,6 @@ class RunUpEntry(Section):
         choice = self.choice(1)
         if choice.start == choice.stop and self.revolutions is None:
             raise refused((self.key_of_length,), "a rate between equal speeds", "revolutions, for a run at constant speed")
-        return self
 
     @property
     def key_of_length(self) -> str:

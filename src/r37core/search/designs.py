@@ -14,9 +14,8 @@ from r37core.config import BladeSettings, Settings, operating_range, plain, vari
 from r37core.config.blades import BladeEntry, blade_settings
 from r37core.config.changed_numbers import changed_pair, entry_with, nominal_value, scene_numbers
 from r37core.config.families import design_entry
-from r37core.config.section_laws import SECTION_KEYS, neutral_value
 from r37core.config.sections_entry import SectionsEntry
-from r37core.config.shape_keys import SHARES, ShapeKeys
+from r37core.config.shape_keys import SECTION_KEYS, SHARES, ShapeKeys, neutral_value
 from r37core.contact.scene import Scene
 from r37core.plans.member_values import drawn, sobol_points
 

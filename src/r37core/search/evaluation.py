@@ -52,7 +52,7 @@ class Carried:
 
 def _read(config: Document, root: Path) -> Carried:
     # models of config.yaml are made of the sections of all extensions, of which this is one
-    return Carried(resolve_name("r37core.product.reading.load_settings")(config, root))
+    return Carried(resolve_name("r37core.product.extensions.load_settings")(config, root))
 
 
 class Refused(ValueError):

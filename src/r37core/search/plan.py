@@ -7,7 +7,7 @@ from typing import Any
 from r37core.base.plain import to_plain
 from r37core.base.varied_number import BLADE, SCENE
 from r37core.config import Settings, operating_range, plain
-from r37core.config.speed_choice import most_runs
+from r37core.config.settings import most_runs
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.sweep_plan import Sweep

@@ -1,8 +1,8 @@
 """search of config.yaml: a blade that is better than the one at hand."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field
 
 from r37core.config.section import ByName, ExtensionSection, LeftOut, Name, Names, Section, Speed, check_names, refused
 from r37core.config.spread import Bounds, MemberCount, Number, Spreads
@@ -29,15 +29,13 @@ class QuantitySection(Section):
         default=None, description="Speed of a margin or static stress (by default the highest of the model)"
     )
 
-    @model_validator(mode="after")
-    def _has_what_it_needs(self) -> Self:
+    def _check(self) -> None:
         named = [key for key in ("scenes", "mode", "engine_order", "speed_rad_s") if getattr(self, key) is not None]
         needed, allowed = NEEDS[self.measure]
         if missing := [key for key in needed if key not in named]:
             raise refused((), f"{self.measure} without {', '.join(missing)}", f"{' and '.join(needed)} beside it")
         if strange := [key for key in named if key not in (*needed, *allowed)]:
             raise refused((strange[0],), f"{strange[0]} with {self.measure}", "the key left out")
-        return self
 
     def quantity(self, is_flown: bool) -> Quantity:
         """The quantity that is computed; without a measure that over the operating range, where there is one."""
@@ -53,11 +51,10 @@ class ObjectiveSection(QuantitySection):
         default=None, description="Quantile under tolerances, such as 0.9; the nominal value without it"
     )
 
-    @model_validator(mode="after")
-    def _has_members(self) -> Self:
+    def _check(self) -> None:
+        super()._check()
         if self.quantile is not None and self.measure not in MINIMISED:
             raise refused(("quantile",), f"a quantile of {self.measure}", f"one of {', '.join(MINIMISED)}")
-        return self
 
 
 class ConstraintSection(QuantitySection):
@@ -68,8 +65,8 @@ class ConstraintSection(QuantitySection):
     at_least_percent: Number | LeftOut = Field(default=None, description="Lower bound, of the starting blade's value")
     at_most_percent: Number | LeftOut = Field(default=None, description="Upper bound, of the starting blade's value")
 
-    @model_validator(mode="after")
-    def _is_bounded(self) -> Self:
+    def _check(self) -> None:
+        super()._check()
         for keys in (("at_least", "at_least_percent"), ("at_most", "at_most_percent")):
             if all(getattr(self, key) is not None for key in keys):
                 raise refused((keys[1],), " and ".join(keys), "one of them")
@@ -79,7 +76,6 @@ class ConstraintSection(QuantitySection):
                 raise refused((lowest,), f"{low:g}", f"not above {highest} ({high:g})")
         if all(getattr(self, key) is None for key in ("at_least", "at_most", "at_least_percent", "at_most_percent")):
             raise refused((), "no bound", "at_least or at_most, or one of them in percent of the start")
-        return self
 
 
 class SearchTolerances(Spreads):
@@ -112,8 +108,7 @@ class SearchSection(Section):
     best: int = Field(default=3, ge=1, le=50, description="Number of best designs written as entries and STEP files")
     tolerances: SearchTolerances | LeftOut = Field(default=None, description="Tolerances of objectives with a quantile")
 
-    @model_validator(mode="after")
-    def _goes_together(self) -> Self:
+    def _check(self) -> None:
         if self.first > self.designs:
             raise refused(("first",), f"{self.first}", f"at most designs ({self.designs})")
         quantiles = [name for name, objective in self.objectives.items() if objective.quantile is not None]
@@ -128,7 +123,6 @@ class SearchSection(Section):
             if inner := next((other for other in self.variables if other.startswith(f"{key}.")), None):
                 raise refused(("variables", inner), f"{inner} beside {key}", "one of them: the other would replace it")
         self._columns_differ()
-        return self
 
     def _columns_differ(self) -> None:
         """Objectives and constraints are columns of one table, beside those of the designs."""

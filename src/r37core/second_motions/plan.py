@@ -7,7 +7,7 @@ from r37core.base.plain import to_plain
 from r37core.base.yaml_file import KeyPath
 from r37core.config import Settings, scenes_named
 from r37core.config.cross_checks import names_are_there, slow_run_can_be_done
-from r37core.config.speed_choice import length_of_run
+from r37core.config.settings import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.sweep_plan import Sweep

@@ -1,9 +1,8 @@
 """second_motions of config.yaml: motions that a start from rest does not show."""
 
 from itertools import product
-from typing import Self
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from r37core.config import Settings, blades_named, scenes_named
 from r37core.config.declaring import declared_by, si_form
@@ -29,8 +28,7 @@ class SecondMotionSection(Section):
     scenes: AllOrNames = Field(default="all", description="Scenes that are swept; by default those without a rotor")
     dwell: DwellSection = Field(default=DwellSection(), description="Dwells at speeds at which motions differ")
 
-    @model_validator(mode="after")
-    def _complete(self) -> Self:
+    def _check(self) -> None:
         ends = [[key for key in keys if getattr(self, key) is not None] for keys in _ENDS]
         changed = any(getattr(self, key) != field.default for key, field in type(self).model_fields.items())
         if changed and not any(ends):
@@ -43,7 +41,6 @@ class SecondMotionSection(Section):
         if self.asked and self.sweep().last < self.sweep().first:
             allowed = "a higher one; both sweeps go through the same speeds"
             raise refused((self.end_keys[1],), "a speed below the lowest one", allowed)
-        return self
 
     @property
     def asked(self) -> bool:

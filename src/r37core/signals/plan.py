@@ -6,7 +6,7 @@ from typing import Any
 from r37core.base.plain import to_plain
 from r37core.config import Settings, si_form
 from r37core.config.cross_checks import slow_run_can_be_done
-from r37core.config.speed_choice import length_of_run
+from r37core.config.settings import length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
 from r37core.plans.structure_plan import Structure

@@ -1,8 +1,8 @@
 """signals of config.yaml: time signals of chosen blades, scenes and speeds."""
 
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field
 
 from r37core.config import si_fields
 from r37core.config.declaring import declared_by
@@ -46,14 +46,12 @@ class SignalSection(Section):
         default=[], description="Casing angles of tip-timing probes, towards growing theta"
     )
 
-    @model_validator(mode="after")
-    def _has_speeds(self) -> Self:
+    def _check(self) -> None:
         if self.speeds_rad_s is not None and self.speeds_rpm is not None:
             refuse_both_units("speeds_rad_s", "speeds_rpm")
         for key in ("gauges", "probes_deg"):
             if getattr(self, key) and self.speeds() is None:
                 raise refused((key,), f"{key} without speeds", "speeds_rad_s beside them")
-        return self
 
     @property
     def key_of_speeds(self) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Annotated, Any, Generic, Literal, TypeVar
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from r37core.base.speeds import exact_text
 from r37core.config import Settings
@@ -30,11 +30,9 @@ class Parameter(Section, Generic[Value]):
     values: Unique[Value] = Field(description="Values that are run")
     reference: Value = Field(description="Value that the others are compared with")
 
-    @model_validator(mode="after")
-    def _reference_is_a_value(self) -> Parameter[Value]:
+    def _check(self) -> None:
         if self.reference not in self.values:
             raise refused(("reference",), repr(self.reference), f"one of the values, {', '.join(map(str, self.values))}")
-        return self
 
 
 class Parameters(Section):
@@ -96,11 +94,9 @@ class PlaceSection(Section):
     last: float = Field(ge=0.01, le=100, description="Highest share")
     speeds: int = Field(ge=1, le=1000, description="Number of speeds, evenly spaced")
 
-    @model_validator(mode="after")
-    def _forward(self) -> PlaceSection:
+    def _check(self) -> None:
         if self.last < self.first or (self.last == self.first and self.speeds > 1):
             raise refused(("last",), f"{self.last:g}", f"more than first ({self.first:g})")
-        return self
 
 
 class Places(Section):

@@ -1,13 +1,12 @@
 """Checks of an imported mesh before it is computed with: one part, no free nodes, well shaped elements in order, each once."""
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.exchange.refusal import ImportRefused, warn_of
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.mesh_quality import scaled_jacobian
 from r37core.fem.surface import Faces, outer_faces
@@ -45,11 +44,9 @@ def checked(mesh: RawMesh, minimum_scaled_jacobian: float) -> tuple[RawMesh, np.
     _tell_holes(mesh.points, outer_faces(blocks))
     linear = [name for name in blocks if not ELEMENTS[name].quadratic]
     if linear:
-        warnings.warn(
+        warn_of(
             f"elements of first order ({', '.join(linear)}) are too stiff in bending: frequencies come out too high, often by "
             "10% and more; write the mesh with second-order elements",
-            MeshWarning,
-            stacklevel=2,
         )
     return replace(mesh, blocks=blocks), np.concatenate(quality)
 
@@ -132,11 +129,9 @@ def _tell_holes(points: np.ndarray, faces: list[Faces]) -> None:
         cavities = f"{pieces - 1} closed inside, one near {_place(points[corners[piece == smallest]].mean(axis=0))}"
         through = f"corners - edges + faces of its surface is {characteristic} and not {2 * pieces}"
         holes = [cavities] * (pieces > 1) + [through] * (characteristic != 2 * pieces)
-        warnings.warn(
+        warn_of(
             f"the mesh has holes ({'; '.join(holes)}): elements may be missing, and with them mass and stiffness; if the blade "
             "is hollow, all is well",
-            MeshWarning,
-            stacklevel=2,
         )
 
 

@@ -1,10 +1,7 @@
 """Description of a blade of another program: its files, where root and tip are. Light: the configuration imports it."""
 
-from __future__ import annotations
-
 import hashlib
 import os
-import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,7 +12,7 @@ import numpy as np
 from r37core.base.declared import Key
 from r37core.base.units import MASS_UNITS, STIFFNESS_UNITS
 from r37core.exchange.orientation import Orientation
-from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.exchange.refusal import ImportRefused, warn_of
 from r37core.fem.elements import ELEMENTS
 
 from .deck_text import included_files, is_deck
@@ -26,6 +23,64 @@ DECK = ".inp"
 
 SUFFIXES = (DECK, ".msh", ".vtu", ".med", ".bdf", ".nas", ".cdb")
 """Endings of mesh files that can be read."""
+
+
+@dataclass(frozen=True)
+class Where:
+    """A part of the mesh: the nodes in the set `set_name`, or those that keep all the limits given.
+
+    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
+    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and
+    cone.
+    """
+
+    set_name: str | None = None
+    limits: tuple[tuple[str, str, float], ...] = ()
+    cone_zr: Annotated[
+        tuple[tuple[float, float], tuple[float, float]] | None,
+        Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
+    ] = None
+    tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", ge=1e-9, le=0.1)] = 1e-4
+
+    def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
+        """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
+        if self.set_name is None:
+            return self.within(mesh.points)
+        return _edge_nodes(what, self.set_name, mesh, _set_members(what, self.set_name, mesh))
+
+    def within(self, points: np.ndarray) -> np.ndarray:
+        """Mask over `points` (m), shape (n, 3), that keep limits and cone."""
+        x, y, z = points.T
+        coordinates = {"r": np.hypot(x, y), "x": x, "z": z}
+        members = np.ones(len(points), dtype=bool)
+        for name, bound, value in self.limits:
+            sign = 1.0 if bound == "at_least" else -1.0
+            members &= sign * (coordinates[name] - value) >= -self.tolerance
+        if self.cone_zr is not None:
+            members &= np.abs(self.off_cone(points)) <= self.tolerance
+        return members
+
+    def off_cone(self, points: np.ndarray) -> np.ndarray:
+        """Distance (m) of `points`, shape (n, 3), from the cone, shape (n,)."""
+        assert self.cone_zr is not None
+        (z0, r0), (z1, r1) = self.cone_zr
+        radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
+        return ((radius - r0) * (z1 - z0) - (z - z0) * (r1 - r0)) / np.hypot(z1 - z0, r1 - r0)
+
+    def describe(self) -> str:
+        """The rule in words."""
+        if self.set_name is not None:
+            return f"the set '{self.set_name}'"
+        parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
+        if self.cone_zr is not None:
+            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
+        return f"the rule '{' and '.join(parts)}, to {self.tolerance:g} m'"
+
+    def as_yaml(self) -> str:
+        """The rule of a cone as an entry of blades.yaml has it."""
+        assert self.cone_zr is not None
+        points = ", ".join(f"[{_plain(z)}, {_plain(r)}]" for z, r in self.cone_zr)
+        return f"{{ cone_zr_m: [{points}], tolerance_m: {_plain(self.tolerance)} }}"
 
 
 @dataclass(frozen=True)
@@ -130,64 +185,6 @@ def digest_of(files: Iterable[Path]) -> str:
 _MOST_NAMES = 30
 
 
-@dataclass(frozen=True)
-class Where:
-    """A part of the mesh: the nodes in the set `set_name`, or those that keep all the limits given.
-
-    `limits`: (coordinate, bound, value in m) with coordinate r, x or z of the blade's frame and bound `at_least` or
-    `at_most`; `cone_zr`: two points (z, r) in m of a straight meridian that the nodes lie on; `tolerance` (m): of limits and
-    cone.
-    """
-
-    set_name: str | None = None
-    limits: tuple[tuple[str, str, float], ...] = ()
-    cone_zr: Annotated[
-        tuple[tuple[float, float], tuple[float, float]] | None,
-        Key("two points [z, r] of the straight meridian that the faces lie on", "_m", ge=-100, le=100),
-    ] = None
-    tolerance: Annotated[float, Key("how far beyond a limit a face may lie", "_m", ge=1e-9, le=0.1)] = 1e-4
-
-    def nodes(self, what: str, mesh: RawMesh) -> np.ndarray:
-        """Mask over the nodes of `mesh`. Raises ImportRefused, naming `what` is looked for, where there is no such set."""
-        if self.set_name is None:
-            return self.within(mesh.points)
-        return _edge_nodes(what, self.set_name, mesh, _set_members(what, self.set_name, mesh))
-
-    def within(self, points: np.ndarray) -> np.ndarray:
-        """Mask over `points` (m), shape (n, 3), that keep limits and cone."""
-        x, y, z = points.T
-        coordinates = {"r": np.hypot(x, y), "x": x, "z": z}
-        members = np.ones(len(points), dtype=bool)
-        for name, bound, value in self.limits:
-            sign = 1.0 if bound == "at_least" else -1.0
-            members &= sign * (coordinates[name] - value) >= -self.tolerance
-        if self.cone_zr is not None:
-            members &= np.abs(self.off_cone(points)) <= self.tolerance
-        return members
-
-    def off_cone(self, points: np.ndarray) -> np.ndarray:
-        """Distance (m) of `points`, shape (n, 3), from the cone, shape (n,)."""
-        assert self.cone_zr is not None
-        (z0, r0), (z1, r1) = self.cone_zr
-        radius, z = np.hypot(points[:, 0], points[:, 1]), points[:, 2]
-        return ((radius - r0) * (z1 - z0) - (z - z0) * (r1 - r0)) / np.hypot(z1 - z0, r1 - r0)
-
-    def describe(self) -> str:
-        """The rule in words."""
-        if self.set_name is not None:
-            return f"the set '{self.set_name}'"
-        parts = [f"{name} {bound.replace('_', ' ')} {value:g} m" for name, bound, value in self.limits]
-        if self.cone_zr is not None:
-            parts.append("the cone through (z, r) = ({:g}, {:g}) and ({:g}, {:g}) m".format(*self.cone_zr[0], *self.cone_zr[1]))
-        return f"the rule '{' and '.join(parts)}, to {self.tolerance:g} m'"
-
-    def as_yaml(self) -> str:
-        """The rule of a cone as an entry of blades.yaml has it."""
-        assert self.cone_zr is not None
-        points = ", ".join(f"[{_plain(z)}, {_plain(r)}]" for z, r in self.cone_zr)
-        return f"{{ cone_zr_m: [{points}], tolerance_m: {_plain(self.tolerance)} }}"
-
-
 def _plain(number: float) -> str:
     """Number without an exponent: some readers of YAML take 1e-05 for a text."""
     return np.format_float_positional(number, trim="-")
@@ -215,10 +212,8 @@ def _edge_nodes(what: str, name: str, mesh: RawMesh, members: np.ndarray) -> np.
             between[nodes[members[nodes[:, list(edge)]].all(axis=1), middle_node]] = True
     if (members & middle).any() or not between.any():
         return members
-    warnings.warn(
+    warn_of(
         f"{what}: the set '{name}' has corners of elements alone ({members.sum()} nodes); the {between.sum()} mid-nodes "
         "between them are taken too",
-        MeshWarning,
-        stacklevel=2,
     )
     return members | between

@@ -1,12 +1,10 @@
 """The tip of an imported blade: whether casing contact and rotation make sense there, its edges and its camber line."""
 
-import warnings
-
 import numpy as np
 from scipy.spatial import cKDTree
 
 from r37core.blade.sense import LEAST, TipSense, sense_of_line
-from r37core.exchange.refusal import ImportRefused, MeshWarning
+from r37core.exchange.refusal import ImportRefused, warn_of
 from r37core.fem.surface import Faces, loops, nodes_of, patches
 
 _CORNER = np.cos(np.radians(40.0))
@@ -136,11 +134,9 @@ def _check_lead(ends: np.ndarray, sense: TipSense, fits: bool | None) -> None:
 
 
 def _warn_unproved(key: str, shown: str) -> None:
-    warnings.warn(
+    warn_of(
         f"{key} is taken as given: {shown} does not prove it ({np.degrees(LEAST):g} degrees would). Make sure of it"
         + (": with a wrong one a blade looks safe that is not" if key == "rotation" else ""),
-        MeshWarning,
-        stacklevel=2,
     )
 
 

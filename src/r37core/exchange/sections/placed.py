@@ -1,7 +1,5 @@
 """Sections of a file in the blade's frame, checked, and what fits where an entry asks for it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -9,14 +7,14 @@ import numpy as np
 
 from r37core.base.io import TextFileError
 from r37core.base.units import LENGTH_UNITS
+from r37core.blade.definition import SectionsDefinition
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.section_curve import CurvePart, SectionCurve
-from r37core.blade.sections_definition import SectionsDefinition
 from r37core.blade.sense import sense_of_line
 from r37core.exchange.orientation import Orientation, fitting_units
 from r37core.exchange.refusal import ImportRefused
 
-from .section_text import FileSection, SectionFile
+from .section_file import FileSection, SectionFile
 
 ASKED = "?"
 """Value of a key that asks what fits."""

@@ -1,22 +1,262 @@
-"""Files of section curves, by their endings."""
+"""Files of section curves, by their endings: .curve, .geomTurbo, .csv."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
+import csv
+import io
+import math
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
 from r37core.base.io import TextFileError, read_text
+from r37core.blade.definition import FEWEST_SECTIONS
 from r37core.blade.profile import BladeShapeError
 from r37core.blade.section_curve import FEWEST_POINTS
-from r37core.blade.sections_definition import FEWEST_SECTIONS
 
-from .csv_sections import read_table
-from .curve_file import read_meridian, read_profiles
-from .geomturbo_file import read_geomturbo
-from .section_text import SectionFile
+_NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([ed][-+]?[0-9]+)?", re.IGNORECASE)
+_NOT_FINITE = re.compile(r"[-+]?(nan|inf|infinity)", re.IGNORECASE)
+_EQUAL = 1e-9
+"""Distance of two points that are one, as a share of the section's size."""
+
+
+@dataclass(frozen=True)
+class FileSection:
+    """A section: its closed curve, points in the file's unit and axes, shape (n, 3), and the line where it begins."""
+
+    points: np.ndarray
+    line: int
+
+
+@dataclass(frozen=True)
+class SectionFile:
+    """Content of a file: sections in its order; points of the meridians of hub and tip, shape (n, 3), or None."""
+
+    sections: tuple[FileSection, ...]
+    hub: np.ndarray | None = None
+    tip: np.ndarray | None = None
+
+
+def number_in(text: str, line: int, what: str) -> float:
+    """Number of a cell, with an exponent e or d; TextFileError for another text."""
+    if _NOT_FINITE.fullmatch(text):
+        raise TextFileError(line, f"{what}: '{text}' is not finite; give the coordinate, or leave the point out")
+    if not _NUMBER.fullmatch(text):
+        raise TextFileError(line, f"{what}: '{text}' is not a number; allowed: coordinates such as 0.25 or 2.5e-1")
+    number = float(text.lower().replace("d", "e"))
+    if not math.isfinite(number):
+        raise TextFileError(line, f"{what}: '{text}' is not finite; give the coordinate, or leave the point out")
+    return number
+
+
+def point_in(text: str, line: int, count: int = 3) -> list[float]:
+    """The first `count` numbers of a line, separated by blanks or commas; words may follow. Raises TextFileError."""
+    cells = [cell for cell in re.split(r"[\s,;]+", text.strip()) if cell]
+    if len(cells) < count:
+        raise TextFileError(line, f"found {len(cells)} values; needed: {count}, separated by blanks or commas")
+    extra = [cell for cell in cells[count:] if _NUMBER.fullmatch(cell)]
+    if extra:
+        raise TextFileError(line, f"found {count + len(extra)} numbers; needed: {count}, separated by blanks or commas")
+    return [number_in(cell, line, f"value {place + 1}") for place, cell in enumerate(cells[:count])]
+
+
+def closed(points: np.ndarray) -> np.ndarray:
+    """Points of a closed curve without those that repeat the one before them, the first at the end among them."""
+    size = max(float(np.ptp(points, axis=0).max()), 1e-300)
+    steps = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1)
+    return points[steps > _EQUAL * size]
+
+
+def joined_sides(side: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Closed curve along one side and back along the other, which may run either way."""
+    forward, backward = (
+        np.linalg.norm(side[-1] - back[0]) + np.linalg.norm(side[0] - back[-1]) for back in (other, other[::-1])
+    )
+    return closed(np.concatenate([side, other if forward <= backward else other[::-1]]))
+
+
+def closed_section(points: Sequence[Sequence[float]] | np.ndarray, line: int) -> FileSection:
+    """Section of points in their order."""
+    return FileSection(closed(np.asarray(points, dtype=float)), line)
+
+
+_COLUMNS = ("section", "x", "y", "z")
+
+
+def read_table(text: str) -> tuple[FileSection, ...]:
+    """Sections of a table (CSV), in the order of their first rows. Raises TextFileError.
+
+    Columns section, x, y, z, and side where the two sides of a section are apart.
+    """
+    delimiter = ";" if ";" in text.partition("\n")[0] else ","
+    reader = csv.DictReader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
+    # section -> side -> points
+    sections: dict[str, dict[str, list[list[float]]]] = {}
+    lines: dict[str, int] = {}
+    try:
+        reader.fieldnames = header = [column.strip().lower() for column in reader.fieldnames or []]
+        missing = [column for column in _COLUMNS if column not in header]
+        if missing:
+            raise TextFileError(
+                1, f"the table lacks the columns {', '.join(missing)}; needed: section, x, y, z, separated by commas"
+            )
+        for row in reader:
+            if None in row or None in row.values():
+                raise TextFileError(reader.line_num, "the row has more or fewer cells than the first line has columns")
+            name, side = row["section"].strip(), row.get("side", "").strip()
+            lines.setdefault(name, reader.line_num)
+            point = [number_in(row[column].strip(), reader.line_num, f"column {column}") for column in "xyz"]
+            sections.setdefault(name, {}).setdefault(side, []).append(point)
+    except csv.Error as error:
+        raise TextFileError(reader.line_num, f"not readable as a table separated by commas: {error}") from None
+    if not sections:
+        raise TextFileError(1, "found no rows; needed: section, x, y, z of each point")
+    return tuple(_joined_section(sides, lines[name]) for name, sides in sections.items())
+
+
+def _joined_section(sides: dict[str, list[list[float]]], line: int) -> FileSection:
+    if len(sides) > 2:
+        raise TextFileError(line, f"found {len(sides)} values in the column side of one section; allowed: one or two")
+    parts = [np.array(points) for points in sides.values()]
+    return closed_section(parts[0], line) if len(parts) == 1 else FileSection(joined_sides(*parts), line)
+
+
+_REMARK = ("#", "!", "//")
+
+
+def read_profiles(text: str) -> tuple[FileSection, ...]:
+    """Sections of a profile.curve of BladeGen or TurboGrid. Raises TextFileError.
+
+    Points x y z, one a line; a line that begins with # starts a profile.
+    """
+    profiles: list[tuple[int, list[list[float]]]] = []
+    begins = True
+    for number, line in enumerate(text.splitlines(), start=1):
+        stripped = line.strip()
+        if not stripped or stripped.startswith(_REMARK):
+            # remarks before the first profile, and several lines in a row, start one
+            begins = begins or stripped.startswith("#")
+            continue
+        if begins:
+            profiles.append((number, []))
+            begins = False
+        profiles[-1][1].append(point_in(stripped, number))
+    if not profiles:
+        raise TextFileError(1, "found no points; needed: x y z in a line each, and a line with # before each profile")
+    return tuple(closed_section(points, line) for line, points in profiles)
+
+
+def read_meridian(text: str) -> np.ndarray:
+    """Points of a hub.curve or shroud.curve, shape (n, 3). Raises TextFileError."""
+    lines = enumerate(text.splitlines(), start=1)
+    points = [point_in(line, number) for number, line in lines if line.strip() and not line.strip().startswith(_REMARK)]
+    if len(points) < 2:
+        raise TextFileError(1, f"found {len(points)} points of a meridian; needed: at least 2, x y z in a line each")
+    return np.array(points)
+
+
+_SIDES = ("suction", "pressure")
+_FORMS = ("xyz", "zrth", "rthz")
+"""Coordinates of a section: x y z; or z, r and the angle (rad); or r, the angle and z."""
+
+Line = tuple[int, str]
+
+
+def read_geomturbo(text: str) -> SectionFile:
+    """Sections of the first blade of a .geomTurbo of NUMECA and, where it has a channel, points of hub and shroud about z.
+
+    Raises TextFileError.
+    """
+    lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
+    sides = {side: _sections(lines, side) for side in _SIDES}
+    counts = [len(sides[side]) for side in _SIDES]
+    if counts[0] != counts[1]:
+        line = sides["pressure"][0][0]
+        counted = f"found {counts[0]} sections of the suction and {counts[1]} of the pressure side"
+        raise TextFileError(line, f"{counted}; needed: as many of both")
+    sections = [
+        FileSection(joined_sides(suction, pressure), line)
+        for (line, suction), (_, pressure) in zip(sides["suction"], sides["pressure"], strict=True)
+    ]
+    hub, shroud = (_channel(lines, name) for name in ("hub", "shroud"))
+    return SectionFile(tuple(sections), hub, shroud)
+
+
+def _sections(lines: list[Line], side: str) -> list[tuple[int, np.ndarray]]:
+    """First line and points of each section of a side of the first blade."""
+    start = next((place for place, (_, text) in enumerate(lines) if text.lower() == side), None)
+    if start is None:
+        raise TextFileError(1, f"found no line '{side}'; needed: SECTIONAL curves under suction and under pressure")
+    rest = iter(lines[start + 1 :])
+    number, text = next(rest, (lines[start][0], ""))
+    if text.lower() != "sectional":
+        raise TextFileError(number, f"found '{text}' under {side}; needed: SECTIONAL, curves of sections")
+    return [_section(rest, number) for _ in range(_count(rest, number))]
+
+
+def _section(rest: Iterator[Line], line: int) -> tuple[int, np.ndarray]:
+    line, form = _next(rest, line)
+    if form.lower() not in _FORMS:
+        raise TextFileError(line, f"found coordinates '{form}'; allowed: {', '.join(_FORMS).upper()}")
+    points, first = [], line
+    for _ in range(_count(rest, line)):
+        line, text = _next(rest, line)
+        points.append(point_in(text, line))
+    if len(points) < 2:
+        raise TextFileError(first, f"found {len(points)} points of a side; needed: at least 2")
+    return first, _cartesian(np.array(points), form.lower())
+
+
+def _cartesian(points: np.ndarray, form: str) -> np.ndarray:
+    if form == "xyz":
+        return points
+    z, r, angle = points.T if form == "zrth" else points[:, [2, 0, 1]].T
+    return np.stack([r * np.cos(angle), r * np.sin(angle), z], axis=1)
+
+
+def _channel(lines: list[Line], name: str) -> np.ndarray | None:
+    """Points of the basic curves that make the hub or the shroud of the channel, shape (n, 3)."""
+    curves: dict[str, np.ndarray] = {}
+    current, rest = "", iter(lines)
+    used: list[str] = []
+    inside = False
+    for number, text in rest:
+        words = text.lower().split()
+        if words[0] == "name" and len(words) > 1 and not inside:
+            current = text.split(None, 1)[1]
+        elif words[0] == "zr":
+            pairs = [point_in(_next(rest, number)[1], number, 2) for _ in range(_count(rest, number))]
+            curves[current] = np.array([(r, 0.0, z) for z, r in pairs])
+        elif words[:2] == ["ni_begin", "channel_curve"]:
+            inside = words[-1] == name
+        elif words[:2] == ["ni_end", "channel_curve"]:
+            inside = False
+        elif inside and words[0] == "vertex" and len(words) > 3:
+            used.append(text.split(None, 2)[2].rsplit(None, 1)[0])
+    # without channel curves the basic curves have their names
+    parts = [curves[curve] for curve in dict.fromkeys(used or [name]) if curve in curves]
+    if not parts:
+        return None
+    points = np.concatenate(parts)
+    return points[np.concatenate([[True], np.any(np.diff(points, axis=0) != 0.0, axis=1)])]
+
+
+def _next(rest: Iterator[Line], line: int) -> Line:
+    """The next line that is no remark; TextFileError at the end of the file."""
+    for number, text in rest:
+        if not text.startswith("#"):
+            return number, text
+    raise TextFileError(line, "the file ends within a section; needed: as many sections and points as it announces")
+
+
+def _count(rest: Iterator[Line], line: int) -> int:
+    number, text = _next(rest, line)
+    if not text.split()[0].isdigit():
+        raise TextFileError(number, f"found '{text}'; needed: how many sections or points follow")
+    return int(text.split()[0])
+
 
 _READERS: dict[str, Callable[[str], SectionFile]] = {
     ".curve": lambda text: SectionFile(read_profiles(text)),
