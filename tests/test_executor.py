@@ -171,6 +171,28 @@ def test_a_server_ends_with_its_snakemake(root, tmp_path):
     snakemake.communicate()
 
 
+def test_linear_algebra_has_one_thread_in_a_job_of_several_cores(root, tmp_path):
+    """Loaded before the script, as by what Snakemake carries into it, or after."""
+    script = root / "workflow/scripts/step.py"
+    program = f"""
+import sys, numpy
+from types import SimpleNamespace as Some
+from r37core.console import caller as step
+
+def done(input, output, params):
+    import scipy.linalg, threadpoolctl
+    print([library["num_threads"] for library in threadpoolctl.threadpool_info()])
+
+step.done = done
+params = Some(step="r37core.console.caller.done")
+snakemake = Some(params=params, threads=2, wildcards={{}}, rule="rule", log=["log"], input=None, output=None)
+exec(compile(open({str(script)!r}).read(), "step.py", "exec"))
+"""
+    environment = os.environ | {"OPENBLAS_NUM_THREADS": "2", "OMP_NUM_THREADS": "2"}
+    subprocess.run([sys.executable, "-c", program], cwd=tmp_path, env=environment, check=True)
+    assert set((tmp_path / "log").read_text()) == set("[1, ]\n")
+
+
 @pytest.fixture
 def project(root, tmp_path):
     """A sweep whose script also writes who made each output."""

@@ -20,11 +20,13 @@ from r37core.config import ConfigError
 from r37core.config.changed_numbers import scene_numbers
 from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
+from r37core.rom.rotation import BucklingError
 from r37core.search import evaluation, steps
 from r37core.search.designs import NOMINAL, designs_of
 from r37core.search.evaluation import Evaluation, Refused
-from r37core.search.plan import Search, remarks
+from r37core.search.plan import Search, remarks, simulations
 from r37core.stress.operator import StressOperator
+from r37core.sweep import recipe
 from r37core.sweep.driver import one_by_one
 from r37core.sweep.recipe import Recipe, recipes
 
@@ -42,7 +44,7 @@ class Simulated(list):
     """Designs and scenes that were simulated, in their order. `lengths` by scene and member, else the number of the design."""
 
     def __init__(self):
-        self.lengths, self.breaks_at = {}, ""
+        self.lengths, self.breaks_at, self.error = {}, "", KeyboardInterrupt()
 
 
 @pytest.fixture
@@ -61,7 +63,7 @@ def simulated(tmp_path, monkeypatch):
         def run(self, sweeps, *_):
             *_, design, scene = self.folder.parts
             if design == done.breaks_at:
-                raise KeyboardInterrupt
+                raise done.error
             done.append(f"{design}/{scene}")
             return {member: done.lengths.get((scene, member), float(design.strip("dstar") or 0)) for member in sweeps}
 
@@ -141,6 +143,20 @@ def test_a_design_that_cannot_be_built_is_a_result(folder, simulated, monkeypatc
     assert refused[0].startswith("the stress region") and "stagger_deg" in refused[1] and len(simulated) == 1
 
 
+def test_a_design_that_buckles_is_a_result(folder, simulated):
+    simulated.breaks_at, simulated.error = "d0002", BucklingError(1500.0)
+    refused, built = quantities(folder, {"d0002": (0.5, 1.0), "d0003": (0.6, 1.0)})
+    assert "no stable position at 1500 rad/s" in refused and built == {"lined": [3.0, 0.5]}
+
+
+def test_designs_are_measured_again_by_other_code_of_their_structure(folder, simulated, monkeypatch):
+    quantities(folder, {"start": None})
+    code_of = recipe.code_of
+    monkeypatch.setattr(recipe, "code_of", lambda step: "another" if step == "fem.steps.mesh" else code_of(step))
+    quantities(folder, {"start": None})
+    assert simulated == ["start/abradable", "start/abradable"]
+
+
 def test_a_search_gives_all_designs_and_writes_the_best(folder, simulated):
     dataset, rows = search(folder)
     names = [f"d000{number}" for number in range(5)]
@@ -199,7 +215,7 @@ def test_the_plan_of_a_search(folder):
     overlay(folder, "config.yaml", "search: { designs: 7, first: 3 }")
     settings = read_settings(folder)
     plan = Search(settings)
-    assert (plan.budget(None), plan.threads(None)) == ([3, 2, 2], 3)
+    assert plan.budget(None) == [3, 2, 2] and simulations(settings) == {("Free", "abradable"): 8 * 3}
     assert remarks(settings)[0].startswith("search: 7 designs of 'Free' in rounds of 2, at most 3 simulations of each")
     carried = pickle.loads(pickle.dumps(plan.carried(None))).settings
     assert Search(carried).made_of(None) == plan.made_of(None)

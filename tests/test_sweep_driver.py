@@ -2,29 +2,36 @@
 
 import json
 import os
+import pickle
+import signal
 import subprocess
 import sys
 import time
 from functools import partial
+from importlib import import_module
+from pkgutil import walk_packages
 
 import numpy as np
 import pytest
 import xarray as xr
 
+import r37core
 from r37core.adaptive.criterion import RefinementChoice
 from r37core.base.dataset_file import read_dataset, write_groups
-from r37core.base.io import Named
+from r37core.base.io import CarriedError, Named
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import SpeedPlan, plan_speeds
 from r37core.config import command_line_document
 from r37core.plans.provenance import Provenance
 from r37core.product.extensions import read_settings
+from r37core.rom.rotation import BucklingError
 from r37core.stress.statistic import Strengths
 from r37core.sweep import counts, driver
 from r37core.sweep.blade_sweep import BladeSweep, SharedSpeeds
 from r37core.sweep.driver import Driver
 from r37core.sweep.forks import forked_results
 from r37core.time_integration.speed_file import write_speed
+from r37core.time_integration.step_limit import UnstableStepError
 from r37core.tolerances import steps
 from r37core.tolerances.plan import Tolerances
 
@@ -53,6 +60,10 @@ def run_speeds(monkeypatch, tmp_path):
     monkeypatch.setattr(driver, "run_job", peak)
     monkeypatch.setattr(driver, "write_response", lambda files, speeds, file, **_: response(speeds).to_netcdf(file))
     return lambda: run.read_text().split() if run.exists() else []
+
+
+def buckle(speed):
+    raise BucklingError(speed)
 
 
 def response(speeds):
@@ -138,9 +149,21 @@ def test_forks_give_results_in_order_and_count_simulations(tmp_path, sweep, run_
     assert counts.counted_simulations().total() == 0
     run(tmp_path, {"one": sweep}, [1000, 1020, 1040], partial(forked_results, 2))
     assert sorted(run_speeds()) == ["1000", "1020", "1040"] and counts.counted_simulations() == {0: 3}
-    with pytest.raises(ZeroDivisionError):
-        forked_results(2, [lambda: 1 // 1, lambda: 1 // 0])
+    with pytest.raises(BucklingError, match="no stable position at 1500 rad/s"):
+        forked_results(2, [lambda: 1 // 1, partial(buckle, 1500.0)])
+    with pytest.raises(MemoryError, match="a process of this job was killed"):
+        forked_results(2, [lambda: 1 // 1, lambda: os.kill(os.getpid(), signal.SIGKILL)])
     assert forked_results(2, [os.getpid, os.getpid, lambda: 3])[2] == 3
+
+
+def test_errors_are_carried_from_process_to_process():
+    """All that are not made of their message alone; with what they know beside it."""
+    modules = [module.name for module in walk_packages(r37core.__path__, "r37core.") if ".compiled." not in module.name]
+    kinds = [kind for name in modules for kind in vars(import_module(name)).values() if isinstance(kind, type)]
+    made = {kind for kind in kinds if issubclass(kind, Exception) and "__init__" in vars(kind)}
+    assert len(made) > 5 and all(issubclass(kind, CarriedError) for kind in made)
+    error = pickle.loads(pickle.dumps(UnstableStepError("too long", 2e-6)))
+    assert (str(error), error.limit, error.shortened) == ("too long", 2e-6, 1e-6)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="Linux")

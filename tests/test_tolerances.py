@@ -198,8 +198,8 @@ def test_a_run_says_when_its_members_rank_nothing(root, members, said):
 
 def test_a_number_of_one_value_is_told(root):
     numbers = {"friction.coefficient": {"values": [0.15]}, "damping_ratio": {"uniform_percent": 5}}
-    (said,) = [one for one in remarks_of(settings_of(root, {"members": 2, "of_scenes": numbers})) if "no index" in one]
-    assert said.startswith("tolerances.of_scenes: friction.coefficient is 0.15 in all members, so it has no index; a wider")
+    (said,) = [one for one in remarks_of(settings_of(root, {"members": 2, "of_scenes": numbers})) if "not ranked" in one]
+    assert said.startswith("tolerances.of_scenes: friction.coefficient is 0.15 in all members, so it is not ranked; a wider")
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,5 @@
 # A search for better designs, in rounds: each proposes some by what all before them gave, until the budget is spent.
+from r37core.search import plan as search_plan
 from r37core.search.plan import BEST, DATASET, TABLE, Search
 
 search = Search(settings)
@@ -13,12 +14,14 @@ use rule step as search_designs with:
     log:
         "<logs>/search.log",
     priority: 3
-    threads: search.threads
+    threads: lambda wildcards: sum(search_plan.simulations(settings).values())
     resources:
         mem_mb=lambda wildcards, threads: (memory_of_model + 300) * threads,
     params:
         **step("search.steps.search"),
         carried=search.carried,
         made_of=search.made_of,
+        # the job makes structures of its own
+        structure=lambda wildcards: [step(made.step) for made in stages.values()],
         budget=search.budget,
         fidelity=settings.fidelity_name,

@@ -16,7 +16,7 @@ use rule step as tolerance_members with:
     log:
         "<logs>/tolerances/{blade}/{scene}/members.log",
     priority: 3
-    threads: lambda wildcards: len(tolerances.sample.all[wildcards.blade, wildcards.scene])
+    threads: lambda wildcards: tolerances.simulations[wildcards.blade, wildcards.scene]
     resources:
         mem_mb=lambda wildcards, threads: 500 * threads,
     params:

@@ -39,7 +39,20 @@ class OutputFileError(InputFileError):
     """A file that has no room; the message names it and the remedy. Who expects a file's error gets this one, too."""
 
 
-class TextFileError(ValueError):
+class CarriedError(ValueError):
+    """Error that a process can raise of another one, although it is made from something else than its message."""
+
+    def __reduce__(self) -> Any:
+        return _same_error, (type(self), self.args, vars(self))
+
+
+def _same_error(kind: type[CarriedError], args: tuple[Any, ...], attributes: dict[str, Any]) -> CarriedError:
+    error = kind.__new__(kind, *args)
+    vars(error).update(attributes)
+    return error
+
+
+class TextFileError(CarriedError):
     """Something that a text file of a user must not hold: `reason`, and the number of the `line`."""
 
     def __init__(self, line: int, reason: str):

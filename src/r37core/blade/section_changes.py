@@ -15,6 +15,8 @@ from typing import Self
 import numpy as np
 import scipy
 
+from r37core.base.io import CarriedError
+
 from .cone import Cone, ConstantRatePath
 from .profile import BladeShapeError, ProfileParameters, centreline
 from .profile_tables import check_profile_order
@@ -66,7 +68,7 @@ class SectionChange:
         return [field.name for field in fields(self) if getattr(self, field.name) != field.default]
 
 
-class SectionChangeError(BladeShapeError):
+class SectionChangeError(CarriedError, BladeShapeError):
     """A profile that cannot be changed so; `names`: the changes of it that are not neutral."""
 
     def __init__(self, text: str, names: Sequence[str]):

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from r37core.base.io import CarriedError
 from r37core.base.units import si_name
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber, numbers_in, with_value
 from r37core.base.yaml_file import KeyPath
@@ -54,7 +55,7 @@ _ON_TOP = BladeEntry(base="blade")
 """Entry that starts from a blade and changes nothing."""
 
 
-class ImpossibleValueError(ValueError):
+class ImpossibleValueError(CarriedError):
     """Value that a blade or a scene cannot have; `number`: the one to blame, or the key of what it leads to."""
 
     def __init__(self, kind: str, key: str, text: str):

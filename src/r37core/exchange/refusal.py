@@ -4,8 +4,10 @@ import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
+from r37core.base.io import CarriedError
 
-class ImportRefused(ValueError):
+
+class ImportRefused(CarriedError):
     """A mesh or a set of matrices that cannot be used; the message names the file, what was found and what helps.
 
     `reason`: the message without the lines that help; `key`: of blades.yaml, whose value is to blame; `fitting`: keys and

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from r37core.base.io import CarriedError
+
 from .assembly import NodePattern, block_matrix
 from .large_displacement import LargeDisplacement
 from .matrices import StructuralMatrices
@@ -21,7 +23,7 @@ _MOST_CORRECTIONS, _SHORTEST = 20, 1e-6
 """Corrections by one tangent, and shortest step of the load, as a share of that which is looked for."""
 
 
-class NoEquilibriumError(ValueError):
+class NoEquilibriumError(CarriedError):
     """Error of a blade that has no stable position under its rotation, as far as small steps of the load find one."""
 
     def __init__(self, speed: float, reached: float):

@@ -3,6 +3,7 @@
 The configuration is read with the sections and checks of all of them.
 """
 
+from collections import Counter
 from importlib import import_module
 from itertools import chain
 
@@ -39,8 +40,8 @@ EXTENSIONS: tuple[Extension, ...] = tuple(chain.from_iterable(map(_declared, FOL
 
 
 def simulations_of_members(settings: Settings) -> dict[Pair, int]:
-    """Largest number of simulations of members, by blade and scene."""
-    return {pair: number for extension in EXTENSIONS for pair, number in extension.members(settings).items()}
+    """Largest number of simulations of members and designs, by blade and scene."""
+    return sum((Counter(extension.members(settings)) for extension in EXTENSIONS), Counter())
 
 
 CONFIG: type[Config] = config_model([extension.section for extension in EXTENSIONS if extension.section])

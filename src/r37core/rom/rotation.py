@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from r37core.base.io import CarriedError
+
 if TYPE_CHECKING:
     import scipy.sparse as sp
 
 
-class BucklingError(ValueError):
+class BucklingError(CarriedError):
     """Error of a blade that its load buckles at a speed: it has no stable position there."""
 
     def __init__(self, speed: float):

@@ -19,16 +19,19 @@ from r37core.config import ConfigError, Settings, operating_range
 from r37core.config.changed_numbers import ImpossibleValueError
 from r37core.config.document import Document
 from r37core.config.settings import judged_region
+from r37core.fem.equilibrium import NoEquilibriumError
 from r37core.machine_code.kept import kept_file
 from r37core.plans.provenance import Provenance
 from r37core.results.columns import MINIMISED
 from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
 from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rotation import BucklingError
 from r37core.stress.operator import judged_operator, read_stress_operators
 from r37core.sweep.blade_sweep import CAMPBELL, BladeSweep, SharedSpeeds, blade_sweep, shared_speeds
 from r37core.sweep.driver import Driver, RunAll, one_by_one
 from r37core.sweep.recipe import STRUCTURES, Recipe, code_of, recipes, structure_attributes
+from r37core.time_integration.clearance import NoRoomError
 
 from .designs import NOMINAL, SearchDesigns, choice_of, designs_of
 from .problem import START
@@ -111,11 +114,11 @@ class Evaluation:
     def _quantities(self, name: str, values: Sequence[float] | None, run_all: RunAll) -> dict[str, Any] | str:
         try:
             runs = self.runs(name, values)
-            made_of = [to_plain((runs.structure, runs.scenes, runs.speeds)), to_plain(choice_of(self.settings).quantities)]
-            made_of += [to_plain(operating_range(self.settings)), code_of("search.steps.search")]
+            made_of = [part.made_of for part in runs.structure.values()] + [code_of("search.steps.search")]
+            made_of += to_plain([runs.scenes, runs.speeds, choice_of(self.settings).quantities, operating_range(self.settings)])
             (folder := self.folder / name).mkdir(parents=True, exist_ok=True)
             return read_json(kept_file("quantities.json", made_of, partial(self._measure, name, runs, run_all), folder))
-        except (ConfigError, ImpossibleValueError, Refused) as error:
+        except (ConfigError, ImpossibleValueError, Refused, BucklingError, NoEquilibriumError, NoRoomError) as error:
             return str(error)
 
     def runs(self, name: str, values: Sequence[float] | None) -> DesignRuns:

@@ -10,6 +10,7 @@ from r37core.config import Settings, operating_range, plain
 from r37core.config.settings import most_runs
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Figure
+from r37core.plans.extent import Pair
 from r37core.plans.sweep_plan import Sweep
 from r37core.sweep.driver import one_by_one
 
@@ -51,10 +52,6 @@ class Search:
         more = range(entry.first, entry.designs, entry.batch)
         return [entry.first, *(min(entry.batch, entry.designs - done) for done in more)]
 
-    def threads(self, wildcards: Any) -> int:
-        """Number of designs of the largest round."""
-        return max(self.budget(wildcards))
-
 
 def _once(sweep: Sweep) -> paths.Wildcards:
     return [{}] if is_asked(sweep.settings) else []
@@ -65,14 +62,22 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     return dict.fromkeys((DATASET, TABLE, BEST), _once(sweep))
 
 
+def simulations(settings: Settings) -> dict[Pair, int]:
+    """Largest number of simulations of the designs and the start, by blade and scene."""
+    if not is_asked(settings):
+        return {}
+    designs = designs_of(settings)
+    entry = designs.entry
+    runs = (1 + entry.designs) * (1 + (entry.tolerances.members if entry.tolerances else 0))
+    return {(entry.blade, scene): runs * most_runs(settings, entry.blade, scene) for scene in designs.scenes}
+
+
 def remarks(settings: Settings) -> list[str]:
     """How many simulations a search asks for."""
     if not is_asked(settings):
         return []
-    designs = designs_of(settings)
-    entry = designs.entry
-    members = 1 + (entry.tolerances.members if entry.tolerances else 0)
-    runs = members * sum(most_runs(settings, entry.blade, scene) for scene in designs.scenes)
+    entry = designs_of(settings).entry
+    runs = sum(simulations(settings).values()) // (1 + entry.designs)
     words = f"{entry.designs} designs of '{entry.blade}' in rounds of {entry.batch}"
     return [f"search: {words}, at most {runs} simulations of each, beside those of the sweep (docs/better_blade.md)"]
 
@@ -81,6 +86,7 @@ EXTENSION = Extension(
     name=FOLDER,
     section=SECTION,
     checks=(search_can_be_run,),
+    members=simulations,
     targets=targets,
     remarks=remarks,
     figures=(

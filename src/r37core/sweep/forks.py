@@ -6,6 +6,7 @@ import signal
 import sys
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
 _END_WITH_PARENT = 1
@@ -21,7 +22,7 @@ def end_with_parent() -> None:
 def forked_results(cores: int, calls: Sequence[Callable[[], Any]], what: str = "") -> list[Any]:
     """Results of the calls, in their order, by so many forks of this process. Raises what the first one to fail raises.
 
-    All end with this process, whatever ends it. Raises BrokenProcessPool where one was killed.
+    All end with this process, whatever ends it. Raises MemoryError where one was killed.
     """
     forks = min(cores, len(calls))
     if forks <= 1:
@@ -31,6 +32,8 @@ def forked_results(cores: int, calls: Sequence[Callable[[], Any]], what: str = "
     pool = ProcessPoolExecutor(forks, multiprocessing.get_context("fork"), end_with_parent)
     try:
         return list(pool.map(_result, range(len(calls))))
+    except BrokenProcessPool:
+        raise MemoryError("a process of this job was killed; what it has done is there for the same command") from None
     finally:
         pool.shutdown(cancel_futures=True)
         _CALLS.clear()

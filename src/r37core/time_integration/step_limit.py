@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from r37core.base.io import CarriedError
 from r37core.contact.scene import Scene
 
 from .integrators import Recursion
@@ -10,7 +11,7 @@ WITH_FRICTION = 0.7
 """Largest ratio of pressed nodes with friction, which feeds motions near the limit: at 0.88 runs diverged, at 0.84 none did."""
 
 
-class UnstableStepError(ValueError):
+class UnstableStepError(CarriedError):
     """A time step beyond a limit; `limit` (s), about what the problem bears, and `shortened` (s), what to take in its place.
 
     That is half of the limit unless it is given: just below a limit of stability a motion is bounded, but wrong.

@@ -123,15 +123,15 @@ def remarks(settings: Settings) -> list[str]:
 
 
 def _without_width(members: Members) -> list[str]:
-    """Remarks on numbers that have one value in all members, and so no index."""
+    """Remarks on numbers that have one value in all members, and so no rank."""
     values: dict[VariedNumber, set[float]] = {number: set() for number in members.numbers}
     for member in (member for of in members.all.values() for member in of.values()):
         for number, value in zip(members.numbers, member.values, strict=True):
             if value is not None:
                 values[number].add(value)
     return [
-        f"tolerances.{number.section}: {number.key} is {min(of):g} in all members, so it has no index; a wider tolerance "
-        "gives it one"
+        f"tolerances.{number.section}: {number.key} is {min(of):g} in all members, so it is not ranked; a wider tolerance "
+        "lets it be"
         for number, of in values.items()
         if len(of) == 1
     ]
