@@ -18,7 +18,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.product.reading import read_settings
 from r37core.rom.contact_model import read_contact_model
 from r37core.rom.rom_file import read_reduced_model
-from r37core.run_ups import schedule
+from r37core.run_ups import choice as schedule
 from r37core.run_ups.choice import RunUp, RunUpChoice
 from r37core.run_ups.integration import RunUpIntegration
 from r37core.run_ups.plan import RunUps
