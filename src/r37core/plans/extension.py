@@ -118,5 +118,5 @@ class Extension:
         return targets
 
     def simulated(self, sweep: Sweep) -> dict[str, Wildcards]:
-        """Those in folders of a blade and scene: its own simulations, which other machines may make."""
+        """Targets in folders of a blade and scene: its own simulations, which other machines may make."""
         return {pattern: runs for pattern, runs in self.targets(sweep).items() if "{blade}/{scene}/" in pattern}
