@@ -18,7 +18,6 @@ from r37core.plans.structure_plan import Structure
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import targets
-from r37core.run_ups.choice import RunUpChoice
 from r37core.run_ups.plan import RunUps
 from r37core.sweep.blade_sweep import BladeSweep
 from r37core.tolerances.members import members_of
@@ -287,12 +286,13 @@ def test_run_ups_are_planned_like_speeds(root):
     down = of(blade="Ref", scene="direct", run_up="down")
     assert set(planned.inputs(climb)) == {"prepared", "model", "stress"}
     assert planned.inputs(down)["campbell"] == "<results>/Ref/campbell.nc"
-    found = from_plain(RunUpChoice, planned.run_up(climb)).blade_run_up(496, None, "climb")
+    found = planned.choices["L50", "abradable"]["climb"].blade_run_up(496, None, "climb")
     assert (found.start, found.stop) == pytest.approx((300.0 * math.pi, 400.0 * math.pi))
     assert found.rate(496) == pytest.approx(10.0 * math.pi)
-    assert found.before == planned.choice(climb)["revolutions"] == 200
+    assert found.before == planned.integration_choice("L50", "abradable", "climb").revolutions == 200
     # stress in every revolution, the first ones too
-    assert planned.choice(down)["revolutions"] == planned.choice(down)["snapshot_revolutions"] == 30
+    choice = planned.integration_choice("Ref", "direct", "down")
+    assert choice.revolutions == choice.snapshot_revolutions == 30
     wanted = targets(Sweep(settings))
     assert {"<results>/run_ups.nc", "<results>/figures/run_ups_Ref__direct.png"} <= set(filled(wanted))
     assert "<results>/figures/run_ups_Ref__abradable.png" not in filled(wanted)

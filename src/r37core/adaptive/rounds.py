@@ -5,7 +5,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from r37core.base.io import read_json, readable, write_json
@@ -44,22 +43,19 @@ def round_after(before: Round, gave: Mapping[float, Sequence[float]], plan: Spee
 def measure_members(yields: Sequence[float], speeds: Sequence[float], files: Iterable[Path | str]) -> dict[float, list[float]]:
     """Status and CURVES at each speed (rad/s), one member after the other, as Round has them; one blade alone is one member.
 
-    `yields`: yield stress (Pa) of each; `files`: member by member those of all speeds. Raises InputFileError for a file that
-    cannot be read.
+    CURVES are by the region that decides; NaN for a stress that is not wanted, and of a diverged run. `yields`: yield stress
+    (Pa) of each; `files`: member by member those of all speeds. Raises InputFileError for a file that cannot be read.
     """
     gave: dict[float, list[float]] = {speed: [] for speed in speeds}
     every = iter(files)
     for yield_stress in yields:
         for speed in speeds:
-            gave[speed] += measure(read_speed(next(every)), yield_stress)
+            run = read_speed(next(every))
+            rms = run["rms"][TIP_POINTS.index("leading_edge")]
+            stress = float(run["max_von_mises"][0]) / yield_stress if "max_von_mises" in run else math.nan
+            curves = (float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential"))
+            gave[speed] += [int(run["status"]), *curves, stress]
     return gave
-
-
-def measure(run: Mapping[str, np.ndarray], yield_stress: float) -> list[float]:
-    """Status and CURVES of one run, by the region that decides; NaN for a stress that is not wanted, and of a diverged run."""
-    rms = run["rms"][TIP_POINTS.index("leading_edge")]
-    stress = float(run["max_von_mises"][0]) / yield_stress if "max_von_mises" in run else math.nan
-    return [int(run["status"]), *(float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential")), stress]
 
 
 def write_round(finished: Round, file: Path | str) -> None:

@@ -4,7 +4,6 @@ import pandas as pd
 
 from r37core.explorer.contents import packed
 
-from .compared import Compared
 from .table import compared_in, length_column
 
 
@@ -13,15 +12,12 @@ def contents(table: pd.DataFrame) -> list[dict[str, object]]:
 
     `cells`: blade, scene and values of the keys; `values`: length above yield in most revolutions (rad/s), by cell.
     """
-    return [_map(table, name, compared) for name, compared in compared_in(table).items() if len(compared.keys) == 2]
-
-
-def _map(table: pd.DataFrame, name: str, compared: Compared) -> dict[str, object]:
-    rows = table[table["family"] == name]
-    return {
-        "family": name,
-        "keys": list(compared.keys),
-        "other": compared.other,
-        "cells": rows[["blade", "scene", *compared.keys]].to_numpy().tolist(),
-        "values": packed(rows[length_column(table)].to_numpy(float)),
-    }
+    maps: list[dict[str, object]] = []
+    for name, compared in compared_in(table).items():
+        if len(compared.keys) == 2:
+            rows = table[table["family"] == name]
+            cells = rows[["blade", "scene", *compared.keys]].to_numpy().tolist()
+            values = packed(rows[length_column(table)].to_numpy(float))
+            about = {"family": name, "keys": list(compared.keys), "other": compared.other}
+            maps.append(about | {"cells": cells, "values": values})
+    return maps

@@ -10,7 +10,7 @@ from r37core.config import Settings
 from r37core.config.section import ExtensionSection
 
 from .extent import Pair
-from .paths import Wildcards, pictures
+from .paths import Wildcards
 from .sweep_plan import Sweep
 
 Targets = Callable[[Sweep], dict[str, Wildcards]]
@@ -61,7 +61,8 @@ class Figure:
 
     def targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """Files of the figure, as PNG and PDF."""
-        return pictures(self.name, self.runs(sweep))
+        runs = self.runs(sweep)
+        return {f"<results>/figures/{self.name}.{suffix}": runs for suffix in ("png", "pdf")}
 
     def inputs(self, sweep: Sweep) -> dict[str, Any]:
         """Inputs of the rule of the figure."""
@@ -117,5 +118,5 @@ class Extension:
         return targets
 
     def simulated(self, sweep: Sweep) -> dict[str, Wildcards]:
-        """Those in folders of a blade and scene: its own simulations, which other machines may make."""
+        """Targets in folders of a blade and scene: its own simulations, which other machines may make."""
         return {pattern: runs for pattern, runs in self.targets(sweep).items() if "{blade}/{scene}/" in pattern}

@@ -48,8 +48,3 @@ def run_keys(runs: Iterable[tuple[str, str]]) -> Wildcards:
 def filled(patterns: dict[str, Wildcards]) -> list[str]:
     """The files that patterns and their wildcards stand for."""
     return [fill(pattern, **wildcards) for pattern, several in patterns.items() for wildcards in several]
-
-
-def pictures(name: str, wildcards: Wildcards) -> dict[str, Wildcards]:
-    """A figure in both of its formats."""
-    return {f"<results>/figures/{name}.{suffix}": wildcards for suffix in ("png", "pdf")}

@@ -59,14 +59,6 @@ def pair_motions(responses: Sequence[Path | str], states: Mapping[str, SweptStat
     )
 
 
-def joined_motions(pairs: Mapping[tuple[str, str], xr.Dataset], blades: Sequence[str], scenes: Sequence[str]) -> xr.Dataset:
-    """Motions of all `pairs` of blade and scene; NaN of those of `blades` and `scenes` that are not swept."""
-    parts = [pair.expand_dims({"blade": [blade], "scene": [scene]}) for (blade, scene), pair in pairs.items()]
-    joined = xr.combine_by_coords(parts, combine_attrs="drop_conflicts")
-    assert isinstance(joined, xr.Dataset)
-    return joined.reindex(blade=list(blades), scene=list(scenes))
-
-
 OF_DWELLS = {
     "start": Variable((), "1", "where the dwell starts: in the high, the low or a random motion", "O"),
     "motion": Variable((), "1", "motion of the sweeps that it starts in, or number of the state", "O"),

@@ -23,7 +23,7 @@ from r37core.stress.operator import read_stress_operators
 from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import DOWN, MOTIONS, DwellChoice, SweepChoice
-from .dataset import dwell_dataset, joined_motions, pair_motions
+from .dataset import dwell_dataset, pair_motions
 from .dwelling import dwells_of, speeds_dwelt_on
 from .states import levels_of, read_states, write_states
 from .sweeping import CarriedSweep
@@ -78,12 +78,15 @@ def join(input: Any, output: Any, params: Any) -> None:
 
     Outputs: motions, dwells (nc), ranges, verdicts (csv). Params: pairs, blades, scenes, fidelity.
     """
-    parts, count = {}, len(MOTIONS)
-    for number, pair in enumerate(params.pairs):
+    parts, count = [], len(MOTIONS)
+    for number, (blade, scene) in enumerate(params.pairs):
         own = slice(number * count, (number + 1) * count)
-        parts[tuple(pair)] = pair_motions(input.responses[own], read_states(input.states[own]))
-    title = "Second motions of rubbing blades"
-    motions = joined_motions(parts, params.blades, params.scenes)
+        pair = pair_motions(input.responses[own], read_states(input.states[own]))
+        parts.append(pair.expand_dims({"blade": [blade], "scene": [scene]}))
+    title, joined = "Second motions of rubbing blades", xr.combine_by_coords(parts, combine_attrs="drop_conflicts")
+    assert isinstance(joined, xr.Dataset)
+    # NaN of those that are not swept
+    motions = joined.reindex(blade=params.blades, scene=params.scenes)
     write_dataset(motions, output.motions, origin(title) | {"fidelity": params.fidelity})
     rows = Along(rows="dwell", dim="dwell")
     join_runs(as_list(input.dwells), params.pairs, rows, output.dwells, f"{title}: dwells", params.fidelity)
