@@ -8,16 +8,13 @@ import pytest
 import xarray as xr
 
 from r37core.base.plain import to_plain
-from r37core.blade import section_changes
-from r37core.blade.profile import ProfileParameters
-from r37core.config import ConfigError, command_line_document
+from r37core.config import ConfigError
 from r37core.config.families import design_name
 from r37core.designs.compared import Compared
 from r37core.designs.figures import draw_designs
 from r37core.designs.plan import Families
 from r37core.designs.table import MEASURES, design_table
 from r37core.plans.sweep_plan import Sweep
-from r37core.product.reading import read_settings
 from r37core.product.reporting import FIGURES, drawing
 from r37core.product.targets import targets
 from r37core.results.columns import names
@@ -49,22 +46,6 @@ def test_a_family_is_refused_once(with_blades):
     assert len(str(refusal.value).splitlines()) == 1 and "D0" in str(refusal.value)
 
 
-def test_the_tables_of_a_family_are_read_once(with_blades, monkeypatch):
-    rows = "".join(f"D{number},80{number / 100}\n" for number in range(200))
-    checked, profiles = [], ProfileParameters.check
-    monkeypatch.setattr(ProfileParameters, "check", lambda profile: checked.append(profile) or profiles(profile))
-    table = f"blade,material.density_kg_m3\n{rows}"
-    assert len(with_blades("Mine: { base: S50, designs: config/designs.csv }\n", table, blades=["Mine"]).blades) == 200
-    assert len(checked) < 100
-
-
-def test_profiles_of_a_design_are_changed_once(with_blades, config_copy, monkeypatch):
-    text = "Turned: { base: Ref, vary: { stagger_deg: [1.125, 2.125] } }\n"
-    first = with_blades(text, blades=["Turned"]).blades
-    monkeypatch.setattr(section_changes, "_redrawn", None)
-    assert read_settings(config_copy, command_line_document({"blades": ["Turned"]})).blades == first
-
-
 def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades):
     """Blades with figures, of many: those of no family, and six designs from the first to the last."""
     run_ups = {"up": {"from_rad_s": 900, "to_rad_s": 1000, "revolutions": 50, "blades": ["Sweep"]}}
@@ -77,12 +58,6 @@ def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades
     (overview,) = (figure for figure in FIGURES if figure.rule == "comparison_figure")
     parameters = drawing(SimpleNamespace(step=lambda *_: {}), None, overview, Sweep(settings))
     assert parameters["caption"]({"scene": "direct"}).endswith("diverged. 7 of 102 blades are drawn.")
-
-
-def test_lean_is_scaled_apart_from_sweep(with_blades):
-    table = with_blades("Lean: { base: L100, vary: { lean_percent: [50, 200] } }\n").blades["Lean_200"].definition.stacking
-    assert table[1] == pytest.approx((0.33, 0.001, 0.0))
-    assert table[3] == pytest.approx((1.0, 0.0, np.radians(3.0)))
 
 
 def test_a_grid_has_every_value_with_every_other(with_blades):
@@ -98,25 +73,12 @@ def test_pairs_go_side_by_side(with_blades):
     assert list(with_blades(GRID + "  combine: pairs\n", blades=["Grid"]).blades) == ["Grid_-2p5_8000", "Grid_5_4500"]
 
 
-def test_rows_of_sweep_and_lean_vary(with_blades):
-    rows = ("{ span_percent: 0, sweep_cm: 0, lean_deg: 0 }", "{ span_percent: 100, sweep_cm: 1, lean_deg: 1 }")
-    text = f"  sweep_lean: [{', '.join(rows)}]\n"
-    blades = with_blades(f"Rows:\n  base: Ref\n{text}  vary: {{ sweep_lean.1.sweep_cm: [0.1, 0.25] }}\n").blades
-    assert blades["Rows_0p25"].definition.stacking[1] == pytest.approx((1.0, 0.0025, np.radians(1.0)))
-
-
 def test_a_table_has_one_design_a_row(with_blades):
     table = "blade,chordwise_sweep_deg,material.density_kg_m3\nForward,5,8000\nBack-1,-5,7.5e3\n"
     settings = with_blades("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])
     assert list(settings.blades) == ["Forward", "Back-1", "Ref"]
     assert Families(settings).families["blade"]["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
     assert settings.blades["Back-1"].material.density == 7500.0
-
-
-def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
-    settings = with_blades(SWEEP, blades=["Ref"])
-    assert Families(settings).figures == {}
-    assert Families(settings).pairs == []
 
 
 @pytest.mark.parametrize(
@@ -129,7 +91,6 @@ def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
         (GRID.replace("[-2.5, 5]", "[5, 5]"), r"Grid\.vary\.chordwise_sweep_deg\.1: found 5\.0 twice; allowed: each once"),
         (SWEEP.replace("S100", "Ref"), r"yaml:\d+: Sweep_-50\.sweep_percent: .* no table of sweep and lean"),
         (SWEEP.replace("-50, stop: 150", "150, stop: -50"), r"percent\.stop: found -50; allowed: not below start \(150\)"),
-        (SWEEP.replace("step: 100", "step: 1e-6"), r"sweep_percent\.step: found 1e-06; allowed: at most 10000 values"),
         (SWEEP.replace("sweep_percent", "sweep_lean.1.sweep_cm"), r"Sweep\.sweep_lean: design Sweep_-50: found \{'1'"),
         (SWEEP + "More: { base: Sweep }\n", r"More\.base: found 'Sweep'; allowed: another blade"),
         (SWEEP + "Sweep_50: { base: Ref }\n", r"Sweep: found the design 'Sweep_50'; allowed: designs that are not"),
@@ -147,15 +108,12 @@ def test_family_refusals(with_blades, text, message):
     [
         ("blade,chordwise_sweep_deg\nA,x\n", r"csv: family Mine: line 2, column chordwise_sweep_deg: 'x' is not"),
         (f"blade,chordwise_sweep_deg\nA,{'1' * 131_073}\n", r"csv: family Mine: line 1: not readable as a table"),
-        (f"blade,{'x' * 131_073}\nA,1\n", r"csv: family Mine: line 0: not readable as a table .*: field larger"),
         ("blade,chordwise_sweep_deg\nA,1\nA,2\n", r"designs\.csv: family Mine: the blade 'A' is given twice"),
         ("chordwise_sweep_deg\n1\n", r"family Mine: line 1: the table lacks the columns blade"),
         ("blade,chordwise_sweep_deg\n" + "".join(f"A{n},1\n" for n in range(10_001)), "Mine.*: found 10001 designs"),
         ("blade,chordwise_sweep_deg\n", r"family Mine: the table has no designs"),
         ("blade,chordwise_sweep_deg\nA__b,1\n", r"yaml:\d+: Mine: found 'A__b'; allowed: a name of letters"),
-        ("blade,chordwise_sweep_deg\nAb,1\nab,2\n", r"Mine: found 'ab' beside 'Ab'; allowed: names that differ in more"),
         ("blade,chordwise_sweep_deg\nRef,1\n", r"Mine: found the design 'Ref'; allowed: designs that are not named like"),
-        ("blade,chordwise_sweep_deg\nfigures,1\n", r"Mine: found the design 'figures'"),
     ],
 )  # fmt: skip
 def test_table_refusals(with_blades, table, message):

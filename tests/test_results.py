@@ -13,7 +13,6 @@ from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 
 from r37core.base.dataset_file import Variable, about, attributes_of, joined_hash, write_dataset
 from r37core.base.io import InputFileError
-from r37core.base.speeds import plan_speeds
 from r37core.fem.material import Material
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.netcdf import create_axis, create_variable
@@ -193,21 +192,16 @@ def test_response_holds_every_speed(sweep):
     _, files = sweep
     with xr.open_dataset(files["Ref", "abradable"]) as response:
         np.testing.assert_array_equal(response["speed"], SPEEDS)
-        assert response["rms_radial"].dims == ("speed", "tip_point")
-        assert response["amplitude"].dims == ("speed", "engine_order")
-        assert response["wear"].shape == (3, 60)
-        assert np.all(response["status"] == 0)
+        assert response["wear"].shape == (3, 60) and np.all(response["status"] == 0)
         assert np.all(response["max_von_mises"] > 0.0)
         assert response["stress_region"].item() == "x < 0.197 m, z > 0.0165 m, z < 0.0265 m"
         history = response["max_von_mises_history"].sel(history_speed=1200.0)
-        assert history.dims == ("region", "revolution") and history.shape == (1, 4)
-        history = history[0]
+        history = history.squeeze("region")
         assert history[-1] == pytest.approx(float(response["max_von_mises"].sel(speed=1200.0).squeeze()), rel=1e-6)
         first = int(np.flatnonzero(history.values > 1.0)[0]) + 1
         assert response["first_yield_revolution"].sel(history_speed=1200.0) == first
         for name, variable in response.variables.items():
             assert name in ("tip_point", "region") or {"units", "long_name"} <= set(variable.attrs), name
-        assert "_FillValue" not in response["speed"].encoding or response["speed"].encoding["_FillValue"] is None
     with xr.open_dataset(files["Ref", "direct"]) as response:
         assert "wear" not in response
         np.testing.assert_array_equal(response["status"], [0, 1])
@@ -241,7 +235,6 @@ def test_datasets_join_blades_and_scenes(sweep, kind):
     write_sweep_dataset(kind, files, folder / f"{kind}.nc", {"fidelity": "draft"})
     with xr.open_dataset(folder / f"{kind}.nc") as dataset:
         assert dataset.attrs["fidelity"] == "draft"
-        assert list(dataset["blade"].values) == ["Ref"]
         np.testing.assert_array_equal(dataset["speed"], SPEEDS)
         np.testing.assert_allclose(dataset["speed_rpm"], 60.0 * np.array(SPEEDS) / (2.0 * np.pi))
         for (blade, scene), file in files.items():
@@ -254,10 +247,8 @@ def test_datasets_join_blades_and_scenes(sweep, kind):
         if kind != "wear":
             np.testing.assert_array_equal(dataset["status"].sel(scene="direct", blade="Ref"), [2, 0, 1])
             assert dataset["status"].attrs["flag_meanings"] == "completed diverged not_run"
-        for name, variable in dataset.data_vars.items():
-            if variable.dtype.kind == "f" and "scene" in variable.dims and "speed" in variable.dims and kind == "rms":
-                missing = np.isnan(variable.sel(scene="direct", blade="Ref", speed=900.0))
-                assert missing.all(), name
+        if kind == "rms":
+            assert np.isnan(dataset["rms_normal"].sel(scene="direct", blade="Ref", speed=900.0)).all()
 
 
 def test_a_joined_file_hashes_what_its_parts_say(tmp_path):
@@ -314,11 +305,3 @@ def test_responses_of_two_levels_do_not_mix(sweep, tmp_path):
     with pytest.raises(InputFileError, match=r"A\.nc was made with 20000 nodes.*B\.nc with 5000 nodes.*delete the one"):
         write_sweep_dataset("rms", files, tmp_path / "rms.nc", {})
     assert not (tmp_path / "rms.nc").exists()
-
-
-def test_speeds():
-    assert plan_speeds([{"start": 750, "stop": 800, "step": 25}, 1000, {"start": 900, "stop": 901}], 0.5).certain == (
-        750.0, 775.0, 800.0, 900.0, 900.5, 901.0, 1000.0,
-    )  # fmt: skip
-    assert len(plan_speeds([{"start": 750, "stop": 2000}], 1.0).certain) == 1251
-    assert plan_speeds([{"start": 1.0, "stop": 1.3, "step": 0.1}], 1.0).certain == (1.0, 1.1, 1.2, 1.3)

@@ -166,18 +166,13 @@ def test_ranges_of_small_numbers_keep_their_values(with_scenes):
     assert list(settings.scene_designs.families["Bars"].designs.values()) == [(2.4e-9,), (2.8e-9,), (3.2e-9,), (3.6e-9,)]
 
 
-def test_a_table_of_scenes(with_scenes):
-    table = "scene,casing.clearance_m,damping_ratio\nTight,3e-4,0.001\nWide,8e-4,0.002\n"
-    settings = with_scenes(f"Room: {{ {CASING}, designs: config/rooms.csv }}", table, scenes=["Room"], blades=["Ref"])
-    assert {name: chosen.scene.damping_ratio for name, chosen in settings.scenes.items()} == {"Tight": 0.001, "Wide": 0.002}
-
-
 def test_a_large_table_of_scenes_is_read_in_seconds(with_scenes):
     """It took the square of its rows."""
     table = "scene,damping_ratio\n" + "".join(f"Room{number},{1e-3 + 1e-7 * number:.9f}\n" for number in range(9000))
     begun, family = time.process_time(), f"Room: {{ {CASING}, designs: config/rooms.csv }}"
     settings = with_scenes(family, table, scenes=["Room"], blades=["Ref"], speeds=[900])
     assert len(settings.scenes) == 9000 and time.process_time() - begun < 8.0
+    assert settings.scenes["Room5000"].scene.damping_ratio == pytest.approx(1.5e-3)
 
 
 def test_sections_name_families_of_scenes(with_scenes):

@@ -80,15 +80,6 @@ def test_a_limit_below_all_modes_is_refused(model, steel):
         stress_operators(replace(model, stress_regions=low), steel)
 
 
-def test_the_box_has_the_numbers_that_it_had_alone(model, steel):
-    """Of the code before there were regions: largest stress (Pa) of the first three modes at rest."""
-    box = stress_operators(model, steel)["box"]
-    assert box.is_complete and box.band is None
-    np.testing.assert_allclose(
-        box.max_von_mises(model.modes(0.0, 3)[1].T), [2270912279634.05, 3819724255826.25, 6887262142359.28], rtol=1e-7
-    )
-
-
 def test_spans_and_descriptions(mesh):
     choice = RegionChoice(**AIRFOIL, highest_frequency=7500.0)
     nodes = np.unique(np.concatenate([block.ravel() for block in choice.elements(mesh, np.empty(0, int)).values()]))

@@ -212,32 +212,20 @@ def test_a_number_of_one_value_is_told(root):
         ({"of_scenes": {"friction.coefficient": {"uniform": 0.1, "normal": 0.1}}}, "found uniform and normal"),
         ({"of_scenes": {"friction.coefficient": {"between": [0.2, 0.1]}}}, "a lower and a higher number"),
         ({"of_scenes": {"friction.coefficient": {"values": [0.1, 0.1]}}}, "twice"),
-        (
-            {"of_scenes": {"friction.coefficient": {"normal": 0.2}}},
-            r"tolerances.of_scenes.friction.coefficient: member \d+ of Ref in abradable: found -.*at least 0.*narrower",
-        ),
+        ({"of_scenes": {"friction.coefficient": {"normal": 0.2}}}, r"member \d+ of Ref in abradable: found -.*at least 0.*na"),
         ({"of_blades": {"thickness": {"uniform": 1.0}}}, "found thickness; allowed: one of material.youngs_modulus_pa"),
         ({"of_blades": {"lean_deg": {"uniform_percent": 1.0}}}, "percent of lean_deg, which is 0"),
         ({"of_blades": {"thickness_percent": {"uniform": 150.0}}}, r"thickness_percent: the end of its range of Ref.*least 10"),
-        (
-            {"of_blades": {"stagger_deg.hub": {"uniform": 45.0}}},
-            "of_blades.stagger_deg.hub: the end of its range of Ref in abradable: span 0%: inlet_angle is .*narrower tolerance",
-        ),
+        ({"of_blades": {"stagger_deg.hub": {"uniform": 45.0}}}, "the end of its range of Ref in abradable: span 0%: inlet"),
         ({"of_blades": {"material.poissons_ratio": {"values": [0.3, 0.5]}}}, r"poissons_ratio: the end of its .*less than 0.5"),
         ({"of_blades": {"sweep_cm": {"uniform": 50.0}}}, "of_blades.sweep_cm: .*a sweep of .*up to the height of the blade"),
-        ({"of_blades": {"sweep_cm": {"uniform": 300.0}}}, "of_blades.sweep_cm: .*at least -100"),
-        ({"of_blades": {"lean_deg": {"values": [89.0, 90.0]}}}, "of_blades.lean_deg: .*less than 90"),
         ({"of_blades": {"sweep_percent": {"values": [100.0, 1e9]}}, "blades": ["S100"]}, "sweep_percent: .*at most 1000"),
         ({"of_scenes": {"friction.coefficient": {"between": [0.0, 11.0]}}, "members": 2}, "the end of its range.*at most 10"),
         ({"of_scenes": {"divergence_limit_m": {"uniform": 1e-3}}}, "allowed: a number of the scenes"),
-        (
-            {"of_blades": {"sweep_percent": {"uniform": 1.0}}, "blades": ["Ref"]},
-            r"none of its numbers \(sweep_percent\) in Ref in",
-        ),
+        ({"of_blades": {"sweep_percent": {"uniform": 1.0}}, "blades": ["Ref"]}, r"none of its numbers \(sweep_percent\) in"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["L50"]}, "none of its numbers .* in L50"),
         ({"members": 4}, "tolerances: found no numbers; allowed: some under of_scenes or of_blades"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["Rex"]}, "found 'Rex'"),
-        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "scenes": ["lined"]}, "found 'lined'"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "members": 4096}, "simulations of members"),
     ],
 )
@@ -477,30 +465,12 @@ def test_a_response_that_is_none_is_named(tmp_path):
         tolerances_dataset([MemberRun("Ref", "lined", "0", (0.1,), tmp_path / "other.nc")], NUMBERS[:1])
 
 
-def test_ends_of_a_spread():
-    """The ends are values that are reached: shares of 0 and 1; a list's are its own. Percent are of a number's amount."""
-    uniform, share = SpreadEntry(uniform=0.5), SpreadEntry(uniform_percent=5.0)
-    assert (uniform.ends(2.0), share.ends(2.0)) == ((1.5, 2.5), pytest.approx((1.9, 2.1)))
-    assert share.ends(-2.0) == pytest.approx((-2.1, -1.9))
-    assert SpreadEntry(between=[0.8, 1.25]).ends(1.0) == (0.8, 1.25)
-    assert SpreadEntry(values=[3.0, 1.0]).ends(2.0) == (3.0, 1.0) and SpreadEntry(normal=1.0).ends(2.0) == ()
-
-
 def test_a_normal_number_has_a_value_at_the_sample_s_borders(monkeypatch):
     corners = SimpleNamespace(random_base2=lambda _: np.array([[0.0, 0.0], [1.0, 1.0]]))
     monkeypatch.setattr("scipy.stats.qmc.Sobol", lambda numbers, rng: corners)
     points = sobol_points(1, 2, 0)
     assert (points["0"], points["1"]) == ((2.0**-40,), (1.0 - 2.0**-40,))
     assert all(np.isfinite(SpreadEntry(normal=1.0).value(0.0, points[name][0])) for name in ("0", "1"))
-
-
-def test_a_member_at_yield_is_not_above_and_speeds_are_there_in_rpm(tmp_path):
-    one = branch(1700.0)
-    one["max_von_mises"][:] = one["yield_stress"].item()
-    write_dataset(one, tmp_path / "0.nc")
-    dataset = tolerances_dataset([MemberRun("Ref", "abradable", "0", (0.1, 0.2), tmp_path / "0.nc")], NUMBERS)
-    assert (dataset["probability_above_yield"] == 0.0).all()
-    np.testing.assert_allclose(dataset["speed_rpm"], dataset["speed"] * 30.0 / np.pi)
 
 
 def shares_of_members(nominal, members, choice):
