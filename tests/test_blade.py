@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from r37core.blade.cone import Cone, ConstantRatePath
 from r37core.blade.definition import BladeDefinition
+from r37core.blade.geometry_file import read_geometry, write_geometry
 from r37core.blade.profile import PRESSURE, SUCTION, BladeShapeError, Profile, area_and_centroid
 from r37core.blade.profile_tables import read_profile_table
 from r37core.blade.stacking import chordwise_sweep, conical_stacking, plane_section_stacking, sweep_and_lean
@@ -240,3 +241,13 @@ def test_crossing_profiles_and_a_wild_sweep_are_refused_with_blade_and_span(sett
     rows = ((0.0, 0.0, 0.0), (0.5, 0.0, 2.5), (0.52, 0.0, -2.5), (1.0, 0.0, 0.0))
     with pytest.raises(BladeShapeError, match="blade Ref: span"):
         replace(definition, stacking=rows).build(round_edges=True)
+
+
+@pytest.mark.slow
+def test_geometry_file_holds_the_whole_blade(blade, tmp_path):
+    write_geometry(blade, tmp_path / "geometry.nc")
+    again = read_geometry(tmp_path / "geometry.nc")
+    chord, span, thickness = np.random.default_rng(1).random((3, 50))
+    np.testing.assert_array_equal(
+        again.position(chord, span, 2 * thickness - 1), blade.position(chord, span, 2 * thickness - 1)
+    )

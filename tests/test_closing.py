@@ -11,6 +11,7 @@ from r37core.designs import table as designs
 from r37core.plans.extension import Extension
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.closing import closing_lines
+from r37core.product.extensions import EXTENSIONS
 from r37core.product.remarks import line_of_extension
 from r37core.results.closing import lining_texts
 from r37core.rotors import dataset as rotors
@@ -187,6 +188,13 @@ def test_an_extension_s_own_word(line, tmp_path):
     pd.DataFrame({"diverged_speeds": [0]}).to_csv(tmp_path / "rotors.csv", index=False)
     said = line(extension("rotor.png", closing="rotors.dataset.closing"))
     assert said == "mine: 1 rotor; look at results/rotor.png"
+
+
+@pytest.mark.parametrize("extension", EXTENSIONS, ids=lambda extension: extension.name)
+def test_the_words_of_the_shipped_extensions_are_there(extension):
+    if extension.closing:
+        module = __import__(f"r37core.{extension.closing.rpartition('.')[0]}", fromlist=["closing"])
+        assert callable(module.closing)
 
 
 def table(folder, name, **columns):

@@ -315,15 +315,6 @@ LOBES = f"Lobes:\n  {CASING}\n  vary: {{ casing.lobes: [2, 3] }}\n"
 TWO_SWEEPS = "Sweep: { base: S100, vary: { sweep_percent: [50, 100] } }"
 
 
-def test_a_grid_of_scenes(with_scenes):
-    settings = with_scenes(ROOM, scenes=["Room", "direct"], blades=["Ref"])
-    rooms = [f"Room_{c}_{t}" for c in ("0p0003", "0p0006") for t in ("0p001", "0p002", "0p005")]
-    assert settings.scene_names == [*rooms, "direct"]
-    scene = settings.scenes["Room_0p0006_0p002"].scene
-    assert (scene.casing.clearance, scene.casing.lobe_height, scene.lining.thickness) == (6e-4, 7e-4, 0.002)
-    assert scene.lining.plastic_modulus == 5e9
-
-
 @pytest.mark.parametrize(("key", "values"), [("casing.lobes", [2, 3]), ("revolutions", [20, 40])])
 def test_a_whole_number_stays_one(with_scenes, key, values):
     """Also one that the scene does not write."""

@@ -404,15 +404,19 @@ def test_ranges_of_interactions():
     assert (only["engine_order"], only["share_of_members"]) == (4, 1.0)
 
 
-def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path):
+@pytest.mark.parametrize("blade", ["NA", "inf", "1e5"])
+def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path, blade):
+    """Whatever the blade is called; without a nominal interaction there is nothing beside which they could stand."""
     nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
     rows = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4), (990.0, 0.004, 6))}, InteractionChoice())
-    range_table([("NA", "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
-    summary = pd.DataFrame([{"blade": blade, "scene": "lined", **one} for blade in ("NA", "L50") for one in nominal])
-    joined = ranged_summary(summary.astype({"engine_order": "Int64"}), read_ranges(tmp_path / "tolerances.csv"))
+    range_table([(blade, "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
+    summary = pd.DataFrame([{"blade": name, "scene": "lined", **one} for name in (blade, "L50") for one in nominal])
+    joined = ranged_summary(summary.astype({"engine_order": "Int64"}), table := read_ranges(tmp_path / "tolerances.csv"))
     assert len(joined) == len(summary)
     assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
     assert joined["peak_speed_rad_s_median"].dropna().tolist() == [1710.0]
+    joined = ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), table)
+    assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
 
 
 def test_a_range_has_the_digits_that_it_bears():
@@ -439,17 +443,6 @@ def test_leftovers_are_members_of_blades_and_scenes_that_have_none_any_more(root
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text("x")
     assert leftovers(tmp_path, settings) == sorted(folder / name for name in gone)
-
-
-@pytest.mark.parametrize("blade", ["NA", "inf", "1e5"])
-def test_a_summary_without_a_nominal_interaction(tmp_path, blade):
-    """One that members show alone stands in tolerances.csv, whatever the blade is called."""
-    rows = ranges([], {"0": interactions_of((1710.0, 0.01, 4)), "1": []}, InteractionChoice())
-    range_table([(blade, "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
-    table = read_ranges(tmp_path / "tolerances.csv")
-    assert (table["blade"][0], table["share_of_members"][0]) == (blade, 0.5)
-    joined = ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), table)
-    assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
 
 
 @pytest.mark.parametrize("text", ["", "blade,scene\n", "a\0b", "blade,scene,mode,engine_order\nRef,lined,1B,x\n"])
