@@ -38,6 +38,7 @@ def test_a_range_has_its_coarse_speeds_and_its_end():
     # 0.1 is no binary number: the speeds of a grid still are what a user would write
     grid = plan_speeds([{"start": 750, "stop": 752, "step": 0.4, "refine_to": 0.1}], 8.0).refined[0]
     assert [exact_text(speed) for speed in grid.every_speed()[:5]] == ["750", "750.1", "750.2", "750.3", "750.4"]
+    assert plan_speeds([{"start": 1.0, "stop": 1.3, "step": 0.1}], 1.0).certain == (1.0, 1.1, 1.2, 1.3)
     # a number inside a range is no repetition
     plan = plan_speeds([refined(), 920, 933, 933.5], 8.0)
     assert plan.certain == (900.0, 920.0, 933.0, 933.5, 940.0, 960.0, 980.0, 1000.0)

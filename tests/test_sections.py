@@ -197,7 +197,7 @@ def test_a_geometry_file_and_a_rule_give_the_same_blade(tmp_path):
 def test_stagger_sweep_and_lean_on_top(settings_with):
     rows = [{"span_percent": span, "sweep_cm": 0.01 * span, "lean_deg": 0.02 * span} for span in (0, 100)]
     family = {"base": "Fan", "vary": {"stagger_deg": [0, 3]}}
-    others = {"Swept": {"base": "Fan", "sweep_lean": rows}, "Half": {"base": "Swept", "sweep_percent": 50, "lean_percent": 50}}
+    others = {"Swept": {"base": "Fan", "sweep_lean": rows}, "Part": {"base": "Swept", "sweep_percent": 50, "lean_percent": 200}}
     others |= {"Family": family, "Chordwise": {"base": "Fan", "chordwise_sweep_deg": 10}}
     others["Own"] = {"sections": "sections/fan.csv", **ENTRY, "vary": {"stagger_deg": [0, 3], "material.density_kg_m3": [4430]}}
     blades = settings_with(csv_text(fan()), others=others).blades
@@ -210,11 +210,11 @@ def test_stagger_sweep_and_lean_on_top(settings_with):
             (before.radius, before.z, before.centroid[1]), abs=1e-5
         )
     tips = {}
-    for name in ("Fan", "Swept", "Half", "Chordwise"):
+    for name in ("Fan", "Swept", "Part", "Chordwise"):
         points = blades[name].definition.build(round_edges=True).position(SHARES, np.ones(9), np.zeros(9))
         tips[name] = np.stack([np.arctan2(points[:, 1], points[:, 0]), points[:, 2]])
     np.testing.assert_allclose(tips["Swept"] - tips["Fan"], np.outer([-np.radians(2.0), 0.01], np.ones(9)), atol=1e-9)
-    np.testing.assert_allclose(tips["Half"] - tips["Fan"], np.outer([-np.radians(1.0), 0.005], np.ones(9)), atol=1e-9)
+    np.testing.assert_allclose(tips["Part"] - tips["Fan"], np.outer([-np.radians(4.0), 0.005], np.ones(9)), atol=1e-9)
     assert np.all(tips["Chordwise"][1] < tips["Fan"][1])
 
 
