@@ -3,7 +3,6 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
-import netCDF4
 import numpy as np
 import pandas as pd
 import pytest
@@ -13,14 +12,13 @@ from box_operator import box_operator
 from defaults import Casing, Friction, IntegrationChoice, Lining, Scene
 from integration_cases import DIRECT
 
-from r37core.base.dataset_file import Variable, about, attributes_of, joined_hash, read_dataset, write_dataset
+from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import InputFileError, Named
 from r37core.fem.material import Material
 from r37core.results.columns import RANKING, column_named
 from r37core.results.datasets import response_of, write_sweep_dataset
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.results.interactions import find_interactions
-from r37core.results.netcdf import create_axis, create_variable
 from r37core.results.ranking import length_most_revolutions, robustness
 from r37core.results.regions import judged, other_regions, read_judged
 from r37core.results.response import write_response
@@ -272,15 +270,6 @@ def test_a_joined_file_hashes_what_its_parts_say(tmp_path):
     assert len({made, joined_hash(attributes_of([first])), joined_hash(attributes_of([first, tmp_path / "third.nc"]))}) == 3
     with pytest.raises(InputFileError, match=r"none\.nc"):
         joined_hash(attributes_of([first, tmp_path / "none.nc"]))
-
-
-def test_empty_parts_of_cubes_take_no_place(tmp_path):
-    with netCDF4.Dataset(tmp_path / "cube.nc", "w") as dataset:
-        for name, length in (("theta", 4), ("speed", 50_000)):
-            create_axis(dataset, name, np.arange(float(length)), about("1", name))
-        create_variable(dataset, "level", Variable(("theta", "speed"), "1", "level"))[0] = np.arange(50_000)
-        assert set(dataset.variables) == {"theta", "speed", "speed_rpm", "level"}
-    assert (tmp_path / "cube.nc").stat().st_size < 0.8 * 4 * 8 * 50_000
 
 
 def test_every_blade_and_scene_has_its_own_slab(sweep, tmp_path):

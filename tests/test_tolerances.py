@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -456,14 +455,6 @@ def test_a_response_that_is_none_is_named(tmp_path):
     write_dataset(xr.Dataset({"status": ("speed", [0])}), tmp_path / "other.nc")
     with pytest.raises(InputFileError, match=r"other\.nc: cannot be read"):
         tolerances_dataset([MemberRun("Ref", "lined", "0", (0.1,), tmp_path / "other.nc")], NUMBERS[:1])
-
-
-def test_a_normal_number_has_a_value_at_the_sample_s_borders(monkeypatch):
-    corners = SimpleNamespace(random_base2=lambda _: np.array([[0.0, 0.0], [1.0, 1.0]]))
-    monkeypatch.setattr("scipy.stats.qmc.Sobol", lambda numbers, rng: corners)
-    points = sobol_points(1, 2, 0)
-    assert (points["0"], points["1"]) == ((2.0**-40,), (1.0 - 2.0**-40,))
-    assert all(np.isfinite(SpreadEntry(normal=1.0).value(0.0, points[name][0])) for name in ("0", "1"))
 
 
 def shares_of_members(nominal, members, choice):
