@@ -3,6 +3,7 @@
 from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from r37core.results.datasets import write_sweep_dataset
 from r37core.results.regions import read_judged
 from r37core.results.response import write_response
 from r37core.stress.operator import StressOperator
+from r37core.time_integration.casing_of_run import CasingOfRun
 from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.kept_numbers import wear_numbers
 from r37core.time_integration.problem import Problem, UnstableStepError
@@ -169,6 +171,11 @@ def test_snapshots_are_the_last_samples_of_equal_parts(snapshots, kept):
     for piece in (24, 5, 1):
         pieces = [(first, min(first + piece, samples)) for first in range(0, samples, piece)]
         assert [first + n for first, last in pieces for n in grid.snapshots_between(first, last)] == expected
+
+
+def test_rotation_slides_the_tip_with_its_own_speed():
+    run = SimpleNamespace(tip=SimpleNamespace(radius=np.array([0.25])), grid=SimpleNamespace(speed=1000.0))
+    np.testing.assert_array_equal(CasingOfRun.rotation_velocity.fget(run), [-250.0])
 
 
 CLEARANCE = 1e-4

@@ -371,6 +371,18 @@ def test_the_last_line_names_no_motion_without_one_from_rest(tmp_path):
     assert closing(tmp_path) == f"1 range of hysteresis; {where}"
 
 
+def test_dwells_of_real_sweeps(contact, swept):
+    _, states = swept
+    assert levels_of(states).mean.shape == (3, 3)
+    carried = sweep_of(contact, UP)
+    rows = dwells_of(carried, states, DwellChoice(revolutions=100, range_speeds=1, starts=1, speeds=(1310.0,)))
+    assert {row["start"] for row in rows} == {HIGH, LOW, RANDOM}
+    assert dwell_dataset(rows, 100).sizes == {"dwell": len(rows), "revolution": 100}
+    # judged by the motions of a range that is near, if there is one
+    differ = levels_of(states).differ.any()
+    assert all(np.isfinite(row["level_high"]) == differ for row in rows)
+
+
 @pytest.mark.parametrize(
     ("section", "message"),
     [

@@ -308,6 +308,7 @@ def test_the_dataset_of_members(tmp_path):
     runs = [member_run(tmp_path, name, peak) for name, peak in peaks.items()]
     found = tolerances_dataset(runs, NUMBERS).sel(blade="Ref", scene="abradable")
     assert found.sizes["member"] == 20
+    np.testing.assert_allclose(found["speed_rpm"], found["speed"] * 30.0 / np.pi)
     np.testing.assert_array_equal(found["peak_speed"], list(peaks.values()))
     np.testing.assert_allclose(found["value"].sel(number=NUMBERS[0]), 0.1 + 0.001 * np.array(list(peaks.values())))
     assert found["value"].sel(number=NUMBERS[1]).isnull().all()
