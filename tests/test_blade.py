@@ -121,13 +121,6 @@ def test_thickness_is_the_maximum_thickness_where_printed(profiles):
         assert np.min(np.hypot(along, across)) == pytest.approx(p.maximum_thickness / 2.0, rel=1e-4)
 
 
-def test_edge_arcs_pass_the_nose(profiles):
-    for profile in profiles:
-        assert profile.leading_edge.point(0.0)[0] < 0.0
-        end = profile.parameters.outlet_axial / np.cos(profile.cone.half_angle)
-        assert profile.trailing_edge.point(0.0)[0] > end
-
-
 @pytest.mark.parametrize(
     ("name", "value", "message"),
     [

@@ -1,17 +1,15 @@
 """Configuration: what is accepted, schemas for editors, and what the refusals say, of several mistakes at once, too."""
 
-import re
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 import yaml
 from test_refusals import CONFIG_REFUSALS, edit
 from workflow_runs import overlay
 
 from r37core.base.yaml_file import load_yaml
-from r37core.config import ConfigError, command_line_document, plain, read_document
+from r37core.config import ConfigError, command_line_document, read_document
 from r37core.config.document import ConfigRefusals
 from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws
 from r37core.plans.provenance import structure_hash
@@ -27,45 +25,13 @@ def regions(**changes):
     return {"structure": {"stress_regions": changes}}
 
 
-def test_shipped_configuration(settings):
-    assert list(settings.blades) == ["Ref", "L50", "L100", "S50", "S100", "CS50", "CS100"]
-    assert settings.blades["Ref"].definition.stacking is None
-    assert settings.blades["CS100"].definition.stacking[3] == pytest.approx((1.0, -0.0116, np.radians(4.89)))
-    assert settings.blades["S50"].material.youngs_modulus == 180e9
-
-
-def test_three_ways_to_give_a_shape(with_blades):
-    blades = with_blades(
-        "Mine: {base: Ref, chordwise_sweep_deg: 12}\nRows:\n  base: CS100\n  sweep_lean:\n"
-        "    - {span_percent: 0, sweep_cm: 0, lean_deg: 0}\n    - {span_percent: 100, sweep_cm: 0.2, lean_deg: 1}\n"
-        "Stiff: {base: CS100, material: {youngs_modulus_pa: 2e11}}\n"
-    ).blades
-    assert blades["Mine"].definition.chordwise_sweep_angle == pytest.approx(np.radians(12.0))
-    assert blades["Rows"].definition.stacking == ((0.0, 0.0, 0.0), (1.0, 0.002, pytest.approx(np.radians(1.0))))
-    assert blades["Stiff"].definition.stacking == blades["CS100"].definition.stacking
-    assert blades["Stiff"].material.youngs_modulus == 2e11
-    assert blades["Stiff"].material.density == 8000.0
-
-
-def test_defaults_are_filled_in(config_copy):
-    settings = load_settings({"blades": ["Ref"], "scenes": ["direct"], "fidelity": "draft"}, config_copy)
-    assert plain(settings.structure.boundary) == {"tip_line": "pressure_edge", "corners": True}
-    assert settings.config.campbell.highest_engine_order == 20
-    assert list(settings.scenes) == ["direct"] and list(settings.speed_plans) == [("Ref", "direct")]
-    assert settings.speed_plans["Ref", "direct"].certain[:2] == (750.0, 770.0)
-
-
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         (regions(box={"minimum_z_m": 1, "maximum_z_m": 1}), r"box\.minimum_z_m: found 1; allowed: less than"),
-        (
-            regions(airfoil={"minimum_span": 0.9, "maximum_span": 0.9}),
-            r"structure\.stress_regions\.airfoil\.minimum_span: found 0\.9; allowed: less than maximum_span \(0\.9\)",
-        ),
+        (regions(airfoil={"minimum_span": 0.9, "maximum_span": 0.9}), r"minimum_span: found 0\.9; allowed: less than max"),
         (regions(airfoil=None, airfoil_unfiltered=None, box=None), r"stress_regions: found no region; allowed: one or more"),
         (regions(worst={}), r"stress_regions\.worst: found 'worst'; allowed: another name"),
-        (regions(scatter={}), r"stress_regions\.scatter: found 'scatter'; allowed: another name"),
         ({"blades_file": "config/none.yaml"}, r"config/none\.yaml: there is no such file"),
     ],
 )
@@ -157,13 +123,6 @@ def test_schemas_are_fresh(root):
     assert {file.name: file.read_text() for file in folder.iterdir()} == schemas()
 
 
-@pytest.mark.parametrize("name", ["config", "blades", "scenes", "fidelity", "physical"])
-def test_files_name_their_schema(root, name):
-    first = (root / f"config/{name}.yaml").read_text().splitlines()[0]
-    schema = re.fullmatch(r"# yaml-language-server: \$schema=(schemas/[\w.]+)", first)[1]
-    assert (root / "config" / schema).exists()
-
-
 def line_of(file, text):
     return next(number for number, line in enumerate(file.read_text().splitlines(), 1) if text in line)
 
@@ -173,15 +132,7 @@ def line_of(file, text):
     [
         ("config", "# nodes: 12", "nodes: 0", r"structure\.boundary\.nodes: found 0; allowed: integer, at least 1"),
         ("config", "modes: 10", "moods: 10", r"campbell: found unknown key moods; allowed keys: .*\(did you mean modes\?\)"),
-        (
-            "config",
-            "# nodes: 12 # left",
-            "nodes: # left",
-            r"structure\.boundary\.nodes: found nothing; allowed: a value, or",
-        ),
-        ("blades", "ratio: 0.3", "ratio: 0.5", r"Ref\.material\.poissons_ratio: found 0\.5; allowed: number, "),
         ("scenes", "thickness_m: 0.005", "thickness_m: 5 mm", r"abradable\.lining\.thickness_m: found '5 mm'; allowed: number"),
-        ("scenes", "gap: linear #", "gap: curved #", r"abradable\.gap: found 'curved'; allowed: one of linear, exact"),
         ("fidelity", "mesh: { nodes: 5000,", "mesh: { nodes: 5e3,", r"draft\.mesh\.nodes: found 5000\.0; allowed: integer"),
     ],
 )
@@ -189,15 +140,6 @@ def test_messages_name_file_line_key_found_and_allowed(config_copy, name, old, n
     file = config_copy / f"config/{name}.yaml"
     edit(file, old, new)
     with pytest.raises(ConfigError, match=rf"^config/{name}\.yaml:{line_of(file, new)}: {key}"):
-        read_settings(config_copy)
-
-
-def test_missing_key_is_named_where_it_should_stand(config_copy):
-    file = config_copy / "config/scenes.yaml"
-    line = line_of(file, "friction:")
-    file.write_text(file.read_text().replace(", coefficient: 0.15", "", 1))
-    expected = rf"scenes\.yaml:{line}: abradable\.friction: missing key coefficient; allowed keys: form, coefficient"
-    with pytest.raises(ConfigError, match=expected):
         read_settings(config_copy)
 
 
@@ -217,6 +159,8 @@ IMPORTED = {
     # by every Snakemake, before ours sets the number of threads
     "import snakemake_executor_plugin_warm": {"numpy", "yaml"},
     "import r37core.base.plain": {"numpy", "pydantic", "yaml"},
+    # a word of the command that computes nothing
+    "import r37.command, r37.docstrings": {"numpy", "pydantic", "scipy", "xarray"},
     # it takes half a second at every start of Snakemake, and a plan builds no blade
     "import r37core.config, r37core.plans.sweep_plan": {"scipy.optimize", "scipy.interpolate"},
 }
@@ -239,17 +183,6 @@ def told(folder, **changes):
 def starts(lines, *expected, where="--config: "):
     expected = [f"{where}{start}" for start in expected]
     assert [line[: len(start)] for line, start in zip(lines, expected, strict=True)] == expected
-
-
-def test_mistakes_in_three_files(config_copy):
-    edit(config_copy / "config/config.yaml", "tolerance: 0.05", "tolerance: 5")
-    edit(config_copy / "config/blades.yaml", "density_kg_m3: 8000", "density_kg_m3: 0")
-    edit(config_copy / "config/scenes.yaml", "lobes: 2", "lobes: -2")
-    lines = told(config_copy)
-    starts(lines, "config.yaml:", "blades.yaml:", "scenes.yaml:", where="config/")
-    assert lines[0].endswith("tolerance: found 5; allowed: number, at least 1e-06, at most 1")
-    assert lines[1].endswith("Ref.material.density_kg_m3: found 0.0; allowed: number, at least 1, at most 100000")
-    assert lines[2].endswith(".casing.lobes: found -2; allowed: integer, at least 0, at most 100")
 
 
 def test_mistakes_in_one_file_are_told_once_each(config_copy):

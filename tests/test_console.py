@@ -1,30 +1,19 @@
 """What r37 knows of Snakemake's inside, each name looked for in it; and one line about thousands of jobs."""
 
-import inspect
 import io
 import logging
 import re
 import sys
-from dataclasses import fields
 from importlib.metadata import version
-from pathlib import Path
 
 import numpy as np
 import pytest
 from conftest import Terminal
-from snakemake import api, modules, script
-from snakemake import logging as snakemake_logging
-from snakemake.persistence import file as persistence
-from snakemake.scheduling import job_scheduler
-from snakemake.settings import types
-from snakemake_interface_logger_plugins.common import LogEvent
 from stubbed_runs import copy_stubbed
 from workflow_runs import snakemake
 
 from r37core.console import failures, snakemake_run
-from r37core.console.failures import show
-from r37core.console.lock import _LOCKS
-from r37core.console.progress import HANDLER, QUIET_EVENTS, Progress, quieten
+from r37core.console.progress import Progress, quieten
 from r37core.sweep import counts
 from r37core.time_integration.speed_file import write_speed
 from r37core.time_integration.status import RunStatus
@@ -36,33 +25,6 @@ def test_the_version_is_the_one_that_the_console_was_written_for(root):
         f"r37core.console was written for the inside of Snakemake {snakemake_run.SNAKEMAKE}, envs/lock.txt has {pinned}, "
         f"installed is {version('snakemake')}: look through src/r37core/console and the tests here, then set SNAKEMAKE to it"
     )
-
-
-def test_what_is_asked_of_snakemake_is_there():
-    sections = {types.ConfigSettings: {"configfiles", "config", "replace_workflow_config"}, types.DAGSettings: {"targets"}}
-    sections |= {types.OutputSettings: {"dryrun", "verbose"}, types.DeploymentSettings: {"deployment_method"}}
-    for section, names in sections.items():
-        assert names <= {field.name for field in fields(section)}
-        name = section.__name__.removesuffix("Settings").lower() + "_settings"
-        assert name in api.Workflow.__annotations__ and name in inspect.getsource(snakemake_run)
-    names = ("is_main_process", "basedir", "current_basedir", "local_exec", "modifier", "scheduler")
-    assert all(hasattr(api.Workflow, name) for name in names)
-    assert hasattr(modules.WorkflowModifier, "is_main_snakefile")
-    assert types.DeploymentMethod.CONDA.name == "CONDA"
-    # where the lock lies that is lifted
-    assert f'os.path.join(self.path, "{_LOCKS.name}")' in inspect.getsource(persistence)
-    assert _LOCKS.parent == Path(".snakemake")
-    assert f'"{HANDLER}"' in inspect.getsource(snakemake_logging.LoggerManager._default_streamhandler)
-    assert {str(event) for event in LogEvent} >= QUIET_EVENTS
-
-
-def test_the_limit_of_jobs_per_second_and_the_interpreter_s_name_are_used_as_they_stand():
-    """The limit is set to None, which must not become a name that nobody reads; a name quoted twice would start nothing."""
-    scheduler = job_scheduler.JobScheduler
-    assert all("job_rate_limiter" in function.__code__.co_names for function in (scheduler.__init__, scheduler.schedule))
-    about = inspect.getsource(script.PythonScript)
-    assert "py_exec = sys.executable" in about
-    assert '"{py_exec} {fname:q}"' in about
 
 
 def test_an_interruption_while_the_rules_are_read_is_one_line(root, capsys, monkeypatch):
@@ -181,13 +143,6 @@ def test_no_run_is_silent(clock):
     assert log.getvalue() == written
     log.close()
     progress.beat()
-
-
-def test_a_message_of_a_job_takes_the_place_of_the_line(clock):
-    stream, log = Terminal(), io.StringIO()
-    for where in (stream, log):
-        show("size of the import", where)
-    assert (stream.getvalue(), log.getvalue()) == ("\r\x1b[Ksize of the import\n", "size of the import\n")
 
 
 def test_diverged_runs_are_counted(clock, tmp_path):

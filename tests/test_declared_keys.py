@@ -15,12 +15,7 @@ from r37core.base.declared import Key, declared_keys
 from r37core.base.units import SUFFIXES
 from r37core.config import ConfigError, Document, checked_scene, si_fields, si_form
 from r37core.config.declaring import DECLARED, declared_by
-from r37core.config.scenes import CasingSection
 from r37core.config.section import Section
-from r37core.contact.casing import Casing
-from r37core.contact.scene import Friction, Lining, Scene
-from r37core.exchange.importing.source import MeshSource
-from r37core.product import schemas
 
 
 @dataclass(frozen=True)
@@ -206,86 +201,37 @@ def test_of_two_units_the_one_that_is_given_counts(rad_s, rpm, speeds):
     assert si_fields([("speeds_rad_s", rad_s), ("speeds_rpm", rpm)]) == {"speeds": pytest.approx(speeds)}
 
 
-def test_a_dataclass_takes_its_fields_and_parts_made_otherwise():
-    section = CasingSection(clearance_m=1e-3, cone_angle_deg=-90.0 / 2)
-    assert si_form(Casing, section) == Casing(1e-3, cone_angle=-0.25 * math.pi)
-    assert si_form(Casing, section, cone_angle=None).cone_angle is None
-    with pytest.raises(TypeError, match="depth"):
-        si_form(Casing, section, depth=1.0)
-
-
-def test_words_for_yes_are_among_those_of_their_keys():
-    allowed = [schemas.MODELS[name].model_json_schema() for name in schemas.MODELS]
-    properties = [part["properties"] for one in allowed for part in one["$defs"].values() if "properties" in part]
-    words = {one.name: one for kind in (Friction, Lining, Scene, MeshSource) for one in declared_keys(kind) if one.key.words}
-    assert set(words) == {"form", "gap", "pressure_side"}
-    for name, one in words.items():
-        enums = [part[name]["enum"] for part in properties if name in part]
-        assert enums
-        assert all(enum == list(one.key.words) and sorted(one.key.words.values()) == [False, True] for enum in enums)
-        assert one.key.words[next(part[name]["default"] for part in properties if name in part)] == one.default
-
-
-def literal(node):
-    try:
-        return ast.literal_eval(node)
-    except ValueError:
-        return None
-
-
-def is_declaration(line):
-    """Whether a field's annotation declares a key of the configuration."""
-    return any(isinstance(node, ast.Name) and node.id == "Key" for node in ast.walk(line.annotation))
-
-
-def declarations(tree):
-    """Fields of dataclasses that declare keys, with their defaults."""
-    lines = [line for node in ast.walk(tree) if isinstance(node, ast.ClassDef) for line in node.body]
-    return [line for line in lines if isinstance(line, ast.AnnAssign) and is_declaration(line) and line.value is not None]
-
-
 def defaults_in(tree):
-    """Name, value and line of a module's constants and of the defaults of all dataclasses' fields and functions' parameters.
+    """Names and values of a module's constants and of the defaults of fields and parameters.
 
     But for fields that declare a key, where its default stands.
     """
-    pairs = []
-    for line in tree.body:
-        if isinstance(line, ast.Assign):
-            both = isinstance(line.targets[0], ast.Tuple) and isinstance(line.value, ast.Tuple)
-            pairs += zip(line.targets[0].elts, line.value.elts, strict=True) if both else [(line.targets[0], line.value)]
     for node in ast.walk(tree):
-        if isinstance(node, ast.ClassDef):
-            fields = [line for line in node.body if isinstance(line, ast.AnnAssign) and not is_declaration(line)]
-            pairs += [(line.target, line.value) for line in fields]
+        if isinstance(node, ast.Assign):
+            yield ast.unparse(node.targets[0]).lower(), ast.unparse(node.value)
+        elif isinstance(node, ast.AnnAssign) and node.value and not declares_key(node):
+            yield ast.unparse(node.target), ast.unparse(node.value)
         elif isinstance(node, ast.FunctionDef):
             named = [*node.args.posonlyargs, *node.args.args]
-            pairs += zip(reversed(named), reversed(node.args.defaults), strict=False)
+            pairs = [*zip(reversed(named), reversed(node.args.defaults), strict=False)]
             pairs += zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
-    for target, value in pairs:
-        if value is not None:
-            yield getattr(target, "id", getattr(target, "arg", "")).lower(), literal(value), value.lineno
+            yield from ((parameter.arg, ast.unparse(value)) for parameter, value in pairs if value)
+
+
+def declares_key(field):
+    return "Key(" in ast.unparse(field.annotation)
 
 
 def test_no_default_of_a_key_stands_in_the_code_again(root):
     """CONTRIBUTING.md: a number that a user may want to change has its default where its key is declared, and nowhere else."""
     core = root / "src/r37core"
-    trees = {file: ast.parse(file.read_text()) for file in core.rglob("*.py")}
-    of_sections = [section_defaults(section) for section in SECTIONS.values()]
+    trees = {file.relative_to(core): ast.parse(file.read_text()) for file in core.rglob("*.py")}
+    of_sections = [one.model_fields.items() for one in SECTIONS.values()]
+    of_sections = [[(key, field.default) for key, field in fields if not field.is_required()] for fields in of_sections]
     keys = {(name, repr(value)) for given in of_sections for name, value in [*given, *si_fields(given).items()]}
-    keys |= {(line.target.id, repr(literal(line.value))) for tree in trees.values() for line in declarations(tree)}
-    keys = {(name, value) for name, value in keys if value not in ("None", "()")}
+    declared = [node for tree in trees.values() for node in ast.walk(tree) if isinstance(node, ast.AnnAssign) and node.value]
+    keys |= {(field.target.id, ast.unparse(field.value)) for field in declared if declares_key(field)}
+    keys = {(name, value) for name, value in keys if not re.match(r"None$|\(\)$|\w+\(", value)}
     assert {("bars", "10000"), ("stress_instants", "62"), ("amplitude", "2.0")} <= keys
-    found = [
-        f"{file.relative_to(core)}:{line}: {name} = {value!r}"
-        for file, tree in trees.items()
-        if "config" not in file.relative_to(core).parts
-        for name, value, line in defaults_in(tree)
-        if (name, repr(value)) in keys
-    ]
-    assert found == []
-
-
-def section_defaults(section):
-    """Keys with the defaults as they stand."""
-    return [(key, field.default) for key, field in section.model_fields.items() if not field.is_required()]
+    of_code = [(file, *pair) for file, tree in trees.items() if "config" not in file.parts for pair in defaults_in(tree)]
+    assert [(file, *pair) for file, *pair in of_code if tuple(pair) in keys] == []

@@ -83,13 +83,6 @@ def test_blades_of_pages_are_accepted(root, readme, config_copy):
         assert read_settings(config_copy).blade_names == safe_load(blades)
 
 
-@pytest.mark.parametrize("name", ["wrong_result", "failure", "wish"])
-def test_templates_of_issues_ask(name):
-    template = safe_load((CHECKOUT / f".github/ISSUE_TEMPLATE/{name}.yml").read_text())
-    assert template["name"] and template["description"]
-    assert all(part["type"] in {"textarea", "input"} and part["attributes"]["label"] for part in template["body"])
-
-
 def test_the_image_runs_the_two_commands(root, readme):
     """It cannot be built here: what it calls is what README and Makefile have."""
     image, page = (root / "envs/Containerfile").read_text(), (root / "envs/README.md").read_text()

@@ -1,7 +1,6 @@
 """Meshes from other programs: read, checked, turned, refused with a reason."""
 
 import re
-import subprocess
 import sys
 import warnings
 from dataclasses import replace
@@ -74,12 +73,6 @@ def test_our_own_mesh_comes_back(files, steel, name):
     shapes, wanted = ideal_shapes(again), ideal_shapes(mesh)
     for name, shape in shapes.items():
         assert np.sum(shape * wanted[name]) ** 2 > 0.9 * np.sum(shape**2) * np.sum(wanted[name] ** 2)
-
-
-def test_upstream_still_lacks_the_wedge():
-    """When this fails, meshio has closed its gap: take the line out of meshio_reader.py."""
-    code = "from meshio._mesh import topological_dimension as known; raise SystemExit('wedge15' in known)"
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 @pytest.mark.parametrize("element", ELEMENTS)
@@ -172,12 +165,9 @@ def test_the_other_rotation_mirrors_the_blade(files, steel):
     ours, theirs = (lowest_modes(m.stiffness(), m.mass(), 4)[0] for m in (matrices, assemble(again, steel)))
     np.testing.assert_allclose(theirs, ours, rtol=1e-8)
     np.testing.assert_allclose(turned.to_file(again.points), mesh.points, atol=1e-15)
-
-
-def test_pressure_side_of_a_turbine(files):
-    mesh, _, folder = files
-    again, _ = import_mesh(source("deck.inp", pressure_side_forward=False, sense_check=False), folder)
-    np.testing.assert_array_equal(again.node_set("tip_pressure_edge"), mesh.node_set("tip_suction_edge"))
+    # so does the suction side of a turbine
+    turbine, _ = import_mesh(source("deck.inp", pressure_side_forward=False, sense_check=False), folder)
+    np.testing.assert_array_equal(turbine.node_set("tip_pressure_edge"), mesh.node_set("tip_suction_edge"))
 
 
 def deck(tmp_path, change=lambda text: text, element="hexahedron20"):
@@ -249,12 +239,10 @@ def second_part(text):
         (lambda text: text.replace("*ELEMENT", "99999, 0.2, 0., 0.\n*ELEMENT"), r"1 of \d+ nodes belong to no .*\(99999\)"),
         (lambda text: text.replace("C3D20", "C3D27"), "elements of type C3D27; allowed: C3D10"),
         (lambda text: text.replace("C3D20", "S8R"), "no solid elements"),
-        (lambda text: text.replace("*ELEMENT", "*ELEMENTS"), "no solid elements"),
         (lambda text: moved(text, 100, "0.5"), r"mid-nodes off their edges in .* edge lengths|inside out or folded"),
         (lambda text: text.replace("\n2, ", "\n2002, ", 1), "names node 2, which the deck lacks"),
         (lambda text: text.replace("\n2, ", "\n1, ", 1), "node 1 is given twice, and not alike"),
         (lambda text: renumbered(text, 2, 1), "element 1 is given twice, and not alike"),
-        (lambda text: text[:400], "no solid elements"),
         (lambda text: text.replace("*NODE,", "*NODE, SYSTEM=C,"), "cylindrical or spherical coordinates"),
         (lambda text: text.replace("*ELEMENT", "*NGEN\n1, 9, 1\n*ELEMENT"), r"found \*NGEN; write the deck with every node"),
         (lambda text: text.replace("*ELEMENT", "*System\n1, 9, 1\n*ELEMENT"), r"found \*SYSTEM"),
@@ -277,17 +265,8 @@ def test_an_instance_stands_where_its_assembly_puts_it(tmp_path):
     assert np.allclose(placed.points, np.stack([x, 5.0 - (z - 1.0), 1.0 + y], axis=1), atol=1e-12)
 
 
-def test_free_nodes_may_be_dropped(tmp_path):
-    file = deck(tmp_path, lambda text: text.replace("*ELEMENT", "99999, 0.2, 0., 0.\n*ELEMENT"))
-    mesh, _ = import_mesh(source(file, drop_free_nodes=True))
-    assert difference(assemble(mesh, TITANIUM), assemble(plate(), TITANIUM)) < 1e-12
-
-
 def turned_by(**orientation):
     return {"orientation": replace(OURS, **orientation)}
-
-
-NEAR_TIP = (("r", "at_least", 0.2495),)
 
 
 def reordered(mesh, order):
@@ -338,16 +317,12 @@ def test_all_elements_of_the_other_winding_are_turned(tmp_path, slope):
         ({"file": "none.vtu"}, "mesh", r"there is no file .*none\.vtu"),
         ({"minimum_scaled_jacobian": 1.0}, "mesh", "scaled Jacobian below minimum_scaled_jac"),
         (turned_by(length_unit="mm"), "length_unit", r"length_unit mm or rotor_axis does not fit .* fitting units: m \(0\.06"),
-        (turned_by(radial=(0, 1, 0)), "radial", "-90 degrees round the axis from `radial`"),
         (turned_by(axis_point=(-1e6, 0, 0.0)), "axis_point", r"would reach to 1\.\d+e\+06 m from the .* \(allowed: 10 m"),
         (turned_by(axis_point=(0.23, 0, 0.0)), "radial", "passes through the blade|from `radial`"),
-        ({"root": Where("HUB")}, "root", "found no set 'HUB'"),
         ({"tip": Where("root")}, "root", r"a radius of 0\.2 m and a tip at 0\.2 m"),
-        ({"tip": Where("blade")}, "tip", "found no set 'blade'"),
         ({"tip": Where(limits=(("r", "at_least", 0.3),))}, "tip", "no outer face .* the rule 'r at least 0.3 m, to 0.0001 m'"),
         ({"tip": Where(cone_zr=((0.0, 0.27), (0.03, 0.25)))}, "tip", r"the cone through \(z, r\) = \(0, 0.27\) and \(0.03, 0"),
-        ({"tip": Where(limits=NEAR_TIP)}, "tip", "caught 3 of the 3 faces .*; it also caught 8 side faces: narrow"),
-        ({"tip": Where(limits=NEAR_TIP), "end_check": False}, "tip", "no surface of revolution about the rotor axis"),
+        ({"tip": Where(limits=(("r", "at_least", 0.2495),)), "end_check": False}, "tip", "no surface of revolution about"),
     ],
 )
 def test_wrong_orientation_and_rules_are_refused(tmp_path, changes, key, message):

@@ -1,21 +1,30 @@
-"""Families of designs: many blades of one entry, their names, refusals, and how they are compared."""
+"""Families of designs, of blades and of scenes, and scenes that start from others: names, refusals, and what is compared."""
 
+import json
+import re
+import time
 from types import SimpleNamespace
 
+import jsonschema
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from stubbed_runs import copy_stubbed
+from workflow_runs import overlay, planned_outputs, snakemake
 
+import r37
+from r37 import studies
 from r37core.base.plain import to_plain
-from r37core.blade import section_changes
-from r37core.blade.profile import ProfileParameters
-from r37core.config import ConfigError, command_line_document
+from r37core.base.yaml_file import load_yaml
+from r37core.config import ConfigError, command_line_document, plain
 from r37core.config.families import design_name
 from r37core.designs.compared import Compared
 from r37core.designs.figures import draw_designs
-from r37core.designs.plan import Families
-from r37core.designs.table import MEASURES, design_table
+from r37core.designs.maps import draw_design_map
+from r37core.designs.panel import contents
+from r37core.designs.plan import EXTENSION, Families
+from r37core.designs.table import MEASURES, compared_in, design_table
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
 from r37core.product.targets import FIGURES, drawing, targets
@@ -48,22 +57,6 @@ def test_a_family_is_refused_once(with_blades):
     assert len(str(refusal.value).splitlines()) == 1 and "D0" in str(refusal.value)
 
 
-def test_the_tables_of_a_family_are_read_once(with_blades, monkeypatch):
-    rows = "".join(f"D{number},80{number / 100}\n" for number in range(200))
-    checked, profiles = [], ProfileParameters.check
-    monkeypatch.setattr(ProfileParameters, "check", lambda profile: checked.append(profile) or profiles(profile))
-    table = f"blade,material.density_kg_m3\n{rows}"
-    assert len(with_blades("Mine: { base: S50, designs: config/designs.csv }\n", table, blades=["Mine"]).blades) == 200
-    assert len(checked) < 100
-
-
-def test_profiles_of_a_design_are_changed_once(with_blades, config_copy, monkeypatch):
-    text = "Turned: { base: Ref, vary: { stagger_deg: [1.125, 2.125] } }\n"
-    first = with_blades(text, blades=["Turned"]).blades
-    monkeypatch.setattr(section_changes, "_redrawn", None)
-    assert read_settings(config_copy, command_line_document({"blades": ["Turned"]})).blades == first
-
-
 def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades):
     """Blades with figures, of many: those of no family, and six designs from the first to the last."""
     run_ups = {"up": {"from_rad_s": 900, "to_rad_s": 1000, "revolutions": 50, "blades": ["Sweep"]}}
@@ -76,12 +69,6 @@ def test_a_family_has_run_ups_of_all_its_designs_and_figures_of_some(with_blades
     (overview,) = (figure for figure in FIGURES if figure.rule == "comparison_figure")
     parameters = drawing(SimpleNamespace(step=lambda *_: {}), None, overview, Sweep(settings))
     assert parameters["caption"]({"scene": "direct"}).endswith("diverged. 7 of 102 blades are drawn.")
-
-
-def test_lean_is_scaled_apart_from_sweep(with_blades):
-    table = with_blades("Lean: { base: L100, vary: { lean_percent: [50, 200] } }\n").blades["Lean_200"].definition.stacking
-    assert table[1] == pytest.approx((0.33, 0.001, 0.0))
-    assert table[3] == pytest.approx((1.0, 0.0, np.radians(3.0)))
 
 
 def test_a_grid_has_every_value_with_every_other(with_blades):
@@ -97,25 +84,12 @@ def test_pairs_go_side_by_side(with_blades):
     assert list(with_blades(GRID + "  combine: pairs\n", blades=["Grid"]).blades) == ["Grid_-2p5_8000", "Grid_5_4500"]
 
 
-def test_rows_of_sweep_and_lean_vary(with_blades):
-    rows = ("{ span_percent: 0, sweep_cm: 0, lean_deg: 0 }", "{ span_percent: 100, sweep_cm: 1, lean_deg: 1 }")
-    text = f"  sweep_lean: [{', '.join(rows)}]\n"
-    blades = with_blades(f"Rows:\n  base: Ref\n{text}  vary: {{ sweep_lean.1.sweep_cm: [0.1, 0.25] }}\n").blades
-    assert blades["Rows_0p25"].definition.stacking[1] == pytest.approx((1.0, 0.0025, np.radians(1.0)))
-
-
 def test_a_table_has_one_design_a_row(with_blades):
     table = "blade,chordwise_sweep_deg,material.density_kg_m3\nForward,5,8000\nBack-1,-5,7.5e3\n"
     settings = with_blades("Mine: { base: Ref, designs: config/designs.csv }\n", table, blades=["Mine", "Ref"])
     assert list(settings.blades) == ["Forward", "Back-1", "Ref"]
     assert Families(settings).families["blade"]["Mine"].designs == {"Forward": (5.0, 8000.0), "Back-1": (-5.0, 7500.0)}
     assert settings.blades["Back-1"].material.density == 7500.0
-
-
-def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
-    settings = with_blades(SWEEP, blades=["Ref"])
-    assert Families(settings).figures == {}
-    assert Families(settings).pairs == []
 
 
 @pytest.mark.parametrize(
@@ -128,7 +102,6 @@ def test_a_family_of_which_nothing_is_run_is_not_compared(with_blades):
         (GRID.replace("[-2.5, 5]", "[5, 5]"), r"Grid\.vary\.chordwise_sweep_deg\.1: found 5\.0 twice; allowed: each once"),
         (SWEEP.replace("S100", "Ref"), r"yaml:\d+: Sweep_-50\.sweep_percent: .* no table of sweep and lean"),
         (SWEEP.replace("-50, stop: 150", "150, stop: -50"), r"percent\.stop: found -50; allowed: not below start \(150\)"),
-        (SWEEP.replace("step: 100", "step: 1e-6"), r"sweep_percent\.step: found 1e-06; allowed: at most 10000 values"),
         (SWEEP.replace("sweep_percent", "sweep_lean.1.sweep_cm"), r"Sweep\.sweep_lean: design Sweep_-50: found \{'1'"),
         (SWEEP + "More: { base: Sweep }\n", r"More\.base: found 'Sweep'; allowed: another blade"),
         (SWEEP + "Sweep_50: { base: Ref }\n", r"Sweep: found the design 'Sweep_50'; allowed: designs that are not"),
@@ -146,15 +119,12 @@ def test_family_refusals(with_blades, text, message):
     [
         ("blade,chordwise_sweep_deg\nA,x\n", r"csv: family Mine: line 2, column chordwise_sweep_deg: 'x' is not"),
         (f"blade,chordwise_sweep_deg\nA,{'1' * 131_073}\n", r"csv: family Mine: line 1: not readable as a table"),
-        (f"blade,{'x' * 131_073}\nA,1\n", r"csv: family Mine: line 0: not readable as a table .*: field larger"),
         ("blade,chordwise_sweep_deg\nA,1\nA,2\n", r"designs\.csv: family Mine: the blade 'A' is given twice"),
         ("chordwise_sweep_deg\n1\n", r"family Mine: line 1: the table lacks the columns blade"),
         ("blade,chordwise_sweep_deg\n" + "".join(f"A{n},1\n" for n in range(10_001)), "Mine.*: found 10001 designs"),
         ("blade,chordwise_sweep_deg\n", r"family Mine: the table has no designs"),
         ("blade,chordwise_sweep_deg\nA__b,1\n", r"yaml:\d+: Mine: found 'A__b'; allowed: a name of letters"),
-        ("blade,chordwise_sweep_deg\nAb,1\nab,2\n", r"Mine: found 'ab' beside 'Ab'; allowed: names that differ in more"),
         ("blade,chordwise_sweep_deg\nRef,1\n", r"Mine: found the design 'Ref'; allowed: designs that are not named like"),
-        ("blade,chordwise_sweep_deg\nfigures,1\n", r"Mine: found the design 'figures'"),
     ],
 )  # fmt: skip
 def test_table_refusals(with_blades, table, message):
@@ -224,3 +194,296 @@ def test_a_family_is_drawn(compared):
     assert list(figure.axes[0].lines[0].get_xdata()) == [1.0, 2.0]
     figure = draw_designs("F", compared.assign(other=0.0), to_plain(Compared("blade", ("sweep_percent", "other"), *names)))
     assert [label.get_text() for label in figure.axes[6].get_xticklabels()] == ["F_1", "F_2"]
+
+
+SHIPPED = "abradable, direct, material_abradable"
+
+
+@pytest.fixture
+def with_scenes(config_copy):
+    """Settings of a copy, with some text added to scenes.yaml and, if given, a table of designs and other changes."""
+
+    def read(text, table="", scenes="all", **changes):
+        with open(config_copy / "config/scenes.yaml", "a") as stream:
+            stream.write(f"{text}\n")
+        (config_copy / "config/rooms.csv").write_text(table)
+        return read_settings(config_copy, command_line_document({"scenes": scenes, **changes}))
+
+    return read
+
+
+def test_a_scene_has_what_it_leaves_out_from_its_base(with_scenes):
+    """Key by key inside sections, through several bases, in any order; lists are replaced, and null takes away."""
+    entries = with_scenes(
+        "Thinner: { base: Thin, casing: { lobes: 3, ring: null }, results: [stress] }\n"
+        "Thin: { base: elastic_abradable, lining: { thickness_m: 0.003 }, until: null }\n"
+        "Bare: { base: Thinner, lining: null, friction: null }"
+    ).scene_designs.entries
+    shipped, thin, thinner, bare = (plain(entries[name]) for name in ("elastic_abradable", "Thin", "Thinner", "Bare"))
+    assert thin == shipped | {"lining": shipped["lining"] | {"thickness_m": 0.003}}
+    casing = {key: value for key, value in shipped["casing"].items() if key != "ring"} | {"lobes": 3}
+    assert thinner == thin | {"casing": casing, "results": ["stress"]}
+    assert bare == {key: value for key, value in thinner.items() if key not in ("lining", "friction")}
+
+
+def test_the_page_has_scenes_of_one_s_own(with_scenes, root):
+    page = (root / "docs/blades.md").read_text()
+    text = next(text for text in re.findall(r"```yaml\n(.*?)```", page, re.DOTALL) if text.startswith("Thin:"))
+    entries = with_scenes(text).scene_designs.entries
+    assert entries["Thin"].lining.thickness_m == 0.003 and entries["Thin"].lining.contact_length_m == 1.585e-4
+    assert entries["Round"].lining is None and entries["Round"].casing.lobes == 0
+
+
+def test_a_family_may_have_a_base(with_scenes):
+    entries = with_scenes("Rooms: { base: direct, vary: { casing.clearance_m: [3.0e-4, 5.0e-4] } }").scene_designs.entries
+    for name, clearance in (("Rooms_0p0003", 3e-4), ("Rooms_0p0005", 5e-4)):
+        assert entries[name].casing.clearance_m == clearance
+        assert entries[name].friction == entries["direct"].friction
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("X: { base: abradible }\nY: { base: X }",
+         rf"80: X\.base: found 'abradible'; allowed: another scene of .* \({SHIPPED}.*, Y\) \(did you mean abradable\?\)$"),
+        ("X: { base: X }", rf"80: X\.base: found 'X'; allowed: another scene .* \({SHIPPED}.*\), in no circle of bases$"),
+        ("X: { base: Y }\nY: { base: X }", r"81: Y\.base: found 'X'; .*\n.*80: X\.base: found 'Y'; .* in no circle of bases$"),
+        ("F: { base: direct, vary: { gap: [2, 3] } }\nX: { base: F }", r"81: X\.base: found 'F'; allowed: another scene"),
+        ("X: { base: 5 }", r"80: X\.base: found 5; allowed: string"),
+        ("X: { base: null }", r"80: X\.base: found nothing; allowed: a value, or the key left out"),
+        ("X: { base: nope }\nY: { base: direct, gap: odd }", r"81: Y\.gap: found 'odd'; .*\n.*80: X\.base: found 'nope'"),
+        ("X: { base: abradable, lining: { barz: 1 } }", r"80: X\.lining: found unknown key barz; .*mean bars"),
+        ("X: { base: direct, linning: null }", r"80: X: found unknown key linning; allowed keys: base, .*mean lining"),
+        ("X: { base: direct, lining: { thickness_m: 0.001 } }", r"80: X\.lining: missing key elastic_modulus_pa"),
+        ("X: { base: abradable, casing: null }", r"80: X: missing key casing; allowed keys: base, tip_line"),
+        ("X: { base: abradable, lining: null }", r"19: X\.results: found wear; .* a lining \(given by 'abradable'\)$"),
+        ("X: { casing: { clearance_m: 0.001 }, lining: null }", r"80: X\.lining: found nothing; allowed: a value"),
+        ("X: { base: rotor_abradable, rotor: { longer_m: { 1: null } } }", r"80: X\.rotor\.longer_m\.1: found nothing"),
+    ],
+)  # fmt: skip
+def test_refusals_name_the_line_of_the_value(with_scenes, text, message):
+    with pytest.raises(ConfigError, match=rf"^config/scenes\.yaml:{message}"):
+        with_scenes(text)
+
+
+def test_a_wrong_value_of_a_base_is_told_once_and_of_the_base(with_scenes, config_copy):
+    file = config_copy / "config/scenes.yaml"
+    file.write_text(file.read_text().replace("thickness_m: 0.005", "thickness_m: -1"))
+    with pytest.raises(ConfigError) as refusal:
+        with_scenes("X: { base: material_abradable }")
+    assert str(refusal.value).startswith("config/scenes.yaml:10: abradable.lining.thickness_m: found -1; allowed: number")
+    assert "\n" not in str(refusal.value)
+
+
+def test_the_schema_for_editors_knows_bases(config_copy):
+    schema = json.loads((config_copy / "config/schemas/scenes.schema.json").read_text())
+    entries = load_yaml(config_copy / "config/scenes.yaml")
+    jsonschema.validate(entries, schema)
+    for wrong, message in (({"lining": {"thicknes_m": 1}}, "thicknes_m"), ({"lining": {"thickness_m": -1}}, "-1 is less")):
+        with pytest.raises(jsonschema.ValidationError, match=message):
+            jsonschema.validate(entries | {"X": {"base": "abradable", **wrong}}, schema)
+        with pytest.raises(jsonschema.ValidationError, match="required"):
+            jsonschema.validate(entries | {"X": {"casing": {"clearance_m": 1e-3}, "lining": {"thickness_m": 1}}}, schema)
+
+
+def test_a_changed_scene_in_python_is_alone(config_copy):
+    """What starts from it stays as it is; None takes away what the base has, too, and the base may be another one."""
+    file = config_copy / "config/scenes.yaml"
+    shipped = {name: r37.scene(name, file=file).entry for name in r37.scenes(file=file)}
+    assert shipped["material_abradable"].lining.bar_width_m is None and shipped["direct"].lining is None
+    bare = r37.scene("abradable", file=file, lining=None, results=["stress"])
+    assert bare.entry == shipped["direct"].model_copy(update={"results": ["stress"]})
+    for options in ({}, {"name": "Mine"}):
+        bare = r37.scene("material_abradable", file=file, lining=None, results=["stress"], **options)
+        assert bare.entry == shipped["direct"].model_copy(update={"results": ["stress"]})
+        flexible = r37.scene("direct", file=file, base="elastic_abradable", **options)
+        assert flexible.entry == shipped["elastic_direct"].model_copy(update={"results": shipped["direct"].results})
+    with pytest.raises(ConfigError, match=r'^r37\.scene\("direct"\): direct\.base: found \'none\'; allowed: another scene of'):
+        r37.scene("direct", file=file, base="none")
+    with pytest.raises(ConfigError, match=r"material_abradable\.lining\.thickness_m: found -1"):
+        r37.scene("material_abradable", file=file, **{"lining.thickness_m": -1})
+
+
+CASING = "casing: { clearance_m: 4.0e-4, lobes: 2, width: 0.15, amplitude_m: 7.0e-4 }"
+LINING = "lining: { thickness_m: 0.005, elastic_modulus_pa: 2.0e+10, plastic_modulus_pa: 5.0e+9, yield_stress_pa: 1.5 }"
+ROOM = (
+    f"Room:\n  {CASING}\n  {LINING}\n  results: [stress, wear]\n  friction: {{ coefficient: 0.15 }}\n"
+    "  vary:\n    casing.clearance_m: [3.0e-4, 6.0e-4]\n    lining.thickness_m: [0.001, 0.002, 0.005]\n"
+)
+LOBES = f"Lobes:\n  {CASING}\n  vary: {{ casing.lobes: [2, 3] }}\n"
+TWO_SWEEPS = "Sweep: { base: S100, vary: { sweep_percent: [50, 100] } }"
+
+
+@pytest.mark.parametrize(("key", "values"), [("casing.lobes", [2, 3]), ("revolutions", [20, 40])])
+def test_a_whole_number_stays_one(with_scenes, key, values):
+    """Also one that the scene does not write."""
+    settings = with_scenes(f"Mine: {{ {CASING}, vary: {{ {key}: {values} }} }}", scenes=["Mine"], blades=["Ref"])
+    found = [chosen.scene.casing.lobes if key == "casing.lobes" else chosen.revolutions for chosen in settings.scenes.values()]
+    assert found == values
+
+
+def test_ranges_of_small_numbers_keep_their_values(with_scenes):
+    vary = "vary: { lining.bar_area_m2: { start: 2.4e-9, stop: 3.6e-9, step: 4.0e-10 } }"
+    settings = with_scenes(f"Bars:\n  {CASING}\n  {LINING}\n  {vary}\n", scenes=["Bars"], blades=["Ref"])
+    assert list(settings.scene_designs.families["Bars"].designs.values()) == [(2.4e-9,), (2.8e-9,), (3.2e-9,), (3.6e-9,)]
+
+
+def test_a_large_table_of_scenes_is_read_in_seconds(with_scenes):
+    """It took the square of its rows."""
+    table = "scene,damping_ratio\n" + "".join(f"Room{number},{1e-3 + 1e-7 * number:.9f}\n" for number in range(9000))
+    begun, family = time.process_time(), f"Room: {{ {CASING}, designs: config/rooms.csv }}"
+    settings = with_scenes(family, table, scenes=["Room"], blades=["Ref"], speeds=[900])
+    assert len(settings.scenes) == 9000 and time.process_time() - begun < 8.0
+    assert settings.scenes["Room5000"].scene.damping_ratio == pytest.approx(1.5e-3)
+
+
+def test_sections_name_families_of_scenes(with_scenes):
+    settings = with_scenes(
+        ROOM,
+        scenes=["Room", "direct"],
+        blades=["Ref"],
+        speeds_for=[{"scenes": ["Room"], "speeds": [1150.0]}],
+        tolerances={"scenes": ["Room"], "members": 2, "of_scenes": {"friction.coefficient": {"uniform_percent": 5}}},
+        run_ups={"up": {"from_rad_s": 1100, "to_rad_s": 1110, "rate_rad_s2": 100, "scenes": ["Room"]}},
+    )
+    ruled = {scene for (_, scene), plan in settings.speed_plans.items() if list(plan.certain) == [1150.0]}
+    assert ruled | {"direct"} == set(settings.scene_names) and "direct" not in ruled
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (ROOM.replace("thickness_m: [", "thickness: ["), r"Room.*found unknown key"),
+        (ROOM.replace("casing.clearance_m: [3.0e-4", "casing.clearance_m: [-3.0e-4"), r"Room.*-0\.0003"),
+        (ROOM.replace("lining.thickness_m: [", "sweep_percent: ["), r"found unknown key sweep_percent; .*blades\.yaml"),
+        (ROOM + f"room_0P0003_0p001: {{ {CASING} }}\n", "differ in more than capitals"),
+        (ROOM + f"Room_0p0003_0p001: {{ {CASING} }}\n", "not named like another scene"),
+    ],
+)
+def test_scene_family_refusals(with_scenes, text, message):
+    with pytest.raises(ConfigError, match=message):
+        with_scenes(text, scenes=["Room"])
+
+
+def test_a_family_of_scenes_is_not_called_like_one_of_blades(with_scenes, config_copy):
+    with open(config_copy / "config/blades.yaml", "a") as stream:
+        stream.write(f"\n{TWO_SWEEPS.replace('Sweep', 'Room')}\n")
+    with pytest.raises(ConfigError, match=r"scenes\.yaml.*'Room', which is a family of blades"):
+        with_scenes(ROOM)
+
+
+def test_what_is_compared_and_drawn(with_scenes, config_copy):
+    with open(config_copy / "config/blades.yaml", "a") as stream:
+        stream.write(f"\n{TWO_SWEEPS}\n")
+    settings = with_scenes(ROOM + LOBES, scenes=["Room", "Lobes", "direct"], blades=["Sweep", "Ref"])
+    families = Families(settings)
+    assert families.variables["scene"]["Room_0p0006_0p002"] == dict(zip(KEYS, (6e-4, 0.002), strict=True))
+    # of Ref in `direct` nothing varies
+    assert ("Ref", "direct") not in families.pairs
+    assert ("Sweep_50", "direct") in families.pairs
+    assert len(families.pairs) == 3 * 9 - 1
+    assert families.figures["Sweep"].scenes == ("direct",)
+    assert families.figures["Room"].blades == ("Sweep_50", "Sweep_100", "Ref")
+    assert list(families.maps) == ["Room", "Sweep__Lobes"]
+    assert families.maps["Sweep__Lobes"].keys == ("sweep_percent", "scene.casing.lobes")
+    files = EXTENSION.all_targets(Sweep(settings))
+    assert [names["family"] for names in files["<results>/figures/map_{family}.png"]] == ["Room", "Sweep__Lobes"]
+
+
+def test_designs_have_no_figures_of_their_own(with_scenes):
+    settings = with_scenes(ROOM, scenes=["Room", "direct"], blades=["Ref"])
+    files = targets(Sweep(settings))
+    assert [names["scene"] for names in files["<results>/figures/comparison_{scene}.png"]] == ["direct"]
+    alone = Sweep(with_scenes("", scenes=["Room"], blades=["Ref"]))
+    assert alone.drawn["scene"] == alone.settings.scene_names
+
+
+KEYS = ("scene.casing.clearance_m", "scene.lining.thickness_m")
+
+
+def table_of(lengths):
+    """Lengths above yield over two clearances and two thicknesses, of one blade."""
+    places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
+    rows = [("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)]
+    return pd.DataFrame(rows, columns=["blade", "scene", "family", *KEYS]).assign(length_most_revolutions_rad_s=lengths)
+
+
+def map_of(table, verdict):
+    (compared,) = compared_in(table).values()
+    return draw_design_map("Room", table, to_plain(compared), verdict)
+
+
+def test_a_map_has_values_in_place_and_the_line_of_a_requirement():
+    table = table_of([40.0, 30.0, 20.0, 0.0])
+    verdict = table[["blade", "scene"]].assign(
+        requirement="above_yield", verdict=["fails", "fails", "fails", "meets"], margin=[-30.0, -20.0, -10.0, 10.0]
+    )
+    assert list(compared_in(table).values()) == [Compared("scene", KEYS, ("Ref",), tuple(table["scene"]))]
+    axes = map_of(table, verdict).axes[0]
+    np.testing.assert_array_equal(axes.collections[0].get_array().reshape(2, 2), [[40.0, 20.0], [30.0, 0.0]])
+    marks = [line for line in axes.lines if line.get_label() == "meets all requirements"]
+    assert (list(marks[0].get_xdata()), list(marks[0].get_ydata())) == ([1], [0.7])
+    (limit,) = [collection for collection in axes.collections[1:] if collection.get_label() == "limit of above yield"]
+    # round the design that meets it
+    assert sorted(segment.tolist() for segment in limit.get_segments()) == [[[0.5, 0.5], [0.5, 1.5]], [[0.5, 0.5], [1.5, 0.5]]]
+    assert [text.get_text() for text in axes.texts] == ["40", "20", "30", "0"]
+    assert axes.get_xlabel() == "casing, clearance (mm)"
+
+
+def test_a_map_without_a_speed_above_yield_shows_how_near_fatigue_is():
+    table = table_of([0.0, 0.0, 0.0, 0.0])
+    verdict = table[["blade", "scene"]].assign(
+        requirement="goodman_share", verdict="meets", margin=1.0, value_highest=[1.3, 0.9, 0.6, 0.25]
+    )
+    figure = map_of(table, verdict)
+    assert [text.get_text() for text in figure.axes[0].texts] == ["1.30", "0.60", "0.90", "0.25"]
+    assert "Goodman" in figure.axes[-1].get_ylabel()
+
+
+@pytest.mark.slow
+def test_one_more_value_runs_its_own_simulations(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    overlay(tmp_path, "config.yaml", "blades: [Ref]\nscenes: [Lobes]\nspeeds: [1000, 1100]")
+    overlay(tmp_path, "scenes.yaml", LOBES)
+    snakemake(tmp_path, "tables", "--cores", "2")
+    overlay(tmp_path, "scenes.yaml", LOBES.replace("[2, 3]", "[2, 3, 5]"))
+    jobs = planned_outputs(tmp_path)
+    assert jobs["simulate"] == {f"Ref/Lobes_5/speed_{speed}.npz" for speed in (1000, 1100)}
+    assert jobs["design_table"] == {"designs.csv"}
+    assert jobs["design_figure"] == {"figures/designs_Lobes.png"}
+
+
+def test_a_limit_goes_round_designs_and_not_round_holes():
+    table = table_of([40.0, 30.0, 20.0, 0.0]).iloc[[0, 3]]
+    verdict = table[["blade", "scene"]].assign(requirement="mass", verdict="meets", margin=1.0)
+    axes = map_of(table, verdict).axes[0]
+    assert not [collection for collection in axes.collections if str(collection.get_label()).startswith("limit")]
+
+
+def test_each_family_has_a_map_in_the_explorer():
+    """Two families of the same keys, and one of a single key."""
+    one = table_of([40.0, 30.0, 20.0, 0.0])
+    other = one.assign(family="Other", scene=[f"Other_{number}" for number in range(4)], length_most_revolutions_rad_s=7.0)
+    single = one.drop(columns=KEYS[1]).assign(family="Single")
+    shown = contents(pd.concat([one, other, single]))
+    described = [(family["family"], family["keys"], family["other"]) for family in shown]
+    assert described == [(name, list(KEYS), "blade") for name in ("Room", "Other")]
+    assert shown[1]["cells"][3] == ["Ref", "Other_3", 6e-4, 0.002]
+    assert shown[1]["values"]["shape"] == [4]
+    families = compared_in(pd.concat([one, other, single]))
+    assert families["Single"].keys == KEYS[:1]
+    assert families["Other"].scenes == tuple(other["scene"])
+
+
+def test_designs_of_scenes_from_python(monkeypatch):
+    """Each scene is a family of its own; without keys of the blade that is as it is."""
+    asked = []
+    monkeypatch.setattr(studies, "run_of", lambda call, options: asked.append((call.blades, call.scenes)))
+    r37.designs("Ref", ["abradable", "direct"], [1150], vary={"scene.casing.clearance_m": [3e-4, 4e-4]})
+    r37.designs("S100", "direct", [1150], vary={"scene.damping_ratio": [0.001], "sweep_percent": [50, 100]})
+    ((blades, scenes), (families, others)) = asked
+    assert [blade.name for blade in blades] == ["Ref"]
+    assert [scene.name for scene in scenes] == ["abradable-varied", "direct-varied"]
+    assert scenes[1].changes["vary"] == {"casing.clearance_m": [3e-4, 4e-4]}
+    assert (families[0].name, families[0].changes["vary"]) == ("Design", {"sweep_percent": [50, 100]})
+    assert others[0].base == "direct"

@@ -20,7 +20,6 @@ from r37core.exchange.importing.import_mesh import blade_parameters, import_mesh
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.importing.raw_mesh import RawMesh
 from r37core.exchange.importing.source import matrix_files
-from r37core.exchange.importing.tip import check_sense_of_nodes
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.exchange.write_mesh import write_mesh
@@ -85,23 +84,6 @@ def test_axes_are_found_about_any_point_and_are_units(upside_down):
     assert axes.radial == (0.0, 0.0, 1.0)
 
 
-def test_a_ring_in_one_plane_is_a_cylinder_without_a_warning():
-    angle = np.linspace(0.0, 0.3, 9)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        rule = ends._cone(np.stack([0.2 * np.cos(angle), 0.2 * np.sin(angle), np.full(9, 0.01)], axis=1))
-    assert rule.cone_zr == ((0.01, 0.2), (1.01, 0.2)) and rule.tolerance == ends._TOLERANCES[0]
-
-
-def test_an_end_of_a_small_blade_is_straight_within_the_smallest_tolerance():
-    """A blade of 2 mm, of which a share is less than that."""
-    mesh = box_mesh(0.002, 0.0001, 0.001, (2, 1, 2), origin=(0.2, -0.00005, 0.0), element="hexahedron20")
-    assert ends._TOLERANCES[0] > ends._STRAIGHT * 0.002
-    for what in ("root", "tip"):
-        end = ends.find_end(what, mesh.points, outer_faces(mesh.blocks))
-        assert end.rule.tolerance == ends._TOLERANCES[0] and end.straight
-
-
 def test_sets_of_a_mesh_are_its_whole_numbers_by_value():
     """Of nodes and cells; numbers with a fraction and vectors are none."""
     points = np.zeros((5, 3))
@@ -121,9 +103,7 @@ def test_sets_of_a_mesh_are_its_whole_numbers_by_value():
     "names",
     [
         ["K_0.mtx", "K_1.mtx", "K_2.mtx", "boundary.csv"],
-        ["M.mtx", "K_0.mtx", "K_1.mtx", "boundary.csv"],
         ["M.mtx", "M.npz", "K_0.mtx", "K_1.mtx", "K_2.mtx", "boundary.csv"],
-        ["M.mtx", "K_0.mtx", "K_1.mtx", "K_2.mtx"],
         ["M.mtx", "K_0.mtx", "K_1.mtx", "K_2.mtx", "K_3.mtx", "boundary.csv"],
     ],
 )
@@ -132,13 +112,6 @@ def test_a_folder_of_matrices_has_each_file_once(tmp_path, names):
         (tmp_path / name).write_text("")
     with pytest.raises(ImportRefused, match="needed: M and K_<speed> at three speeds"):
         matrix_files("", tmp_path)
-
-
-def test_the_sides_of_a_tip_are_told_by_their_middle_and_angles_by_their_place():
-    # two nodes, the second ahead
-    points = turned(np.array([[0.25, 0.0, 0.0], [0.25, -0.02, 0.03]]), 10.0)
-    with pytest.raises(ImportRefused, match=r"leading edge at -10\.0 degrees and its trailing edge at -5\.4 degrees round"):
-        tip.check_sense_of_nodes(points)
 
 
 @pytest.mark.parametrize(("off", "fits"), [(1e-4, True), (1.001e-4, False)])
@@ -165,35 +138,6 @@ def test_the_camber_line_is_half_way_between_the_edges():
     line, fractions = tip._camber(mesh.points, nodes, row(-0.002), row(0.002))
     np.testing.assert_array_equal(line, row(0.0))
     np.testing.assert_allclose(fractions, mesh.points[line, 2] / 0.03, atol=0.5 / 200)
-
-
-def test_a_corner_far_from_the_end_is_a_part_of_the_side():
-    """Farther than 1.2 thicknesses, or a quarter of the line."""
-    path = np.array([[0.0, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0, 0.01, 0.1], [0.0, 0.02, 0.1]])
-    assert tip._between_corners(path, np.arange(4), 0.01).tolist() == [1, 2]
-    assert tip._between_corners(path, np.arange(4), 0.005).tolist() == [0, 1, 2, 3]
-    short = np.array([[0.0, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0, 0.01, 0.011], [0.0, 0.02, 0.011]])
-    assert tip._between_corners(short, np.arange(4), 0.1).tolist() == [0, 1, 2, 3]
-
-
-@pytest.mark.parametrize("size", [1e3, 1e-3])
-@pytest.mark.parametrize(("angle", "fits"), [(1e-7, False), (1e-5, True)])
-@pytest.mark.parametrize("of", ["both", "axis", "radial"])
-def test_directions_are_parallel_by_their_angle_whatever_their_length(size, angle, fits, of):
-    axis, radial = np.array([0.0, 0.0, 1.0]), np.array([0.0, np.sin(angle), np.cos(angle)])
-    axis, radial = axis * (size if of != "radial" else 1.0), radial * (size if of != "axis" else 1.0)
-    orientation = Orientation("m", tuple(axis), tuple(radial), "positive")
-    with refused_unless(fits, "must be two directions, not parallel"):
-        orientation.check()
-
-
-@pytest.mark.parametrize(("degrees", "fits"), [(0.0, True), (40.0, True), (100.0, False), (180.0, False)])
-def test_a_blade_lies_about_its_radial_direction(degrees, fits):
-    """However far along the axis it is."""
-    mesh = plate()
-    placed = replace(raw(mesh), points=turned(mesh.points, degrees) + np.array([0.0, 0.0, 3.0]))
-    with refused_unless(fits, "degrees round the axis from `radial`"):
-        OURS.to_blade(placed)
 
 
 def test_a_tip_that_waves_is_no_surface_of_revolution():
@@ -284,14 +228,6 @@ def test_a_flat_plate_along_the_axis_tells_nothing(tmp_path, stagger, rotation):
     assert side.startswith("pressure_side is taken as given: the tip's camber of ")
 
 
-def test_a_flat_plate_at_an_angle_tells_the_rotation(tmp_path):
-    given = turned_plate(tmp_path, 30.0)
-    with pytest.warns(MeshWarning, match="pressure_side is taken as given"):
-        import_mesh(given)
-    with pytest.raises(ImportRefused, match="change rotation, or rotor_axis if it points upstream"):
-        import_mesh(replace(given, orientation=replace(OURS, rotation="positive")))
-
-
 def test_matrices(model, boundary, reduction, tmp_path):
     write_reduced_matrices(model, (0.0, 1000.0, 2000.0), tmp_path)
     wrong = MatricesSource(str(tmp_path), Orientation("m", (0, 0, 1), (1, 0, 0), "positive"))
@@ -299,18 +235,6 @@ def test_matrices(model, boundary, reduction, tmp_path):
         import_matrices(wrong, boundary, reduction)
     assert refusal.value.key == "rotation"
     import_matrices(replace(wrong, sense_check=False), boundary, reduction)
-
-
-@pytest.mark.parametrize(
-    ("points", "what"),
-    [
-        ([[0.25, 0.0, 0.0]], "the stagger of a single contact node"),
-        ([[0.25, 0.0, 0.0], [0.25, 0.001, 0.03]], r"the tip's stagger of \+1\.9 degrees"),
-    ],
-)
-def test_nodes_that_tell_nothing(points, what):
-    with pytest.warns(MeshWarning, match=f"rotation is taken as given: {what} does not prove it"):
-        check_sense_of_nodes(np.array(points))
 
 
 def test_a_table_tells_the_stagger_of_its_blade(settings):

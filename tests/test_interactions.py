@@ -9,7 +9,6 @@ import xarray as xr
 from defaults import InteractionChoice
 
 from r37core.base.units import RAD_S
-from r37core.results import interactions
 from r37core.results.closing import interaction_title
 from r37core.results.columns import INTERACTIONS, names
 from r37core.results.interactions import find_interactions, summarise, titles
@@ -224,7 +223,7 @@ def test_the_table_of_all():
         assert float(data["rms_tangential"].sel(speed=row.peak_speed_rad_s, tip_point="leading_edge")) > 7e-4
 
 
-def test_no_response_no_interaction_and_the_reach_of_a_peak_may_begin_and_end_with_the_speeds():
+def test_no_response_no_interaction():
     data = response()
     assert found(data) == []
     data["rms_normal"][:] = data["rms_tangential"][:] = np.nan
@@ -232,10 +231,6 @@ def test_no_response_no_interaction_and_the_reach_of_a_peak_may_begin_and_end_wi
     assert summarise(joined(data), CHOICE).empty
     data["status"][:] = RunStatus.NOT_RUN
     assert found(data) == []
-    level = np.array([1.0, 0.9, 0.01, 0.01, 0.01])
-    assert interactions._loud(1000.0 * np.arange(5), level, 0) == (0, 1)
-    assert interactions._loud(np.arange(5.0), level, 0) == (0, 2)
-    assert interactions._loud(np.arange(5.0), level[::-1], 4) == (2, 4)
 
 
 def test_a_row_says_whether_it_lasts_and_which_thickness_suffices():

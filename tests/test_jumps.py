@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from integration_cases import ABRADABLE, AT_ONCE, DIRECT, oscillator
 
 from r37core.time_integration.integrators import CENTRAL_DIFFERENCE, EXACT_MODAL, central_difference
-from r37core.time_integration.jump_plan import jump_lengths, nearest_casing, plan_jumps
+from r37core.time_integration.jump_plan import jump_lengths, plan_jumps
 from r37core.time_integration.problem import Problem
 from r37core.time_integration.simulate import Simulation
 
@@ -143,14 +143,3 @@ def test_bound_beyond_the_tangent_is_reached_but_not_passed():
     assert np.all(plan.jumps[:, 7, 0] < 1e-3) and np.all(plan.jumps[:, 7, 1] == 1.0)
     # those that do not oscillate are stepped
     assert plan_jumps(central_difference(np.array([1e4, 1e6]), 1.0, 1e-7), 64, 8, followed=2) is None
-
-
-def test_nearest_casing_of_every_stretch():
-    shape = np.random.default_rng(1).random((3 * 21, 2))
-    most = nearest_casing(shape, 21)
-    assert most.shape == (3, 3, 2)
-    for block in range(3):
-        for stretch, length in enumerate((8, 8, 5)):
-            first = block * 21 + stretch * 8 + 1
-            expected = shape[np.arange(first, first + length) % len(shape)].max(axis=0)
-            np.testing.assert_array_equal(most[block, stretch], expected)

@@ -11,7 +11,6 @@ import pytest
 from r37core.adaptive.criterion import RefinementChoice, Window
 from r37core.base.plain import PlainError, from_plain, to_plain
 from r37core.base.speeds import RefinedRange, SpeedPlan
-from r37core.blade.definition import BladeDefinition
 from r37core.contact.casing import Casing
 from r37core.contact.scene import Lining
 from r37core.fem.material import Material
@@ -45,11 +44,6 @@ def test_what_jobs_get_comes_back_equal(value):
     assert written == to_plain(value)
     assert from_plain(type(value), written) == value
     assert hash(from_plain(type(value), written)) == hash(value)
-
-
-def test_every_blade_of_the_configuration_comes_back_equal(settings):
-    for blade in settings.blades.values():
-        assert from_plain(BladeDefinition, to_plain(blade.definition)) == blade.definition
 
 
 @pytest.mark.parametrize("value", JOBS_GET, ids=lambda value: type(value).__name__)

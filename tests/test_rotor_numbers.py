@@ -96,16 +96,6 @@ def test_any_blade_may_diverge_first(casing, longest, late, tmp_path):
     assert np.isnan(dataset["blades_above_yield"]) and np.isnan(dataset["blades_ever_above_yield"])
 
 
-@pytest.mark.parametrize("casing", CASINGS)
-def test_the_reference_ends_where_a_blade_diverges_too(casing):
-    rotor, sizes = undisturbed(casing, 1)
-    first = sizes[1, : CHOICE.samples_per_revolution].max()
-    scene = replace(CASINGS[casing], divergence_limit=0.5 * (first + np.delete(sizes, 1, axis=0).max()))
-    numbers = numbers_of(scene, rotor, replace(RECORDED, revolutions=2, snapshot_revolutions=1), "reference")
-    assert numbers["status"] == 1 and numbers["leader"] == 2 and 0.0 < numbers["diverged_revolution"] < 1.0
-    assert np.isnan(numbers["blade_max_von_mises"]).all()
-
-
 @pytest.mark.parametrize("engine", ENGINES)
 def test_all_blades_may_diverge_at_once(engine):
     """A casing beyond the limit is a divergence of all blades; the first one stands for them."""
@@ -150,9 +140,7 @@ def test_dataset_table_and_figure(tmp_path):
     assert together["blade"].values.tolist() == ["Ref"] * 6 and together["speed"].values.tolist() == 2 * speeds
     of_few = together["blade_rms"].sel(run=together["scene"] == "few")
     assert np.isfinite(of_few).sum() == 6
-    assert table["blades"].tolist() == [6, 2]
-    assert table["leader_by_motion"].between(1, 6).all() and set(table["worst_speed_rad_s"]) <= set(speeds)
-    assert table["leader_by_stress"].isna().tolist() == [False, True] and table["diverged_speeds"].tolist() == [0, 0]
+    assert table["blades"].tolist() == [6, 2] and table["leader_by_stress"].isna().tolist() == [False, True]
     # what no speed changes has no dimension of it, and spans end with the run
     assert many["blade_longer"].values.tolist() == [1e-5] * 6 and many["yield_stress"] == 2e-5
     assert many["span"].values.tolist() == [1, 2, 3] and many["stress_span"].values.tolist() == [2, 3]
@@ -162,8 +150,7 @@ def test_dataset_table_and_figure(tmp_path):
     ever = (many["blade_von_mises"] > 2e-5).any("stress_span")
     np.testing.assert_allclose(many["blades_ever_above_yield"], ever.mean("blade_number"))
     assert 0.0 < many["blades_above_yield"].mean() < many["blades_ever_above_yield"].mean() < 1.0
-    figure = draw_rotor(many, "Ref, many")
-    assert "6 blades" in figure.get_suptitle()
+    assert "6 blades" in draw_rotor(many, "Ref, many").get_suptitle()
 
 
 def test_stress_of_mistuned_blades_is_that_of_single_ones():
@@ -285,17 +272,14 @@ def test_the_figure_shows_all_blades_and_names_those_that_move_most():
     worst, median = stress.lines[:2]
     np.testing.assert_allclose(worst.get_ydata(), [3.0, 0.5])
     np.testing.assert_allclose(median.get_ydata(), [0.5, 0.3])
-    assert [line.get_label() for line in stress.lines[:2]] == ["worst blade", "median blade"]
-    assert "yield stress" in [text.get_text() for text in stress.get_legend().get_texts()]
     assert stress.get_title() == "at most 2 of 5 blades above yield at one speed"
     names = [line.get_label() for line in growth.lines]
     assert names[2:] == ["blade 9", "blade 5", "blade 1"] and all(name.startswith("_") for name in names[:2])
     for line, size in zip(growth.lines, (2.0, 1.0, 5.0, 4.0, 3.0), strict=True):
         np.testing.assert_allclose(line.get_ydata(), 0.1 * size * np.arange(1, SPANS + 1))
-    assert 0.0 < growth.lines[0].get_linewidth() < growth.lines[2].get_linewidth() and "at 900 rad/s" in growth.get_xlabel()
+    assert "at 900 rad/s" in growth.get_xlabel()
     assert [bar.get_height() for bar in waves.patches] == pytest.approx([10.0, 20.0, 70.0])
     assert [bar.get_x() + 0.5 * bar.get_width() for bar in waves.patches] == pytest.approx([-1.0, 0.0, 1.0])
-    assert all(0.5 < bar.get_width() < 1.0 for bar in waves.patches)
 
 
 def test_the_figure_of_one_speed_or_without_stress_has_lines():

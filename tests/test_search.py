@@ -1,4 +1,4 @@
-"""A search: its section and what it refuses, rounds, quantities, designs, and what the best become."""
+"""A search: its section and what it refuses, rounds, quantities, designs, what the best become, and its figures."""
 
 import json
 import math
@@ -10,13 +10,14 @@ import xarray as xr
 import yaml
 from workflow_runs import overlay
 
+from r37core.base.units import shown_unit
 from r37core.base.varied_number import BLADE
 from r37core.config import ConfigError
 from r37core.product.extensions import read_settings
 from r37core.search import steps
 from r37core.search.dataset import BLADES_HEADER, search_dataset, search_table, write_entries
-from r37core.search.designs import choice_of, designs_of
-from r37core.search.plan import Search
+from r37core.search.designs import designs_of
+from r37core.search.figures import broken_key, draw_designs, draw_slices
 from r37core.search.problem import START, Constraint, SearchChoice, SearchVariable
 from r37core.search.proposal import first_designs
 from r37core.search.quantity import DesignStructure, Quantity, contact_value, structure_value
@@ -66,10 +67,7 @@ def folder(config_copy):
         ("{ variables: { stagger_deg.tip: [-300, 1] } }", "search.variables.stagger_deg.tip: .*at least -90, at most 90"),
         ("{ variables: { stagger_deg: [-1, 1] } }", "variables.stagger_deg.tip: found stagger_deg.tip beside stagger_deg"),
         ("{ variables: { chordwise_sweep_deg: [-1, 1] } }", "chordwise_sweep_deg: .*at most one of"),
-        (
-            "{ objectives: { other: { measure: speed } } }",
-            "objectives.other.measure: found 'speed'; allowed: one of length_most_revolutions_rad_s, ",
-        ),
+        ("{ objectives: { other: { measure: speed } } }", "objectives.other.measure: found 'speed'; allowed: one of length_"),
         ("{ objectives: { other: { measure: frequency_hz } } }", "objectives.other: .*without mode; allowed: mode beside it"),
         ("{ objectives: { other: { measure: frequency_hz, mode: 1b } } }", "other.mode: found 1b; allowed: .*, 1B, 1T, 2B, 4"),
         ("{ objectives: { other: { measure: mass_kg, mode: 1B } } }", "other.mode: found mode with mass_kg; .*left out"),
@@ -96,14 +94,6 @@ def test_what_cannot_be_searched_is_refused_in_one_line(folder, changes, message
     with pytest.raises(ConfigError, match=rf"^config/config.yaml:\d+: .*{message}") as refusal:
         read_settings(folder)
     assert "\n" not in str(refusal.value)
-
-
-def test_all_designs_may_be_of_the_first_round(folder):
-    overlay(folder, "config.yaml", "search: { first: 5 }")
-    settings = read_settings(folder)
-    search = Search(settings)
-    assert search.budget(None) == [5] and search.threads(None) == 5
-    assert choice_of(settings).objectives == {"lined": Quantity("exceedance_integral_rad_s", ("abradable",))}
 
 
 def vary(folder, variables):
@@ -339,3 +329,89 @@ def test_a_search_of_which_nothing_is_feasible_has_a_table():
     assert search["order"].values.tolist() == [0, 0, 0] and "slice_mean" not in search
     assert search_table(search)["feasible"].tolist() == [1, 0, 0]
     json.dumps(search_table(search).to_dict("list"))
+
+
+KEYS = ("sweep_lean.1.sweep_cm", "stagger_deg.tip")
+OF = {"lined": Quantity("length_most_revolutions_rad_s", ("s",)), "stress": Quantity("static_stress_pa")}
+OF |= {"mass": Quantity("mass_kg")}
+LENGTHS = (50.0, 5.0, 400.0, np.nan, 100.0, 0.0, 20.0)
+
+
+def search_of(objectives=("lined", "stress"), keys=KEYS, most=2.0, start=-1.0, **of_start):
+    """The start and six designs in two rounds: the first is too heavy, the third cannot be built."""
+    variables = tuple(SearchVariable(key, -1.0, 1.0) for key in keys)
+    constraints = {"weight": Constraint(OF["mass"], None, most, None, None)}
+    wanted = {name: OF[name] for name in objectives}
+    choice = SearchChoice(variables, wanted, constraints, "surrogate", 0, len(keys) * (start,))
+    tried = {}
+    for place, (length, value) in enumerate(zip(LENGTHS, np.linspace(-1.0, 1.0, 7).tolist(), strict=True)):
+        mass = 9.0 if place == 1 else 1.0 + 0.001 * length
+        found = {"lined": length, "stress": 1e6 * (500.0 - length), "mass": mass, "weight": mass}
+        found = {name: (number, 0.05 * number) for name, number in found.items()} | ({} if tried else of_start)
+        name, values = (f"d{place - 1:04d}", len(keys) * (value,)) if tried else (START, choice.start)
+        tried[name] = choice.design(name, values, (place - 1) // 3, "surfaces cross" if place == 3 else found, tried)
+    return search_dataset(tried, choice)
+
+
+def lines(axes, label):
+    return [line.get_xydata() for line in axes.get_lines() if line.get_label() == label]
+
+
+def test_the_best_counts_feasible_designs_alone():
+    """5 rad/s of the first design break the constraint; the third is counted, though it cannot be built."""
+    axes = draw_designs(search_of()).axes[0]
+    best = max((line.get_xydata() for line in axes.get_lines()), key=len)
+    np.testing.assert_array_equal(best, [[1, np.nan], [2, 400.0], [3, 400.0], [4, 100.0], [5, 0.0], [6, 0.0]])
+    assert [text.get_text() for text in axes.texts] == ["0", "start 50"]
+    # after three designs of the first round
+    assert [3.5, 3.5] in [list(line.get_xdata()) for line in axes.get_lines()]
+
+
+def test_objectives_against_each_other_are_in_their_shown_units():
+    panel = draw_designs(search_of()).axes[2]
+    (front,) = lines(panel, "none is better in all objectives")
+    np.testing.assert_allclose(front, [[0, 500], [20, 480], [50, 450], [100, 400], [400, 100]])
+    np.testing.assert_allclose(lines(panel, "breaks a constraint"), [[[5, 495]]])
+    np.testing.assert_allclose(lines(panel, "start"), [[[50, 450]]])
+    assert panel.get_xlabel() == "lined (rad/s)"
+    assert panel.get_ylabel() == "stress (MPa)"
+    shown = [("rad/s", 1.0), ("MPa", 1e-6), ("mm", 1e3), ("Hz", 1.0), ("%", 1.0), ("", 1.0)]
+    assert [shown_unit(unit) for unit in ("rad s-1", "Pa", "m", "Hz", "percent", "1")] == shown
+
+
+def test_a_single_objective_is_drawn_over_the_rounds():
+    panel = draw_designs(search_of(["lined"])).axes[1]
+    np.testing.assert_array_equal(lines(panel, "best"), [[[1, 0]]])
+    np.testing.assert_array_equal(lines(panel, "start"), [[[-1, 50]]])
+
+
+def test_slices_say_how_far_they_can_be_believed():
+    search = search_of()
+    panels = draw_slices(search).axes
+    assert len(panels) == 4
+    assert panels[0].get_ylabel() == f"lined (rad/s)\n$Q^2$ {search['surrogate_q2'].values[0]:.2f}"
+    assert (panels[2].get_xlabel(), broken_key("stagger_deg")) == ("sweep_lean.1.\nsweep_cm", "stagger_deg")
+    assert {axes.get_title()[:8] for axes in panels} == {"total 0."}
+    np.testing.assert_allclose(lines(panels[2], "best")[0][0, 1], 500)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    "of",
+    [
+        {"objectives": ["lined"], "keys": KEYS[:1]},
+        {"objectives": ["lined", "stress", "mass"]},
+        {"most": 0.5},
+        {"objectives": ["lined"], "most": 0.5},
+        {"start": None},
+        {"lined": (None, None)},
+    ],
+    ids=["one", "three", "none feasible", "none of one feasible", "start of unknown values", "start of unknown objectives"],
+)
+def test_what_is_missing_is_left_out_and_all_has_room(of):
+    """Layout warns where panels have no room."""
+    search = search_of(**of)
+    for draw in (draw_designs, draw_slices):
+        figure = draw(search)
+        figure.draw_without_rendering()
+        assert all(axes.get_position().width > 0.1 for axes in figure.axes if axes.axison)

@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 import r37
 from r37core.blade.blade_map import Blade
 from r37core.blade.profile import BladeShapeError, Profile
-from r37core.blade.section_changes import SectionChange, SectionChangeError, SpanLaw, changed_profile, changed_profiles
+from r37core.blade.section_changes import SectionChange, SpanLaw, changed_profile
 from r37core.blade.stacking import conical_stacking
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
@@ -156,16 +156,6 @@ def test_laws_over_the_span():
     np.testing.assert_array_equal(SpanLaw((0.0, 0.3, 1.0), (1.1, 1.1, 1.1)).evaluate(spans), 1.1)
 
 
-def test_an_impossible_profile_names_its_changes(profiles):
-    rows = [profile.parameters for profile in profiles]
-    with pytest.raises(SectionChangeError, match="span 0%: inlet_angle is 9") as refusal:
-        changed_profiles(rows, {"stagger": SpanLaw.constant(np.radians(40.0)), "chord": SpanLaw.constant(1.0)})
-    assert refusal.value.names == ("stagger",)
-    for share in (0.0, -0.5):
-        with pytest.raises(SectionChangeError, match=f"the share of the chord is {100 * share:g}%; it must be positive"):
-            changed_profile(rows[0], SectionChange(chord=share))
-
-
 NEUTRAL = """
   stagger_deg: 0
   camber_deg: { hub: 0, tip: 0 }
@@ -194,17 +184,6 @@ def test_an_entry_gives_laws_in_three_forms(with_blades):
     np.testing.assert_allclose(camber(mine) - camber(base), 4.0 * spans**2, atol=1e-10)
     np.testing.assert_allclose(chord(mine), 1.05 * chord(base), rtol=1e-9)
     assert blades["Mine"].definition.stacking == blades["S100"].definition.stacking
-
-
-def test_changes_are_made_on_top_of_those_of_the_base(with_blades):
-    blades = with_blades(
-        "First: { base: Ref, stagger_deg: 2, thickness_percent: 110 }\n"
-        "Second: { base: First, stagger_deg: { tip: 1 }, thickness_percent: 50 }\n"
-    ).blades
-    second, base = shapes(blades["Second"]), shapes(blades["Ref"])
-    spans = of_each(base, lambda profile: profile.parameters.span)
-    np.testing.assert_allclose(stagger(second) - stagger(base), 2.0 + spans, atol=0.02)
-    np.testing.assert_allclose(thickness(second), 0.55 * thickness(base), rtol=1e-12)
 
 
 def test_laws_vary_in_families_and_tables(with_blades):

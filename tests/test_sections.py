@@ -196,7 +196,7 @@ def test_a_geometry_file_and_a_rule_give_the_same_blade(tmp_path):
 def test_stagger_sweep_and_lean_on_top(settings_with):
     rows = [{"span_percent": span, "sweep_cm": 0.01 * span, "lean_deg": 0.02 * span} for span in (0, 100)]
     family = {"base": "Fan", "vary": {"stagger_deg": [0, 3]}}
-    others = {"Swept": {"base": "Fan", "sweep_lean": rows}, "Half": {"base": "Swept", "sweep_percent": 50, "lean_percent": 50}}
+    others = {"Swept": {"base": "Fan", "sweep_lean": rows}, "Part": {"base": "Swept", "sweep_percent": 50, "lean_percent": 200}}
     others |= {"Family": family, "Chordwise": {"base": "Fan", "chordwise_sweep_deg": 10}}
     others["Own"] = {"sections": "sections/fan.csv", **ENTRY, "vary": {"stagger_deg": [0, 3], "material.density_kg_m3": [4430]}}
     blades = settings_with(csv_text(fan()), others=others).blades
@@ -209,11 +209,11 @@ def test_stagger_sweep_and_lean_on_top(settings_with):
             (before.radius, before.z, before.centroid[1]), abs=1e-5
         )
     tips = {}
-    for name in ("Fan", "Swept", "Half", "Chordwise"):
+    for name in ("Fan", "Swept", "Part", "Chordwise"):
         points = blades[name].definition.build(round_edges=True).position(SHARES, np.ones(9), np.zeros(9))
         tips[name] = np.stack([np.arctan2(points[:, 1], points[:, 0]), points[:, 2]])
     np.testing.assert_allclose(tips["Swept"] - tips["Fan"], np.outer([-np.radians(2.0), 0.01], np.ones(9)), atol=1e-9)
-    np.testing.assert_allclose(tips["Half"] - tips["Fan"], np.outer([-np.radians(1.0), 0.005], np.ones(9)), atol=1e-9)
+    np.testing.assert_allclose(tips["Part"] - tips["Fan"], np.outer([-np.radians(4.0), 0.005], np.ones(9)), atol=1e-9)
     assert np.all(tips["Chordwise"][1] < tips["Fan"][1])
 
 
@@ -283,16 +283,13 @@ TURBO = geomturbo_text(fan())
         (FAN.replace("section,x", "part,x"), "fan.csv", r"fan\.csv:1: .*lacks the columns section"),
         (without(FAN, 11, lambda line: line.replace("0.", "o.")), "fan.csv", r"fan\.csv:12: .*column x: 'o\.\d+' is not a num"),
         (without(FAN, 11, lambda line: "0,nan,0,0"), "fan.csv", r"fan\.csv:12: .*column x: 'nan' is not finite"),
-        (without(FAN, 11, lambda line: line + ",1"), "fan.csv", r"fan\.csv:12: .*more or fewer cells"),
         (without(CURVE, 11, lambda line: line[:15]), "fan.curve", r"fan\.curve:12: .*found 2 values; needed: 3"),
         (without(CURVE, 11, lambda line: line + " 1"), "fan.curve", r"fan\.curve:12: .*found 4 numbers; needed: 3"),
         (csv_text(fan()[:1]), "fan.csv", r"fan\.csv:2: .*found 1 section; allowed: at least 2, from hub to tip"),
         (csv_text([curve[::20] for curve in fan()]), "fan.csv", r"fan\.csv:2: .*found a section of 6 points; allowed: at lea"),
         (with_points([20, 40], [40, 20]), "fan.csv", r"\.csv:\d+: .*: section 4 of 9 from the hub: the curve crosses itself"),
-        (with_points(40, 60), "fan.csv", r"fan\.csv:\d+: .*section 4 of 9 .*crosses itself, between points 40 and 41"),
         (csv_text(section_without_trailing_edge()), "fan.csv", r"fan\.csv:2: .*found no \w+ edge: the curve is as thick"),
         (csv_text([*fan()[:3], *fan()[2:5]]), "fan.csv", r"fan\.csv: blade Fan: section 4 of 6 .*does not lie wholly above"),
-        (csv_text([*fan()[:3], fan()[1], *fan()[3:]]), "fan.csv", r"section 4 of 10 .*does not lie wholly above"),
         (csv_text(fan(), 1e3), "fan.csv", r"Fan\.length_unit: the blade would be .*fitting units: mm"),
         (FAN, "fan.dat", r"fan\.dat: blade Fan: found a file of kind '\.dat'; allowed: \.curve, \.geomTurbo, \.csv"),
         (TURBO.replace("pressure", "none"), "fan.geomTurbo", r"fan\.geomTurbo:1: .*found no line 'pressure'"),
@@ -312,23 +309,16 @@ def test_a_broken_file_is_one_line(settings_with, text, name, message):
     [
         ({"length_unit": "?"}, r"Fan\.length_unit: found '\?'; what fits: length_unit: m; .*: m \(0\.15 to 0\.45 m"),
         ({"rotation": "?"}, r"Fan\.rotation: found '\?'; what fits: rotation: negative"),
-        ({"length_unit": "?", "rotation": "?"}, r"what fits: length_unit: m; .*; rotation: negative"),
-        ({"hub": "?"}, r"Fan\.hub: found '\?'; what fits: hub: \{ cone_zr_m: \[\[-0\.04\d+, 0\.1500000\]"),
         ({"hub": "?", "tip": "?"}, r"Fan\.hub: .*hub: \{ cone.*; tip: \{ cone_zr_m"),
         ({"rotation": "positive"}, r"Fan\.rotation: found the tip's trailing edge ahead .*stagger -6\d\.\d.*change rotation"),
         ({"pressure_side": "backward"}, r"Fan\.pressure_side: found a convex pressure side .*give pressure_side: forward"),
-        (
-            {"rotor_axis": [0, 0, -1]},
-            r"Fan\.pressure_side: found a convex .* change both rotor_axis and rotation if rotor_axis",
-        ),
+        ({"rotor_axis": [0, 0, -1]}, r"Fan\.pressure_side: found a convex .* change both rotor_axis and rotation if rot"),
         ({"radial": [0, 0, 1]}, r"Fan\.radial: rotor_axis .* must be two directions, not parallel"),
         ({"radial": [0, 1, 0]}, r"Fan\.radial: the blade's middle lies at"),
-        ({"tip": {"radius_m": 0.5}}, r"fan\.csv: blade Fan: tip: its radius of 0\.5 m lies outside the sections"),
         ({"hub": {"radius_m": 0.1}}, r"fan\.csv: blade Fan: hub: its radius of 0\.1 m lies outside the sections"),
         ({"tip": {"radius_m": 0.1}}, r"the tip, at a radius of 0\.1 m, does not lie above the hub"),
         ({"tip": "sections/none.curve"}, r"Fan\.tip: sections/none\.curve cannot be read"),
         ({"hub": {}}, r"Fan\.hub: found none of radius_m and cone_zr_m"),
-        ({"hub": {"cone_zr_m": [[0, 0.15], [0, 0.16]]}}, r"Fan\.hub\.cone_zr_m: found the same z twice"),
         ({"hub": "sections/fan.csv"}, r"Fan\.hub: sections/fan\.csv:1: value 1: 'section' is not a number"),
         ({"sections": "sections/none.csv"}, r"Fan\.sections: there is no file sections/none\.csv"),
         ({"sweep_lean": []}, r"Fan\.sweep_lean: found \[\]; allowed: "),
@@ -349,11 +339,6 @@ def test_a_flat_last_section_needs_a_tip(settings_with):
     flat = [curve * [0.0, 1.0, 1.0] + [radius, 0.0, 0.0] for curve, radius in zip(fan(), radii, strict=True)]
     with pytest.raises(ConfigError, match=r"tip: the last section lies up to .* mm off every surface.*with tip: \{ cone_zr_m"):
         settings_with(csv_text(flat))
-
-
-def test_what_sections_cannot_do_is_refused(settings_with):
-    with pytest.raises(ConfigError, match=r"Other\.camber_deg: .*given by sections has no arcs.*allowed: stagger_deg, sweep"):
-        settings_with(FAN, others={"Other": {"base": "Fan", "camber_deg": 2}})
 
 
 def test_sense_check_false_takes_it_as_it_is(settings_with):

@@ -1,6 +1,5 @@
 """Blades that are made of the same have one reduced model, in the user's cache, whichever run or call asks for it."""
 
-import numpy as np
 import pytest
 import xarray as xr
 from workflow_runs import overlay, snakemake
@@ -20,11 +19,6 @@ def test_what_cannot_be_kept_is_made_where_it_is_needed(tmp_path, monkeypatch):
     assert kept.kept_for_user("a.txt", "made of", None) == file
     with pytest.raises(ValueError, match="impossible"):
         kept.kept_for_user("a.txt", "others", lambda file: (_ for _ in ()).throw(ValueError("impossible")))
-
-
-def test_other_processors_and_libraries_make_other_numbers():
-    here = kept.numerics("numpy", "no such library")
-    assert here[:2] == [np.__version__, ""] and all(here[2:])
 
 
 @pytest.mark.slow

@@ -1,6 +1,5 @@
 """What calls and the command say while they work, and how quickly the command starts."""
 
-import ast
 import io
 import logging
 import os
@@ -67,16 +66,6 @@ def test_names_are_imported_when_they_are_used():
     assert all(getattr(r37, name).__module__.startswith("r37") for name in listed if name != "SNAKEFILE")
     with pytest.raises(AttributeError, match="no attribute 'sweeps'"):
         _ = r37.sweeps
-
-
-@pytest.mark.parametrize("name", ["__init__", "command", "study_folder", "stages"])
-def test_a_word_that_computes_nothing_imports_nothing_that_computes(root, name):
-    tree = ast.parse((root / f"src/r37/{name}.py").read_text())
-    imports = [node for node in tree.body if isinstance(node, ast.Import | ast.ImportFrom)]
-    names = {alias.name for node in imports if isinstance(node, ast.Import) for alias in node.names}
-    names |= {node.module for node in imports if isinstance(node, ast.ImportFrom)}
-    assert {name.split(".")[0] for name in names} <= {*sys.stdlib_module_names, "r37", "r37core", "stages"}
-    assert "r37core.config" not in names or name == "study_folder"
 
 
 def test_the_version_and_two_files_of_blades(capsys):

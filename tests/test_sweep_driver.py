@@ -17,7 +17,7 @@ import xarray as xr
 
 import r37core
 from r37core.adaptive.criterion import RefinementChoice
-from r37core.base.dataset_file import read_dataset, write_groups
+from r37core.base.dataset_file import read_dataset
 from r37core.base.io import CarriedError, Named
 from r37core.base.plain import from_plain, to_plain
 from r37core.base.speeds import SpeedPlan, plan_speeds
@@ -187,11 +187,3 @@ forked_results(2, [call, call])
     while any(os.path.exists(f"/proc/{file.name}") for file in found) and time.monotonic() < end:
         time.sleep(0.05)
     assert len(found) == 2 and not any(os.path.exists(f"/proc/{file.name}") for file in found)
-
-
-def test_groups_of_a_file(tmp_path):
-    parts = {name: xr.Dataset({"x": ("n", [float(number)])}) for number, name in enumerate(("0/response", "1/response"))}
-    write_groups(parts.items(), tmp_path / "members.nc", {"blade": "Ref"})
-    assert read_dataset(tmp_path / "members.nc").attrs["blade"] == "Ref"
-    for name, part in parts.items():
-        xr.testing.assert_identical(read_dataset(tmp_path / "members.nc", group=name).drop_attrs(), part)

@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -212,32 +211,20 @@ def test_a_number_of_one_value_is_told(root):
         ({"of_scenes": {"friction.coefficient": {"uniform": 0.1, "normal": 0.1}}}, "found uniform and normal"),
         ({"of_scenes": {"friction.coefficient": {"between": [0.2, 0.1]}}}, "a lower and a higher number"),
         ({"of_scenes": {"friction.coefficient": {"values": [0.1, 0.1]}}}, "twice"),
-        (
-            {"of_scenes": {"friction.coefficient": {"normal": 0.2}}},
-            r"tolerances.of_scenes.friction.coefficient: member \d+ of Ref in abradable: found -.*at least 0.*narrower",
-        ),
+        ({"of_scenes": {"friction.coefficient": {"normal": 0.2}}}, r"member \d+ of Ref in abradable: found -.*at least 0.*na"),
         ({"of_blades": {"thickness": {"uniform": 1.0}}}, "found thickness; allowed: one of material.youngs_modulus_pa"),
         ({"of_blades": {"lean_deg": {"uniform_percent": 1.0}}}, "percent of lean_deg, which is 0"),
         ({"of_blades": {"thickness_percent": {"uniform": 150.0}}}, r"thickness_percent: the end of its range of Ref.*least 10"),
-        (
-            {"of_blades": {"stagger_deg.hub": {"uniform": 45.0}}},
-            "of_blades.stagger_deg.hub: the end of its range of Ref in abradable: span 0%: inlet_angle is .*narrower tolerance",
-        ),
+        ({"of_blades": {"stagger_deg.hub": {"uniform": 45.0}}}, "the end of its range of Ref in abradable: span 0%: inlet"),
         ({"of_blades": {"material.poissons_ratio": {"values": [0.3, 0.5]}}}, r"poissons_ratio: the end of its .*less than 0.5"),
         ({"of_blades": {"sweep_cm": {"uniform": 50.0}}}, "of_blades.sweep_cm: .*a sweep of .*up to the height of the blade"),
-        ({"of_blades": {"sweep_cm": {"uniform": 300.0}}}, "of_blades.sweep_cm: .*at least -100"),
-        ({"of_blades": {"lean_deg": {"values": [89.0, 90.0]}}}, "of_blades.lean_deg: .*less than 90"),
         ({"of_blades": {"sweep_percent": {"values": [100.0, 1e9]}}, "blades": ["S100"]}, "sweep_percent: .*at most 1000"),
         ({"of_scenes": {"friction.coefficient": {"between": [0.0, 11.0]}}, "members": 2}, "the end of its range.*at most 10"),
         ({"of_scenes": {"divergence_limit_m": {"uniform": 1e-3}}}, "allowed: a number of the scenes"),
-        (
-            {"of_blades": {"sweep_percent": {"uniform": 1.0}}, "blades": ["Ref"]},
-            r"none of its numbers \(sweep_percent\) in Ref in",
-        ),
+        ({"of_blades": {"sweep_percent": {"uniform": 1.0}}, "blades": ["Ref"]}, r"none of its numbers \(sweep_percent\) in"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["L50"]}, "none of its numbers .* in L50"),
         ({"members": 4}, "tolerances: found no numbers; allowed: some under of_scenes or of_blades"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "blades": ["Rex"]}, "found 'Rex'"),
-        ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "scenes": ["lined"]}, "found 'lined'"),
         ({"of_scenes": {"damping_ratio": {"uniform": 1e-4}}, "members": 4096}, "simulations of members"),
     ],
 )
@@ -330,6 +317,7 @@ def test_the_dataset_of_members(tmp_path):
     peaks = [1700.0 + 5.0 * row for row in range(20)]
     found = dataset_of(tmp_path, list(map(member, peaks)))
     assert found.sizes["member"] == 20
+    np.testing.assert_allclose(found["speed_rpm"], found["speed"] * 30.0 / np.pi)
     np.testing.assert_array_equal(found["peak_speed"], peaks)
     np.testing.assert_allclose(found["value"].sel(number=NUMBERS[0]), 0.1 + 0.001 * np.array(peaks))
     assert found["value"].sel(number=NUMBERS[1]).isnull().all()
@@ -419,15 +407,19 @@ def test_ranges_of_interactions():
     assert (only["engine_order"], only["share_of_members"]) == (4, 1.0)
 
 
-def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path):
+@pytest.mark.parametrize("blade", ["NA", "inf", "1e5"])
+def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path, blade):
+    """Whatever the blade is called; without a nominal interaction there is nothing beside which they could stand."""
     nominal = interactions_of((1700.0, 0.01, 4), (1240.0, 0.005, 5))
     rows = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4), (990.0, 0.004, 6))}, InteractionChoice())
-    range_table([("NA", "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
-    summary = pd.DataFrame([{"blade": blade, "scene": "lined", **one} for blade in ("NA", "L50") for one in nominal])
-    joined = ranged_summary(summary.astype({"engine_order": "Int64"}), read_ranges(tmp_path / "tolerances.csv"))
+    range_table([(blade, "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
+    summary = pd.DataFrame([{"blade": name, "scene": "lined", **one} for name in (blade, "L50") for one in nominal])
+    joined = ranged_summary(summary.astype({"engine_order": "Int64"}), table := read_ranges(tmp_path / "tolerances.csv"))
     assert len(joined) == len(summary)
     assert joined["share_of_members"].fillna(-1.0).tolist() == [0.0, 1.0, -1.0, -1.0]
     assert joined["peak_speed_rad_s_median"].dropna().tolist() == [1710.0]
+    joined = ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), table)
+    assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
 
 
 def test_a_range_has_the_digits_that_it_bears():
@@ -456,17 +448,6 @@ def test_leftovers_are_members_of_blades_and_scenes_that_have_none_any_more(root
     assert leftovers(tmp_path, settings) == sorted(folder / name for name in gone)
 
 
-@pytest.mark.parametrize("blade", ["NA", "inf", "1e5"])
-def test_a_summary_without_a_nominal_interaction(tmp_path, blade):
-    """One that members show alone stands in tolerances.csv, whatever the blade is called."""
-    rows = ranges([], {"0": interactions_of((1710.0, 0.01, 4)), "1": []}, InteractionChoice())
-    range_table([(blade, "lined", row) for row in rows]).to_csv(tmp_path / "tolerances.csv", index=False)
-    table = read_ranges(tmp_path / "tolerances.csv")
-    assert (table["blade"][0], table["share_of_members"][0]) == (blade, 0.5)
-    joined = ranged_summary(pd.DataFrame([], columns=names(INTERACTIONS)), table)
-    assert len(joined) == 0 and "peak_speed_rad_s_low" in joined
-
-
 @pytest.mark.parametrize("text", ["", "blade,scene\n", "a\0b", "blade,scene,mode,engine_order\nRef,lined,1B,x\n"])
 def test_a_damaged_table_is_named(tmp_path, text):
     (tmp_path / "tolerances.csv").write_text(text)
@@ -478,31 +459,6 @@ def test_a_response_that_is_none_is_named(tmp_path):
     other = sample(tmp_path, [(xr.Dataset({"status": ("speed", [0])}), (0.1, 0.2))], ("other",))
     with pytest.raises(InputFileError, match=r"other\.nc: cannot be read"):
         tolerances_dataset([(("Ref", "lined", other[0][1]), other[1])], NUMBERS)
-
-
-def test_ends_of_a_spread():
-    """The ends are values that are reached: shares of 0 and 1; a list's are its own. Percent are of a number's amount."""
-    uniform, share = SpreadEntry(uniform=0.5), SpreadEntry(uniform_percent=5.0)
-    assert (uniform.ends(2.0), share.ends(2.0)) == ((1.5, 2.5), pytest.approx((1.9, 2.1)))
-    assert share.ends(-2.0) == pytest.approx((-2.1, -1.9))
-    assert SpreadEntry(between=[0.8, 1.25]).ends(1.0) == (0.8, 1.25)
-    assert SpreadEntry(values=[3.0, 1.0]).ends(2.0) == (3.0, 1.0) and SpreadEntry(normal=1.0).ends(2.0) == ()
-
-
-def test_a_normal_number_has_a_value_at_the_sample_s_borders(monkeypatch):
-    corners = SimpleNamespace(random_base2=lambda _: np.array([[0.0, 0.0], [1.0, 1.0]]))
-    monkeypatch.setattr("scipy.stats.qmc.Sobol", lambda numbers, rng: corners)
-    points = sobol_points(1, 2, 0)
-    assert (points["0"], points["1"]) == ((2.0**-40,), (1.0 - 2.0**-40,))
-    assert all(np.isfinite(SpreadEntry(normal=1.0).value(0.0, points[name][0])) for name in ("0", "1"))
-
-
-def test_a_member_at_yield_is_not_above_and_speeds_are_there_in_rpm(tmp_path):
-    one = branch(1700.0)
-    one["max_von_mises"][:] = one["yield_stress"].item()
-    dataset = dataset_of(tmp_path, [(one, (0.1, 0.2))])
-    assert (dataset["probability_above_yield"] == 0.0).all()
-    np.testing.assert_allclose(dataset["speed_rpm"], dataset["speed"] * 30.0 / np.pi)
 
 
 def shares_of_members(nominal, members, choice):

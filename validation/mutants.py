@@ -27,7 +27,7 @@ ROOT = Path(__file__).parents[1]
 TESTS = {
     "blade/section_changes.py": "test_section_changes.py",
     "blade/stacking.py": "test_blade.py",
-    "contact/casing.py": "test_contact.py test_cone_contact.py",
+    "contact/casing.py": "test_contact.py",
     "contact/laws.py": "test_contact.py",
     "fem/matrices.py": "test_fem.py",
     "results/campbell.py": "test_campbell.py",
@@ -43,7 +43,7 @@ TESTS = {
     "rom/reduced_model.py": "test_rom.py test_time_integration.py",
     "rom/craig_bampton.py": "test_rom.py",
     "config/scenes.py": "test_rotor_section.py",
-    "base/speeds.py": "test_results.py test_config.py",
+    "base/speeds.py": "test_refinement.py test_config.py",
     "trials/": "test_trials.py",
     "time_integration/integrators.py": "test_time_integration.py test_contact_steps.py test_initial_motion.py",
     "time_integration/gyroscopic.py": "test_coriolis.py",
@@ -56,7 +56,7 @@ TESTS = {
     "results/": "test_results.py test_exceedance.py test_interactions.py test_measures.py test_campbell.py "
     "test_elastic_casing.py test_explorer_tables.py test_tolerances.py",
     "rotors/": "test_rotor_numbers.py",
-    "search/": "test_search.py test_search_steps.py test_search_figures.py test_search_calls.py",
+    "search/": "test_search.py test_search_steps.py test_search_calls.py",
     "search/gaussian_processes.py": "test_search_proposals.py",
     "search/problem.py": "test_search_proposals.py",
     "search/proposal.py": "test_search_proposals.py",
