@@ -199,8 +199,12 @@ def _fork_job_servers():
 
 
 def _share_structures():
-    """Let the jobs of a blade's structure copy the files of one that had the same input and parameters, in one cache folder."""
-    for name in STRUCTURE:
+    """Let the jobs of a blade's structure copy the files of one that had the same input and parameters.
+
+    In the cache folder of all tests: one of a test's own is for what the package itself keeps.
+    """
+    common = os.environ["R37_CACHE"].startswith(os.environ["R37_RUN_OF_TESTS"])
+    for name in STRUCTURE if common else ():
         module, _, step = f"r37core.{name}".rpartition(".")
         # a package of one's own is not imported yet, and shares nothing
         if module in sys.modules:
@@ -278,6 +282,12 @@ if __name__ == "__main__":
     _import_package()
     # plugins are searched for once
     import_module("snakemake.cli").get_argument_parser()
+    # fonts, too
+    with tempfile.TemporaryDirectory() as folder:
+        style = import_module("r37core.figures.style")
+        figure = style.plt.figure()
+        figure.text(0.5, 0.5, "$10^{-1}$")
+        style.save(figure, [f"{folder}/text.png", f"{folder}/text.pdf"])
     gc.collect()
     # what is there for good costs the forks neither a look nor a copy
     gc.freeze()
