@@ -31,19 +31,8 @@ def test_a_killed_run_leaves_no_snakemake_and_no_job(tmp_path, how, workers):
     (tmp_path / "Snakefile").write_text(SNAKEFILE)
     (tmp_path / "test_small.py").write_text(SMALL.format(folder=str(tmp_path)))
     (tmp_path / "tmp").mkdir()
-    command = [
-        sys.executable,
-        "-m",
-        "pytest",
-        "-q",
-        "-p",
-        "conftest",
-        "-n",
-        workers,
-        "--rootdir",
-        str(tmp_path),
-        "test_small.py",
-    ]
+    options = ["-q", "-p", "conftest", "-n", workers, "--rootdir", str(tmp_path), "test_small.py"]
+    command = [sys.executable, "-m", "pytest", *options]
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent), "TMPDIR": str(tmp_path / "tmp")}
     run = subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=subprocess.DEVNULL)
     wait_until(lambda: (tmp_path / "begun").exists() or run.poll() is not None, LONGEST, "the job of a small run")

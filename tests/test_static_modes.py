@@ -166,7 +166,7 @@ def test_forces_settle_where_static_modes_move_all_nodes_together(nodes, shared)
     together[0] = np.sqrt(shared * 1e-9)
     model = with_modes(with_static_modes(random_model(nodes), 1e-9), 1e8, together)
     scene = Scene(Casing(1e-4, lobes=1, amplitude=1.5, width=1e6, rise_fraction=0.0, cone_angle=0.0))
-    runs = both_engines(model, 6000.0, scene, replace(CHOICE, time_step=6e-7))
+    runs = both_engines(model, 24_000.0, scene, replace(CHOICE, time_step=6e-7))
     for simulation, state, _ in runs:
         assert definiteness(simulation.problem.contact.contact_flexibility, 0.0) > SMALLEST_DEFINITENESS
         assert state.totals["steps_in_contact"] > 0.1 * state.totals["steps"]

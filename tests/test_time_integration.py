@@ -85,7 +85,7 @@ def test_any_number_of_nodes(nodes, name, integrator):
     """Vectors half full and many of them, against the reference."""
     choice, model = IntegrationChoice(2e-7, 1, 31, integrator=integrator), random_model(nodes)
     # many are in contact sooner, and cost the reference more
-    speed = 36_000.0 if nodes > 8 else 12_000.0
+    speed = 120_000.0 if nodes > 8 else 12_000.0
     if integrator == EXACT_MODAL:
         model = with_static_modes(model, 1e-9)
     (_, ours, _), (_, theirs, _) = both_engines(model, speed, SCENES[name], choice)

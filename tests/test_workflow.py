@@ -241,8 +241,9 @@ def test_a_simulation_that_is_lost_runs_again_alone_and_half_written_input_is_na
     assert "delete it and run again" in text
 
 
-def test_one_core_gives_the_same_bits_in_any_folder(root, small_sweep, tmp_path):
+def test_one_core_gives_the_same_bits_in_any_folder(root, small_sweep, tmp_path, monkeypatch):
     """One whose name a shell would take apart, and by `make`; all but the figures of simulations, which take long."""
+    monkeypatch.setenv("R37_CACHE", str(tmp_path / "cache"))
     project = copy_odd_project(root, tmp_path)
     run_in_odd_project(project, "make", "campbell", "CORES=1")
     snakemake(project, "tables", "--cores", "1")

@@ -10,6 +10,7 @@ import json
 import os
 import re
 import select
+import shutil
 import signal
 import socket
 import subprocess
@@ -19,6 +20,7 @@ import threading
 import traceback
 from contextlib import contextmanager, suppress
 from functools import cache, partial
+from hashlib import sha256
 from importlib import import_module
 from multiprocessing import Pipe
 from pathlib import Path
@@ -27,11 +29,15 @@ from types import SimpleNamespace
 from r37core.console.caller import CALLER
 
 CHECKOUT = Path(__file__).parent.parent
-COMMON = ("jsonschema", "llvmlite", "nbformat", "numpy", "pandas", "pydantic", "scipy", "smart_open", "yaml")
+COMMON = ("dask.array", "dask.distributed", "jsonschema", "llvmlite", "nbformat", "numpy", "pandas", "pydantic", "scipy")
 COMMON += ("scipy.interpolate", "scipy.linalg", "scipy.optimize", "scipy.sparse.linalg", "scipy.stats")
-COMMON += ("sklearn.gaussian_process",)
+COMMON += ("sklearn.gaussian_process", "smart_open", "yaml")
 COMMON += ("snakemake.cli", "snakemake.dag", "snakemake.profiles", "snakemake.storage", "snakemake.report.html_reporter")
 """What Snakemake imports for every plan, and steps as they run; what the rules import is read from them."""
+
+STRUCTURE = ("blade.steps.geometry", "fem.steps.mesh", "exchange.importing.steps.imported_mesh", "rom.steps.reduced_model")
+STRUCTURE += ("rom.steps.contact_model", "stress.steps.stress_operator", "results.steps.campbell_of_blade")
+"""Steps whose files are shared: see `_share_structures`."""
 
 
 def run(folder, arguments, environment, seconds, jobs=None):
@@ -136,7 +142,8 @@ def _import_package():
     for file in [CHECKOUT / "Snakefile", *(CHECKOUT / "workflow").rglob("*.smk")]:
         text = file.read_text()
         names = re.findall(r"^from (r37core\S*) import", text, re.MULTILINE)
-        for name in {*names, *(f"r37core.{module}" for module in re.findall(r'"(\w+(?:\.\w+)+)\.\w+"', text))}:
+        steps = [*STRUCTURE, *re.findall(r'"(\w+(?:\.\w+)+\.\w+)"', text)]
+        for name in {*names, *(f"r37core.{step.rpartition('.')[0]}" for step in steps)}:
             with suppress(ModuleNotFoundError):
                 import_module(name)
 
@@ -175,6 +182,7 @@ def _fork_job_servers():
                 channel.close()
             with suppress(EOFError):
                 os.environ.update(theirs.recv())
+                _share_structures()
                 fork_server.serve(theirs)
             os._exit(0)
         theirs.close()
@@ -188,6 +196,41 @@ def _fork_job_servers():
         return channel, process
 
     executor.start_server = start_server
+
+
+def _share_structures():
+    """Let the jobs of a blade's structure copy the files of one that had the same input and parameters.
+
+    In the cache folder of all tests: one of a test's own is for what the package itself keeps.
+    """
+    common = os.environ["R37_CACHE"].startswith(os.environ["R37_RUN_OF_TESTS"])
+    for name in STRUCTURE if common else ():
+        module, _, step = f"r37core.{name}".rpartition(".")
+        # a package of one's own is not imported yet, and shares nothing
+        if module in sys.modules:
+            setattr(sys.modules[module], step, partial(_made_once, getattr(sys.modules[module], step)))
+
+
+def _made_once(step, input, output, params):
+    if not isinstance(output, import_module("snakemake.iocontainers").OutputFiles):
+        # inside of another job
+        return step(input, output, params)
+    about = {name: str(value) for name, value in params.items() if name not in ("locations", "cores")}
+    digests = [sha256(Path(file).read_bytes()).hexdigest() for file in input]
+    kept = Path(os.environ["R37_CACHE"], "steps", sha256(repr((about, digests)).encode()).hexdigest())
+    if kept.exists():
+        for number, file in enumerate(output):
+            shutil.copy(kept / str(number), file)
+        return json.loads((kept / "shown.json").read_text())
+    shown, made = step(input, output, params), kept.with_name(f"{kept.name}_{os.getpid()}")
+    made.mkdir(parents=True)
+    for number, file in enumerate(output):
+        shutil.copy(file, made / str(number))
+    (made / "shown.json").write_text(json.dumps(shown))
+    with suppress(OSError):
+        # another job was first
+        made.rename(kept)
+    return shown
 
 
 def _write_jobs(file):
@@ -239,6 +282,12 @@ if __name__ == "__main__":
     _import_package()
     # plugins are searched for once
     import_module("snakemake.cli").get_argument_parser()
+    # fonts, too
+    with tempfile.TemporaryDirectory() as folder:
+        style = import_module("r37core.figures.style")
+        figure = style.plt.figure()
+        figure.text(0.5, 0.5, "$10^{-1}$")
+        style.save(figure, [f"{folder}/text.png", f"{folder}/text.pdf"])
     gc.collect()
     # what is there for good costs the forks neither a look nor a copy
     gc.freeze()
