@@ -1,7 +1,5 @@
 """What the paper publishes about its seven blades (section 7 of the benchmark). Speeds in rad/s. Light."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 REFERENCE = "Ref"

@@ -1,7 +1,5 @@
 """What adaptive speed sampling finds, of how many runs, against every speed of its grid."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

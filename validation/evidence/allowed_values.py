@@ -1,7 +1,5 @@
 """Values that a key of the configuration may have, in the words of docs/configuration.md."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,7 +1,5 @@
 """The first picture of README: speeds above yield of the seven blades, with lining and without, linear and of second order."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import matplotlib.pyplot as plt

@@ -1,7 +1,5 @@
 """Numbers of a response that only the evidence needs: see `r37core.results.measures` for the others."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

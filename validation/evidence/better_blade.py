@@ -1,7 +1,5 @@
 """Searches for a better blade: what each gives, all their designs, and checks of the best one."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

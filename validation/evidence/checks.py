@@ -1,7 +1,5 @@
 """One published number next to ours."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

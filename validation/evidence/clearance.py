@@ -1,7 +1,5 @@
 """Clearance that changes with the speed: what rotation does to each tip, and to the interaction of 1B with engine order 4."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import tempfile

@@ -1,7 +1,5 @@
 """Configurations of the runs that the evidence is made from."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

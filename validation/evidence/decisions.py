@@ -1,7 +1,5 @@
 """What an engineer decides: limits of clearance over linings, and fatigue of a blade that stays below yield."""
 
-from __future__ import annotations
-
 import shutil
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Families of swept and leaned designs in both scenes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """The explorer of a finished run as Chromium shows it."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 from typing import Any

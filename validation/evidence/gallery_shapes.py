@@ -1,7 +1,5 @@
 """Rendered figures of the gallery: mode shapes, the region of stress."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -4,8 +4,6 @@ The equations are those of evidence.equations_of_motion, with bars as they were 
 all of its harmonics balance. It begins with our motion, made smaller by a tenth, and steps nowhere through time.
 """
 
-from __future__ import annotations
-
 import copy
 from dataclasses import replace
 from pathlib import Path

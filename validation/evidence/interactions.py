@@ -1,7 +1,5 @@
 """The worst interaction of each of the seven blades: linear, of second order, for longer, and by other motions."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """Models of the configuration whose keys docs/configuration.md has in another table."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What large displacements change: largest motion, its speed and the length above yield of the seven blades."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

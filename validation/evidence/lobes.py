@@ -1,7 +1,5 @@
 """Length above yield about 1B/4 over the clearance: lobes that keep their height against lobes that grow with the clearance."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

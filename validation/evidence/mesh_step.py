@@ -1,7 +1,5 @@
 """A blade's STEP file meshed by gmsh in tetrahedra or hexahedra: what another program would make of our blade."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import gmsh

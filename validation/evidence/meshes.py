@@ -1,7 +1,5 @@
 """What the mesh does to frequencies and peaks: density, layers, form of the edges, and meshes of another program."""
 
-from __future__ import annotations
-
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path

@@ -3,8 +3,6 @@
 NLstep needs GNU Octave and its own folder in the environment variable NLSTEP; without it the committed tables stay.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache

@@ -6,8 +6,6 @@ A number in a sentence stands before its source, `452<!--NAME:Ref:bare_casing-->
 number of a cell on its place, from 0. A row is named by its first cell, or by its first cells joined by +.
 """
 
-from __future__ import annotations
-
 import csv
 import re
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """Published numbers next to the range of ours over the members of a sample."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Whole rotors of the seven blades, and several rotors of two of them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

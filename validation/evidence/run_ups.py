@@ -1,7 +1,5 @@
 """Run-ups of the seven blades through 1B with engine order 4: the rate that each needs, and what decides it."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """What happens at extremes of the configuration: tables of docs/stability.md, from stability.csv of a run of the product."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Figures of programs: those of examples/figures (docs/gallery.md), and the worked example of docs/your_blade.md."""
 
-from __future__ import annotations
-
 import contextlib
 import re
 import runpy

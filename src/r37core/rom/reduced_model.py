@@ -1,7 +1,5 @@
 """The reduced model of one blade: small dense matrices, and the parts of the basis that later stages need."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

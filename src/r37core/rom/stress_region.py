@@ -1,7 +1,5 @@
 """Region of a blade whose stress is recovered from the reduced coordinates, and the nodes of it that are looked at."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 

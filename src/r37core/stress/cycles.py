@@ -1,7 +1,5 @@
 """Cycles of a stress that changes over time: by rainflow counting. Light: jobs import it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sweep of one blade in one scene as plain data: what its simulations start from, and at which speeds they are."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path

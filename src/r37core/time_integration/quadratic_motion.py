@@ -13,8 +13,6 @@ soften: without a bound a run could grow for ever. So Q counts as it is down to 
 the same value and slope at -B and is never below -2B. B is the energy of the lowest mode where second order ends to hold.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Simulation of one blade at one speed in one scene."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import ClassVar, Self
