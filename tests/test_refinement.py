@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from refinement_cases import CHOICE, GRID, PLAN, WINDOWS, asked, campbell, spiked
 
 from r37core.adaptive.criterion import RefinementChoice, dense_ranges, next_speeds, window_speeds
-from r37core.adaptive.rounds import Round, first_round, measure, read_round, round_after, write_round
+from r37core.adaptive.rounds import Round, first_round, measure_members, read_round, round_after, write_round
 from r37core.adaptive.steps import refine as refine_step
 from r37core.base.io import Named
 from r37core.base.plain import from_plain, to_plain
@@ -233,11 +233,16 @@ def test_a_round_s_file_says_what_it_was(tmp_path):
     assert "NaN" not in (tmp_path / "round_3.json").read_text()
 
 
-def test_what_a_run_gives():
+def test_what_runs_of_two_members_give(tmp_path):
+    """Without stress and of a diverged run that is no number."""
     run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "max_von_mises": np.array([4.0, 9.0])}
-    assert measure(run, 8.0) == [0, 0.0, 2.0, 0.5]
-    assert np.isnan(measure({name: value for name, value in run.items() if name != "max_von_mises"}, 8.0)[3])
-    assert np.isnan(measure(run | {"status": np.array(1), "max_von_mises": np.array([np.nan, 9.0])}, 8.0)[3])
+    diverged = run | {"status": np.array(1), "max_von_mises": np.array([np.nan, 9.0])}
+    runs = [run, diverged, run, {name: run[name] for name in ("status", "rms")}]
+    for number, numbers in enumerate(runs):
+        write_speed(numbers, tmp_path / f"{number}.npz", {})
+    gave = measure_members([8.0, 16.0], [900.0, 950.0], [tmp_path / f"{number}.npz" for number in range(4)])
+    np.testing.assert_equal(gave[900.0], [0, 0.0, 2.0, 0.5, 0, 0.0, 2.0, 0.25])
+    np.testing.assert_equal(gave[950.0], [1, 0.0, 2.0, np.nan, 0, 0.0, 2.0, np.nan])
 
 
 def test_a_round_of_a_blade_without_stress(tmp_path):
