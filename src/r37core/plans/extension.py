@@ -82,7 +82,7 @@ class Extension:
     in place of one, each with a name of its own, which share its file of rules.
     `section`: that section; none without one.
     `checks`: what no model of the section alone can check; each raises ConfigError.
-    `members`: largest number of simulations of members next to the sweep, by blade and scene.
+    `members`: largest number of simulations of members and designs next to the sweep, by blade and scene.
     `targets`: what is made of it; part of all_blades unless `made_on_request`.
     `offers`: files among the targets that other rules take where a run makes them. `motions`: a dataset of more motions at a
     speed than that from rest (results/other_motions.py), for summary, ranking and the figures of the response; `verdict`: a
