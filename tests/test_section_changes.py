@@ -215,7 +215,7 @@ def test_laws_vary_in_families_and_tables(with_blades):
          "Mine.chord_percent: blade Mine: chord_percent: the spans run from 0% to 60%; the table must reach 0 and 100%"),
         ("chord_percent: { hub: 10, tip: 1000 }", "chord_percent: span 70%: the profile crosses the one at span 50%"),
         ("chord_percent: [{ span_percent: 0, value: 900 }, { span_percent: 10, value: 10 }, { span_percent: 90, value: 10 }, "
-         "{ span_percent: 100, value: 10 }]", "chord_percent: span 15%: the share of the chord is -"),
+         "{ span_percent: 100, value: 10 }]", "chord_percent: span 15%: the share of the chord is -305.208%; it"),
         ("camber_deg: 80", "a smaller change near this span may be possible"),
         ("stagger_deg: 1, vary: { stagger_deg.tip: [1] }", "design Mine_1: found no stagger_deg.tip to vary; rows of a table"),
     ],
