@@ -11,7 +11,7 @@ from snakemake_interface_executor_plugins.registry import ExecutorPluginRegistry
 from workflow_runs import dataset_values, overlay, snakemake
 
 import r37
-from r37.calculation import parallel_results
+from r37.jobs import parallel_results
 from r37core.config import ConfigError
 from r37core.console.executor import Executor
 

@@ -26,7 +26,7 @@ from r37core.plans.provenance import Provenance
 from r37core.product.extensions import read_settings
 from r37core.rom.rotation import BucklingError
 from r37core.stress.statistic import Strengths
-from r37core.sweep import counts, driver
+from r37core.sweep import counts, driver, parts
 from r37core.sweep.blade_sweep import BladeSweep, SharedSpeeds
 from r37core.sweep.driver import Driver
 from r37core.sweep.forks import forked_results
@@ -57,7 +57,7 @@ def run_speeds(monkeypatch, tmp_path):
         rms = json.loads(task).get("height", 1.0) / (1.0 + (float(speed) / 10.0 - 104.0) ** 2)
         write_speed({"status": np.array(0), "rms": np.full((2, 3), rms)}, output, json.loads(about))
 
-    monkeypatch.setattr(driver, "run_job", peak)
+    monkeypatch.setattr(parts, "run_job", peak)
     monkeypatch.setattr(driver, "write_response", lambda files, speeds, file, **_: response(speeds).to_netcdf(file))
     return lambda: run.read_text().split() if run.exists() else []
 

@@ -1,17 +1,12 @@
 """A blade in a scene, calculated in this process: its structure comes from the user's cache."""
 
-import threading
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any, TypeVar
-
-import numpy as np
+from typing import Any
 
 from r37core.base.io import Named
-from r37core.base.process_wide import ProcessWide
 from r37core.config import ConfigError, Settings
 from r37core.machine_code.kept import named_folder, writable_folder
 from r37core.plans.provenance import Attributes, Provenance
@@ -20,7 +15,8 @@ from r37core.sweep.driver import SIMULATIONS, Driver
 from r37core.sweep.recipe import LOGGER, recipes, structure_attributes
 from r37core.time_integration.initial_motion import InitialMotion
 
-from .stages import bar, simulations_in_words
+from .jobs import parallel_results
+from .stages import simulations_in_words
 
 
 @dataclass(frozen=True)
@@ -81,55 +77,3 @@ def cache_folder() -> Path:
     except OSError as error:
         refusal = f"R37_CACHE: found the cache folder {named_folder()}, which cannot be written ({error.strerror})"
         raise ConfigError(f"{refusal}; allowed: a folder that can") from None
-
-
-Result = TypeVar("Result")
-
-
-def check_cores(cores: int) -> None:
-    """ConfigError for what is no number of cores."""
-    if isinstance(cores, bool) or not isinstance(cores, int | np.integer) or cores < 1:
-        raise ConfigError(f"cores: found {cores!r}; allowed: a whole number of at least 1")
-
-
-def parallel_results(calls: Sequence[Callable[[], Result]], cores: int, what: str = "", unit: str = "") -> list[Result]:
-    """Results of the calls, in their order, on so many processes. Raises what one of them raises.
-
-    Each has one thread of the linear algebra library, so that the numbers are the workflow's to the last bit. With a `unit`,
-    that they are counted by, a bar says how far they are. The processes are those of the backend that the caller has chosen by
-    joblib's `parallel_config`, else of this machine.
-    """
-    # imported here: what computes nothing does not wait for them
-    from joblib import Parallel, delayed
-
-    processes, shown = min(cores, len(calls)), bar(calls, what, unit) if unit else calls
-    if processes <= 1:
-        with _alone():
-            return [call() for call in shown]
-    with _POOL:
-        try:
-            parallel = Parallel(n_jobs=processes, return_as="generator")
-        except ValueError as error:
-            raise ConfigError(f"joblib's backend: {error}; choose another, as loky, threading or dask") from None
-        results = parallel(delayed(_called)(call) for call in calls)
-        return [result for _, result in zip(shown, results, strict=True)]
-
-
-def _called(call: Callable[[], Result]) -> Result:
-    with _alone():
-        return call()
-
-
-def _limit() -> AbstractContextManager[object]:
-    # before the limit, which holds for libraries that are loaded
-    import scipy.linalg  # noqa: F401
-    from threadpoolctl import threadpool_limits
-
-    return threadpool_limits(1)
-
-
-_alone = ProcessWide(_limit)
-"""While `_alone()` lasts, the linear algebra library has one thread."""
-
-_POOL = threading.Lock()
-"""Held by the thread that the worker processes work for: joblib has one set of them."""

@@ -21,9 +21,10 @@ from r37core.sweep.blade_sweep import CAMPBELL
 from r37core.sweep.recipe import run_step
 
 from .arguments import keys_of_its_own, plain_value
-from .calculation import Calculation, parallel_results
+from .calculation import Calculation
 from .call_settings import Call, OneOptions, call_of
 from .choices import BladeChoice, SceneChoice
+from .jobs import parallel_results
 from .runs import RunOptions, run_of
 from .stages import checked_call, checked_call_of
 

@@ -18,9 +18,9 @@ from r37core.config.section import Without
 from r37core.product.extensions import EXTENSIONS
 
 from .arguments import Speeds, plain_value, speed_keys
-from .calculation import check_cores
 from .call_settings import Call, OneOptions, above, base_of, call_of, chosen_blade, several
 from .choices import BladeChoice, SceneChoice, scenes_named
+from .jobs import check_cores
 from .run_results import RunResults
 from .stages import checked_call
 from .study_folder import add_workflow

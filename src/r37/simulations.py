@@ -18,9 +18,10 @@ from r37core.results.closing import remarks_on_contact
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
 
 from .arguments import Speeds, speed_key, speed_keys
-from .calculation import Calculation, check_cores, structure_file
+from .calculation import Calculation, structure_file
 from .call_settings import Call, OneOptions, call_of, tell
 from .choices import BladeChoice, SceneChoice
+from .jobs import check_cores
 from .stages import checked_call
 
 

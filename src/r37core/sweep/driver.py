@@ -11,14 +11,12 @@ from typing import Any
 
 from r37core.adaptive.rounds import first_round, measure_members, round_after
 from r37core.base.dataset_file import read_dataset
-from r37core.base.speeds import exact_text
 from r37core.machine_code.kept import content_digest
 from r37core.results.response import write_response
 from r37core.time_integration.initial_motion import InitialMotion
-from r37core.time_integration.speed_job import run_job
 
 from .blade_sweep import BladeSweep, SharedSpeeds
-from .parts import part
+from .parts import simulated
 from .recipe import code_of
 
 Call = Callable[[], Any]
@@ -87,7 +85,7 @@ class Driver:
         return sorted(done)
 
     def _simulate(self, runs: Sequence[_Runs], speeds: Sequence[float]) -> Sequence[Path]:
-        return self.run_all([partial(run.simulation, speed) for run in runs for speed in speeds], SIMULATIONS)
+        return self.run_all([run.simulation(speed) for run in runs for speed in speeds], SIMULATIONS)
 
 
 @dataclass(frozen=True)
@@ -101,22 +99,17 @@ class _Runs:
     code: Sequence[str]
     motion: InitialMotion | None = field(default=None, compare=False)
 
-    def simulation(self, speed: float) -> Path:
-        """File of the simulation at a speed (rad/s), run now where it is missing."""
-        task = self.sweep.task_at(speed)
-        motion = self.motion and [each if each is None else each.tolist() for each in vars(self.motion).values()]
-        models, digests = zip(*self.models, strict=True)
-
-        def run(file: Path) -> None:
-            run_job(exact_text(speed), str(file), task, self.about, *models, motion=self.motion)
-
-        return part(self.folder, speed, [task, list(digests), motion, self.code], run)
+    def simulation(self, speed: float) -> Callable[[], Path]:
+        """Call that gives the file of the simulation at a speed (rad/s); a process of its own imports no more for it."""
+        return partial(
+            simulated, self.folder, speed, self.sweep.task_at(speed), self.models, self.about, self.code, self.motion
+        )
 
     def response(self, speeds: Sequence[float]) -> Path:
         """File of the response over the speeds (rad/s), which have been simulated."""
         file = self.folder / "response.nc"
         write_response(
-            map(self.simulation, speeds),
+            (self.simulation(speed)() for speed in speeds),
             speeds,
             file,
             stress_history_speeds=self.sweep.history_speeds,

@@ -10,7 +10,9 @@ import numpy as np
 from r37core.base.speeds import exact_text
 from r37core.machine_code.kept import kept_file
 from r37core.time_integration.carrying import CarriedMotion
+from r37core.time_integration.initial_motion import InitialMotion
 from r37core.time_integration.speed_file import read_speed, read_status, write_speed
+from r37core.time_integration.speed_job import run_job
 
 from .counts import count_simulation
 
@@ -27,6 +29,25 @@ def part(folder: Path, speed: float, made_of: object, write: Callable[[Path], No
         count_simulation(read_status(file))
 
     return kept_file(f"speed_{exact_text(speed)}.npz", made_of, write_and_count, folder)
+
+
+def simulated(
+    folder: Path,
+    speed: float,
+    task: str,
+    models: Sequence[tuple[str, str]],
+    about: str,
+    code: Sequence[str],
+    motion: InitialMotion | None,
+) -> Path:
+    """File of a simulation at a speed (rad/s), run now where it is missing: as run_job; `models` with their digests."""
+    start = motion and [each if each is None else each.tolist() for each in vars(motion).values()]
+    files, digests = zip(*models, strict=True)
+
+    def run(file: Path) -> None:
+        run_job(exact_text(speed), str(file), task, about, *files, motion=motion)
+
+    return part(folder, speed, [task, list(digests), start, code], run)
 
 
 @dataclass(frozen=True)
