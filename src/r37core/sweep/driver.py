@@ -60,8 +60,12 @@ class Driver:
             _Runs(self.folder / name, sweep, tuple(files), about[name], code, self.motion)
             for (name, sweep), files in zip(sweeps.items(), models, strict=True)
         ]
-        every_speed = self._speeds(runs, speeds, campbell)
-        responses = self.run_all([partial(run.response, every_speed) for run in runs], "responses")
+        files = self._simulated(runs, speeds, campbell)
+        every_speed = sorted(files)
+        of_runs = zip(*(files[speed] for speed in every_speed), strict=True)
+        responses = self.run_all(
+            [partial(run.response, every_speed, own) for run, own in zip(runs, of_runs, strict=True)], "responses"
+        )
         return dict(zip(sweeps, responses, strict=True))
 
     def _models(self, sweep: BladeSweep) -> list[tuple[str, str]]:
@@ -69,23 +73,24 @@ class Driver:
         files = [str(sweep.file(stage, self.structures, self.attributes)) for stage in sweep.models]
         return [(file, content_digest(file)) for file in files]
 
-    def _speeds(self, runs: Sequence[_Runs], speeds: SharedSpeeds, campbell: Path | None) -> list[float]:
-        """Simulate at all speeds; gives them (rad/s), ascending."""
-        plan, choice = speeds.plan, speeds.choice
-        if not plan.refined:
-            self._simulate(runs, plan.certain)
-            return list(plan.certain)
-        assert campbell is not None
-        asked, done = first_round(plan, read_dataset(campbell), choice), list[float]()
-        while asked.new:
-            files = self._simulate(runs, asked.new)
-            done += asked.new
-            measured = measure_members([run.sweep.yield_stress for run in runs], asked.new, files)
-            asked = round_after(asked, measured, plan, choice)
-        return sorted(done)
+    def _simulated(self, runs: Sequence[_Runs], speeds: SharedSpeeds, campbell: Path | None) -> dict[float, Sequence[Path]]:
+        """Simulate at all speeds (rad/s); gives the file of each run at each of them."""
 
-    def _simulate(self, runs: Sequence[_Runs], speeds: Sequence[float]) -> Sequence[Path]:
-        return self.run_all([run.simulation(speed) for run in runs for speed in speeds], SIMULATIONS)
+        def simulate(asked: Sequence[float]) -> Sequence[Path]:
+            new = self.run_all([run.simulation(speed) for run in runs for speed in asked], SIMULATIONS)
+            files.update({speed: new[place :: len(asked)] for place, speed in enumerate(asked)})
+            return new
+
+        plan, choice, files = speeds.plan, speeds.choice, dict[float, Sequence[Path]]()
+        if not plan.refined:
+            simulate(plan.certain)
+            return files
+        assert campbell is not None
+        asked = first_round(plan, read_dataset(campbell), choice)
+        while asked.new:
+            measured = measure_members([run.sweep.yield_stress for run in runs], asked.new, simulate(asked.new))
+            asked = round_after(asked, measured, plan, choice)
+        return files
 
 
 @dataclass(frozen=True)
@@ -105,11 +110,11 @@ class _Runs:
             simulated, self.folder, speed, self.sweep.task_at(speed), self.models, self.about, self.code, self.motion
         )
 
-    def response(self, speeds: Sequence[float]) -> Path:
-        """File of the response over the speeds (rad/s), which have been simulated."""
+    def response(self, speeds: Sequence[float], simulations: Sequence[Path]) -> Path:
+        """File of the response over the speeds (rad/s), of the files of its `simulations` there."""
         file = self.folder / "response.nc"
         write_response(
-            (self.simulation(speed)() for speed in speeds),
+            simulations,
             speeds,
             file,
             stress_history_speeds=self.sweep.history_speeds,
