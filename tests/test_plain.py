@@ -90,6 +90,11 @@ def test_values_of_another_shape_are_refused(field, value):
         from_plain(Every, to_plain(EVERY) | {field: value})
 
 
+def test_values_of_another_number_are_refused():
+    with pytest.raises(PlainError, match=r"found \[1\]"):
+        from_plain(tuple[int, float], [1])
+
+
 def test_what_has_no_plain_form_is_refused():
     with pytest.raises(PlainError, match=r"Every\.flags\[0\]: found object"):
         to_plain(replace(EVERY, flags=[object()]))

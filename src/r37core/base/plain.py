@@ -40,9 +40,10 @@ def from_plain(cls: type[T], data: Any) -> T:
         if isinstance(data, Mapping) and data.keys() == hints.keys():
             return kind(**{name: from_plain(hint, data[name]) for name, hint in hints.items()})
     elif origin in (tuple, list):
-        if several:
-            kinds = arguments[:1] * len(data) if origin is list or arguments[-1] is Ellipsis else arguments
-            return origin(from_plain(part_kind, part) for part_kind, part in zip(kinds, data, strict=True))
+        endless = origin is list or arguments[-1] is Ellipsis
+        if several and (endless or len(data) == len(arguments)):
+            kinds = arguments[:1] * len(data) if endless else arguments
+            return origin(map(from_plain, kinds, data))
     elif isinstance(origin, type) and issubclass(origin, Mapping):
         if isinstance(data, Mapping):
             return {key: from_plain(arguments[1], part) for key, part in data.items()}  # type: ignore[return-value]
