@@ -2,12 +2,11 @@
 
 import threading
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager
 from typing import TypeVar
 
 import numpy as np
 
-from r37core.base.process_wide import ProcessWide
+from r37core.base.process_wide import ProcessWide, one_thread
 from r37core.config import ConfigError
 
 from .stages import bar
@@ -49,15 +48,7 @@ def _called(call: Callable[[], Result]) -> Result:
         return call()
 
 
-def _limit() -> AbstractContextManager[object]:
-    # before the limit, which holds for libraries that are loaded
-    import scipy.linalg  # noqa: F401
-    from threadpoolctl import threadpool_limits
-
-    return threadpool_limits(1)
-
-
-_alone = ProcessWide(_limit)
+_alone = ProcessWide(one_thread)
 """While `_alone()` lasts, the linear algebra library has one thread."""
 
 _POOL = threading.Lock()

@@ -5,6 +5,15 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 
 
+def one_thread() -> AbstractContextManager[object]:
+    """A context in which the linear algebra library has one thread: several add in another order."""
+    # before the limit, which holds for libraries that are loaded
+    import scipy.linalg  # noqa: F401
+    from threadpoolctl import threadpool_limits
+
+    return threadpool_limits(1)
+
+
 class ProcessWide:
     """The context that `make` gives, entered once for all threads that are within; to be called in a `with`."""
 

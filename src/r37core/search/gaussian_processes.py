@@ -12,9 +12,8 @@ from types import ModuleType
 from typing import Any, Self
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
-from r37core.base.process_wide import ProcessWide
+from r37core.base.process_wide import ProcessWide, one_thread
 
 RESTARTS = 1
 """Fits from other hyperparameters than the usual, the likeliest of all is taken."""
@@ -129,7 +128,7 @@ def _regressor(kernel: Any, variances: np.ndarray, **options: Any) -> Any:
 
 @contextmanager
 def _without_warnings() -> Iterator[None]:
-    with threadpool_limits(1), warnings.catch_warnings():
+    with one_thread(), warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 
