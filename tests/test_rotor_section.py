@@ -12,7 +12,7 @@ from r37core.base.plain import from_plain, to_plain
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, checked_scene, command_line_document
 from r37core.config.changed_numbers import entry_with, scene_numbers
-from r37core.config.scenes import RotorSection
+from r37core.config.rotor_section import RotorSection
 from r37core.contact.scene import Rotor
 from r37core.product.extensions import read_settings
 

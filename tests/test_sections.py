@@ -10,7 +10,7 @@ from workflow_runs import overlay
 
 import r37
 from r37.call_settings import call_of
-from r37.runs import write_run
+from r37.run_folder import write_run
 from r37core.base.plain import to_plain
 from r37core.blade.definition import SectionsDefinition, shape_from_plain
 from r37core.blade.geometry_file import read_geometry, write_geometry

@@ -42,7 +42,7 @@ TESTS = {
     "results/response.py": "test_results.py",
     "rom/reduced_model.py": "test_rom.py test_time_integration.py",
     "rom/craig_bampton.py": "test_rom.py",
-    "config/scenes.py": "test_rotor_section.py",
+    "config/rotor_section.py": "test_rotor_section.py",
     "base/speeds.py": "test_refinement.py test_config.py",
     "trials/": "test_trials.py",
     "time_integration/integrators.py": "test_time_integration.py test_contact_steps.py test_initial_motion.py",
