@@ -8,8 +8,9 @@ from test_interactions import CHOICE, campbell
 
 from r37core.figures.comparison import draw_ranking
 from r37core.results.columns import MOST_REVOLUTIONS, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
+from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
-from r37core.results.interactions import find_interactions, rows_above_yield
+from r37core.results.interactions import find_interactions
 from r37core.results.ranking import chance_to_be_better, ranking_table, robustness
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus

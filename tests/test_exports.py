@@ -19,7 +19,8 @@ from box_operator import box_operator
 from defaults import MatricesSource, Orientation
 
 from r37core.exchange.fields import Target, WorstInstant, worst_instants, write_modes, write_stress
-from r37core.exchange.importing.matrices_in import import_matrices, read_matrix, wording
+from r37core.exchange.importing.matrices_in import import_matrices, wording
+from r37core.exchange.importing.matrix_file import read_matrix
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.exports.matrices_out import write_full_matrices, write_reduced_matrices

@@ -1,6 +1,6 @@
 """Interactions: peaks of the response over speed, matched with modes and engine orders; ranges above yield on a bare casing."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from operator import itemgetter
@@ -12,43 +12,28 @@ import xarray as xr
 from scipy.signal import find_peaks
 
 from r37core.rom.naming import NAMED_MODES
-from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .closing import interaction_title
-from .columns import DROP_WITHIN, INTERACTIONS, MOST_REVOLUTIONS, SOME_REVOLUTIONS, names
+from .columns import DROP_WITHIN, INTERACTIONS, names
+from .contact_ranges import ranges_without_peak, rows_above_yield
 from .datasets import response_of
-from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, is_lined, joined, ranges_above
+from .exceedance import SpeedRange, exceedance_of, is_lined
+from .interaction import Interaction, interaction_row, range_columns
 from .interaction_choice import InteractionChoice
 from .measures import (
-    drop_after,
     largest_stress,
-    lasts,
     leading_edge,
     motion,
-    ratio_to_yield,
     speeds_above_yield,
     strongest_order,
 )
-from .variables import PLACES
 
 QUIET = 0.1
 """Share of an interaction's peak below which the motion counts as outside, if it stays there."""
 
 SPECTRA = {"normal": "amplitude", "tangential": "amplitude_tangential"}
 """Directions whose peaks are looked for, and the name of their spectrum in spectrum.nc."""
-
-Interaction = dict[str, Any]
-"""Column of INTERACTIONS -> value; NaN is what a scene does not compute.
-
-Of a lined scene an interaction is a peak of the motion; of direct contact a range of speeds that may be above yield, for a
-peak's crossing and one revolution's stress are chance there, and their columns are empty. `note` says why columns are, and
-where the lining is worn through. Without a crossing that explains the peak `mode` is empty.
-
-An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to where the motion stays below
-QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for near the end of a branch the motion
-is chaotic.
-"""
 
 
 @dataclass(frozen=True)
@@ -230,174 +215,6 @@ def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> 
         for interaction in find_interactions(response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade), choice)
     ]
     return pd.DataFrame(rows, columns=names(INTERACTIONS)).astype({"engine_order": "Int64"})
-
-
-LEAST_THICKNESS = "the sufficient thickness is a lower bound"
-
-
-def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
-    """Where within a row's speeds a share of the revolutions is above yield, with the scatter of the borders."""
-    columns: dict[str, Any] = {}
-    for name, share in (("some_revolutions", SOME_REVOLUTIONS), ("most_revolutions", MOST_REVOLUTIONS)):
-        ranges = [part for part in exceedance.ranges(share) if part.end >= within.begin and part.begin <= within.end]
-        if name == "most_revolutions":
-            columns["length_most_revolutions_rad_s"] = sum(
-                min(part.end, within.end) - max(part.begin, within.begin) for part in ranges
-            )
-        if ranges:
-            begin, end = max(ranges[0].begin, within.begin), min(ranges[-1].end, within.end)
-            columns[f"{name}_from_rad_s"], columns[f"{name}_to_rad_s"] = begin, end
-            columns[f"{name}_from_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[0], begins=True)
-            columns[f"{name}_to_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[-1], begins=False)
-    return columns
-
-
-def interaction_row(
-    response: xr.Dataset, index: int, reach: xr.Dataset, columns: Mapping[str, Any], note: str = ""
-) -> Interaction:
-    """The row of a `response` with its peak at an `index` among the speeds; `columns`: crossing and what is known already.
-
-    The largest of everything, and how its runs ended, are those of all speeds of its `reach`.
-    """
-    speed, normal, tangential = (float(response[name][index]) for name in ("speed", "rms_normal", "rms_tangential"))
-    worn_through, status = _largest(reach, "worn_through_share"), RunStatus(int(reach["status"].max()))
-    why = ""
-    if worn_through > 0.0:
-        why = "worn through"
-    elif status == RunStatus.DIVERGED and "used_thickness" in reach:
-        why = status.text
-    return {
-        **dict.fromkeys(names(INTERACTIONS[2:]), np.nan),
-        "peak_speed_rad_s": speed,
-        "peak_rms_normal_m": normal,
-        "peak_rms_tangential_m": tangential,
-        "peak_motion_m": float(np.hypot(normal, tangential)),
-        "drop": drop_after(response, index),
-        **_place(reach),
-        "stress_region": str(reach["stress_region"].item()) if "stress_region" in reach else "",
-        "median_von_mises_pa": _largest(reach, "max_von_mises_median"),
-        "high_von_mises_pa": _largest(reach, "max_von_mises_high"),
-        "largest_goodman_share": _largest(reach, "goodman_share"),
-        "max_wear_m": _largest(reach, "max_wear"),
-        "worn_through_share": worn_through,
-        "sufficient_thickness_m": _largest(reach, "used_thickness"),
-        "largest_penetration_m": _largest(reach, "largest_penetration"),
-        "status": status.text,
-        "motion_at_end": MotionAtEnd(int(response["motion_at_end"][index])).text if "motion_at_end" in response else "",
-        "lasting_share": float(lasts(reach).mean()) if "motion_at_end" in reach else np.nan,
-        "note": "; ".join(filter(None, (note, f"{why}: {LEAST_THICKNESS}" if why else ""))),
-        **columns,
-        "shift_rad_s": speed - columns.get("campbell_speed_rad_s", np.nan),
-    }
-
-
-def _place(reach: xr.Dataset) -> dict[str, float]:
-    """Where on the blade the largest stress of all speeds is."""
-    if "max_von_mises_ever" not in reach or not (known := reach["max_von_mises_ever"].dropna("speed")).size:
-        return {}
-    worst = reach.sel(speed=known["speed"][int(np.argmax(known.values))])
-    places = (f"max_von_mises_{name}" for name in PLACES)
-    return {place: float(worst[place]) for place in places if place in worst}
-
-
-def _largest(reach: xr.Dataset, name: str) -> float:
-    return float(reach[name].max()) if name in reach else np.nan
-
-
-NOTE = "direct contact: matches with modes and the stress of one revolution are chance"
-NO_PEAK = "above yield without a peak of the motion: nothing to match with a mode"
-
-_OF_NORMAL = 1.4826 / np.sqrt(1.5)
-"""Standard deviation per median distance of a value from the line between its neighbours, of normal scatter."""
-
-
-def rows_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list[Interaction]:
-    """Rows by ascending speed: every range that may be above yield, and of the `peaks` those that lie in none of them.
-
-    A range is where the smoothed share of the revolutions above yield is above SOME_REVOLUTIONS, where a speed's own share is,
-    or where its last revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
-    """
-    exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
-    ranges = _ranges(response, exceedance)
-    rows = [_row(response, exceedance, within) for within in ranges]
-    for peak in peaks:
-        at = peak["peak_speed_rad_s"]
-        if not any(within.begin <= at <= within.end for within in ranges):
-            row = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
-            rows.append(row | {"direction": peak["direction"]})
-    return sorted(rows, key=itemgetter("peak_speed_rad_s"))
-
-
-def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> list[Interaction]:
-    """Rows of ranges above yield that no interaction among the `rows` of a lined scene reaches into."""
-    if "share_of_revolutions_above_yield" not in response:
-        return []
-    exceedance = exceedance_of(response)
-    return [
-        _row(response, exceedance, within, note=NO_PEAK)
-        for within in _ranges(response, exceedance)
-        if not any(
-            row["some_revolutions_from_rad_s"] <= within.end and row["some_revolutions_to_rad_s"] >= within.begin
-            for row in rows
-        )
-    ]
-
-
-def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
-    if exceedance is None:
-        return []
-    ratio = ratio_to_yield(response)
-    own = ranges_above(exceedance.speeds, exceedance.shares, SOME_REVOLUTIONS)
-    return joined([*exceedance.ranges(SOME_REVOLUTIONS), *own, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
-
-
-def _row(
-    response: xr.Dataset, exceedance: Exceedance | None, within: SpeedRange, *, peak_alone: bool = False, note: str = NOTE
-) -> Interaction:
-    """The row of a range, or of a peak that lies in none: then the range is its speed."""
-    speeds, level = response["speed"].values, motion(response)
-    inside = np.flatnonzero((speeds >= within.begin) & (speeds <= within.end))
-    at = int(np.argmax(level[inside]))
-    index = int(inside[at])
-    peak = response.isel(speed=index)
-    largest = [name for name in ("normal", "tangential") if np.argmax(response[f"rms_{name}"].fillna(0.0).values[inside]) == at]
-    ended = bool(np.isfinite(peak["rms_normal"]))
-    order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
-    columns: dict[str, Any] = {"mode": "", "engine_order": order, "direction": largest[0] if len(largest) == 1 else "both"}
-    if exceedance:
-        columns |= range_columns(exceedance, within)
-    if exceedance and not peak_alone:
-        # ends of the row itself, which may be single speeds
-        columns |= {"some_revolutions_from_rad_s": within.begin, "some_revolutions_to_rad_s": within.end}
-    if ended:
-        columns["peak_motion_scatter_m"] = _scatter(speeds, level, index)
-        columns["fall_speed_rad_s"], columns["fall_speed_scatter_rad_s"] = _fall(speeds, level, index)
-    return interaction_row(response, index, response.isel(speed=inside), columns, note)
-
-
-def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:
-    """Standard deviation of the motion about the line between its neighbours, at the speeds nearest to a place; NaN for few."""
-    if len(speeds) < 3:
-        return np.nan
-    share = (speeds[1:-1] - speeds[:-2]) / (speeds[2:] - speeds[:-2])
-    off = np.abs(level[1:-1] - (1.0 - share) * level[:-2] - share * level[2:])
-    distance = np.abs(speeds[1:-1] - speeds[index])
-    # five at least
-    near = distance <= max(HALF_WIDTH, np.sort(distance)[min(5, len(distance)) - 1])
-    return float(_OF_NORMAL * np.median(off[near]))
-
-
-def _fall(speeds: np.ndarray, level: np.ndarray, peak_index: int) -> tuple[float, float]:
-    """Speed (rad/s) above a peak from which on the motion is below half of the peak's, and half of where it is so by turns."""
-    loud = level[peak_index:] >= 0.5 * level[peak_index]
-    quiet = np.flatnonzero(~loud)
-    if not len(quiet):
-        return np.nan, np.nan
-    first = peak_index + int(quiet[0])
-    again = np.flatnonzero(loud & (speeds[peak_index:] <= speeds[first] + DROP_WITHIN))
-    last = max(first, peak_index + int(again[-1]) + 1)
-    low, high = float(speeds[first - 1]), float(speeds[min(last, len(speeds) - 1)])
-    return 0.5 * (low + high), 0.5 * (high - low)
 
 
 _OF = (

@@ -1,0 +1,108 @@
+"""Rows of direct contact: ranges of speed that may be above yield, and what else is loud."""
+
+from collections.abc import Sequence
+from operator import itemgetter
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from .columns import DROP_WITHIN, SOME_REVOLUTIONS
+from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
+from .interaction import Interaction, interaction_row, range_columns
+from .measures import motion, ratio_to_yield, strongest_order
+
+NOTE = "direct contact: matches with modes and the stress of one revolution are chance"
+NO_PEAK = "above yield without a peak of the motion: nothing to match with a mode"
+
+_OF_NORMAL = 1.4826 / np.sqrt(1.5)
+"""Standard deviation per median distance of a value from the line between its neighbours, of normal scatter."""
+
+
+def rows_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list[Interaction]:
+    """Rows by ascending speed: every range that may be above yield, and of the `peaks` those that lie in none of them.
+
+    A range is where the smoothed share of the revolutions above yield is above SOME_REVOLUTIONS, where a speed's own share is,
+    or where its last revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
+    """
+    exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
+    ranges = _ranges(response, exceedance)
+    rows = [_row(response, exceedance, within) for within in ranges]
+    for peak in peaks:
+        at = peak["peak_speed_rad_s"]
+        if not any(within.begin <= at <= within.end for within in ranges):
+            row = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
+            rows.append(row | {"direction": peak["direction"]})
+    return sorted(rows, key=itemgetter("peak_speed_rad_s"))
+
+
+def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> list[Interaction]:
+    """Rows of ranges above yield that no interaction among the `rows` of a lined scene reaches into."""
+    if "share_of_revolutions_above_yield" not in response:
+        return []
+    exceedance = exceedance_of(response)
+    return [
+        _row(response, exceedance, within, note=NO_PEAK)
+        for within in _ranges(response, exceedance)
+        if not any(
+            row["some_revolutions_from_rad_s"] <= within.end and row["some_revolutions_to_rad_s"] >= within.begin
+            for row in rows
+        )
+    ]
+
+
+def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
+    if exceedance is None:
+        return []
+    ratio = ratio_to_yield(response)
+    own = ranges_above(exceedance.speeds, exceedance.shares, SOME_REVOLUTIONS)
+    return joined([*exceedance.ranges(SOME_REVOLUTIONS), *own, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
+
+
+def _row(
+    response: xr.Dataset, exceedance: Exceedance | None, within: SpeedRange, *, peak_alone: bool = False, note: str = NOTE
+) -> Interaction:
+    """The row of a range, or of a peak that lies in none: then the range is its speed."""
+    speeds, level = response["speed"].values, motion(response)
+    inside = np.flatnonzero((speeds >= within.begin) & (speeds <= within.end))
+    at = int(np.argmax(level[inside]))
+    index = int(inside[at])
+    peak = response.isel(speed=index)
+    largest = [name for name in ("normal", "tangential") if np.argmax(response[f"rms_{name}"].fillna(0.0).values[inside]) == at]
+    ended = bool(np.isfinite(peak["rms_normal"]))
+    order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
+    columns: dict[str, Any] = {"mode": "", "engine_order": order, "direction": largest[0] if len(largest) == 1 else "both"}
+    if exceedance:
+        columns |= range_columns(exceedance, within)
+    if exceedance and not peak_alone:
+        # ends of the row itself, which may be single speeds
+        columns |= {"some_revolutions_from_rad_s": within.begin, "some_revolutions_to_rad_s": within.end}
+    if ended:
+        columns["peak_motion_scatter_m"] = _scatter(speeds, level, index)
+        columns["fall_speed_rad_s"], columns["fall_speed_scatter_rad_s"] = _fall(speeds, level, index)
+    return interaction_row(response, index, response.isel(speed=inside), columns, note)
+
+
+def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:
+    """Standard deviation of the motion about the line between its neighbours, at the speeds nearest to a place; NaN for few."""
+    if len(speeds) < 3:
+        return np.nan
+    share = (speeds[1:-1] - speeds[:-2]) / (speeds[2:] - speeds[:-2])
+    off = np.abs(level[1:-1] - (1.0 - share) * level[:-2] - share * level[2:])
+    distance = np.abs(speeds[1:-1] - speeds[index])
+    # five at least
+    near = distance <= max(HALF_WIDTH, np.sort(distance)[min(5, len(distance)) - 1])
+    return float(_OF_NORMAL * np.median(off[near]))
+
+
+def _fall(speeds: np.ndarray, level: np.ndarray, peak_index: int) -> tuple[float, float]:
+    """Speed (rad/s) above a peak from which on the motion is below half of the peak's, and half of where it is so by turns."""
+    loud = level[peak_index:] >= 0.5 * level[peak_index]
+    quiet = np.flatnonzero(~loud)
+    if not len(quiet):
+        return np.nan, np.nan
+    first = peak_index + int(quiet[0])
+    again = np.flatnonzero(loud & (speeds[peak_index:] <= speeds[first] + DROP_WITHIN))
+    last = max(first, peak_index + int(again[-1]) + 1)
+    low, high = float(speeds[first - 1]), float(speeds[min(last, len(speeds) - 1)])
+    return 0.5 * (low + high), 0.5 * (high - low)

@@ -1,0 +1,98 @@
+"""One row of summary.csv: numbers of an interaction, by column."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from r37core.time_integration.settling import MotionAtEnd
+from r37core.time_integration.status import RunStatus
+
+from .columns import INTERACTIONS, MOST_REVOLUTIONS, SOME_REVOLUTIONS, names
+from .exceedance import Exceedance, SpeedRange
+from .measures import drop_after, lasts
+from .variables import PLACES
+
+LEAST_THICKNESS = "the sufficient thickness is a lower bound"
+
+Interaction = dict[str, Any]
+"""Column of INTERACTIONS -> value; NaN is what a scene does not compute.
+
+Of a lined scene an interaction is a peak of the motion; of direct contact a range of speeds that may be above yield, for a
+peak's crossing and one revolution's stress are chance there, and their columns are empty. `note` says why columns are, and
+where the lining is worn through. Without a crossing that explains the peak `mode` is empty.
+
+An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to where the motion stays below
+QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for near the end of a branch the motion
+is chaotic.
+"""
+
+
+def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
+    """Where within a row's speeds a share of the revolutions is above yield, with the scatter of the borders."""
+    columns: dict[str, Any] = {}
+    for name, share in (("some_revolutions", SOME_REVOLUTIONS), ("most_revolutions", MOST_REVOLUTIONS)):
+        ranges = [part for part in exceedance.ranges(share) if part.end >= within.begin and part.begin <= within.end]
+        if name == "most_revolutions":
+            columns["length_most_revolutions_rad_s"] = sum(
+                min(part.end, within.end) - max(part.begin, within.begin) for part in ranges
+            )
+        if ranges:
+            begin, end = max(ranges[0].begin, within.begin), min(ranges[-1].end, within.end)
+            columns[f"{name}_from_rad_s"], columns[f"{name}_to_rad_s"] = begin, end
+            columns[f"{name}_from_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[0], begins=True)
+            columns[f"{name}_to_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[-1], begins=False)
+    return columns
+
+
+def interaction_row(
+    response: xr.Dataset, index: int, reach: xr.Dataset, columns: Mapping[str, Any], note: str = ""
+) -> Interaction:
+    """The row of a `response` with its peak at an `index` among the speeds; `columns`: crossing and what is known already.
+
+    The largest of everything, and how its runs ended, are those of all speeds of its `reach`.
+    """
+    speed, normal, tangential = (float(response[name][index]) for name in ("speed", "rms_normal", "rms_tangential"))
+    worn_through, status = _largest(reach, "worn_through_share"), RunStatus(int(reach["status"].max()))
+    why = ""
+    if worn_through > 0.0:
+        why = "worn through"
+    elif status == RunStatus.DIVERGED and "used_thickness" in reach:
+        why = status.text
+    return {
+        **dict.fromkeys(names(INTERACTIONS[2:]), np.nan),
+        "peak_speed_rad_s": speed,
+        "peak_rms_normal_m": normal,
+        "peak_rms_tangential_m": tangential,
+        "peak_motion_m": float(np.hypot(normal, tangential)),
+        "drop": drop_after(response, index),
+        **_place(reach),
+        "stress_region": str(reach["stress_region"].item()) if "stress_region" in reach else "",
+        "median_von_mises_pa": _largest(reach, "max_von_mises_median"),
+        "high_von_mises_pa": _largest(reach, "max_von_mises_high"),
+        "largest_goodman_share": _largest(reach, "goodman_share"),
+        "max_wear_m": _largest(reach, "max_wear"),
+        "worn_through_share": worn_through,
+        "sufficient_thickness_m": _largest(reach, "used_thickness"),
+        "largest_penetration_m": _largest(reach, "largest_penetration"),
+        "status": status.text,
+        "motion_at_end": MotionAtEnd(int(response["motion_at_end"][index])).text if "motion_at_end" in response else "",
+        "lasting_share": float(lasts(reach).mean()) if "motion_at_end" in reach else np.nan,
+        "note": "; ".join(filter(None, (note, f"{why}: {LEAST_THICKNESS}" if why else ""))),
+        **columns,
+        "shift_rad_s": speed - columns.get("campbell_speed_rad_s", np.nan),
+    }
+
+
+def _place(reach: xr.Dataset) -> dict[str, float]:
+    """Where on the blade the largest stress of all speeds is."""
+    if "max_von_mises_ever" not in reach or not (known := reach["max_von_mises_ever"].dropna("speed")).size:
+        return {}
+    worst = reach.sel(speed=known["speed"][int(np.argmax(known.values))])
+    places = (f"max_von_mises_{name}" for name in PLACES)
+    return {place: float(worst[place]) for place in places if place in worst}
+
+
+def _largest(reach: xr.Dataset, name: str) -> float:
+    return float(reach[name].max()) if name in reach else np.nan
