@@ -42,7 +42,7 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, b
         for motion in MOTIONS:
             median = 1e-9 * pair["max_von_mises_median"].sel(motion=motion)
             axes.plot(pair["speed"], median, LINES[motion], color=COLOURS[motion])
-        style.yield_lines(axes, {blade: float(pair["yield_stress"])}, named=True)
+        style.yield_lines(axes, {blade: float(pair["yield_stress"])}, named=True, linear=style.is_linear(motions))
         axes.set_ylabel("median von Mises (GPa)")
     if shares:
         axes = next(left)
