@@ -390,12 +390,20 @@ def test_what_is_compared_and_drawn(with_scenes, config_copy):
     assert [names["family"] for names in files["<results>/figures/map_{family}.png"]] == ["Room", "Sweep__Lobes"]
 
 
-def test_designs_have_no_figures_of_their_own(with_scenes):
-    settings = with_scenes(ROOM, scenes=["Room", "direct"], blades=["Ref"])
-    files = targets(Sweep(settings))
-    assert [names["scene"] for names in files["<results>/figures/comparison_{scene}.png"]] == ["direct"]
-    alone = Sweep(with_scenes("", scenes=["Room"], blades=["Ref"]))
-    assert alone.drawn["scene"] == alone.settings.scene_names
+def test_scenes_of_a_family_are_drawn_beside_others_six_at_most(with_scenes):
+    few = Sweep(with_scenes(ROOM, scenes=["Room", "direct"], blades=["Ref"]))
+    assert few.drawn["scene"] == few.settings.scene_names and "direct" in few.drawn["scene"]
+    files = targets(few)
+    assert [names["scene"] for names in files["<results>/figures/comparison_{scene}.png"]] == few.settings.scene_names
+    thick = ROOM.replace("Room", "Wide").replace("lining.thickness_m: [", "lining.thickness_m: [0.0011, 0.0012, 0.0013, ")
+    many = Sweep(with_scenes(thick, scenes=["Wide", "direct"], blades=["Ref"]))
+    designs = [scene for scene in many.settings.scene_names if scene != "direct"]
+    drawn = [scene for scene in many.drawn["scene"] if scene != "direct"]
+    assert "direct" in many.drawn["scene"] and len(designs) > len(drawn) == 6
+    assert [drawn[0], drawn[-1]] == [designs[0], designs[-1]]
+    for figure in (figure for figure in FIGURES if figure.rule in ("response_figure", "ranking_figure")):
+        caption = drawing(SimpleNamespace(step=lambda *_: {}), None, figure, many)["caption"]({"blade": "Ref"})
+        assert caption.endswith(f" 7 of {len(designs) + 1} scenes are drawn.")
 
 
 KEYS = ("scene.casing.clearance_m", "scene.lining.thickness_m")

@@ -1,7 +1,10 @@
 (async () => {
   const data = JSON.parse(document.getElementById("data").textContent);
-  // Okabe and Ito's colours, told apart with any colour vision; further blades repeat them with another marker
-  const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"];
+  // Okabe and Ito's colours, told apart with any colour vision, and darker ones of them; further blades repeat them with another marker
+  const COLOURS = [
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000",
+    "#003F62", "#8A3D00", "#00573F", "#7A3F61", "#2B6E94", "#7F5700", "#888888",
+  ];
   const MARKERS = ["circle", "square", "diamond", "triangle-up", "star"];
   const DASHES = ["solid", "dash", "dot", "dashdot"];
   // of the figures; plotly does not have it
@@ -388,7 +391,7 @@
       const near = Math.abs(speed - state.speed) < 1e-6 * speed;
       traces.push({
         x: values.map((_, at) => at + 1), y: values, name: `${digits(speed)} rad/s`, mode: "lines", hoverinfo: "text",
-        line: { color: colourOf(number), width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / 7) % 4] },
+        line: { color: colourOf(number), width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / COLOURS.length) % 4] },
         text: values.map((value, at) => `${speedText(speed)}<br>revolution ${at + 1}<br>${digits(value)} MPa`),
       });
     });

@@ -155,4 +155,4 @@ def _range(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, str]:
         low, high = rows[_IN_MOST] - rows[f"{_IN_MOST}_low"], rows[f"{_IN_MOST}_high"] - rows[_IN_MOST]
         return low.clip(lower=0.0).values, high.clip(lower=0.0).values, "nine tenths of the members"
     within = rows["length_most_revolutions_within_rad_s"].values
-    return np.fmin(within, rows[_IN_MOST].values), within, "in most revolutions, known to within"
+    return np.minimum(within, rows[_IN_MOST].values), within, "in most revolutions, known to within"

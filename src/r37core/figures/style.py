@@ -30,8 +30,11 @@ from r37core.rom.reduction_choice import QUADRATIC
 COLUMN, PAGE = 3.5, 7.2
 """Widths (inch) of a figure that goes into one column of a journal and across its page, at the size of its text."""
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
-"""Okabe and Ito's colours, in the explorer's order."""
+COLOURS = (
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000",
+    "#003F62", "#8A3D00", "#00573F", "#7A3F61", "#2B6E94", "#7F5700", "#888888",
+)  # fmt: skip
+"""Okabe and Ito's colours, and darker ones of them, in the explorer's order."""
 CURVES = {
     "rms_normal": ("rms, normal (mm)", 1e3),
     "rms_tangential": ("rms, tangential (mm)", 1e3),
