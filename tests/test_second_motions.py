@@ -339,6 +339,9 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
     pair = motions.sel(blade="Ref", scene="direct")
     figure = draw_second_motions(pair, table, "Ref, direct", blade="Ref", scene="direct")
     assert len(figure.axes[0].patches) == 3
+    # the stress of each motion: its median, and the band up to the largest
+    highest = [line.get_ydata().max() for line in figure.axes[1].lines[:6]]
+    np.testing.assert_allclose(highest[1::2], 2.0 * np.array(highest[::2]))
     rms = xr.Dataset(
         {
             **{f"rms_{name}": (("scene", "speed", "tip_point"), np.ones((1, 5, 1))) for name in ("normal", "tangential")},
