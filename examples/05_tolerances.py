@@ -13,6 +13,6 @@ members = results["tolerances"].sel(blade="Ref", scene="abradable")
 
 stress = 1e-9 * members.largest_stress
 print("members:", ", ".join(f"{number:.2f} GPa" for number in stress.values))
-low, middle, high = 1e-9 * members.max_von_mises_quantile.max("speed")
+low, middle, high = 1e-9 * members.max_von_mises_ever_quantile.max("speed")
 print(f"the peak has {low:.2f} to {high:.2f} GPa in nine tenths of them, {middle:.2f} in the middle")
 assert stress.min() <= low < middle < high <= stress.max()

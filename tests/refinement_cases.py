@@ -15,6 +15,9 @@ PLAN = plan_speeds([{"start": 750, "stop": 2000, "step": 20, "refine_to": 1}], 8
 GRID = PLAN.refined[0]
 
 
+STRESS = "max_von_mises_last_revolution"
+
+
 def campbell(crossings):
     """A diagram whose mode 1B crosses order 4, 5, ... at the given speeds, and 1T nowhere."""
     speeds = np.full((2, 8), np.nan)
@@ -38,7 +41,7 @@ def spiked(*spikes, yield_stress=1e9, diverged=()):
             "status": ("speed", status),
             "rms_normal": (("speed", "tip_point"), tips),
             "rms_tangential": (("speed", "tip_point"), 3.0 * tips),
-            "max_von_mises": ("speed", np.where(status == 0, 2e12 * rms, np.nan)),
+            STRESS: ("speed", np.where(status == 0, 2e12 * rms, np.nan)),
             "yield_stress": ((), yield_stress),
         },
         coords={"speed": speeds, "tip_point": ["leading_edge", "trailing_edge"]},
@@ -48,7 +51,7 @@ def spiked(*spikes, yield_stress=1e9, diverged=()):
 def asked(response, crossings=(), choice=CHOICE, plan=PLAN):
     """New speeds of each round as the sweep asks for them, with the runs looked up in the whole grid, and all of them."""
     edge, rounds = response.sel(tip_point="leading_edge"), []
-    columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], edge["max_von_mises"] / edge["yield_stress"]]
+    columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], edge[STRESS] / edge["yield_stress"]]
     rows = dict(zip(edge["speed"].values.tolist(), np.transpose(columns).tolist(), strict=True))
     current = first_round(plan, campbell(crossings), choice)
     while current.new:

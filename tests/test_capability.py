@@ -59,7 +59,7 @@ def test_a_stranger_adds_a_capability_by_the_page_alone(root, sweep_copy):
     table = pd.read_csv(sweep_copy / "results/largest_stress.csv")
     stress = r37.open_results(sweep_copy / "results")["stress"]
     assert list(table["blade"]) == list(stress["blade"].values)
-    for blade, largest in zip(table["blade"], table["max_von_mises_pa"], strict=True):
+    for blade, largest in zip(table["blade"], table["largest_stress_pa"], strict=True):
         assert largest == pytest.approx(float(stress["max_von_mises_ever"].sel(blade=blade, region="airfoil").max()), rel=1e-5)
 
     # Python has it for nothing: the call of the page, and a step on results that are there
@@ -72,7 +72,7 @@ def test_a_stranger_adds_a_capability_by_the_page_alone(root, sweep_copy):
     assert printed.returncode == 0, printed.stderr
     from_call, from_step, refused = printed.stdout.strip().split("\n\n")
     direct = float(stress["max_von_mises_ever"].sel(blade="Ref", scene="direct", speed=1150, region="airfoil"))
-    assert from_call.splitlines()[0] == "blade,max_von_mises_pa"
+    assert from_call.splitlines()[0] == "blade,largest_stress_pa"
     assert float(from_call.splitlines()[1].removeprefix("Ref,")) == pytest.approx(direct, rel=1e-5)
     assert from_step == (sweep_copy / "results/largest_stress.csv").read_text().strip()
     assert "largest_stress.scenes: found 'nowhere'; allowed: abradable, direct" in refused

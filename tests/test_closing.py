@@ -20,9 +20,10 @@ from r37core.search import dataset as search
 from r37core.signals import dataset as signals
 from r37core.tolerances import table as tolerances
 
-HEAD = "blade,scene,mode,engine_order,max_von_mises_speed_rad_s,width_above_yield_rad_s,max_von_mises_pa"
-ROWS = ("Ref,abradable,1B,7,838,13.5,8.56e+09", "S50,abradable,,4,1686,2,9.5e+09")
-ROWS += ("Ref,direct,1T,9,1344,0,1e+10", "L50,direct,,2,800,,")
+HEAD = "blade,scene,mode,engine_order,share_of_revolutions_above_yield,largest_stress_pa,largest_stress_over_yield,"
+HEAD += "largest_stress_speed_rad_s"
+ROWS = ("Ref,abradable,1B,7,0.7,8.56e+09,6.2,838", "S50,abradable,,4,0.4,9.5e+09,6.88,1686")
+ROWS += ("Ref,direct,1T,9,0,1e+09,0.7,1344", "L50,direct,,2,,,,")
 
 
 def written(folder, *rows, columns="", time=1000.0):
@@ -39,8 +40,11 @@ def test_found_where_and_how_long(tmp_path):
     found, remark, where, took = closing_lines(written(tmp_path, *ROWS), 400.0, 1210.0, ["contact acts on points"])
     assert remark == "contact acts on points"
     what, worst = found.split("; ")
-    assert what == "found 4 interactions, 2 of them above yield"
-    assert worst == "the largest stress 9.50 GPa, S50 in abradable at 1686 rad/s (engine order 4)"
+    assert what == "found 4 interactions, 1 of them above yield in most revolutions, 1 in some"
+    assert worst == (
+        "the largest stress 9.50 GPa, 6.88 times yield, S50 in abradable at 1686 rad/s (engine order 4), "
+        "above yield in up to 40% of the revolutions"
+    )
     assert where == f"look at {tmp_path}/explorer.html (any browser), {tmp_path}/summary.csv, {tmp_path}/figures/"
     assert took == "took 13 min 30 s"
     for seconds, text in {59.4: "59 s", 12_345.0: "3 h 25 min"}.items():
@@ -49,19 +53,20 @@ def test_found_where_and_how_long(tmp_path):
 
 
 def test_more_columns_say_more(tmp_path):
-    """Of all scenes the largest stress, the linings that are worn through, and the digits that a range bears."""
-    # rows of direct contact have no stress of a single revolution
-    rows = ("Ref,abradable,1B,4,1725,30,7.26e8,1725,1700,7.1e8", "S100,direct,,2,,,,1344,900,4.12e10")
-    folder = written(tmp_path, *rows, columns=",peak_speed_rad_s,most_revolutions_from_rad_s,high_von_mises_pa")
-    said = closing_lines(folder, 0.0, 1.0)[0]
-    assert said.endswith("; the largest stress 41.20 GPa, S100 in direct about 1344 rad/s (engine order 2)")
+    """None above yield, the linings that are worn through, and the digits that a range bears."""
+    said = closing_lines(written(tmp_path, ROWS[2]), 0.0, 1.0)[0]
+    assert said == (
+        "found 1 interaction, none of them above yield in any later revolution; "
+        "the largest stress 1.00 GPa, 0.7 times yield, Ref in direct at 1344 rad/s (1T/9)"
+    )
+    assert closing_lines(written(tmp_path, ROWS[3]), 0.0, 1.0)[0] == "found 1 interaction"
     rows = [f"{row},{share}" for row, share in zip(ROWS, ("0.2", "0", "", ""), strict=True)]
     said = closing_lines(written(tmp_path, *rows, columns=",worn_through_share"), 0.0, 1.0)[0]
-    assert ", 2 of them above yield, 1 with the lining worn through to the casing; the largest" in said
-    columns = ",max_von_mises_pa_low,max_von_mises_pa_median,max_von_mises_pa_high"
+    assert " in most revolutions, 1 in some, 1 with the lining worn through to the casing; the largest" in said
+    columns = ",largest_stress_pa_low,largest_stress_pa_median,largest_stress_pa_high"
     for ends, said in ((",2.02e9,8.6e9,1.41e10", "9 GPa (2 to 14 in nine tenths of the members)"), (",,,", "8.56 GPa")):
         folder = written(tmp_path, ROWS[0] + ends, columns=columns)
-        assert f"the largest stress {said}, Ref" in closing_lines(folder, 400.0, 500.0)[0]
+        assert f"the largest stress {said}, 6.2 times yield, Ref" in closing_lines(folder, 400.0, 500.0)[0]
 
 
 def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
@@ -72,10 +77,13 @@ def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
     assert lined.startswith("lined: S100 is above yield at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); ")
     assert direct.startswith("direct: Ref is above yield at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); ")
     assert missed == "speeds lie up to 20 rad/s apart: a narrower interaction between them may be missed"
-    # within their scatter no blade is better; equal ones share their place
-    (tmp_path / "ranking.csv").write_text(head + "A,x,1,40,6,0\nB,x,2,45,6,0\nA,y,1,0,,0\nB,y,1,0,,0\nC,y,3,9,,0\n")
-    (said,) = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
-    assert said.startswith("y: A and B are above yield at the fewest speeds (0 rad/s), C at the most (9 rad/s); ")
+    # those that share a rank cannot be told apart, and are all named
+    rows = ["A,x,1,40,6,0", "B,x,1,45,6,0", "A,y,1,0,,0", "B,y,1,0,,0", "C,y,3,9,,0", *(f"D{n},z,1,0,,0" for n in range(12))]
+    (tmp_path / "ranking.csv").write_text(head + "\n".join(rows) + "\n")
+    x, y, z = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
+    assert x.startswith("x: A and B cannot be ranked (above yield over 40 to 45 rad/s); ")
+    assert y.startswith("y: A and B are above yield at the fewest speeds (0 rad/s), C at the most (9 rad/s); ")
+    assert z.startswith("z: D0, D1, D2, D3 and 8 more cannot be ranked (above yield over 0 rad/s); ")
 
 
 def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
@@ -88,7 +96,7 @@ def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     lined, bare, over, contact = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
     assert "Ref at the most (129 rad/s in 3 ranges, the widest from 1635 to 1755); " in lined and "(13 rad/s)" in lined
     assert "S100 at the most (854 rad/s in 4 ranges" in bare
-    assert over == "over both scenes, by the longest length in any (rad/s): Ref 129 = A 130, S100 854 (=: within scatter)"
+    assert over == "over both scenes, by the longest length in any (rad/s): Ref 129 = A 130, S100 854 (=: cannot be told apart)"
     assert contact == ("the ranking is of contact on points; a decision needs structure: { boundary: { contact: patches } }")
     patches = "Mine,x,1,12 patches,1,5,1,900,5\nMine,y,1,12 patches,1,5,1,900,5\n"
     (tmp_path / "ranking.csv").write_text(head + points + patches)
@@ -202,11 +210,11 @@ def table(folder, name, **columns):
 
 
 WHERE = {"blade": ["Ref", "NA"], "scene": ["lined", "lined"]}
-STRESS = {"max_von_mises_pa": [2.314e9, np.nan]}
+STRESS = {"largest_stress_pa": [2.314e9, np.nan]}
 
 
 def test_run_ups(tmp_path):
-    numbers = {"yield_stress_pa": [1.38e9] * 2, "max_von_mises_speed_rad_s": [1718.2, np.nan]}
+    numbers = {"yield_stress_pa": [1.38e9] * 2, "largest_stress_speed_rad_s": [1718.2, np.nan]}
     table(tmp_path, "run_ups.csv", **WHERE, **STRESS, **numbers, status=["completed", "diverged"])
     largest = "the largest stress 2.31 GPa, Ref in lined at 1718.2 rad/s"
     assert run_ups.closing(tmp_path) == f"2 run-ups, 1 of them above yield, 1 diverged; {largest}"
@@ -222,14 +230,23 @@ def test_rotors(tmp_path):
 
 
 def test_designs(tmp_path):
+    """Those that cannot be told apart are counted, and the number that the choice among them is made by is told."""
     lengths = {"length_most_revolutions_rad_s": [40.0, 13.2, np.nan], "length_some_revolutions_rad_s": [50.0, 20.0, np.nan]}
-    more = {"diverged_runs": [0, 1, 0], "largest_median_stress_pa": [1e9] * 3}
+    more = {"length_most_revolutions_within_rad_s": [10.0, 10.0, np.nan], "largest_goodman_share": [0.4, 0.55, np.nan]}
     table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
     assert designs.closing(tmp_path) == "2 designs; lined: B is above yield at the fewest speeds (13 rad/s)"
+    more["length_most_revolutions_within_rad_s"] = [20.0, 10.0, np.nan]
+    more["largest_stress_over_yield"] = [np.nan, 3.0, np.nan]
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
+    tied = "2 designs; lined: 2 of 2 cannot be told apart by their speeds above yield; of these "
+    assert designs.closing(tmp_path) == tied + "A has the least share of the Goodman line (0.4)"
+    del more["largest_goodman_share"]
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
+    assert designs.closing(tmp_path) == tied + "B has the least stress over yield (3)"
 
 
 def test_tolerances(tmp_path):
-    ends = {"max_von_mises_pa_low": [2.02e9, np.nan], "max_von_mises_pa_high": [1.41e10, np.nan]}
+    ends = {"largest_stress_pa_low": [2.02e9, np.nan], "largest_stress_pa_high": [1.41e10, np.nan]}
     xr.Dataset({"status": (("member", "speed"), [[0, 1, 2], [0, 0, 2]])}).to_netcdf(tmp_path / "tolerances.nc")
     table(tmp_path, "tolerances.csv", **WHERE, members=[32, 32], robust=[True, False], **ends)
     count, largest = "1 of them in at least half of those; 1 of 4 runs diverged", "the largest stress 2 to 14 GPa, Ref in lined"
@@ -257,5 +274,9 @@ def test_search(tmp_path):
     said = search.closing(tmp_path).replace(str(tmp_path), "results")
     best = "the best, d0001: lined 13.2 rad/s (the start 70.6), mass 2.1 kg (the start 2)"
     assert said == f"2 designs, 1 of them keep all constraints; {best}; entries in results/search/best"
+    found.assign(feasible=("design", [1, 1, 1]), objective_scatter=20.0 * found["objective_scatter"] + 99.0).to_netcdf(
+        tmp_path / "search.nc"
+    )
+    assert "; 1 other cannot be told apart from it; entries" in search.closing(tmp_path)
     found.assign(order=("design", [0, 0, 0])).to_netcdf(tmp_path / "search.nc")
     assert search.closing(tmp_path) == "2 designs, 1 of them keep all constraints"

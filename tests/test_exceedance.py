@@ -10,7 +10,7 @@ from r37core.results.columns import MOST_REVOLUTIONS, OVER_SCENES, ROBUSTNESS, S
 from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from r37core.results.interactions import find_interactions
-from r37core.results.ranking import chance_to_be_better, ranking_table, robustness
+from r37core.results.ranking import chance_to_be_better, ranking_table, ranks_of, robustness
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -115,7 +115,7 @@ def test_a_border_that_chance_makes_or_the_speeds_cut_has_no_scatter():
     assert np.isnan(from_the_first.scatter_of_border(SOME_REVOLUTIONS, from_the_first.ranges(SOME_REVOLUTIONS)[0], begins=True))
 
 
-def response(speeds, shares, motion, *, lined=0, last=None, status=None, tangential=None):
+def response(speeds, shares, motion, *, lined=0, ever=None, status=None, tangential=None):
     shares = np.asarray(shares)
     of_speed = {
         "status": np.zeros(len(speeds), int) if status is None else status,
@@ -124,8 +124,7 @@ def response(speeds, shares, motion, *, lined=0, last=None, status=None, tangent
         "share_of_revolutions_above_yield": shares,
         "max_von_mises_median": 1e9 * (0.5 + shares),
         "max_von_mises_high": 1.1e9 * (0.5 + shares),
-        "max_von_mises_ever": 1.2e9 * (0.5 + shares),
-        "max_von_mises": 1e9 * (0.5 + shares) if last is None else np.asarray(last),
+        "max_von_mises_ever": np.where(shares > 0.0, 1.2e9 * (0.85 + shares), 5e8) if ever is None else np.asarray(ever),
     }
     content = {name: ("speed", values) for name, values in of_speed.items()}
     return xr.Dataset(content | {"yield_stress": 1e9, "lined": float(lined)}, {"speed": speeds})
@@ -138,24 +137,24 @@ def test_a_row_of_direct_contact_is_a_range_and_has_no_mode():
     (row,) = [one for one in found if one["length_most_revolutions_rad_s"] > 0.0]
     assert row["mode"] == "" and "direct contact" in row["note"]
     # the motion is halved, and no less, where the range ends
-    nothing = ("campbell_speed_rad_s", "width_above_yield_rad_s", "max_von_mises_pa", "fall_speed_rad_s")
+    nothing = ("campbell_speed_rad_s", "fall_speed_rad_s")
     assert np.isnan([row[name] for name in nothing]).all()
     assert row["most_revolutions_from_rad_s"] == pytest.approx(1050.0, abs=8.0)
     assert row["most_revolutions_to_rad_s"] == pytest.approx(1300.0, abs=5.0)
     assert row["some_revolutions_from_rad_s"] < row["most_revolutions_from_rad_s"]
     assert row["most_revolutions_to_rad_s"] < row["some_revolutions_to_rad_s"]
-    assert row["median_von_mises_pa"] == pytest.approx(1.5e9)
+    assert row["largest_median_stress_pa"] == pytest.approx(1.5e9)
     assert row["peak_motion_m"] == pytest.approx(np.sqrt(2.0) * 2e-3)
 
 
 def test_no_speed_above_yield_is_outside_of_a_row():
-    """One speed alone whose share is high, and one whose last revolution alone is above yield."""
+    """One speed alone whose share is high, and one of which few revolutions are above yield."""
     speeds = np.arange(900.0, 1401.0, 1.0)
     shares = drawn(rising(speeds), speeds)
-    shares[20], last = 0.09, 1e9 * (0.5 + shares)
-    last[40] = 1.1e9
-    rows = rows_above_yield(response(speeds, shares, np.ones(len(speeds)), last=last), [])
-    for speed in speeds[(shares > SOME_REVOLUTIONS) | (last > 1e9)]:
+    shares[20], ever = 0.09, 1e9 * (0.5 + shares)
+    ever[40] = 1.1e9
+    rows = rows_above_yield(response(speeds, shares, np.ones(len(speeds)), ever=ever), [])
+    for speed in speeds[(shares > SOME_REVOLUTIONS) | (ever > 1e9)]:
         assert any(every["some_revolutions_from_rad_s"] <= speed <= every["some_revolutions_to_rad_s"] for every in rows), speed
     assert [every["length_most_revolutions_rad_s"] > 0.0 for every in rows] == [False, False, True]
     assert np.isnan(rows[0]["some_revolutions_from_scatter_rad_s"])
@@ -214,16 +213,17 @@ def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_pe
     assert all(np.isnan(row["some_revolutions_from_rad_s"]) for row in below)
 
 
-def test_a_lined_row_has_both_widths():
-    """The last revolution is above yield at three speeds, some revolution of the last half at five."""
+def test_a_lined_row_has_all_lengths():
+    """All revolutions are above yield at three speeds, some of them at five."""
     speeds = np.arange(1000.0, 1011.0)
-    ever, last = np.abs(speeds - 1005.0) <= 2.0, np.abs(speeds - 1005.0) <= 1.0
+    ever, every = np.abs(speeds - 1005.0) <= 2.0, np.abs(speeds - 1005.0) <= 1.0
     motion = 1e-3 * np.exp(-(((speeds - 1005.0) / 2.0) ** 2))
-    lined = response(speeds, np.where(last, 1.0, np.where(ever, 0.2, 0.0)), motion, lined=1)
-    lined["max_von_mises"][:], lined["max_von_mises_ever"][:] = np.where(last, 2e9, 0.0), np.where(ever, 2e9, 0.0)
+    shares = np.where(every, 1.0, np.where(ever, 0.2, 0.0))
+    lined = response(speeds, shares, motion, lined=1, ever=np.where(ever, 2e9, 0.0))
     (row,) = find_interactions(lined, campbell(), CHOICE)
     assert (row["mode"], row["engine_order"], row["note"]) == ("", None, "")
-    assert (row["width_above_yield_rad_s"], row["width_ever_above_yield_rad_s"]) == (3.0, 5.0)
+    assert (row["length_ever_rad_s"], row["length_some_revolutions_rad_s"]) == pytest.approx((5.0, 4.0 + 2.0 * 0.75))
+    assert (row["largest_stress_over_yield"], row["share_of_revolutions_above_yield"]) == (2.0, 1.0)
     assert row["length_most_revolutions_rad_s"] == pytest.approx(2.0 + 2.0 * 0.5 / 0.8)
 
 
@@ -269,10 +269,34 @@ def of(certain, possible=0.0, stress=1e9):
 def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
     lined = {("A", "x"): of(5.0), ("B", "x"): of(1.0, 9.0), ("C", "x"): of(1.0, 2.0)}
     table = ranking_table(lined | {("A", "y"): of(0.0), ("B", "y"): of(np.nan)})
-    assert list(table.columns[:5]) == ["blade", "scene", "rank", "contact", ROBUSTNESS[0].name]
+    assert list(table.columns[:7]) == ["blade", "scene", "rank", "rank_lowest", "rank_highest", "contact", ROBUSTNESS[0].name]
     assert list(zip(table["scene"], table["blade"], table["rank"], strict=True)) == [
         ("x", "C", 1), ("x", "B", 2), ("x", "A", 3), ("y", "A", 1), ("y", "B", pd.NA),
     ]  # fmt: skip
+
+
+def test_blades_that_cannot_be_told_apart_share_a_rank():
+    """10 and 14, and 11 and 16 rad/s, on a grid of 10; a length in some revolutions that is surely another one."""
+    step = {"length_most_revolutions_within_rad_s": 10.0, "length_some_revolutions_within_rad_s": 10.0}
+    lengths = {"S100": 10.0, "S50": 14.0, "CS100": 11.0, "Ref": 16.0, "L50": 31.0, "L100": 55.0}
+    table = ranking_table({(blade, "x"): of(length) | step for blade, length in lengths.items()}).set_index("blade")
+    ranks = table[["rank", "rank_lowest", "rank_highest"]]
+    assert ranks.loc[["S100", "CS100", "S50", "Ref"]].values.tolist() == [[1, 1, 4], [1, 1, 5], [1, 1, 5], [1, 1, 5]]
+    assert ranks.loc[["L50", "L100"]].values.tolist() == [[5, 2, 5], [6, 6, 6]]
+    none = ranking_table({(name, "x"): of(0.0, some) | step for name, some in (("A", 45.0), ("B", 0.0), ("C", 5.0))})
+    assert none[["blade", "rank", "rank_highest"]].values.tolist() == [["B", 1, 2], ["C", 1, 2], ["A", 3, 3]]
+    assert ranks_of(pd.DataFrame([of(0.0, stress=9e8), of(0.0, stress=1e8)]))["rank"].tolist() == [1, 1]
+
+
+def test_a_length_is_known_within_the_distance_of_speeds_and_the_error_of_the_level():
+    speeds = np.arange(900.0, 1001.0, 10.0)
+    stress = 1e9 + 1e7 * (50.0 - np.abs(speeds - 950.0)) - 3e8
+    one = response(speeds, (stress > 1e9).astype(float), np.ones(11), lined=1)
+    one["max_von_mises_median"][:] = one["max_von_mises_high"][:] = stress
+    known = [robustness(one, error=error)["length_most_revolutions_within_rad_s"] for error in (0.0, 0.05)]
+    # yield is reached 20 rad/s off the peak, a stress larger by 5% there 24.76 rad/s off it
+    expected = 2.0 * (30.0 - (1e9 / 1e7 * (1.0 - 1.0 / 1.05)) - 30.0)
+    assert known == pytest.approx([10.0, np.hypot(10.0, max(abs(expected), 2.0 * 5.0))])
 
 
 def test_blades_of_unlike_contact_have_ranks_of_their_own():
@@ -286,8 +310,8 @@ def test_blades_of_unlike_contact_have_ranks_of_their_own():
 
 
 def test_one_order_over_all_scenes_is_by_the_longest_length():
-    """Lengths within their scatter share a rank; who has no length in one of the scenes has none."""
-    scattering = {"length_most_revolutions_scatter_rad_s": 8.0}
+    """Lengths that cannot be told apart share a rank; who has no length in one of the scenes has none."""
+    scattering = {"length_most_revolutions_within_rad_s": 8.0}
     found = {("A", "x"): of(60.0), ("B", "x"): of(2.0), ("C", "x"): of(1.0), ("D", "x"): of(3.0)}
     found |= {("A", "y"): of(10.0), ("B", "y"): of(70.0) | scattering}
     found |= {("C", "y"): of(80.0) | scattering, ("D", "y"): of(np.nan)}
@@ -295,7 +319,7 @@ def test_one_order_over_all_scenes_is_by_the_longest_length():
     for scene in ("x", "y"):
         rows = table.loc[[(blade, scene) for blade in "ABC"]]
         assert rows["rank_over_scenes"].tolist() == [1, 2, 2]
-        assert rows["worst_rank"].tolist() == [4, 2, 3]
+        assert rows["worst_rank"].tolist() == [4, 2, 2]
         assert rows["length_over_scenes_rad_s"].tolist() == [70.0, 72.0, 81.0]
     assert table.loc["D", names(OVER_SCENES)].isna().all(axis=None)
 

@@ -146,7 +146,7 @@ def compared():
     largest = (over, [[[1e9, 3e9, np.nan]], [[1e9, 1e9, 1e9]]])
     stress = xr.Dataset(
         {
-            **dict.fromkeys(("max_von_mises", "max_von_mises_median", "max_von_mises_ever"), largest),
+            **dict.fromkeys(("max_von_mises_high", "max_von_mises_median", "max_von_mises_ever"), largest),
             "share_of_revolutions_above_yield": (over, [[[0.0, 1.0, np.nan]], [[0.0, 0.0, 0.0]]]),
             "yield_stress": (("blade", "scene"), [[2e9], [2e9]]),
             "status": (("blade", "scene", "speed"), [[[0, 0, RunStatus.NOT_RUN]], [[0, 0, 0]]]),
@@ -167,7 +167,7 @@ def compared():
     datasets = {"campbell": campbell, "rms": rms, "stress": stress}
     pairs = [(blade, scene) for blade in ("F_1", "F_2") for scene in ("lined", "bare")]
     families = {"blade": {"F_1": "F", "F_2": "F"}, "scene": {}}
-    return design_table(pairs, variables, families, {"F_1": 0.2, "F_2": 0.3}, datasets, interactions)
+    return design_table(dict.fromkeys(pairs, 0.0), variables, families, {"F_1": 0.2, "F_2": 0.3}, datasets, interactions)
 
 
 def test_designs_are_compared(compared):

@@ -33,6 +33,12 @@ def campbell():
     return xr.Dataset({"crossing_speed": table})
 
 
+def stresses(values):
+    """Variables of a stress (Pa) that is the same in all revolutions, at each speed."""
+    same = {f"max_von_mises_{name}": ("speed", values) for name in ("median", "high", "ever")}
+    return same | {"share_of_revolutions_above_yield": ("speed", np.greater(values, YIELD).astype(float))}
+
+
 def response(normal=(), tangential=(), step=5.0, unit=1.0):
     """Branches (peak speed, height, engine order) that rise over 50 rad/s and drop, in each direction, above 10 um of noise."""
     speeds = np.arange(750.0, 2001.0, step) * unit
@@ -53,7 +59,7 @@ def response(normal=(), tangential=(), step=5.0, unit=1.0):
             "rms_tangential": (tips, np.stack([curves[1], 0.0 * speeds], axis=1)),
             "amplitude": (("speed", "engine_order"), spectra[0]),
             "amplitude_tangential": (("speed", "engine_order"), spectra[1]),
-            "max_von_mises": ("speed", STRESS_OF_MOTION * np.hypot(*curves)),
+            **stresses(STRESS_OF_MOTION * np.hypot(*curves)),
             "yield_stress": ((), YIELD),
         },
         {"speed": speeds, "tip_point": ["leading_edge", "trailing_edge"], "engine_order": ORDERS},
@@ -71,7 +77,7 @@ def joined(data):
     both = both.expand_dims(blade=["Ref"], scene=["lined"])
     both["yield_stress"] = (("blade", "scene"), [[YIELD]])
     parts = {"rms": ["rms_normal", "rms_tangential"], "spectrum": ["amplitude", "amplitude_tangential"]}
-    parts |= {"stress": ["max_von_mises", "yield_stress"]}
+    parts |= {"stress": [*stresses(0.0), "yield_stress"]}
     datasets = {kind: both[[*names, "status"]] for kind, names in parts.items()}
     bare = datasets["rms"].assign_coords(scene=["bare"])
     return datasets | {"rms": xr.concat([datasets["rms"], bare], "scene"), "campbell": campbell().expand_dims(blade=["Ref"])}
@@ -88,39 +94,42 @@ def test_a_row_of_each_branch():
     assert last["drop"] == pytest.approx(1.0, abs=0.02)
     assert (last["peak_rms_normal_m"], last["peak_rms_tangential_m"]) == pytest.approx((1e-5, 2e-3))
     # stress is twice yield at the peak, yield at half its height: 25 rad/s before it; after it the fall is within one step
-    assert last["width_above_yield_rad_s"] == pytest.approx(25.0 + 5.0 * 1.0 / 1.99, rel=0.02)
-    assert last["share_above_yield"] == pytest.approx(1.0)
-    assert last["max_von_mises_pa"] == pytest.approx(2e9, rel=1e-3)
-    assert (rows[0]["width_above_yield_rad_s"], last["status"]) == (0.0, "completed")
-    assert np.isnan([rows[0]["share_above_yield"], last["max_wear_m"]]).all()
+    assert last["length_ever_rad_s"] == pytest.approx(25.0 + 5.0 * 1.0 / 1.99, rel=0.02)
+    assert last["share_of_revolutions_above_yield"] == 1.0
+    assert last["largest_stress_pa"] == pytest.approx(2e9, rel=1e-3)
+    assert (rows[0]["length_ever_rad_s"], rows[0]["share_of_revolutions_above_yield"], last["status"]) == (
+        0.0,
+        0.0,
+        "completed",
+    )
+    assert np.isnan(last["max_wear_m"])
 
 
 def test_single_speeds_below_yield_do_not_end_the_range():
-    """Near the end of a branch the motion is chaotic: width is from the first to the last, the share says what is above."""
+    """Near the end of a branch the motion is chaotic: the length is that of all speeds above."""
     data = response(tangential=[(1715.0, 4e-3, 4)], step=1.0)
     whole = found(data)[0]
-    for name in ("max_von_mises", "rms_tangential"):
+    for name in ("max_von_mises_ever", "rms_tangential"):
         data[name].loc[{"speed": [1713.0, 1714.0]}] *= 0.1
-    broken = found(data)[0]
-    assert broken["width_above_yield_rad_s"] == whole["width_above_yield_rad_s"]
+    (broken,) = found(data)
     # of the ratios 3.76, 0.384, 0.392 and 4 only the ends of the first and last interval are above yield
     below = 1.0 + (1.0 - 0.384) / (3.76 - 0.384) + (1.0 - 0.392) / (4.0 - 0.392)
-    assert broken["share_above_yield"] == pytest.approx(1.0 - below / whole["width_above_yield_rad_s"], rel=1e-3)
+    assert broken["length_ever_rad_s"] == pytest.approx(whole["length_ever_rad_s"] - below, rel=1e-3)
 
 
 def test_a_row_has_the_worst_within_its_interaction():
     """Stress, what is worn through, and a run that diverged, which is above yield."""
     data = response(tangential=[(1715.0, 2e-3, 4), (900.0, 1e-3, 2)])
-    data["max_von_mises"].loc[{"speed": [1705.0, 880.0]}] = [5e9, 9e9]
+    data["max_von_mises_ever"].loc[{"speed": [1705.0, 880.0]}] = [5e9, 9e9]
     data["status"].loc[{"speed": 1720.0}] = RunStatus.DIVERGED
-    for name in ("max_von_mises", "rms_tangential", "rms_normal"):
+    for name in (*stresses(0.0), "rms_tangential", "rms_normal"):
         data[name].loc[{"speed": 1720.0}] = np.nan
     share = np.where(data["speed"] > 1690.0, 0.2, 0.0) * (data["speed"] < 1710.0)
     rows = found(data.assign(worn_through_share=share, largest_penetration=1e-3 * share))
     assert [row["status"] for row in rows] == ["completed", "diverged"]
     stress = rows[-1]
-    assert (stress["max_von_mises_pa"], stress["max_von_mises_speed_rad_s"]) == (5e9, 1705.0)
-    assert stress["width_above_yield_rad_s"] == pytest.approx(1720.0 - 1690.0, rel=1e-3)
+    assert (stress["largest_stress_pa"], stress["largest_stress_speed_rad_s"]) == (5e9, 1705.0)
+    assert stress["length_ever_rad_s"] == pytest.approx(1720.0 - 1690.0, rel=1e-3)
     assert (rows[-1]["peak_speed_rad_s"], [row["worn_through_share"] for row in rows]) == (1715.0, [0.0, 0.2])
     assert np.isnan(found(data)[0]["worn_through_share"])
     assert [row["largest_penetration_m"] for row in rows] == [0.0, 2e-4]
@@ -147,7 +156,7 @@ def test_a_drop_need_not_follow_at_once_and_is_that_of_the_row_s_own_peak():
     [
         # without a crossing, far apart; as far apart as one crossing's peaks may be; of two orders; beside a crossing of others
         ([], [(900.0, 1e-3, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 900.0), ("engine order 2", 1500.0)]),
-        ([], [(1400.0, 1e-3, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 1500.0)]),
+        ([], [(1400.0, 9e-4, 2), (1500.0, 1.2e-3, 2)], [("engine order 2", 1500.0)]),
         ([], [(1400.0, 1e-3, 3), (1500.0, 1.2e-3, 2)], [("engine order 3", 1400.0), ("engine order 2", 1500.0)]),
         ([], [(1715.0, 1e-3, 2)], [("engine order 2", 1715.0)]),
         # before the end of the speeds, to which it falls by the prominence
@@ -172,10 +181,11 @@ def test_peaks_that_are_one_interaction_and_those_that_are_not(normal, tangentia
 
 
 def test_the_end_of_the_speeds_is_no_peak():
-    """It ends the reach of the interaction before it all the same."""
+    """It ends the reach of the interaction before it all the same; what is above yield there has a row of its own."""
     data = response(tangential=[(1940.0, 1e-3, 2), (2000.0, 3e-3, 4)])
-    (row,) = found(data)
-    assert (row["peak_speed_rad_s"], row["max_von_mises_speed_rad_s"]) == (1940.0, 1940.0)
+    row, end = found(data)
+    assert end["peak_speed_rad_s"] == 2000.0 and "without a peak" in end["note"]
+    assert (row["peak_speed_rad_s"], row["largest_stress_speed_rad_s"]) == (1940.0, 1940.0)
     falling = response(tangential=[(1265.0, 1e-3, 5)])
     falling["rms_tangential"][0] = 5e-3
     assert [one["peak_speed_rad_s"] for one in found(falling)] == [1265.0]
@@ -186,8 +196,8 @@ def test_what_answers_beyond_a_quiet_range_is_not_part_of_it():
     data = response([(1265.0, 5e-5, 5)], [(900.0, 30e-3, 3), (1265.0, 5e-3, 5), (1400.0, 2e-3, 2)])
     row = found(data)[1]
     assert title(row) == "1B/5"
-    assert row["width_above_yield_rad_s"] < 50.0
-    data["max_von_mises"].loc[{"speed": 1400.0}] = 90e9
+    assert row["length_ever_rad_s"] < 50.0
+    data["max_von_mises_ever"].loc[{"speed": 1400.0}] = 90e9
     # as texts: what is NaN in both is the same
     assert repr(found(data)[1]) == repr(row)
 
@@ -209,8 +219,8 @@ def test_the_table_of_all():
     assert list(table.columns) == names(INTERACTIONS)
     assert list(table["scene"]) == ["lined", "lined", "bare", "bare"]
     lined, bare = table.iloc[1], table.iloc[3]
-    assert (lined["max_von_mises_pa"], lined["engine_order"]) == (pytest.approx(2e9, rel=1e-3), 4)
-    assert np.isnan([bare["max_von_mises_pa"], bare["width_above_yield_rad_s"]]).all()
+    assert (lined["largest_stress_pa"], lined["engine_order"]) == (pytest.approx(2e9, rel=1e-3), 4)
+    assert np.isnan([bare["largest_stress_pa"], bare["length_ever_rad_s"]]).all()
     # an order is a whole number in the file, and a scene without a spectrum has no order where nothing is near
     text = table.to_csv(index=False)
     assert "Ref,lined,1B,4,tangential,1672.0,1715.0," in text

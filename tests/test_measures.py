@@ -14,6 +14,8 @@ from r37core.config.config_file import OperatingSection
 from r37core.figures import style
 from r37core.results import measures
 from r37core.results.columns import OPERATING, ROBUSTNESS, names
+from r37core.results.danger import largest_of, ratio_to_yield
+from r37core.results.exceedance import ranges_above
 from r37core.results.operating_range import OperatingDwell, OperatingRange
 from r37core.results.ranking import operating_measures, ranking_table
 from r37core.time_integration.status import RunStatus
@@ -27,7 +29,7 @@ def response(normal, tangential=None, stress=None, speeds=SPEEDS, **more):
     tips = {"rms_normal": normal, "rms_tangential": 0.0 * normal if tangential is None else np.asarray(tangential)}
     data = {name: (("speed", "tip_point"), np.stack([values, 100.0 * values[::-1]], axis=1)) for name, values in tips.items()}
     if stress is not None:
-        data |= {"max_von_mises": ("speed", np.asarray(stress, dtype=float)), "yield_stress": ((), 2.0)}
+        data |= {"max_von_mises_ever": ("speed", np.asarray(stress, dtype=float)), "yield_stress": ((), 2.0)}
     status = np.zeros(len(normal), dtype="i1")
     coords = {"speed": speeds[: len(normal)], "tip_point": ["leading_edge", "trailing_edge"]}
     return xr.Dataset(data | {"status": ("speed", status)} | more, coords)
@@ -58,45 +60,37 @@ def test_the_strongest_order_is_no_offset_and_no_casing():
 
 
 @pytest.mark.parametrize(
-    ("ratio", "first", "last", "length", "cut"),
+    ("ratio", "ends"),
     [
-        ([0.5, 1.5, 1.5, 0.5], 105.0, 125.0, 20.0, False),
-        ([2.0, 2.0, 2.0, 2.0], 100.0, 130.0, 30.0, True),
-        ([1.0, 2.0, 1.0, 0.5], 100.0, 120.0, 20.0, False),
-        ([0.5, 1.0, 0.9, 0.1], np.nan, np.nan, 0.0, False),
-        # a speed below yield in between: the range goes on, its share is less
-        ([0.5, 1.5, 0.5, 1.5, 0.5], 105.0, 135.0, 20.0, False),
-        ([0.0, 3.0, 0.0], 100.0 + 10.0 * 2.0 / 3.0 - 10.0 / 3.0, 110.0 + 20.0 / 3.0, 40.0 / 3.0, False),
+        ([0.5, 1.5, 1.5, 0.5], [(105.0, 125.0)]),
+        ([2.0, 2.0, 2.0, 2.0], [(100.0, 130.0)]),
+        ([1.0, 2.0, 1.0, 0.5], [(100.0, 120.0)]),
+        ([0.5, 1.0, 0.9, 0.1], []),
+        ([0.5, 1.5, 0.5, 1.5, 0.5], [(105.0, 115.0), (125.0, 135.0)]),
         # a run that diverged is above, and nothing is known of the way there
-        ([0.5, np.inf, np.inf, 0.5], 110.0, 120.0, 10.0, False),
-        ([0.5, np.inf, 0.5], 110.0, 110.0, 0.0, False),
-        ([], np.nan, np.nan, np.nan, False),
+        ([0.5, np.inf, np.inf, 0.5], [(110.0, 120.0)]),
+        ([0.5, np.inf, 0.5], [(110.0, 110.0)]),
+        ([], []),
     ],
 )
-def test_the_range_above_yield_is_that_of_straight_lines(ratio, first, last, length, cut):
-    found = measures.range_above_yield(100.0 + 10.0 * np.arange(len(ratio)), np.array(ratio))
-    assert (found.first, found.last, found.length) == pytest.approx((first, last, length), nan_ok=True)
-    assert found.truncated == cut
-    width = 0.0 if np.isnan(first) else last - first
-    assert found.width == pytest.approx(width)
-    assert found.share == pytest.approx(length / width if width else np.nan, nan_ok=True)
+def test_ranges_above_yield_are_those_of_straight_lines(ratio, ends):
+    found = ranges_above(100.0 + 10.0 * np.arange(len(ratio)), np.array(ratio), 1.0)
+    np.testing.assert_allclose([(part.begin, part.end) for part in found], ends)
+    assert [part.truncated for part in found] == [ratio[0] > 1.0] * len(ends) if ratio else not found
 
 
 def test_a_response_is_above_yield_where_it_diverged_and_nowhere_unrun():
     data = response(np.zeros(6), stress=[1.0, 3.0, np.nan, np.nan, 3.0, 1.0])
     data["status"][2:4] = [int(RunStatus.DIVERGED), int(RunStatus.NOT_RUN)]
-    np.testing.assert_array_equal(measures.ratio_to_yield(data), [0.5, 1.5, np.inf, 1.5, 0.5])
-    found = measures.speeds_above_yield(data)
-    assert (found.first, found.last) == (1001.0, 1009.0)
-    assert measures.width_above_yield(data) == 8.0
-    assert np.isnan(measures.width_above_yield(data.isel(speed=slice(1, None))))
-    assert measures.width_above_yield(data.isel(speed=slice(5, None))) == 0.0
+    np.testing.assert_array_equal(ratio_to_yield(data), [0.5, 1.5, np.inf, 1.5, 0.5])
 
 
 def test_the_largest_stress_and_the_first_yield_of_a_run():
     """Of all speeds; the first revolution has the largest, and the end of the run is missing."""
-    assert measures.largest_stress(response(np.zeros(3), stress=[1.0, np.nan, 3.0])) == (3.0, 1004.0)
-    assert np.isnan(measures.largest_stress(response(np.zeros(2), stress=[np.nan, np.nan]))).all()
+    names = ("largest_stress_pa", "largest_stress_speed_rad_s", "largest_stress_over_yield")
+    for stress, expected in (([1.0, np.nan, 3.0], (3.0, 1004.0, 1.5)), ([np.nan, np.nan], (np.nan,) * 3)):
+        found = largest_of(response(np.zeros(len(stress)), stress=stress))
+        assert [found[name] for name in names] == pytest.approx(expected, nan_ok=True)
     history = np.array([9.0, 3.0, np.nan, np.nan])
     assert measures.first_yield(history, 8.9) == 1.0
     assert measures.first_yield(history[1:], 2.0) == 1.0

@@ -156,7 +156,7 @@ def test_where_stress_crosses_yield_is_found():
     """Stress rises with the speed, by too little from speed to speed to be a change."""
     response = spiked()
     response["rms_normal"][:] = response["rms_tangential"][:] = 1e-3
-    response["max_von_mises"][:] = np.linspace(0.7e9, 1.1e9, 1251)
+    response["max_von_mises_last_revolution"][:] = np.linspace(0.7e9, 1.1e9, 1251)
     crossing = 750.0 + 1250.0 * 0.3 / 0.4
     speeds = np.array(asked(response, choice=replace(CHOICE, prominence=0.5))[1])
     assert speeds[speeds > crossing][0] - speeds[speeds < crossing][-1] <= 1.0
@@ -165,9 +165,9 @@ def test_where_stress_crosses_yield_is_found():
 def test_a_flat_response_asks_for_no_more():
     flat = spiked()
     flat["rms_normal"][:] = flat["rms_tangential"][:] = 1e-5
-    flat["max_von_mises"][:] = 1e7
+    flat["max_von_mises_last_revolution"][:] = 1e7
     silent = spiked()
-    for name in ("rms_normal", "rms_tangential", "max_von_mises"):
+    for name in ("rms_normal", "rms_tangential", "max_von_mises_last_revolution"):
         silent[name][:] = 0.0
     assert asked(flat)[0] == asked(silent)[0] == asked(spiked())[0] == [list(PLAN.certain)]
 
@@ -235,8 +235,8 @@ def test_a_round_s_file_says_what_it_was(tmp_path):
 
 def test_what_runs_of_two_members_give(tmp_path):
     """Without stress and of a diverged run that is no number."""
-    run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "max_von_mises": np.array([4.0, 9.0])}
-    diverged = run | {"status": np.array(1), "max_von_mises": np.array([np.nan, 9.0])}
+    run = {"status": np.array(0), "rms": np.arange(6.0).reshape(2, 3), "max_von_mises_last_revolution": np.array([4.0, 9.0])}
+    diverged = run | {"status": np.array(1), "max_von_mises_last_revolution": np.array([np.nan, 9.0])}
     runs = [run, diverged, run, {name: run[name] for name in ("status", "rms")}]
     for number, numbers in enumerate(runs):
         write_speed(numbers, tmp_path / f"{number}.npz", {})

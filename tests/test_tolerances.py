@@ -10,7 +10,7 @@ import xarray as xr
 import yaml
 from defaults import InteractionChoice
 from matplotlib.colors import to_rgb
-from test_interactions import campbell, response
+from test_interactions import campbell, response, stresses
 
 from r37core.adaptive.criterion import RefinementChoice, next_speeds
 from r37core.base.dataset_file import write_groups
@@ -24,8 +24,8 @@ from r37core.product.extensions import read_settings
 from r37core.product.leftovers import leftovers
 from r37core.product.remarks import remarks as remarks_of
 from r37core.results.columns import ENDS, INTERACTIONS, names
+from r37core.results.danger import danger_of, ratio_to_yield
 from r37core.results.interactions import find_interactions
-from r37core.results.measures import largest_stress, ratio_to_yield, speeds_above_yield
 from r37core.results.ranges import as_ranges_bear, ranged_summary, read_ranges
 from r37core.time_integration.status import RunStatus
 from r37core.tolerances.dataset import tolerances_dataset
@@ -297,7 +297,7 @@ def member(peak, diverged=()):
     """A response with a branch of 1B/4 that ends at `peak`, and its values of NUMBERS."""
     one = branch(peak)
     one["status"] = xr.where(one["speed"].isin(diverged), RunStatus.DIVERGED, one["status"]).astype("i1")
-    for curve in ("rms_normal", "rms_tangential", "max_von_mises"):
+    for curve in ("rms_normal", "rms_tangential", "max_von_mises_ever"):
         one[curve] = one[curve].where(one["status"] != RunStatus.DIVERGED)
     return one, (0.1 + 0.001 * peak, None)
 
@@ -328,8 +328,9 @@ def test_the_dataset_of_members(tmp_path):
     np.testing.assert_allclose(found["rms_normal_quantile"].sel(speed=1700.0), np.sort(spread)[[0, 9, 18]])
     for row in range(20):
         alone = branch(peaks[row])
-        assert found["width_above_yield"][row] == speeds_above_yield(alone).width
-        assert found["largest_stress"][row] == pytest.approx(largest_stress(alone)[0])
+        expected = danger_of(alone)
+        assert found["length_ever"][row] == expected["length_ever_rad_s"]
+        assert found["largest_stress"][row] == expected["largest_stress_pa"]
 
 
 def test_the_chance_of_passing_yield_has_an_interval(root, tmp_path):
@@ -373,7 +374,7 @@ def test_the_peak_s_spread_comes_from_the_number_that_moves_it(tmp_path):
 
 
 def test_two_scenes_with_other_speeds_and_numbers_stand_in_one_dataset(tmp_path):
-    bare = response(normal=[(1000.0, 0.01, 6)], step=10.0).drop_vars(["max_von_mises", "yield_stress"])
+    bare = response(normal=[(1000.0, 0.01, 6)], step=10.0).drop_vars([*stresses(0.0), "yield_stress"])
     other = sample(tmp_path, [(bare.isel(speed=slice(3, 9)), (0.2, 0.3))] * 2, ("S100", "direct"))
     found = tolerances_dataset([sample(tmp_path, [member(1700.0)] * 2), other], NUMBERS)
     assert found["blade"].values.tolist() == ["Ref", "S100"]
@@ -401,7 +402,7 @@ def test_ranges_of_interactions():
     assert (six["share_of_members"], six["robust"]) == (0.4, False) and np.isnan(six["peak_speed_rad_s"])
     assert (four["share_of_members"], four["robust"], four["members"]) == (1.0, True, 10)
     assert [four[f"peak_speed_rad_s_{end}"] for end in ("low", "median", "high")] == [1690.0, 1710.0, 1735.0]
-    assert four["width_above_yield_rad_s_median"] == pytest.approx(four["width_above_yield_rad_s"])
+    assert four["length_ever_rad_s_median"] == pytest.approx(four["length_ever_rad_s"])
     # what lies beyond the members' speeds is not theirs to show
     (only,) = ranges(nominal, {"0": interactions_of((1710.0, 0.01, 4))}, InteractionChoice(), (1600.0, 1800.0))
     assert (only["engine_order"], only["share_of_members"]) == (4, 1.0)
@@ -423,15 +424,15 @@ def test_the_summary_has_the_ranges_beside_the_nominal_run(tmp_path, blade):
 
 
 def test_a_range_has_the_digits_that_it_bears():
-    row = {"peak_speed_rad_s": 1729.0, "max_von_mises_pa": 1.407e10, "drop": 0.123456}
-    ends = {"peak_speed_rad_s": (1710.0, 1726.0, 1754.0), "max_von_mises_pa": (2.02e9, 8.64e9, 1.408e10)}
+    row = {"peak_speed_rad_s": 1729.0, "largest_stress_pa": 1.407e10, "drop": 0.123456}
+    ends = {"peak_speed_rad_s": (1710.0, 1726.0, 1754.0), "largest_stress_pa": (2.02e9, 8.64e9, 1.408e10)}
     row |= {f"{name}_{end}": value for name, of in ends.items() for end, value in zip(ENDS, of, strict=True)}
-    bare = dict.fromkeys(row) | {"peak_speed_rad_s": 1640.4, "max_von_mises_pa": 3.5612e9}
+    bare = dict.fromkeys(row) | {"peak_speed_rad_s": 1640.4, "largest_stress_pa": 3.5612e9}
     shown, other = as_ranges_bear(pd.DataFrame([row, bare]).astype(float)).to_dict("records")
     # the nominal peak is a run that can be opened
     assert [shown[f"peak_speed_rad_s{end}"] for end in ("", "_low", "_median", "_high")] == [1729.0, 1710.0, 1730.0, 1750.0]
-    assert [shown[f"max_von_mises_pa{end}"] for end in ("", "_low", "_median", "_high")] == [1.4e10, 2e9, 9e9, 1.4e10]
-    assert shown["drop"] == 0.123456 and (other["max_von_mises_pa"], other["peak_speed_rad_s"]) == (3.5612e9, 1640.4)
+    assert [shown[f"largest_stress_pa{end}"] for end in ("", "_low", "_median", "_high")] == [1.4e10, 2e9, 9e9, 1.4e10]
+    assert shown["drop"] == 0.123456 and (other["largest_stress_pa"], other["peak_speed_rad_s"]) == (3.5612e9, 1640.4)
     without = pd.DataFrame([{"peak_speed_rad_s": 1729.0}])
     pd.testing.assert_frame_equal(as_ranges_bear(without), without)
 

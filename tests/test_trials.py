@@ -270,7 +270,7 @@ def small_case(rms):
     """
     values = np.roll(np.array(rms, dtype=float), 1)
     tips = {name: (("speed", "tip_point"), np.stack([values, 9.0 * values], axis=1)) for name in QUANTITIES if "_" in name}
-    tips |= {name: ("speed", values) for name in ("max_von_mises", "max_wear", "contact_work", "damping_loss")}
+    tips |= {name: ("speed", values) for name in ("max_von_mises_last_revolution", "max_wear", "contact_work", "damping_loss")}
     tips |= {name: ("speed", 0.0 * values) for name in ("status", "energy_residual")}
     tips |= {name: ("speed", np.full(5, cost)) for name, cost in (("cpu_s", 1.0), ("wall_s", 1.0), ("bytes_written", 1e4))}
     coords = {"speed": [90.0, 100.0, 101.0, 102.0, 105.0], "tip_point": ["leading_edge", "trailing_edge"]}

@@ -99,7 +99,7 @@ def simulate(
             left out; the dataset has their share of the energy, and the attribute `initial_state`.
 
     Returns:
-        Variables of response.nc: `rms_normal` (m), shape (tip_point,); `max_von_mises` (Pa), shape (region,); `status` (0:
+        Variables of response.nc: `rms_normal` (m), shape (tip_point,); `max_von_mises_ever` (Pa), shape (region,); `status` (0:
         completed, 1: diverged), a scalar; and others, each with its unit.
 
     Raises:
@@ -134,7 +134,7 @@ def sweep(
 
     Returns:
         The variables of `r37.simulate` by ascending `speed`, with the numbers of the workflow: `rms_normal` (m), shape (speed,
-        tip_point); `max_von_mises` (Pa), shape (speed, region); `status`, shape (speed,); `amplitude` (m), shape (speed,
+        tip_point); `max_von_mises_ever` (Pa), shape (speed, region); `status`, shape (speed,); `amplitude` (m), shape (speed,
         engine_order); and others.
 
     Examples:

@@ -215,7 +215,7 @@ def rotor(
 
     Returns:
         By ascending speed. `blade_rms` (m) of the leading edge's displacement, normal and tangential together, and
-        `blade_max_von_mises` (Pa), shape (speed, blade_number). `blade_maximum` (m), shape (speed, blade_number, span),
+        `blade_max_von_mises_ever` (Pa), shape (speed, blade_number). `blade_maximum` (m), shape (speed, blade_number, span),
         largest over spans of revolutions. `leader`, shape (speed,), number of the blade with the largest `blade_rms`.
         `nodal_diameter_share`, shape (speed, nodal_diameter), and others.
 

@@ -107,7 +107,8 @@ def replay(response: xr.Dataset, campbell: xr.Dataset, plan: SpeedPlan, choice: 
 def _measured(response: xr.Dataset) -> dict[float, list[float]]:
     """Status and adaptive.criterion.CURVES of each speed (rad/s)."""
     edge = leading_edge(response)
-    stress = edge["max_von_mises"] / edge["yield_stress"] if "max_von_mises" in edge else edge["rms_normal"] * np.nan
+    name = "max_von_mises_last_revolution"
+    stress = edge[name] / edge["yield_stress"] if name in edge else edge["rms_normal"] * np.nan
     columns = [edge["status"], edge["rms_normal"], edge["rms_tangential"], stress]
     rows = np.stack([column.values.astype(float) for column in columns], axis=1)
     return dict(zip(map(float, response["speed"].values), rows.tolist(), strict=True))
@@ -140,7 +141,8 @@ def errors_between(response: xr.Dataset, run: Sequence[float]) -> tuple[float, f
     stress that is not seen; NaN without stress.
     """
     rms = leading_edge(response)["rms_normal"].values
-    stress = response["max_von_mises"].values if "max_von_mises" in response else np.full_like(rms, np.nan)
+    name = "max_von_mises_last_revolution"
+    stress = response[name].values if name in response else np.full_like(rms, np.nan)
     speed = response["speed"].values
     (of_rms, _), (of_stress, unseen) = (_missed(speed, curve, run) for curve in (rms, stress))
     return of_rms, of_stress, unseen
@@ -163,10 +165,8 @@ def above_yield(response: xr.Dataset, campbell: xr.Dataset, interactions: Intera
 
 
 def _peak_and_width(row: Interaction) -> tuple[float, float]:
-    """Speed of the peak and width above yield (rad/s): of the last revolution, on a bare casing in most revolutions."""
-    width = (
-        row["most_revolutions_to_rad_s"] - row["most_revolutions_from_rad_s"] if row["note"] else row["width_above_yield_rad_s"]
-    )
+    """Speed of the peak and length above yield (rad/s): in any later revolution, on a bare casing in most of them."""
+    width = row["length_most_revolutions_rad_s" if row["note"] else "length_ever_rad_s"]
     return row["peak_speed_rad_s"], 0.0 if math.isnan(width) else width
 
 

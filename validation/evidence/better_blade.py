@@ -171,6 +171,6 @@ def _rotor(rotor: xr.Dataset) -> str:
 
     All are above it where the run diverged.
     """
-    shares = rotor["blades_above_yield"].where(rotor["status"] != RunStatus.DIVERGED, 1.0)
+    shares = rotor["blades_ever_above_yield"].where(rotor["status"] != RunStatus.DIVERGED, 1.0)
     some, share = (float(part.integrate("speed")) for part in ((shares > 0.0).astype(float), shares))
     return f"{some:.0f} ({share:.0f})"

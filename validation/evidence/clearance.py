@@ -25,6 +25,7 @@ from r37core.time_integration.clearance import growth
 from r37core.time_integration.kept_numbers import append_rotation
 
 from .configuration import settings_of
+from .last_revolution import width_above_yield
 from .pages import write_table
 
 MODE, ORDER = "1B", 4
@@ -83,8 +84,8 @@ def effect(input: Any, output: Any, params: Any) -> None:
                 blade,
                 " → ".join(f"{measures.peak_speed(run):.0f}" for run in pair),
                 " → ".join(f"{1e3 * float(measures.leading_edge(run)['rms_normal'].max()):.3g}" for run in pair),
-                " → ".join(f"{measures.width_above_yield(run):.3g}" for run in pair),
-                f"{measures.width_above_yield(runs[TOTAL]):.3g}",
+                " → ".join(f"{width_above_yield(run):.3g}" for run in pair),
+                f"{width_above_yield(runs[TOTAL]):.3g}",
                 " → ".join(f"{touch:.1f}" for touch in touches),
             ]
         )

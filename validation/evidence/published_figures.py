@@ -13,9 +13,10 @@ from published import BLADES, DIRECT_PEAK, INTERACTIONS, QUIET, REFERENCE, WIDTH
 
 from r37core.figures import style
 from r37core.figures.maps import draw_cells
-from r37core.results.measures import leading_edge, width_above_yield
+from r37core.results.measures import leading_edge
 
 from .benchmark_measures import history_of
+from .last_revolution import width_above_yield
 from .published_checks import Runs
 from .published_windows import BARE
 
@@ -89,7 +90,9 @@ def draw_stress_over_speed(runs: Runs) -> Figure:
     figure, axes = plt.subplots(figsize=(style.PAGE, 3.0))
     for kind, (label, _) in SCENES.items():
         run = runs[kind]
-        axes.semilogy(run["speed"], 1e-9 * run["max_von_mises"], marker=".", markersize=2, linewidth=0.9, label=label)
+        axes.semilogy(
+            run["speed"], 1e-9 * run["max_von_mises_last_revolution"], marker=".", markersize=2, linewidth=0.9, label=label
+        )
     style.yield_lines(axes, {REFERENCE: float(runs["lined"]["yield_stress"])}, named=True)
     for interaction in INTERACTIONS:
         if interaction.blade == REFERENCE:

@@ -7,7 +7,8 @@ import numpy as np
 import xarray as xr
 
 from r37core.base.dataset_file import read_dataset
-from r37core.results.measures import range_above_yield, ratio_to_yield
+from r37core.results.danger import ratio_to_yield
+from r37core.results.exceedance import ranges_above
 from r37core.results.regions import read_judged
 from r37core.time_integration.status import RunStatus
 
@@ -34,14 +35,14 @@ KINDS = {
 
 def rotor_ratio(rotor: xr.Dataset) -> xr.DataArray:
     """Stress of the worst blade as a share of yield, over speed; infinite where the run diverged."""
-    worst = rotor["blade_max_von_mises"].max("blade_number") / rotor["yield_stress"]
+    worst = rotor["blade_max_von_mises_ever"].max("blade_number") / rotor["yield_stress"]
     return worst.where(rotor["status"] != RunStatus.DIVERGED, np.inf)
 
 
 def length_about(ratio: xr.DataArray, crossing: float) -> float:
     """Length (rad/s) of the speeds about a crossing with a stress above yield."""
     near = ratio.sel(speed=slice(*(crossing * (1.0 + share) for share in WINDOW)))
-    return range_above_yield(near["speed"].values, near.values).length
+    return sum(part.length for part in ranges_above(near["speed"].values, near.values, 1.0))
 
 
 def blades(input: Any, output: Any, params: Any) -> None:
@@ -65,7 +66,7 @@ def blades(input: Any, output: Any, params: Any) -> None:
 
 
 def _at_once(rotor: xr.Dataset) -> str:
-    above = (rotor["blades_above_yield"] * rotor.sizes["blade_number"]).values.round()
+    above = (rotor["blades_ever_above_yield"] * rotor.sizes["blade_number"]).values.round()
     some = above[above > 0.0]
     return f"{np.median(some):.0f} ({some.max():.0f})" if some.size else "none"
 
@@ -89,5 +90,5 @@ def _in_window(rotor: xr.Dataset, kind: str) -> list[str]:
     if not rotor.sizes["speed"]:
         return [NOT_RUN, NOT_RUN]
     ratio = ratio_to_yield(rotor) if kind == SINGLE else rotor_ratio(rotor)
-    length = range_above_yield(ratio["speed"].values, ratio.values).length
+    length = sum(part.length for part in ranges_above(ratio["speed"].values, ratio.values, 1.0))
     return [f"{length:.0f}", NOT_RUN if kind == SINGLE else _at_once(rotor)]

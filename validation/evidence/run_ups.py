@@ -67,12 +67,12 @@ def rates(input: Any, output: Any, params: Any) -> None:
     runs, needed = (pd.read_csv(file).query("scene == @SCENE") for file in (input.run_ups, input.rates))
     slowest, rows = float(needed["slowest_rate_rad_s2"].min()), []
     for blade, resolved in runs.groupby("blade", sort=False):
-        share = resolved["max_von_mises_pa"] / resolved["yield_stress_pa"]
+        share = resolved["largest_stress_pa"] / resolved["yield_stress_pa"]
         upwards = resolved["direction"] == "up"
         # whole samples make rates that are nearly those asked for
         stress = [float(share[upwards & np.isclose(resolved["rate_rad_s2"], rate, rtol=1e-3)].max()) for rate in SHOWN]
         safe = needed[needed["blade"] == blade].set_index("direction")["rate_at_yield_rad_s2"]
-        width = float(summary[summary["blade"] == blade]["width_above_yield_rad_s"].max())
+        width = float(summary[summary["blade"] == blade]["length_ever_rad_s"].max())
         rows.append((blade, _crossing(campbell, blade), width, *stress, float(safe["up"]), float(safe["down"])))
     rows.sort(key=lambda row: -np.nan_to_num(row[-2]))
     head = [
@@ -162,7 +162,7 @@ def _needed_rate(blade: str, files: tuple[str, str], plan: RunUps, campbell: xr.
         integration = RunUpIntegration(model, scene, choice, run_up)
         result = record_run_up(integration, (), highest_order=20, stress=recovery, yield_stress=material.yield_stress)
         stress = float(result["max_von_mises"][choice_of_run_up.before :].max())
-        rows.append({"rate_rad_s2": rate, "max_von_mises_pa": stress, "status": "completed"})
+        rows.append({"rate_rad_s2": rate, "largest_stress_pa": stress, "status": "completed"})
     safe = safe_rates(pd.DataFrame(rows).assign(yield_stress_pa=material.yield_stress))
     if np.isfinite(safe["rate_at_yield_rad_s2"]):
         return f"{safe['rate_at_yield_rad_s2']:.0f}"

@@ -20,8 +20,8 @@ from .pages import write_table
 MODE, ORDER = "1B", 4
 COLUMNS = {
     "peak (rad/s)": "peak_speed_rad_s",
-    "first yield (rad/s)": "first_yield_speed_rad_s",
-    "width above yield (rad/s)": "width_above_yield_rad_s",
+    "above yield in most revolutions (rad/s)": "length_most_revolutions_rad_s",
+    "ever above yield (rad/s)": "length_ever_rad_s",
 }
 COUNTS = (8, 16, 32, 64, 128)
 UNKNOWN = "-"

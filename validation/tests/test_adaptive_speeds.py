@@ -30,13 +30,13 @@ def test_the_tables_name_what_is_missed():
 def test_errors_between_the_speeds_that_are_run():
     """Of a response with one spike: a line over it misses the spike, and nothing else."""
     response = spiked()
-    for name in ("rms_normal", "max_von_mises"):
+    for name in ("rms_normal", "max_von_mises_last_revolution"):
         response[name][:] = 1.0
         response[name].loc[{"speed": 1000.0}] = 3.0
     share = 2.0 / (1251 + 2)
     assert errors_between(response, [750.0, 999.0, 1001.0, 2000.0]) == pytest.approx((share, share, 2.0 / 3.0))
     assert errors_between(response, [750.0, 999.0, 1000.0, 1001.0, 2000.0]) == (0.0, 0.0, 0.0)
     diverged = response.copy(deep=True)
-    diverged["max_von_mises"].loc[{"speed": 1000.0}] = np.nan
+    diverged["max_von_mises_last_revolution"].loc[{"speed": 1000.0}] = np.nan
     assert errors_between(diverged, [750.0, 2000.0])[1:] == (0.0, 0.0)
-    assert np.isnan(errors_between(response.drop_vars("max_von_mises"), [750.0, 2000.0])[1:]).all()
+    assert np.isnan(errors_between(response.drop_vars("max_von_mises_last_revolution"), [750.0, 2000.0])[1:]).all()

@@ -52,7 +52,11 @@ def measure_members(yields: Sequence[float], speeds: Sequence[float], files: Ite
         for speed in speeds:
             run = read_speed(next(every))
             rms = run["rms"][TIP_POINTS.index("leading_edge")]
-            stress = float(run["max_von_mises"][0]) / yield_stress if "max_von_mises" in run else math.nan
+            stress = (
+                float(run["max_von_mises_last_revolution"][0]) / yield_stress
+                if "max_von_mises_last_revolution" in run
+                else math.nan
+            )
             curves = (float(rms[DIRECTIONS.index(name)]) for name in ("normal", "tangential"))
             gave[speed] += [int(run["status"]), *curves, stress]
     return gave

@@ -15,7 +15,7 @@ def tabulate(input: Any, output: Any, params: Any) -> None:
     """Compare the designs of families. Output: table (csv).
 
     Inputs: datasets by kind, summary, geometry of each blade whose volume is known. Params: pairs, variables, families,
-    densities, operating.
+    errors (relative one of the stress, of each pair), densities, operating.
     """
     files = dict(input.items())
     summary, shapes = read_table(files.pop("summary")), as_list(files.pop("geometry"))
@@ -23,6 +23,6 @@ def tabulate(input: Any, output: Any, params: Any) -> None:
     masses = {blade: params.densities[blade] * volume for blade, volume in volumes.items()}
     datasets = {kind: read_dataset(file) for kind, file in files.items()}
     operating = params.operating and from_plain(OperatingRange, params.operating)
-    pairs = [(blade, scene) for blade, scene in params.pairs]
+    pairs = dict(zip(map(tuple, params.pairs), params.errors, strict=True))
     table = design_table(pairs, params.variables, params.families, masses, datasets, summary, operating)
     write_table(table, output.table, digits=6)

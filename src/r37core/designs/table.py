@@ -1,6 +1,6 @@
 """designs.csv: what each design of a family is, how robust it is in every scene, and the line that a run ends with."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -43,7 +43,7 @@ MEASURES = (
 
 
 def design_table(
-    pairs: Sequence[tuple[str, str]],
+    pairs: Mapping[tuple[str, str], float],
     variables: Mapping[str, Mapping[str, Mapping[str, float]]],
     families: Mapping[str, Mapping[str, str]],
     masses: Mapping[str, float],
@@ -53,17 +53,18 @@ def design_table(
 ) -> pd.DataFrame:
     """One row for each of the `pairs` of blade and scene: blade, scene, family, variables of both, measures.
 
-    `variables`: kind -> design -> column -> value; `families`: kind -> design -> family; `masses` (kg) by blade; `datasets`:
-    campbell, rms and, if there, stress; `interactions`: summary.csv; `operating`: range for measures of its own. What a scene
-    does not compute, and what does not happen (no interaction of 1B), is NaN.
+    `pairs`: with the relative error of the stress, by mesh and step; `variables`: kind -> design -> column -> value;
+    `families`: kind -> design -> family; `masses` (kg) by blade; `datasets`: campbell, rms and, if there, stress;
+    `interactions`: summary.csv; `operating`: range for measures of its own. What a scene does not compute, and what does not
+    happen (no interaction of 1B), is NaN.
     """
     rows = []
-    for blade, scene in pairs:
+    for (blade, scene), error in pairs.items():
         own = [families[kind][design] for kind, design in ((BLADE, blade), (SCENE, scene)) if design in families[kind]]
         varied = {"family": "__".join(own), **variables["blade"].get(blade, {}), **variables["scene"].get(scene, {})}
         structure = {"mass_kg": masses.get(blade, np.nan)} | _structure(datasets["campbell"].sel(blade=blade))
         response = response_of(datasets, blade, scene)
-        measures = robustness(response, operating=operating)
+        measures = robustness(response, operating=operating, error=error)
         rows.append({"blade": blade, "scene": scene, **varied, **structure, **measures, **_shift(blade, scene, interactions)})
     designs = [values for kind in variables.values() for values in kind.values()]
     keys = list(dict.fromkeys(key for values in designs for key in values))
@@ -80,6 +81,10 @@ def compared_in(table: pd.DataFrame) -> dict[str, Compared]:
         blades, scenes = (tuple(dict.fromkeys(rows[column])) for column in ("blade", "scene"))
         families[str(name)] = Compared(kind, tuple(map(str, varied)), blades, scenes)
     return families
+
+
+_TIE_BREAKERS = {"largest_goodman_share": "share of the Goodman line", "largest_stress_over_yield": "stress over yield"}
+"""Column by which designs that tie are told apart in words, and what it is."""
 
 
 def length_column(table: pd.DataFrame) -> str:
@@ -105,17 +110,31 @@ def _shift(blade: str, scene: str, interactions: pd.DataFrame) -> dict[str, floa
 
 
 def closing(results: Path) -> str:
-    """How many designs there are, and the best: of each scene, or of all where scenes vary."""
+    """How many designs there are, and the best: of each scene, or of all where scenes vary; those that tie are named.
+
+    Of designs that cannot be told apart by their length the one with the smallest share of the Goodman line stands beside.
+    """
     table = read_table(results / "designs.csv")
     length = length_column(table)
     flown = length != RANKED_BY[0]
-    order = [length, "exceedance_integral_operating_rad_s", "largest_median_stress_pa"] if flown else list(RANKED_BY)
     scenes_vary = any(VariedNumber.named(str(name)).kind == SCENE for name in table)
     text = counted(len(table) if scenes_vary else table["blade"].nunique(), "design")
     ranked = table.dropna(subset=length)
     for scene, rows in [("", ranked)] if scenes_vary and len(ranked) else ranked.groupby("scene", sort=False):
-        best = rows.sort_values(order, kind="stable").iloc[0]
-        where, name = (f"{scene}: ", best["blade"]) if scene else ("", f"{best['blade']} in {best['scene']}")
-        inside = " in operation" if flown else ""
-        text += f"; {where}{name} is above yield at the fewest speeds{inside} ({best[length]:.0f} rad/s)"
+        text += f"; {scene}: {_best(rows, length, flown)}" if scene else f"; {_best(rows, length, flown)}"
     return text
+
+
+def _best(rows: pd.DataFrame, length: str, flown: bool) -> str:
+    """The designs with the shortest `length`, all that tie with it; `flown`: whether that is the length in operation."""
+    names = rows["blade"].str.cat(rows["scene"], " in ") if rows["scene"].nunique() > 1 else rows["blade"]
+    least = rows[length].min()
+    within = rows["length_most_revolutions_within_rad_s"]
+    tied = rows[rows[length] - least <= within + within[rows[length].idxmin()]]
+    inside = " in operation" if flown else ""
+    if len(tied) == 1:
+        return f"{names[tied.index[0]]} is above yield at the fewest speeds{inside} ({least:.0f} rad/s)"
+    text = f"{len(tied)} of {len(rows)} cannot be told apart by their speeds above yield{inside}"
+    measure, words = next((name, words) for name, words in _TIE_BREAKERS.items() if name in tied and tied[name].notna().any())
+    best = tied[measure].idxmin()
+    return f"{text}; of these {names[best]} has the least {words} ({tied[measure][best]:.3g})"

@@ -15,6 +15,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 from r37core.results.closing import interaction_title
+from r37core.results.columns import MOST, NEVER, SOME
 from r37core.results.interactions import sized
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
@@ -30,9 +31,9 @@ _LARGEST, _STRIP = 26.0, 0.09
 """Diameter (pt) of the largest circle; how deep below 0 the strip of what has no engine order lies, as a share of the panel."""
 
 _MARKS = {
-    "most": ("o", np.nan, 0.45, "above yield in most revolutions"),
-    "some": ("D", 36.0, 0.45, "in some"),
-    "never": ("o", 25.0, 0.0, "in none"),
+    MOST: ("o", np.nan, 0.45, "above yield in most revolutions"),
+    SOME: ("D", 36.0, 0.45, "in some"),
+    NEVER: ("o", 25.0, 0.0, "in none"),
     "": (".", 12.0, 0.0, "stress not known"),
 }
 """`above` of results.interactions.sized -> marker, its area (pt^2; NaN: by the size), how dense it is, and its meaning."""
@@ -73,7 +74,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     strip = -_STRIP * highest if rows["frequency"].isna().any() else 0.0
     rows = rows.assign(frequency=rows["frequency"].fillna(strip).clip(upper=highest), higher=rows["frequency"] > highest)
     by_motion = rows["unit"] == "mm"
-    rows["above"] = rows["above"].mask(by_motion, "most")
+    rows["above"] = rows["above"].mask(by_motion, MOST)
     rows["area"] = rows["above"].map({above: area for above, (_, area, *_) in _MARKS.items()}).fillna(_areas(rows))
     with plt.rc_context(_LETTERS | {"axes.titlesize": 10}):
         size = (_WIDTH, 0.9 + len(scenes) * (3.0 if len(scenes) < 3 else 2.4))
@@ -137,7 +138,7 @@ def _draw_modes(axes: Axes, campbell: xr.Dataset) -> None:
 
 def _by_danger(rows: pd.DataFrame) -> pd.DataFrame:
     """Rows above yield, or with a motion, the longest first and then those with the most revolutions."""
-    dangerous = rows[rows["above"].isin(["most", "some"])]
+    dangerous = rows[rows["above"].isin([MOST, SOME])]
     return dangerous.sort_values(["size", "share_of_revolutions_above_yield"], ascending=False)
 
 
@@ -222,6 +223,6 @@ def _text(row: dict[str, Any], *, named: bool) -> str:
     name = " ".join([row["blade"]] * named + [title] * bool(title))
     amount = f"{row['size']:.0f}" if row["size"] >= 10.0 else f"{row['size']:.2g}"
     amount = f"{'> ' * row['onward']}{amount} {row['unit']}"
-    if row["above"] == "some":
+    if row["above"] == SOME:
         amount = f"up to {row['largest_stress_over_yield']:.2g} x yield"
     return f"{name}, {amount}" if name else amount

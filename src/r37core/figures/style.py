@@ -38,7 +38,7 @@ COLOURS = (
 CURVES = {
     "rms_normal": ("rms, normal (mm)", 1e3),
     "rms_tangential": ("rms, tangential (mm)", 1e3),
-    "max_von_mises": ("largest von Mises (GPa)", 1e-9),
+    "max_von_mises_ever": ("largest von Mises (GPa)", 1e-9),
 }
 """Variable that is drawn over speed -> label of its axis, and what a unit there is in the SI, inverted."""
 

@@ -9,12 +9,14 @@ import numpy as np
 
 from r37core.base.rounding import rounded_to
 from r37core.results.closing import (
+    counted,
     interaction_title,
     lining_texts,
     remarks_on_contact,
     remarks_on_diverged,
     remarks_on_far_motions,
 )
+from r37core.results.columns import MOST, SOME, above_yield
 from r37core.rom.reduction_choice import QUADRATIC
 from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
@@ -23,6 +25,9 @@ _FAR = "peak_share_of_height"
 
 MOST_SCENES = MOST_BLADES = 12
 """Scenes of which each has a line of its own, and blades that the line on all scenes names."""
+
+MOST_NAMED = 4
+"""Blades that the line on one scene names."""
 
 
 def closing_lines(
@@ -56,23 +61,27 @@ def _found(rows: list[dict[str, str]]) -> str:
     if not rows:
         return "found no interaction"
     worn_through = sum(_number(row, "worn_through_share") > 0.0 for row in rows)
-    above = [row for row in rows if _number(row, "width_above_yield_rad_s") > 0.0 or row.get("most_revolutions_from_rad_s")]
-    text = f"found {len(rows)} interaction{'s' * (len(rows) > 1)}, {len(above)} of them above yield"
+    known = [row for row in rows if row.get("share_of_revolutions_above_yield")]
+    kinds = [above_yield(_number(row, "share_of_revolutions_above_yield")) for row in known]
+    text = f"found {counted(len(rows), 'interaction')}"
+    if MOST in kinds or SOME in kinds:
+        text += f", {kinds.count(MOST)} of them above yield in most revolutions, {kinds.count(SOME)} in some"
+    elif known:
+        text += ", none of them above yield in any later revolution"
     if worn_through:
         text += f", {worn_through} with the lining worn through to the casing"
-    if above:
-        worst = max(above, key=_largest_stress)
-        if _largest_stress(worst) > 0.0:
-            title = interaction_title(worst["mode"], worst["engine_order"])
-            speed = worst["max_von_mises_speed_rad_s"]
-            where = f"at {float(speed):.6g}" if speed else f"about {_number(worst, 'peak_speed_rad_s'):.6g}"
-            text += f"; the largest stress {_stress(worst)}, {worst['blade']} in {worst['scene']} {where} rad/s ({title})"
+    if ended := [row for row in known if row["largest_stress_pa"]]:
+        text += f"; the largest stress {_worst(max(ended, key=lambda row: _number(row, 'largest_stress_over_yield')))}"
     return text
 
 
-def _largest_stress(row: dict[str, str]) -> float:
-    """Stress (Pa) of the last revolution; of direct contact, where that is chance, what nine tenths of them stay below."""
-    return _number(row, "max_von_mises_pa") or _number(row, "high_von_mises_pa")
+def _worst(row: dict[str, str]) -> str:
+    """How far the stress of an interaction goes, where, and in how many of the revolutions it is above yield."""
+    share, ratio = (_number(row, name) for name in ("share_of_revolutions_above_yield", "largest_stress_over_yield"))
+    title = interaction_title(row["mode"], row["engine_order"])
+    where = f"{row['blade']} in {row['scene']} at {_number(row, 'largest_stress_speed_rad_s'):.6g} rad/s ({title})"
+    text = f"{_stress(row)}, {ratio:.3g} times yield, {where}"
+    return f"{text}, above yield in up to {max(100.0 * share, 0.1):.2g}% of the revolutions" if share > 0.0 else text
 
 
 def _number(row: dict[str, str], column: str) -> float:
@@ -82,8 +91,8 @@ def _number(row: dict[str, str], column: str) -> float:
 
 def _stress(row: dict[str, str]) -> str:
     """The largest stress; where members give it a range, with as many digits as that bears, and the range beside it."""
-    stress = 1e-9 * _largest_stress(row)
-    ends = [row.get(f"max_von_mises_pa_{end}") for end in ("low", "high")]
+    stress = 1e-9 * _number(row, "largest_stress_pa")
+    ends = [row.get(f"largest_stress_pa_{end}") for end in ("low", "high")]
     if not all(ends):
         return f"{stress:.2f} GPa"
     low, high = (1e-9 * float(end or 0.0) for end in ends)
@@ -112,22 +121,37 @@ def _ranked(file: Path) -> list[str]:
 
 
 def _extremes(rows: list[dict[str, str]], file: Path) -> list[str]:
-    """Best and worst blade of each scene, where more than scatter lies between them."""
+    """Best and worst blades of each scene, with all that cannot be told apart from them."""
     lines = []
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
     # of many scenes, as of a family, their tables say it
     for scene in scenes if len(scenes) <= MOST_SCENES else ():
         scene_rows = [row for row in rows if row["scene"] == scene]
         best, worst = scene_rows[0], scene_rows[-1]
-        names = [row["blade"] for row in scene_rows if row["rank"] == best["rank"]]
-        apart = _number(worst, "length_most_revolutions_rad_s") - _number(best, "length_most_revolutions_rad_s")
-        if apart > sum(_number(row, "length_most_revolutions_scatter_rad_s") for row in (best, worst)):
-            verb = "is" if len(names) == 1 else "are"
-            lines.append(
-                f"{scene}: {' and '.join(names)} {verb} above yield at the fewest speeds ({_length(best)}), "
-                f"{worst['blade']} at the most ({_length(worst)}); {file}"
-            )
+        if best["rank"] == worst["rank"]:
+            lines += [f"{scene}: {_tied(scene_rows)}; {file}"] if len(scene_rows) > 1 else []
+            continue
+        safest, longest = ([row for row in scene_rows if row["rank"] == end["rank"]] for end in (best, worst))
+        verb = "is" if len(safest) == 1 else "are"
+        lines.append(
+            f"{scene}: {_named(safest)} {verb} above yield at the fewest speeds ({_length(best)}), "
+            f"{_named(longest)} at the most ({_length(worst)}); {file}"
+        )
     return lines
+
+
+def _tied(rows: list[dict[str, str]]) -> str:
+    """That blades cannot be ranked, and the range of their lengths."""
+    low, high = (end(_number(row, "length_most_revolutions_rad_s") for row in rows) for end in (min, max))
+    return f"{_named(rows)} cannot be ranked (above yield over {low:.0f}{f' to {high:.0f}' if high > low else ''} rad/s)"
+
+
+def _named(rows: list[dict[str, str]]) -> str:
+    """Names of blades, of many the first ones."""
+    names = [row["blade"] for row in rows]
+    if (more := len(names) - MOST_NAMED) > 0:
+        return f"{', '.join(names[:MOST_NAMED])} and {more} more"
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def _length(row: dict[str, str]) -> str:
@@ -155,7 +179,7 @@ def _overall(rows: list[dict[str, str]]) -> list[str]:
         for _, equal in groupby(ranked[:MOST_BLADES], key=lambda row: row["rank_over_scenes"])
     ]
     more = ", ..." if len(ranked) > MOST_BLADES else ""
-    equal = " (=: within scatter)" if len(places) < len(ranked[:MOST_BLADES]) else ""
+    equal = " (=: cannot be told apart)" if len(places) < len(ranked[:MOST_BLADES]) else ""
     scenes = len({row["scene"] for row in rows})
     over = "both" if scenes == 2 else f"all {scenes}"
     return [f"over {over} scenes, by the longest length in any (rad/s): {', '.join(places)}{more}{equal}"]

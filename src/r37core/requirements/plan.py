@@ -19,7 +19,6 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Sweep
 from r37core.rom.naming import mode_names
-from r37core.rom.reduction_choice import POINTS
 
 from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
 
@@ -92,18 +91,6 @@ class Judged:
         short = pairs_not_covered(settings, operating)
         pairs = self.sweep.runs_with("rms")
         return [pair for pair in pairs if pair not in short and pair[1] not in self.not_looked]
-
-    @property
-    def errors(self) -> list[float]:
-        """Relative error of the level, by mesh and step, of each blade and scene; 0 where it was not measured."""
-        measured, linings = self.sweep.settings.fidelity.measured, self.sweep.settings.linings
-        pairs, points = self.sweep.runs_with("rms"), self.point_contact
-        return [(measured and measured.error_of(blade in points and scene not in linings)) or 0.0 for blade, scene in pairs]
-
-    @property
-    def point_contact(self) -> list[str]:
-        """Blades whose contact acts on points."""
-        return [name for name in self.sweep.settings.blades if self.sweep.settings.contact_of(name) == POINTS]
 
     def looks(self, made: Provenance) -> Stage:
         """The stage of the further runs of a blade and scene."""

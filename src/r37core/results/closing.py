@@ -38,15 +38,15 @@ def counted(number: int, name: str) -> str:
 
 
 def largest_stress_text(table: pd.DataFrame, speed: str) -> str:
-    """The largest stress of a table with the columns blade, scene and max_von_mises_pa, and where; `speed`: a column's name.
+    """The largest stress of a table with the columns blade, scene and largest_stress_pa, and where; `speed`: a column's name.
 
     Empty where no row has a stress.
     """
-    if "max_von_mises_pa" not in table or table["max_von_mises_pa"].isna().all():
+    if "largest_stress_pa" not in table or table["largest_stress_pa"].isna().all():
         return ""
-    row = table.loc[table["max_von_mises_pa"].idxmax()]
+    row = table.loc[table["largest_stress_pa"].idxmax()]
     where = f"{row['blade']} in {row['scene']} at {row[speed]:.6g} rad/s"
-    return f"; the largest stress {1e-9 * row['max_von_mises_pa']:.2f} GPa, {where}"
+    return f"; the largest stress {1e-9 * row['largest_stress_pa']:.2f} GPa, {where}"
 
 
 def interaction_title(mode: object, engine_order: Any) -> str:

@@ -5,11 +5,15 @@ Light: the configuration imports it.
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from math import isnan
 
 from r37core.base.units import shown_unit, si_name, unit_of
 
 MOST_REVOLUTIONS, SOME_REVOLUTIONS = 0.5, 0.05
 """Shares of the revolutions above which a speed counts as above yield in most, and in some, revolutions."""
+
+MOST, SOME, NEVER = "most", "some", "never"
+"""Whether the stress is above yield in most of the judged revolutions, in some of them, or in none."""
 
 DROP_WITHIN = 24.0
 """Speeds (rad/s) above a peak over which its motion counts as dropped."""
@@ -77,6 +81,11 @@ class Column:
         return [f"{self.name}_{end}" for end in ENDS]
 
 
+def above_yield(share: float) -> str:
+    """MOST, SOME or NEVER, by a share of the revolutions above yield; empty where it is not known."""
+    return "" if isnan(share) else MOST if share > MOST_REVOLUTIONS else SOME if share > 0.0 else NEVER
+
+
 def names(columns: Iterable[Column]) -> list[str]:
     """Names of the columns in a table, each followed by that of its scatter."""
     return [name for column in columns for name in (column.name, *([column.scatter_name] if column.scatter else []))]
@@ -87,10 +96,36 @@ _REVOLUTIONS = "later revolutions"
 
 _IN_SOME = f"more than {SOME_REVOLUTIONS:.0%} of the {_REVOLUTIONS} exceed yield"
 _IN_MOST = f"more than {MOST_REVOLUTIONS:.0%} of the {_REVOLUTIONS} exceed yield"
-_MEDIAN = f"largest median of the von Mises stress over the {_REVOLUTIONS}"
+_STRESS = f"of the von Mises stress over the {_REVOLUTIONS}"
 _MOST, _SOME = "above yield in most revolutions", "above yield in some revolutions"
 _LOST = f"share of the amplitude lost within {DROP_WITHIN:g} rad/s above the peak"
-_GOODMAN = "largest share of the Goodman line"
+
+LENGTHS = (
+    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, 130, minimised=True),
+    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}", _SOME, 132, minimised=True),
+    Column(
+        "length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", "ever above yield", 134
+    ),
+)
+"""How long a range of speeds is above yield (results.exceedance)."""
+
+DANGER = (
+    *LENGTHS,
+    Column(
+        "share_of_revolutions_above_yield",
+        f"largest share, at any of the speeds, of the {_REVOLUTIONS} that exceed yield",
+        "revolutions above yield",
+        136,
+        percent=True,
+    ),
+    Column("largest_median_stress_pa", f"largest median {_STRESS}", "median stress", 140, minimised=True),
+    Column("largest_high_stress_pa", f"largest 90% quantile {_STRESS}", "high stress"),
+    Column("largest_stress_pa", f"largest {_STRESS}", "largest stress", 150),
+    Column("largest_stress_over_yield", "largest stress over the yield stress", "times yield", 155),
+    Column("largest_stress_speed_rad_s", "speed of the largest stress", "at speed", 160),
+    Column("largest_goodman_share", "largest share of the Goodman line", "Goodman share", 170, minimised=True),
+)
+"""How dangerous a range of speeds is, the same for interactions, blades, designs and members (results.danger)."""
 
 INTERACTIONS = (
     Column("blade", "name of the blade", place=10),
@@ -104,16 +139,7 @@ INTERACTIONS = (
     Column("peak_rms_normal_m", "rms normal to the casing at the peak speed", "normal rms", place=80),
     Column("peak_rms_tangential_m", "tangential rms at the peak speed", "tangential rms"),
     Column("drop", _LOST, "amplitude lost above the peak", place=90, percent=True),
-    Column("first_yield_speed_rad_s", "lowest speed with stress above yield", "first speed above yield"),
-    Column("width_above_yield_rad_s", "distance from the first to the last speed above yield, ends interpolated", place=100),
-    Column(
-        "share_above_yield",
-        "share of this width that is above yield: chaotic motion leaves gaps",
-        "part of the width above yield",
-        percent=True,
-    ),
-    Column("max_von_mises_pa", "largest von Mises stress of the last revolution", "largest stress, last revolution", place=150),
-    Column("max_von_mises_speed_rad_s", "speed of the largest stress", "at speed", place=160),
+    *DANGER,
     Column("max_von_mises_span", "span of the largest stress", "span", place=162),
     Column("max_von_mises_chord", "chord of the largest stress", "chord", place=164),
     Column("max_von_mises_side", "side of the largest stress", "side", place=166),
@@ -147,15 +173,10 @@ INTERACTIONS = (
         place=220,
         percent=True,
     ),
-    Column("width_ever_above_yield_rad_s", f"width above yield if any of the {_REVOLUTIONS} counts"),
     Column("some_revolutions_from_rad_s", f"lowest speed at which {_IN_SOME}", f"{_SOME} from", place=110, scatter=True),
     Column("some_revolutions_to_rad_s", f"highest speed at which {_IN_SOME}", f"{_SOME} to", place=120, scatter=True),
     Column("most_revolutions_from_rad_s", f"lowest speed at which {_IN_MOST}", f"{_MOST} from", scatter=True),
     Column("most_revolutions_to_rad_s", f"highest speed at which {_IN_MOST}", f"{_MOST} to", scatter=True),
-    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, place=130),
-    Column("median_von_mises_pa", _MEDIAN, "median stress", place=140),
-    Column("high_von_mises_pa", f"largest 90% quantile of the von Mises stress over the {_REVOLUTIONS}", "high stress"),
-    Column("largest_goodman_share", _GOODMAN, "Goodman share", place=170),
     Column("peak_motion_m", "normal and tangential rms together, at the peak speed", "rms, both directions", scatter=True),
     Column("fall_speed_rad_s", "speed above the peak at which the motion falls below half of it", "falls at", scatter=True),
     Column("note", "reason for empty columns, and where the lining is worn through"),
@@ -166,7 +187,7 @@ What is named peak is at the peak speed, what is named max the largest within th
 standard deviation by chance of what stands before it (results.exceedance). NaN is what a scene does not compute.
 """
 
-_WITH_RANGE = ("peak_speed_rad_s", "width_above_yield_rad_s", "first_yield_speed_rad_s", "max_von_mises_pa")
+_WITH_RANGE = ("peak_speed_rad_s", "length_most_revolutions_rad_s", "length_ever_rad_s", "largest_stress_pa")
 RANGED = tuple(column for name in _WITH_RANGE for column in INTERACTIONS if column.name == name)
 """Columns to which tolerances add a range over the members."""
 
@@ -188,9 +209,14 @@ SUMMARY = (*INTERACTIONS, *SECOND_MOTIONS, *MEMBERS_SHOWING)
 """All columns that summary.csv may have."""
 
 ROBUSTNESS = (
-    Column("length_most_revolutions_rad_s", f"length of all speeds at which {_IN_MOST}", _MOST, scatter=True, minimised=True),
-    Column("length_some_revolutions_rad_s", f"length of all speeds at which {_IN_SOME}", _SOME, scatter=True, minimised=True),
-    Column("length_ever_rad_s", f"length of all speeds at which any of the {_REVOLUTIONS} exceeds yield", "ever above yield"),
+    *(replace(column, scatter=True) for column in LENGTHS[:2]),
+    *DANGER[2:],
+    Column(
+        "length_most_revolutions_within_rad_s",
+        "by how much that length may be off: distance of the speeds, scatter by chance and error of the level together",
+        "known within",
+    ),
+    Column("length_some_revolutions_within_rad_s", "the same of the length in some revolutions", "known within"),
     Column(
         "length_lasting_rad_s",
         "length of all speeds above yield in most revolutions whose motion lasts or grows at the end",
@@ -203,7 +229,6 @@ ROBUSTNESS = (
         scatter=True,
         minimised=True,
     ),
-    Column("largest_goodman_share", _GOODMAN, "Goodman share", minimised=True),
     Column(
         "length_goodman_rad_s",
         "length of all speeds above the Goodman line in most revolutions",
@@ -215,7 +240,6 @@ ROBUSTNESS = (
         "integral above the Goodman line",
         minimised=True,
     ),
-    Column("largest_median_stress_pa", _MEDIAN, minimised=True),
     Column("first_most_revolutions_rad_s", f"lowest speed {_MOST}", f"first speed {_MOST}"),
     Column("first_some_revolutions_rad_s", f"lowest speed {_SOME}", f"first speed {_SOME}"),
     Column(
@@ -279,14 +303,19 @@ WORST_MOTION = (
 """Columns that second motions add to ranking.csv."""
 
 OVER_SCENES = (
-    Column("rank_over_scenes", "rank by the longest length in any scene; shared within scatter"),
+    Column("rank_over_scenes", "rank by the longest length in any scene; shared by what cannot be told apart"),
     Column("worst_rank", "worst rank of the blade in any scene"),
     Column("length_over_scenes_rad_s", "sum of the lengths above yield over all scenes", f"{_MOST}, all scenes"),
 )
 """Columns of ranking.csv that are the same in all scenes, where there are several."""
 
 RANKING = (
-    Column("rank", "place in the scene: by length above yield in most, then in some revolutions, diverged runs, stress"),
+    Column(
+        "rank",
+        "place in the scene, by length above yield in most, then in some revolutions; shared by what cannot be told apart",
+    ),
+    Column("rank_lowest", "one more than the blades that are surely better"),
+    Column("rank_highest", "place where all that are not surely worse stand before it"),
     Column("contact", "contact nodes, kinematics; ranks and chances are among equals"),
     *OVER_SCENES,
     *ROBUSTNESS,

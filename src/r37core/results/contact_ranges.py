@@ -8,11 +8,12 @@ import numpy as np
 import xarray as xr
 
 from .columns import DROP_WITHIN, SOME_REVOLUTIONS
+from .danger import ranges_of, ratio_to_yield
 from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from .interaction import Interaction, interaction_row, range_columns
-from .measures import motion, ratio_to_yield, strongest_order
+from .measures import motion, strongest_order
 
-NOTE = "direct contact: matches with modes and the stress of one revolution are chance"
+NOTE = "direct contact: matches with modes are chance"
 NO_PEAK = "above yield without a peak of the motion: nothing to match with a mode"
 
 _OF_NORMAL = 1.4826 / np.sqrt(1.5)
@@ -23,7 +24,7 @@ def rows_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list
     """Rows by ascending speed: every range that may be above yield, and of the `peaks` those that lie in none of them.
 
     A range is where the smoothed share of the revolutions above yield is above SOME_REVOLUTIONS, where a speed's own share is,
-    or where its last revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
+    or where any judged revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
     """
     exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
     ranges = _ranges(response, exceedance)
@@ -36,27 +37,36 @@ def rows_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list
     return sorted(rows, key=itemgetter("peak_speed_rad_s"))
 
 
-def ranges_without_peak(response: xr.Dataset, rows: Sequence[Interaction]) -> list[Interaction]:
-    """Rows of ranges above yield that no interaction among the `rows` of a lined scene reaches into."""
+def ranges_without_peak(response: xr.Dataset, reaches: Sequence[SpeedRange]) -> list[Interaction]:
+    """Rows of ranges above yield, as far as they lie outside of the `reaches` of all interactions of a lined scene."""
     if "share_of_revolutions_above_yield" not in response:
         return []
     exceedance = exceedance_of(response)
+    ratio = ratio_to_yield(response)
+    above = ratio["speed"].values[ratio.values > 1.0]
+    parts = [part for within in _ranges(response, exceedance) for part in _outside(within, reaches)]
+    alone = above[[not any(reach.begin <= speed <= reach.end for reach in reaches) for speed in above]]
     return [
-        _row(response, exceedance, within, note=NO_PEAK)
-        for within in _ranges(response, exceedance)
-        if not any(
-            row["some_revolutions_from_rad_s"] <= within.end and row["some_revolutions_to_rad_s"] >= within.begin
-            for row in rows
-        )
+        _row(response, exceedance, part, note=NO_PEAK) for part in parts if np.any((alone >= part.begin) & (alone <= part.end))
     ]
+
+
+def _outside(within: SpeedRange, reaches: Sequence[SpeedRange]) -> list[SpeedRange]:
+    """The parts of a range that no other of the ranges has."""
+    parts = [within]
+    for reach in reaches:
+        cut = [(part.begin, min(part.end, reach.begin)) for part in parts]
+        cut += [(max(part.begin, reach.end), part.end) for part in parts]
+        parts = [SpeedRange(begin, end, within.truncated) for begin, end in cut if begin <= end]
+    return parts
 
 
 def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRange]:
     if exceedance is None:
         return []
-    ratio = ratio_to_yield(response)
     own = ranges_above(exceedance.speeds, exceedance.shares, SOME_REVOLUTIONS)
-    return joined([*exceedance.ranges(SOME_REVOLUTIONS), *own, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
+    _, some, ever = ranges_of(response, exceedance).values()
+    return joined([*some, *own, *ever])
 
 
 def _row(
@@ -73,7 +83,7 @@ def _row(
     order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
     columns: dict[str, Any] = {"mode": "", "engine_order": order, "direction": largest[0] if len(largest) == 1 else "both"}
     if exceedance:
-        columns |= range_columns(exceedance, within)
+        columns |= range_columns(response, exceedance, within)
     if exceedance and not peak_alone:
         # ends of the row itself, which may be single speeds
         columns |= {"some_revolutions_from_rad_s": within.begin, "some_revolutions_to_rad_s": within.end}

@@ -10,6 +10,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .columns import INTERACTIONS, MOST_REVOLUTIONS, SOME_REVOLUTIONS, names
+from .danger import largest_of, ranges_of
 from .exceedance import Exceedance, SpeedRange
 from .measures import drop_after, lasts
 from .variables import PLACES
@@ -23,22 +24,21 @@ Of a lined scene an interaction is a peak of the motion; of direct contact a ran
 peak's crossing and one revolution's stress are chance there, and their columns are empty. `note` says why columns are, and
 where the lining is worn through. Without a crossing that explains the peak `mode` is empty.
 
-An interaction reaches, on both sides, to the lowest motion before the neighbouring peak, or to where the motion stays below
-QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for near the end of a branch the motion
-is chaotic.
+An interaction reaches (`reach`, which is no column), on both sides, to the lowest motion before the neighbouring peak, or to
+where the motion stays below QUIET of its own peak for more than DROP_WITHIN: single speeds in between do not end it, for near
+the end of a branch the motion is chaotic.
 """
 
 
-def range_columns(exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
-    """Where within a row's speeds a share of the revolutions is above yield, with the scatter of the borders."""
+def range_columns(response: xr.Dataset, exceedance: Exceedance, within: SpeedRange) -> dict[str, Any]:
+    """How long a row's speeds are above yield, and where so in a share of the revolutions, with the scatter of the borders."""
     columns: dict[str, Any] = {}
-    for name, share in (("some_revolutions", SOME_REVOLUTIONS), ("most_revolutions", MOST_REVOLUTIONS)):
-        ranges = [part for part in exceedance.ranges(share) if part.end >= within.begin and part.begin <= within.end]
-        if name == "most_revolutions":
-            columns["length_most_revolutions_rad_s"] = sum(
-                min(part.end, within.end) - max(part.begin, within.begin) for part in ranges
-            )
-        if ranges:
+    for length, parts in ranges_of(response, exceedance).items():
+        ranges = [part for part in parts if part.end >= within.begin and part.begin <= within.end]
+        columns[length] = float(sum(min(part.end, within.end) - max(part.begin, within.begin) for part in ranges))
+        name = length.removeprefix("length_").removesuffix("_rad_s")
+        share = {"most_revolutions": MOST_REVOLUTIONS, "some_revolutions": SOME_REVOLUTIONS}.get(name)
+        if ranges and share is not None:
             begin, end = max(ranges[0].begin, within.begin), min(ranges[-1].end, within.end)
             columns[f"{name}_from_rad_s"], columns[f"{name}_to_rad_s"] = begin, end
             columns[f"{name}_from_scatter_rad_s"] = exceedance.scatter_of_border(share, ranges[0], begins=True)
@@ -69,9 +69,7 @@ def interaction_row(
         "drop": drop_after(response, index),
         **_place(reach),
         "stress_region": str(reach["stress_region"].item()) if "stress_region" in reach else "",
-        "median_von_mises_pa": _largest(reach, "max_von_mises_median"),
-        "high_von_mises_pa": _largest(reach, "max_von_mises_high"),
-        "largest_goodman_share": _largest(reach, "goodman_share"),
+        **largest_of(reach),
         "max_wear_m": _largest(reach, "max_wear"),
         "worn_through_share": worn_through,
         "sufficient_thickness_m": _largest(reach, "used_thickness"),

@@ -15,19 +15,13 @@ from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
 from .closing import interaction_title
-from .columns import DROP_WITHIN, INTERACTIONS, MOST_REVOLUTIONS, names
+from .columns import DROP_WITHIN, INTERACTIONS, above_yield, names
 from .contact_ranges import ranges_without_peak, rows_above_yield
 from .datasets import response_of
 from .exceedance import SpeedRange, exceedance_of, is_lined
 from .interaction import Interaction, interaction_row, range_columns
 from .interaction_choice import InteractionChoice
-from .measures import (
-    largest_stress,
-    leading_edge,
-    motion,
-    speeds_above_yield,
-    strongest_order,
-)
+from .measures import leading_edge, motion, strongest_order
 
 QUIET = 0.1
 """Share of an interaction's peak below which the motion counts as outside, if it stays there."""
@@ -68,7 +62,8 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     lined = is_lined(response)
     peaks = _interactions(response, campbell if lined else None, choice)
     if lined:
-        return sorted([*peaks, *ranges_without_peak(response, peaks)], key=itemgetter("peak_speed_rad_s"))
+        found = [*peaks, *ranges_without_peak(response, [peak["reach"] for peak in peaks])]
+        return sorted(found, key=itemgetter("peak_speed_rad_s"))
     return rows_above_yield(response, peaks)
 
 
@@ -190,20 +185,10 @@ def _interaction(response: xr.Dataset, index: int, reach: xr.Dataset, group: lis
         "direction": direction,
         "campbell_speed_rad_s": first.crossing,
     }
-    if "max_von_mises" in reach:
-        above, (largest, at) = speeds_above_yield(reach), largest_stress(reach)
-        columns |= {
-            "first_yield_speed_rad_s": above.first,
-            "width_above_yield_rad_s": above.width,
-            "share_above_yield": above.share,
-            "max_von_mises_pa": largest,
-            "max_von_mises_speed_rad_s": at,
-        }
+    ends = SpeedRange(float(reach["speed"][0]), float(reach["speed"][-1]), truncated=False)
     if "share_of_revolutions_above_yield" in reach:
-        ends = SpeedRange(float(reach["speed"][0]), float(reach["speed"][-1]), truncated=False)
-        columns |= range_columns(exceedance_of(reach), ends)
-        columns["width_ever_above_yield_rad_s"] = speeds_above_yield(reach, "max_von_mises_ever").width
-    return interaction_row(response, index, reach, columns)
+        columns |= range_columns(reach, exceedance_of(reach), ends)
+    return interaction_row(response, index, reach, columns) | {"reach": ends}
 
 
 def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> pd.DataFrame:
@@ -227,9 +212,9 @@ def sized(interactions: pd.DataFrame, rms: xr.Dataset) -> pd.DataFrame:
     """The table with columns `frequency`, `size`, `unit`, `above` and `onward`.
 
     `frequency` (Hz): of the engine order at the peak speed, NaN without one. `size`: length above yield in most revolutions
-    (rad/s); in a scene without stress the motion (mm); `unit`: which of these. `above`: whether the stress is above yield in
-    "most", in "some" or "never" in the judged revolutions at any of the speeds; "" where it is not known. `onward`: whether
-    the speeds above yield in most revolutions reach to an end of those that were run, by `rms`.
+    (rad/s); in a scene without stress the motion (mm); `unit`: which of these. `above`: columns.above_yield of the largest
+    share at any of the speeds. `onward`: whether the speeds above yield in most revolutions reach to an end of those that were
+    run, by `rms`.
     """
     table = interactions.reindex(columns=[*interactions.columns, *(name for name in _OF if name not in interactions)])
     length, share, begin, end, motion = (table[name].astype(float) for name in _OF)
@@ -241,6 +226,6 @@ def sized(interactions: pd.DataFrame, rms: xr.Dataset) -> pd.DataFrame:
         frequency=table["engine_order"].astype(float) * table["peak_speed_rad_s"] / (2.0 * np.pi),
         size=length.where(stress, 1e3 * motion).fillna(0.0),
         unit=np.where(stress, "rad/s", "mm"),
-        above=np.select([share > MOST_REVOLUTIONS, share > 0.0, share == 0.0], ["most", "some", "never"], ""),
+        above=share.map(above_yield),
         onward=(begin <= first) | (end >= last),
     )

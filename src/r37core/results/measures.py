@@ -4,16 +4,12 @@ A `response` is one blade in one scene, with the variables of response.nc over a
 have the leading edge alone instead of the dimension `tip_point`.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 import xarray as xr
 
 from r37core.time_integration.settling import MotionAtEnd
-from r37core.time_integration.status import RunStatus
 
 from .columns import DROP_WITHIN
-from .exceedance import ranges_above
 
 _RESPONDS = 2e-3
 """Motion (m) below which a range of speeds holds no interaction."""
@@ -59,65 +55,6 @@ def strongest_order(amplitude: xr.DataArray, above: float = 0.5) -> float:
     """
     vibration = amplitude.where(amplitude["engine_order"] >= above, 0.0).fillna(0.0)
     return float(vibration["engine_order"][int(np.argmax(vibration.values))])
-
-
-@dataclass(frozen=True)
-class YieldRange:
-    """Speeds (rad/s) above yield: the `first` and `last`, NaN for none, and the `length` of all between that are above.
-
-    The length is NaN without any speed. `truncated`: whether the speeds begin or end above yield, and it may go on beyond.
-    """
-
-    first: float
-    last: float
-    length: float
-    truncated: bool
-
-    @property
-    def width(self) -> float:
-        """Width (rad/s) from the first to the last speed above yield; 0 where none is above."""
-        return 0.0 if np.isnan(self.first) else self.last - self.first
-
-    @property
-    def share(self) -> float:
-        """Share of the width that is above yield; NaN without a width."""
-        return min(self.length / self.width, 1.0) if self.width > 0.0 else np.nan
-
-
-def range_above_yield(speeds: np.ndarray, ratio: np.ndarray) -> YieldRange:
-    """Where the stress, a `ratio` of yield at ascending `speeds` (rad/s), infinite of a run that diverged, is above it."""
-    ranges = ranges_above(speeds, ratio, 1.0)
-    if not ranges:
-        return YieldRange(np.nan, np.nan, 0.0 if len(speeds) else np.nan, False)
-    length = sum(part.length for part in ranges)
-    return YieldRange(ranges[0].begin, ranges[-1].end, length, ranges[0].truncated or ranges[-1].truncated)
-
-
-def ratio_to_yield(response: xr.Dataset, stress: str = "max_von_mises") -> xr.DataArray:
-    """A stress, by default the last revolution's, as a share of yield, over the speeds that were run; infinite if diverged."""
-    ratio = response[stress] / response["yield_stress"]
-    return ratio.where(response["status"] != RunStatus.DIVERGED, np.inf).dropna("speed")
-
-
-def speeds_above_yield(response: xr.Dataset, stress: str = "max_von_mises") -> YieldRange:
-    """Where a stress of a response, by default the last revolution's, is above yield, over all its speeds."""
-    ratio = ratio_to_yield(response, stress)
-    return range_above_yield(ratio["speed"].values, ratio.values)
-
-
-def width_above_yield(response: xr.Dataset) -> float:
-    """Width (rad/s) from the first to the last speed above yield; NaN where the speeds begin or end above it."""
-    above = speeds_above_yield(response)
-    return np.nan if above.truncated else above.width
-
-
-def largest_stress(response: xr.Dataset) -> tuple[float, float]:
-    """Largest stress (Pa) over all speeds and its speed (rad/s); NaN where no run has one."""
-    series = response["max_von_mises"].dropna("speed")
-    if not series.size:
-        return np.nan, np.nan
-    index = int(np.argmax(series.values))
-    return float(series[index]), float(series["speed"][index])
 
 
 def has_strengths(response: xr.Dataset) -> bool:

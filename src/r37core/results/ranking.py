@@ -12,8 +12,9 @@ from r37core.base.units import si_name
 from r37core.time_integration.status import RunStatus
 
 from .columns import CHANCE, ENDS, MOST_REVOLUTIONS, OPERATING, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
+from .danger import danger_of, moved_by_error
 from .exceedance import SpeedRange, exceedance_of
-from .measures import drop_after, has_strengths, lasts, motion, peak_of, speeds_above_yield
+from .measures import drop_after, has_strengths, lasts, motion, peak_of
 from .operating_range import OperatingRange
 from .table_file import read_table
 
@@ -21,7 +22,17 @@ MeasuresOfMembers = dict[tuple[str, str], dict[str, dict[str, float]]]
 """(blade, scene) -> member -> column of RANKED_BY -> value."""
 
 RANKED_BY = ("length_most_revolutions_rad_s", "length_some_revolutions_rad_s", "diverged_runs", "largest_median_stress_pa")
-"""Columns that blades are ranked by: less of the first is better, of the next where that is the same."""
+"""Columns that blades are ordered by: less of the first is better, of the next where that is the same."""
+
+_SHARES = (
+    ("most_revolutions", MOST_REVOLUTIONS, "max_von_mises_median"),
+    ("some_revolutions", SOME_REVOLUTIONS, "max_von_mises_high"),
+)
+"""Part of a column's name, share of the revolutions that it means, and the stress that tells how far an error moves it."""
+
+_RANKS = ("rank", "rank_lowest", "rank_highest")
+_TOLD_APART = RANKED_BY[:2]
+"""Columns that give another rank, where they differ by more than they are known within."""
 
 
 def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chance_scatter: bool = True) -> dict[str, float]:
@@ -47,12 +58,12 @@ def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chanc
 
 
 def robustness(
-    response: xr.Dataset, *, chance_scatter: bool = True, operating: OperatingRange | None = None
+    response: xr.Dataset, *, chance_scatter: bool = True, operating: OperatingRange | None = None, error: float = 0.0
 ) -> dict[str, float]:
     """ROBUSTNESS of one blade in one scene; NaN for what is not computed, and for a first speed that there is not.
 
     `chance_scatter`: whether chance is drawn, which takes longer than all else and which members have no use for. `operating`:
-    range whose operating_measures are among them.
+    range whose operating_measures are among them; `error`: relative one of the stress, by mesh and step of the level.
     """
     response = response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
     inside = operating_measures(response, operating, chance_scatter=chance_scatter) if operating else {}
@@ -67,17 +78,18 @@ def robustness(
     measures["diverged_runs"] = float(np.count_nonzero(~ended))
     measures["largest_gap_rad_s"] = float(np.diff(response["speed"].values).max(initial=0.0))
     if "share_of_revolutions_above_yield" in response:
+        measures |= danger_of(response)
         exceedance = exceedance_of(response)
-        for name, share in (("most_revolutions", MOST_REVOLUTIONS), ("some_revolutions", SOME_REVOLUTIONS)):
+        for name, share, stress in _SHARES:
             ranges = exceedance.ranges(share)
-            measures[f"length_{name}_rad_s"] = exceedance.length(share)
-            if chance_scatter:
-                measures[f"length_{name}_scatter_rad_s"] = exceedance.scatter_of_length(share)
+            scatter = exceedance.scatter_of_length(share) if chance_scatter else np.nan
+            known = (measures["largest_gap_rad_s"], np.nan_to_num(scatter), moved_by_error(response, stress, error))
+            measures[f"length_{name}_scatter_rad_s"] = scatter
+            measures[f"length_{name}_within_rad_s"] = float(np.linalg.norm(known))
             measures[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
         measures["exceedance_integral_rad_s"] = exceedance.integral
         if chance_scatter:
             measures["exceedance_integral_scatter_rad_s"] = exceedance.scatter_of_integral
-        measures["length_ever_rad_s"] = speeds_above_yield(response, "max_von_mises_ever").length
         if "motion_at_end" in response:
             shares = response["share_of_revolutions_above_yield"].where(lasts(response), 0.0)
             lasting = exceedance_of(response.assign(share_of_revolutions_above_yield=shares))
@@ -86,10 +98,8 @@ def robustness(
         widest = max(above_yield, key=lambda above: above.length, default=SpeedRange(np.nan, np.nan, False))
         measures["widest_range_rad_s"], measures["widest_range_from_rad_s"] = np.nan_to_num(widest.length), widest.begin
         measures["ranges_most_revolutions"] = len(above_yield)
-        measures["largest_median_stress_pa"] = float(response["max_von_mises_median"].max())
     if has_strengths(response):
         exceedance = exceedance_of(response, "share_of_revolutions_above_goodman")
-        measures["largest_goodman_share"] = float(response["goodman_share"].max())
         measures["length_goodman_rad_s"] = exceedance.length(MOST_REVOLUTIONS)
         measures["goodman_integral_rad_s"] = exceedance.integral
     return measures
@@ -132,21 +142,49 @@ def ranking_table(
     contacts = contacts or {}
     table = pd.DataFrame([{"blade": blade, "scene": scene, **values} for (blade, scene), values in measures.items()])
     table.insert(2, "contact", [contacts.get(blade, "") for blade in table["blade"]])
-    alike = table.groupby(["scene", "contact"])
-    keys = table[list(RANKED_BY)].fillna(np.inf).apply(tuple, axis=1)
-    groups = alike.ngroup()
-    ranks = [1 + sum(other < key for other in keys[groups == group]) for key, group in zip(keys, groups, strict=True)]
+    alike = ["scene", "contact"]
     # blades without stress have nothing to be ranked by
-    table.insert(2, "rank", pd.Series(ranks, dtype="Int64").where(table[RANKED_BY[0]].notna()))
+    known = table[table[RANKED_BY[0]].notna()]
+    ranks = pd.concat([ranks_of(rows) for _, rows in known.groupby(alike)] or [pd.DataFrame(columns=_RANKS)])
+    for place, name in enumerate(_RANKS, 2):
+        table.insert(place, name, ranks[name].reindex(table.index).astype("Int64"))
     if "exceedance_integral_operating_rad_s" in table:
-        inside = alike["exceedance_integral_operating_rad_s"].rank(method="min")
+        inside = table.groupby(alike)["exceedance_integral_operating_rad_s"].rank(method="min")
         table["rank_operating"] = inside.astype("Int64")
     if members:
         table = pd.concat([table, pd.DataFrame([_member_columns(pair, members, contacts) for pair in measures])], axis=1)
     if table.loc[table["rank"].notna(), "scene"].nunique() > 1:
         table = pd.concat([table, _overall(table)], axis=1)
-    order = ["scene", "contact", "rank"]
-    return table.sort_values(order, key=lambda keys: keys if keys.name == "rank" else pd.Series(pd.factorize(keys)[0]))
+    order = ["scene", "contact", "rank", *RANKED_BY]
+    return table.sort_values(order, key=lambda keys: pd.Series(pd.factorize(keys)[0]) if keys.name in order[:2] else keys)
+
+
+def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
+    """`rank`, `rank_lowest` and `rank_highest` of rows of one scene, by _TOLD_APART and what these are known within.
+
+    One is surely better where the first of the columns that tells them apart is less. All that are not surely worse than the
+    best of a group, by RANKED_BY, share its rank.
+    """
+    values = rows[list(_TOLD_APART)].to_numpy()
+    within = rows[[_within(name) for name in _TOLD_APART]].fillna(0.0).to_numpy()
+
+    def is_better(one: int, other: int) -> bool:
+        apart = np.flatnonzero(np.abs(values[one] - values[other]) > within[one] + within[other])
+        return bool(len(apart)) and bool(values[one, apart[0]] < values[other, apart[0]])
+
+    better = np.array([[is_better(one, other) for other in range(len(rows))] for one in range(len(rows))])
+    order = np.lexsort(rows[list(RANKED_BY)].fillna(np.inf).to_numpy().T[::-1])
+    shared, best = np.empty(len(rows), int), order[0]
+    for place, row in enumerate(order):
+        best = row if better[best, row] else best
+        shared[row] = place + 1 if best == row else shared[best]
+    columns = {"rank": shared, "rank_lowest": 1 + better.sum(axis=0), "rank_highest": len(rows) - better.sum(axis=1)}
+    return pd.DataFrame(columns, rows.index, dtype="Int64")
+
+
+def _within(column: str) -> str:
+    """Column of what a length is known within."""
+    return column.replace("_rad_s", "_within_rad_s")
 
 
 def _overall(table: pd.DataFrame) -> pd.DataFrame:
@@ -154,10 +192,8 @@ def _overall(table: pd.DataFrame) -> pd.DataFrame:
     ranked = table[table["rank"].notna()]
     blades, by = ranked.groupby("blade"), RANKED_BY[0]
     worst = ranked.loc[blades[by].idxmax()].set_index("blade")[blades.size() == ranked["scene"].nunique()]
-    scatter = worst["length_most_revolutions_scatter_rad_s"].fillna(0.0)
-    high, low = worst[by] + scatter, worst[by] - scatter
-    ranks = [1 + (high[worst["contact"] == worst["contact"][blade]] < low[blade]).sum() for blade in worst.index]
-    columns = [pd.Series(ranks, worst.index, dtype="Int64"), blades["rank"].max(), blades[by].sum()]
+    ranks = pd.concat([ranks_of(rows)["rank"] for _, rows in worst.groupby("contact")]).reindex(worst.index)
+    columns = [ranks, blades["rank"].max(), blades[by].sum()]
     overall = pd.concat(dict(zip(names(OVER_SCENES), columns, strict=True)), axis=1).reindex(worst.index)
     return overall.reindex(table["blade"]).set_axis(table.index)
 
@@ -166,11 +202,11 @@ def read_ranking(file: Path | str) -> pd.DataFrame:
     """ranking.csv. Raises InputFileError where it cannot be read, or a column is missing or has no numbers."""
     table = read_table(file)
     with readable(file):
-        missing = [name for name in ("blade", "scene", "rank", *names(ROBUSTNESS)) if name not in table]
+        missing = [name for name in ("blade", "scene", *_RANKS, *names(ROBUSTNESS)) if name not in table]
         if missing:
             raise ValueError(f"without the columns {', '.join(missing)}")
         numbers = dict.fromkeys(table.columns.drop(["blade", "scene", "contact"], errors="ignore"), float)
-        return table.astype(numbers).astype({"rank": "Int64"})
+        return table.astype(numbers).astype(dict.fromkeys(_RANKS, "Int64"))
 
 
 def _member_columns(pair: tuple[str, str], members: MeasuresOfMembers, contacts: Mapping[str, str]) -> dict[str, float]:

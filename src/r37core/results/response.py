@@ -69,14 +69,14 @@ def run_row(run: Mapping[str, np.ndarray], yield_stress: float, strengths: Stren
         values["contact_node"] = np.arange(1, len(run["clearance"]) + 1)
     if "casing_energy" in run:
         values["casing_mode"] = np.arange(1, len(run["casing_energy"]) + 1)
-    if "max_von_mises" in run:
+    if "max_von_mises_last_revolution" in run:
         values["yield_stress"] = np.array(yield_stress)
     if "max_von_mises_place" in run:
         values |= {f"max_von_mises_{name}": part for name, part in zip(PLACES, run["max_von_mises_place"].T, strict=True)}
     if "revolution_von_mises" in run:
         values |= stress_statistic(_in_statistic(run), yield_stress)
         # histories of all revolutions are in single precision
-        values["max_von_mises_ever"] = np.maximum(values["max_von_mises_ever"], run["max_von_mises"])
+        values["max_von_mises_ever"] = np.maximum(values["max_von_mises_ever"], run["max_von_mises_last_revolution"])
     if "alternating_stress" in run:
         values |= goodman_statistic(run, strengths)
         values["stress_node"] = np.arange(1, len(run["alternating_stress"]) + 1)

@@ -95,14 +95,16 @@ def summary(input: Any, output: Any, params: Any) -> None:
 def ranking(input: Any, output: Any, params: Any) -> None:
     """Rank the blades. Inputs: datasets by kind and, if there, members and more motions. Output: table (csv).
 
-    Params: runs, operating (the range, or None), contacts (blade -> what its contact acts on).
+    Params: runs, errors (relative one of the stress, of each run), operating (the range, or None), contacts (blade -> what its
+    contact acts on).
     """
     datasets = {kind: read_dataset(file) for kind, file in input.items()}
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
     motions = datasets.pop("motions", None)
     operating = params.operating and from_plain(OperatingRange, params.operating)
     measures = {
-        (blade, scene): robustness(response_of(datasets, blade, scene), operating=operating) for blade, scene in params.runs
+        (blade, scene): robustness(response_of(datasets, blade, scene), operating=operating, error=error)
+        for (blade, scene), error in zip(params.runs, params.errors, strict=True)
     }
     for region in other_regions(datasets["stress"]) if "stress" in datasets else []:
         for blade, scene in params.runs:

@@ -67,7 +67,7 @@ _SPECTRUM = {
 }
 
 _STRESS = {
-    "max_von_mises": Variable(_REGION, "Pa", "largest von Mises stress in the region in the last revolution"),
+    "max_von_mises_last_revolution": Variable(_REGION, "Pa", "largest von Mises stress in the region in the last revolution"),
     "max_von_mises_ever": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: largest"),
     "max_von_mises_of_run": Variable(_REGION, "Pa", "largest von Mises stress in the region in any revolution"),
     "max_von_mises_median": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: median"),
@@ -141,8 +141,8 @@ OF_CASING = {
 
 OF_STRESS = {
     "yield_stress": Variable((), "Pa", "yield stress of the blade's material"),
-    "stress_region": Variable(_REGION, "1", "where max_von_mises is looked for", "str"),
-    "static_stress": Variable((), "1", "1 where max_von_mises has the stress of rotation, 0: vibration alone", "f4"),
+    "stress_region": Variable(_REGION, "1", "where stress is looked for", "str"),
+    "static_stress": Variable((), "1", "1 where stresses have that of rotation, 0: vibration alone", "f4"),
 }
 
 OF_FATIGUE = {

@@ -9,8 +9,8 @@ import xarray as xr
 
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted, largest_stress_text
+from r37core.results.exceedance import ranges_above
 from r37core.results.joining import Along
-from r37core.results.measures import range_above_yield
 from r37core.results.table_file import read_table
 from r37core.results.variables import STATUS
 from r37core.time_integration.speed_file import read_speed
@@ -25,12 +25,11 @@ VARIABLES = {
     "blade_maximum": Variable((*_BLADES, "span"), "m", f"largest value of {_MOTION} in the span", "f4"),
     "blade_contact": Variable(_BLADES, "1", "share of the steps with a contact force"),
     "blade_worn": Variable(_BLADES, "m3", "volume of lining that the blade has worn off, of bars of the scene's width"),
-    "blade_max_von_mises": Variable(
-        _BLADES, "Pa", "largest von Mises stress of the last revolution in the region that decides"
+    "blade_max_von_mises_ever": Variable(
+        _BLADES, "Pa", "largest von Mises stress of the last half of the run in the region that decides", "f4"
     ),
     "blade_von_mises": Variable((*_BLADES, "stress_span"), "Pa", "largest von Mises stress in the span", "f4"),
     "leader": Variable((), "1", "number of the blade with the largest blade_rms; where the run diverged, that did first", "i4"),
-    "blades_above_yield": Variable((), "1", "share of the blades above yield in the last revolution"),
     "blades_ever_above_yield": Variable((), "1", "share of the blades above yield in any revolution of the last half"),
     "wear_harmonic": Variable(("lobes",), "m", "amplitude of the wear profile's lobes"),
     "max_wear": Variable((), "m", "largest wear of the lining at the end"),
@@ -88,9 +87,9 @@ def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarra
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_von_mises" in run:
         row["stress_span"] = _ends(run["blade_von_mises"], run["stress_span_revolutions"], revolutions)
-        last, ever = run["blade_max_von_mises"], run["blade_von_mises"].max(axis=1)
-        for name, stress in (("blades_above_yield", last), ("blades_ever_above_yield", ever)):
-            row[name] = np.array(np.nan if run["status"] == RunStatus.DIVERGED else np.mean(stress > yield_stress))
+        row["blade_max_von_mises_ever"] = ever = run["blade_von_mises"].max(axis=1)
+        share = np.nan if run["status"] == RunStatus.DIVERGED else np.mean(ever > yield_stress)
+        row["blades_ever_above_yield"] = np.array(share)
     return row
 
 
@@ -112,19 +111,19 @@ def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
         row = {"blade": blade, "scene": scene, "blades": dataset.sizes["blade_number"], "speeds": len(speeds)}
         row["diverged_speeds"] = int(diverged.sum())
         worst = int(np.nan_to_num(dataset["blade_rms"].max("blade_number").values).argmax())
-        if "blade_max_von_mises" in dataset:
-            stress = dataset["blade_max_von_mises"].max("blade_number").values
+        if "blade_max_von_mises_ever" in dataset:
+            stress = dataset["blade_max_von_mises_ever"].max("blade_number").values
             worst = int(np.nan_to_num(stress).argmax())
             ratio = np.where(diverged, np.inf, stress / float(dataset["yield_stress"]))
             row |= {
-                "length_with_any_blade_above_yield_rad_s": range_above_yield(speeds, ratio).length,
-                "max_von_mises_pa": float(stress[worst]),
-                "blades_above_yield_at_once": float(dataset["blades_above_yield"].max() * dataset.sizes["blade_number"]),
+                "length_with_any_blade_above_yield_rad_s": sum(part.length for part in ranges_above(speeds, ratio, 1.0)),
+                "largest_stress_pa": float(stress[worst]),
+                "blades_above_yield": float(dataset["blades_ever_above_yield"].max() * dataset.sizes["blade_number"]),
             }
         worst_run = dataset.isel(speed=worst)
         row |= {"worst_speed_rad_s": float(speeds[worst]), "leader_by_motion": int(worst_run["leader"])}
-        if "blade_max_von_mises" in dataset:
-            row["leader_by_stress"] = float(worst_run["blade_max_von_mises"].idxmax())
+        if "blade_max_von_mises_ever" in dataset:
+            row["leader_by_stress"] = float(worst_run["blade_max_von_mises_ever"].idxmax())
         shares = worst_run["nodal_diameter_share"]
         row |= {
             "leader_motion_m": float(worst_run["blade_rms"].max()),

@@ -59,16 +59,16 @@ def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
     """Largest stress of any blade, coloured by how many are above yield; the median blade beside it."""
     speeds, number = rotor["speed"].values, rotor.sizes["blade_number"]
     axes.set_xlabel(style.SPEED_LABEL)
-    if "blade_max_von_mises" not in rotor:
+    if "blade_max_von_mises_ever" not in rotor:
         axes.plot(speeds, 1e3 * rotor["blade_rms"].max("blade_number"), ".-", markersize=3)
         axes.set_ylabel(f"largest {_MOTION}")
         return
-    stress = 1e-9 * rotor["blade_max_von_mises"]
+    stress = 1e-9 * rotor["blade_max_von_mises_ever"]
     axes.plot(speeds, stress.max("blade_number"), ".-", markersize=3, label="worst blade")
     axes.plot(speeds, stress.median("blade_number"), "-", color="0.5", label="median blade")
     style.yield_lines(axes, {"": rotor["yield_stress"].item()}, named=True, linear=style.is_linear(rotor))
     axes.set_ylabel("largest von Mises (GPa)")
-    most = int(np.round(number * np.nan_to_num(float(rotor["blades_above_yield"].max()))))
+    most = int(np.round(number * np.nan_to_num(float(rotor["blades_ever_above_yield"].max()))))
     lost = int(np.sum(rotor["status"].values == RunStatus.DIVERGED))
     diverged = f"\n{lost} of {len(speeds)} speeds diverged" if lost else ""
     axes.set_title(f"at most {most} of {number} blades above yield at one speed{diverged}", fontsize=8)

@@ -15,7 +15,11 @@ from r37core.figures import style
 from .dataset import runs_of
 from .tables import CASE
 
-_QUANTITIES = {**style.CURVES, "max_wear": ("largest wear (mm)", 1e3)}
+_QUANTITIES = {
+    **style.CURVES,
+    "max_von_mises": style.CURVES["max_von_mises_ever"],
+    "max_wear": ("largest wear (mm)", 1e3),
+}
 _FEW_REVOLUTIONS, _FAINT = 60, 1e-5
 _DIRECTIONS: dict[str, Literal["-", "--"]] = {"up": "-", "down": "--"}
 _LININGS = {"new": "o", "worn": "x"}
@@ -100,14 +104,14 @@ def draw_rates(runs: pd.DataFrame, title: str, scene: str) -> Figure:
     for axes, direction in zip(panels[0], directions, strict=True):
         axes.set_title(f"run-{direction}s")
         axes.set_xlabel("rate (rad/s²)")
-        if "max_von_mises_pa" not in runs or runs["max_von_mises_pa"].isna().all():
+        if "largest_stress_pa" not in runs or runs["largest_stress_pa"].isna().all():
             continue
         for values, group in runs[runs["direction"] == direction].groupby(CASE, sort=False):
             case = dict(zip(CASE, values, strict=True))
             speeds = " to ".join(f"{case[name]:.0f}" for name in _RANGE)
             label = ", ".join([case["blade"], *(["worn"] if case["lining"] == "worn" else []), *([speeds] if several else [])])
-            group = group.dropna(subset="max_von_mises_pa")
-            stress, look = 1e-9 * group["max_von_mises_pa"], {"marker": _LININGS[case["lining"]], "markersize": 3}
+            group = group.dropna(subset="largest_stress_pa")
+            stress, look = 1e-9 * group["largest_stress_pa"], {"marker": _LININGS[case["lining"]], "markersize": 3}
             axes.plot(group["rate_rad_s2"], stress, label=label, **styles[case["blade"]] | look)
         style.yield_lines(axes, runs.groupby("blade")["yield_stress_pa"].first().to_dict(), named=True)
         axes.set_xscale("log")

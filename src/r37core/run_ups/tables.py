@@ -53,13 +53,13 @@ def _row(run: xr.Dataset) -> dict[str, Any]:
             "casing_hits": int(run["casing_hits"]),
         }
     if "max_von_mises" in run:
-        row |= {"max_von_mises_pa": np.nan, "yield_stress_pa": float(run["yield_stress"])}
+        row |= {"largest_stress_pa": np.nan, "yield_stress_pa": float(run["yield_stress"])}
     if "max_von_mises" in run and run["max_von_mises"].notnull().any():
         stress, limit = run["max_von_mises"].values, float(run["yield_stress"])
         worst, first = int(np.argmax(stress)), first_yield(stress, limit)
         row |= {
-            "max_von_mises_pa": float(stress[worst]),
-            "max_von_mises_speed_rad_s": float(speed[worst]),
+            "largest_stress_pa": float(stress[worst]),
+            "largest_stress_speed_rad_s": float(speed[worst]),
             "first_yield_speed_rad_s": float(speed[int(first) - 1]) if np.isfinite(first) else np.nan,
             "revolutions_above_yield": int(np.count_nonzero(stress > limit)),
             "last_von_mises_pa": float(stress[-1]),
@@ -79,10 +79,10 @@ def rate_table(runs: pd.DataFrame) -> pd.DataFrame:
     not. `rate_at_yield_rad_s2`: between it and the next slower one, where a straight line of the logarithms passes yield; NaN
     where all stay below. A run that diverged is above. Runs at constant speed have no rate.
     """
-    if "max_von_mises_pa" not in runs:
+    if "largest_stress_pa" not in runs:
         return pd.DataFrame(columns=[*CASE, *_RATES])
     # a scene without stress says nothing
-    judged = runs["max_von_mises_pa"].notna() | (runs["status"] == RunStatus.DIVERGED.text)
+    judged = runs["largest_stress_pa"].notna() | (runs["status"] == RunStatus.DIVERGED.text)
     runs = runs[judged & (runs["rate_rad_s2"] > 0.0)]
     return pd.DataFrame(
         [dict(zip(CASE, case, strict=True)) | safe_rates(group) for case, group in runs.groupby(CASE, sort=False)],
@@ -102,7 +102,7 @@ _RATES = [
 
 def safe_rates(group: pd.DataFrame) -> dict[str, float]:
     """The numbers of a row of `rate_table`, of run-ups that differ by their rates alone."""
-    ratio = (group["max_von_mises_pa"] / group["yield_stress_pa"]).where(group["status"] == RunStatus.COMPLETED.text, np.inf)
+    ratio = (group["largest_stress_pa"] / group["yield_stress_pa"]).where(group["status"] == RunStatus.COMPLETED.text, np.inf)
     # of several with one rate the worst counts
     ordered = group.assign(ratio=ratio).sort_values(["rate_rad_s2", "ratio"])
     rates, ratios = ordered["rate_rad_s2"].to_numpy(), ordered["ratio"].to_numpy()
@@ -122,8 +122,8 @@ def closing(results: Path) -> str:
     """Closing line: how many run-ups there are, how many pass yield or diverge, and the largest stress of all."""
     table = read_table(results / "run_ups.csv")
     text = counted(len(table), "run-up")
-    if "max_von_mises_pa" in table:
-        text += f", {int((table['max_von_mises_pa'] > table['yield_stress_pa']).sum())} of them above yield"
+    if "largest_stress_pa" in table:
+        text += f", {int((table['largest_stress_pa'] > table['yield_stress_pa']).sum())} of them above yield"
     if diverged := int((table["status"] == RunStatus.DIVERGED.text).sum()):
         text += f", {diverged} diverged"
-    return text + largest_stress_text(table, "max_von_mises_speed_rad_s")
+    return text + largest_stress_text(table, "largest_stress_speed_rad_s")

@@ -267,6 +267,11 @@ def closing(results: Path) -> str:
         return text
     (name,) = best["design"].values
     numbers = ", ".join(_against(best.isel(design=0), start, objective) for objective in search["objective"].values)
+    off = abs(designs["objective_value"] - best["objective_value"].isel(design=0, drop=True))
+    scatters = designs["objective_scatter"].fillna(0.0)
+    tied = (off <= scatters + scatters.sel(design=name, drop=True)).all("objective") & (designs["feasible"] > 0)
+    if (others := int(tied.sum()) - 1) > 0:
+        numbers += f"; {counted(others, 'other')} cannot be told apart from it"
     return f"{text}; the best, {name}: {numbers}; entries in {results / BEST.removeprefix('<results>/')}"
 
 

@@ -77,7 +77,7 @@ def snapshot_numbers(
     return {
         "snapshots": coordinates,
         "region": np.array(list(stress)),
-        "max_von_mises": np.array(largest),
+        "max_von_mises_last_revolution": np.array(largest),
         "stress_region": np.array([operator.region for operator in stress.values()]),
         "static_stress": np.array(int(judged_operator(stress).have_rotation(coordinates))),
     }

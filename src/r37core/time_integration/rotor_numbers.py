@@ -40,8 +40,8 @@ class RotorRun(FinishedRun):
         `blade_number`, `blade_angle` (rad), `blade_frequency_factor`, `blade_longer` (m), `blade_rms` and `blade_peak` (m) over
         the last half, `blade_maximum` (m), shape (blades, spans), in spans of `span_revolutions` each, `blade_contact`, share
         of the time, and `blade_worn` (m3), of the lining. `leader`: number of the blade that leads. `nodal_diameter` and
-        `nodal_diameter_share`: see nodal_diameters. `blade_max_von_mises` (Pa): of the last revolution, `blade_von_mises`: in
-        spans of `stress_span_revolutions`.
+        `nodal_diameter_share`: see nodal_diameters. `blade_von_mises` (Pa): in spans of
+        `stress_span_revolutions`.
         """
         rotor, choice = self.rotor, self.problem.choice
         totals = np.array([state.totals for state in self.states])
@@ -65,8 +65,7 @@ class RotorRun(FinishedRun):
         }
         if history is not None:
             stresses, span = span_maxima(history)
-            numbers |= {"blade_max_von_mises": history[:, -1], "blade_von_mises": stresses}
-            numbers["stress_span_revolutions"] = np.array(span)
+            numbers |= {"blade_von_mises": stresses, "stress_span_revolutions": np.array(span)}
         return numbers
 
 

@@ -45,7 +45,7 @@ def run_speed(
     also of a diverged run, of a blade with displacements of second order. `clearance` (m), shape (nodes,): where it changes
     with the speed. `amplitude`, shape (2, orders): spectrum of the leading edge's normal and tangential motion.
     `snapshots`: the reduced coordinates of the vibration in the last revolution and, with static_stress, the amplitudes
-    of rotation's shapes. With `stress` operators, by `region`: `max_von_mises` (Pa) in the last revolution,
+    of rotation's shapes. With `stress` operators, by `region`: `max_von_mises_last_revolution` (Pa) in the last revolution,
     `revolution_von_mises` (Pa), shape (regions, revolutions), the largest of each of the last `choice.snapshot_revolutions`,
     `max_von_mises_place`, see worst_places, `stress_region` and `static_stress`, 1 where rotation's is in them; with fatigue:
     see fatigue_numbers. `casing_...`: see casing_waves. A diverged run has NaN where a number would need

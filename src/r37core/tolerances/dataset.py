@@ -10,7 +10,8 @@ from r37core.base.dataset_file import SPEED_RPM, Variable, about
 from r37core.base.io import readable
 from r37core.base.units import RPM, si_name
 from r37core.results.columns import ENDS
-from r37core.results.measures import largest_stress, leading_edge, peak_of, ratio_to_yield, speeds_above_yield
+from r37core.results.danger import ratio_to_yield
+from r37core.results.measures import leading_edge, peak_of
 from r37core.results.ranking import RANKED_BY, robustness
 from r37core.results.regions import read_judged
 from r37core.results.variables import VARIABLES
@@ -21,24 +22,26 @@ from .number_ranks import CONFIDENCE, ranking, share_ends
 QUANTILES = tuple(ENDS.values())
 """Ends and middle of the range that nine tenths of the members lie in."""
 
-_CURVES = ("rms_normal", "rms_tangential", "max_von_mises")
+_CURVES = ("rms_normal", "rms_tangential", "max_von_mises_ever")
 _JUDGED = ("share_of_revolutions_above_yield", "goodman_share")
 _OF_ALL = ("yield_stress", "static_stress", "fatigue_strength", "lined")
 
 MEASURES = {
     "peak_speed": Variable((), "rad s-1", "speed of the leading edge's largest motion"),
-    "first_yield_speed": Variable((), "rad s-1", "first speed above yield"),
-    "width_above_yield": Variable((), "rad s-1", "from the first to the last speed above yield"),
     "largest_stress": Variable((), "Pa", "largest von Mises stress over all speeds"),
     "length_most_revolutions": Variable((), "rad s-1", "length of the speeds above yield in most revolutions"),
     "length_some_revolutions": Variable((), "rad s-1", "length of the speeds above yield in some revolutions"),
+    "length_ever": Variable((), "rad s-1", "length of the speeds above yield in any judged revolution"),
     "diverged_runs": Variable((), "1", "runs that diverged"),
     "largest_median_stress": Variable((), "Pa", "largest over all speeds of the median over the revolutions"),
     "largest_goodman_share": Variable((), "1", "largest share of the Goodman line over all speeds"),
 }
 """Measures of each member over all its speeds; all but the first need the stress."""
 
-INDEXED = ("peak_speed", "width_above_yield", "largest_stress")
+_MORE = ("length_ever_rad_s", "largest_stress_pa", "largest_goodman_share")
+"""Columns of a ranking that are MEASURES beside RANKED_BY."""
+
+INDEXED = ("peak_speed", "length_ever", "largest_stress")
 """Measures for which the numbers are ranked."""
 
 
@@ -69,12 +72,9 @@ def tolerances_dataset(samples: Iterable[tuple[Sample, Path | str]], numbers: Se
 def _measured(response: xr.Dataset) -> dict[str, float]:
     """MEASURES of one member."""
     measures = {**dict.fromkeys(MEASURES, np.nan), "peak_speed": float(peak_of(response)["speed"])}
-    if "max_von_mises" in response:
-        above, (largest, _) = speeds_above_yield(response), largest_stress(response)
-        measures |= {"first_yield_speed": above.first, "width_above_yield": above.width, "largest_stress": largest}
+    if "max_von_mises_ever" in response:
         ranked = robustness(response, chance_scatter=False)
-        measures |= {si_name(column)[0]: ranked[column] for column in RANKED_BY}
-        measures["largest_goodman_share"] = ranked["largest_goodman_share"]
+        measures |= {si_name(column)[0]: ranked[column] for column in (*RANKED_BY, *_MORE)}
     return measures
 
 
@@ -107,7 +107,7 @@ def _pair_dataset(pair: tuple[str, str], members: Sequence[xr.Dataset]) -> xr.Da
         spread = sample[name].where(~diverged, np.inf)
         quantiles = spread.quantile(QUANTILES, "member", method="inverted_cdf").where(~diverged.all("member"))
         sample[f"{name}_quantile"] = quantiles.assign_attrs(about(units, f"quantiles over the members: {meaning}"))
-    if "max_von_mises" in sample:
+    if "max_von_mises_ever" in sample:
         sample = sample.assign(_chances(ratio_to_yield(sample) > 1.0))
     sample = sample.assign(_rankings(sample))
     return sample.expand_dims(blade=[pair[0]], scene=[pair[1]])

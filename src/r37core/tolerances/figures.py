@@ -15,7 +15,7 @@ from r37core.results.measures import leading_edge
 from .number_ranks import CONFIDENCE
 
 _CHANCE = "probability_above_yield"
-_MEASURES = {"peak_speed": "peak speed", "width_above_yield": "width above yield", "largest_stress": "largest stress"}
+_MEASURES = {"peak_speed": "peak speed", "length_ever": "length ever above yield", "largest_stress": "largest stress"}
 
 
 def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> Figure:
@@ -36,8 +36,10 @@ def draw_tolerances(tolerances: xr.Dataset, nominal: xr.Dataset, title: str) -> 
         _probability(panels[-1], tolerances)
     panels[-1].set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
-    if "max_von_mises" in curves:
-        style.yield_lines(panels[curves.index("max_von_mises")], {"": float(tolerances["yield_stress"].median())}, named=True)
+    if "max_von_mises_ever" in curves:
+        style.yield_lines(
+            panels[curves.index("max_von_mises_ever")], {"": float(tolerances["yield_stress"].median())}, named=True
+        )
     above.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     above.suptitle(f"tolerances: {title}, {tolerances.sizes['member']} members")
     for part in below:

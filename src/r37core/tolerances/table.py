@@ -102,9 +102,9 @@ def closing(results: Path) -> str:
         status = dataset["status"].values
     if diverged := int((status == RunStatus.DIVERGED).sum()):
         text += f"; {diverged} of {int((status != RunStatus.NOT_RUN).sum())} runs diverged"
-    high = table["max_von_mises_pa_high"]
+    high = table["largest_stress_pa_high"]
     if high.notna().any():
         row = table.loc[high.idxmax()]
-        low_end, high_end = (1e-9 * row[f"max_von_mises_pa_{end}"] for end in ("low", "high"))
+        low_end, high_end = (1e-9 * row[f"largest_stress_pa_{end}"] for end in ("low", "high"))
         text += f"; the largest stress {low_end:.2g} to {high_end:.2g} GPa, {row['blade']} in {row['scene']}"
     return text

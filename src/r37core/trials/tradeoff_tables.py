@@ -21,7 +21,7 @@ from .case_table import case_table, energy_share
 CONVERGING = {"rms_normal": "m", "rms_tangential": "m", "high_von_mises": "Pa"}
 """Name -> unit of what levels are judged by: rms of the leading edge, and the stress that a tenth of the instants exceed."""
 
-MAXIMA = {"peak_normal": "m", "max_von_mises": "Pa"}
+MAXIMA = {"peak_normal": "m", "max_von_mises_last_revolution": "Pa"}
 """Largest values of a run, which 0.1% of friction moves as much as a level does."""
 
 QUANTITIES = {**CONVERGING, **MAXIMA, "max_wear": "m"}
