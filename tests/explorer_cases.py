@@ -32,10 +32,15 @@ def sweep():
     names = ("rms_normal", "rms_tangential", "peak_normal")
     rms = {name: ((*dims, "tip_point"), over(2)) for name in names}
     rms |= {"status": (dims, status), "share_of_time_in_contact": (dims, over()), "largest_penetration": (dims, over())}
+    stressed = 1e12 * over()
     history = np.full((2, 2, 1, 4), np.nan)
     history[0, 0, 0] = 1e8 * np.arange(1, 5)
     stress = {
-        "max_von_mises": (dims, 1e12 * over()),
+        **{
+            f"max_von_mises_{name}": (dims, factor * stressed)
+            for name, factor in (("ever", 1.0), ("high", 0.8), ("median", 0.5))
+        },
+        "share_of_revolutions_above_yield": (dims, 0.4 * (stressed > 1.38e9)),
         "yield_stress": (dims[:2], np.full((2, 2), 1.38e9)),
         "stress_region": (dims[:2], np.array([["x < 0.197 m"] * 2, ["whole blade", ""]], dtype=object)),
         "max_von_mises_history": ((*dims[:2], "history_speed", "revolution"), history),
@@ -67,7 +72,7 @@ def interaction_rows():
     """One explained by a crossing, in the lining, and one that none explains."""
     row = {"blade": "Ref", "scene": "abradable", "mode": "1B", "engine_order": 4}
     row |= {"peak_speed_rad_s": 1200.0, "status": "completed"}
-    other = row | {"scene": "direct", "mode": None, "engine_order": 2, "peak_speed_rad_s": 1000.25, "max_von_mises_pa": np.nan}
+    other = row | {"scene": "direct", "mode": None, "engine_order": 2, "peak_speed_rad_s": 1000.25, "largest_stress_pa": np.nan}
     return pd.DataFrame([row, other])
 
 

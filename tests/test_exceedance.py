@@ -6,7 +6,6 @@ import pytest
 import xarray as xr
 from test_interactions import CHOICE, campbell
 
-from r37core.figures.comparison import draw_ranking
 from r37core.results.columns import MOST_REVOLUTIONS, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from r37core.results.contact_ranges import rows_above_yield
 from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
@@ -300,10 +299,6 @@ def test_a_length_is_known_within_the_distance_of_speeds_and_the_error_of_the_le
     assert known == pytest.approx([10.0, np.hypot(10.0, max(abs(expected), 2.0 * 5.0))])
 
 
-def labels_of(figure):
-    return [label.get_text() for label in figure.axes[0].get_yticklabels()]
-
-
 def test_blades_of_unlike_contact_have_ranks_of_their_own():
     lined = {("A", "x"): of(5.0), ("Mine", "x"): of(1.0), ("B", "x"): of(3.0)}
     members = {pair: {"0": of(1.0)} for pair in lined}
@@ -312,7 +307,6 @@ def test_blades_of_unlike_contact_have_ranks_of_their_own():
         ["B", 1, "8 points"], ["A", 2, "8 points"], ["Mine", 1, "12 patches"],
     ]  # fmt: skip
     assert not {"chance_better_than_Mine", "rank_over_scenes"} & set(table)
-    assert labels_of(draw_ranking(table)) == ["B\n8 points", "A\n8 points", "Mine\n12 patches"]
 
 
 def test_one_order_over_all_scenes_is_by_the_longest_length():
@@ -343,19 +337,6 @@ def test_the_chance_to_be_better_is_of_common_members():
     assert np.isnan(table.loc["A", "chance_better_than_A"])
     ends = ["length_most_revolutions_rad_s_low", "length_most_revolutions_rad_s_high", "members"]
     assert table.loc["A", ends].tolist() == [1.0, 9.0, 4]
-
-
-def test_the_ranking_is_drawn_in_the_order_of_the_first_scene():
-    found = {
-        (blade, scene): of(*values) for scene in ("x", "y") for blade, values in {"A": (5.0, 7.0), "B": (1.0, 9.0)}.items()
-    }
-    figure = draw_ranking(ranking_table(found))
-    assert [axes.get_title() for axes in figure.axes] == ["x", "y"]
-    assert labels_of(figure) == ["B", "A"]
-    assert sorted(bar.get_width() for bar in figure.axes[0].patches) == [1.0, 5.0, 7.0, 9.0]
-    many = draw_ranking(ranking_table({(f"blade_{number}", "x"): of(float(number), 100.0) for number in range(90)}))
-    expected = [*(f"blade_{number}" for number in range(30)), "(30 more)", *(f"blade_{number}" for number in range(60, 90))]
-    assert labels_of(many) == expected
 
 
 def test_lengths_ever_and_lasting():

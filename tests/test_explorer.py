@@ -65,7 +65,7 @@ def test_contents_are_those_of_the_datasets(datasets, interactions):
     rms = datasets["rms"]["rms_normal"].sel(tip_point="leading_edge")
     np.testing.assert_allclose(unpacked(curves["rms_normal"]["values"]), 1e3 * rms, rtol=1e-6)
     np.testing.assert_allclose(
-        unpacked(curves["max_von_mises"]["values"]), 1e-6 * datasets["stress"]["max_von_mises"], rtol=1e-6
+        unpacked(curves["max_von_mises_ever"]["values"]), 1e-6 * datasets["stress"]["max_von_mises_ever"], rtol=1e-6
     )
     wear = unpacked(curves["max_wear"]["values"])
     np.testing.assert_allclose(wear[:, :1], 1e3 * datasets["wear"]["max_wear"], rtol=1e-6)
@@ -84,7 +84,7 @@ def test_a_blade_called_na_keeps_its_name(interactions, tmp_path):
     assert list(table["blade"]) == ["NA", "NA"]
     assert list(table["scene"]) == ["1e5", "1e5"]
     assert table["mode"].isna().tolist() == [False, True]
-    assert table["max_von_mises_pa"].isna().all()
+    assert table["largest_stress_pa"].isna().all()
 
 
 def test_what_was_not_computed_is_left_out(datasets, interactions, tmp_path):
@@ -155,11 +155,11 @@ def test_hover_says_what_the_dataset_has(page, datasets):
     value = 1e3 * float(datasets["rms"]["rms_normal"].sel(place))
     text = hover(page, "response", 0, 1)
     assert all(said in text for said in ("1000.3 rad/s", "9551.7 rpm", f"{float(f'{value:.5g}'):g} mm"[:7], "completed"))
-    choose(page, blade="Ref", scene="abradable", quantity="max_von_mises", speed="900", unit="rad/s", all="false")
-    value = 1e-6 * float(datasets["stress"]["max_von_mises"].sel(blade="Ref", scene="abradable", speed=1100.0))
+    choose(page, blade="Ref", scene="abradable", quantity="max_von_mises_ever", speed="900", unit="rad/s", all="false")
+    value = 1e-6 * float(datasets["stress"]["max_von_mises_ever"].sel(blade="Ref", scene="abradable", speed=1100.0))
     assert f"{float(f'{value:.5g}'):g} MPa" in hover(page, "response", 0, 2)
     assert "x < 0.197 m" in page.text_content("#response .infolayer")
-    choose(page, blade="Ref", scene="abradable", quantity="max_von_mises", speed="900", unit="rad/s", all="true")
+    choose(page, blade="Ref", scene="abradable", quantity="max_von_mises_ever", speed="900", unit="rad/s", all="true")
     assert "regions of each blade" in page.text_content("#response .infolayer")
 
 
@@ -173,7 +173,7 @@ def test_choices_change_what_is_drawn(page, datasets):
     assert len(other[0]["y"]) == 4
     expected = 1e3 * datasets["rms"]["rms_normal"].sel(blade="L<50>", scene="direct", tip_point="leading_edge")
     np.testing.assert_allclose(other[1]["y"], expected, rtol=1e-6)
-    page.select_option("#quantity", "max_von_mises")
+    page.select_option("#quantity", "max_von_mises_ever")
     assert traces(page, "response") != other
     page.check("#all")
     assert [one["name"] for one in traces(page, "response")] == BLADES
@@ -194,9 +194,9 @@ def test_it_opens_at_the_strongest_interaction(page, datasets, interactions, tmp
     """The largest stress of all scenes counts, not the largest motion nor what rows have; the address goes before it."""
     rms, stress = datasets["rms"].copy(), datasets["stress"].copy(deep=True)
     rms["status"] = rms["status"].where(rms["status"] != RunStatus.DIVERGED, RunStatus.COMPLETED)
-    stress["max_von_mises"].loc[{"blade": "L<50>", "scene": scene, "speed": 1000.25}] = 4.1e10
+    stress["max_von_mises_ever"].loc[{"blade": "L<50>", "scene": scene, "speed": 1000.25}] = 4.1e10
     # a row of direct contact has no stress, and the one at hand has the largest peak of all
-    weaker = interactions.assign(max_von_mises_pa=[7e8, np.nan], peak_rms_normal_m=2e-3)
+    weaker = interactions.assign(largest_stress_pa=[7e8, np.nan], peak_rms_normal_m=2e-3)
     rows = [weaker.iloc[[1]].assign(blade="L<50>", scene=scene, peak_speed_rad_s=peak) for peak in (1300.0, 1100.0)]
     contents = explorer_contents(datasets | {"rms": rms, "stress": stress}, pd.concat([weaker, *rows]))
     with beside(page, contents, tmp_path / "explorer.html", place=place) as other:
@@ -218,33 +218,50 @@ def test_it_opens_at_a_run_that_diverged_or_without_stress_at_the_largest_motion
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_interactions_are_circles_by_danger(page, datasets, interactions, tmp_path, scheme):
-    """Of the chosen scene, with areas as their lengths; a click goes to one. What has no engine order has no circle."""
+    """Of the chosen scene, with areas as their lengths; a click goes to one. What has no engine order is below 0.
+
+    Above yield in some revolutions has a mark that is not the one for none.
+    """
     row = interactions.iloc[0].to_dict()
+    none, some = ({"length_most_revolutions_rad_s": 0.0, "share_of_revolutions_above_yield": share} for share in (0.0, 0.02))
+    most = {"share_of_revolutions_above_yield": 0.8}
     rows = [
-        row | {"length_most_revolutions_rad_s": 36.0, "most_revolutions_to_rad_s": 1300.0},
-        row | {"blade": "L<50>", "peak_speed_rad_s": 1000.25, "engine_order": 3, "length_most_revolutions_rad_s": 9.0},
-        row | {"peak_speed_rad_s": 1100.0, "length_most_revolutions_rad_s": 0.0},
-        row | {"peak_speed_rad_s": 900.0, "engine_order": None, "status": "diverged"},
-        row | {"peak_speed_rad_s": 900.0, "engine_order": None},
+        row | most | {"length_most_revolutions_rad_s": 36.0, "most_revolutions_to_rad_s": 1300.0},
+        row | most | {"blade": "L<50>", "peak_speed_rad_s": 1000.25, "engine_order": 3, "length_most_revolutions_rad_s": 9.0},
+        row | none | {"peak_speed_rad_s": 1100.0},
+        row | some | {"peak_speed_rad_s": 1300.0, "engine_order": 9, "largest_stress_over_yield": 4.52},
+        row | none | {"peak_speed_rad_s": 900.0, "engine_order": None, "status": "diverged"},
+        row | most | {"peak_speed_rad_s": 900.0, "engine_order": None, "length_most_revolutions_rad_s": 4.0},
     ]
     contents = explorer_contents(datasets, pd.DataFrame(rows))
     place = "#scene=abradable&blade=Ref&speed=900"
     with beside(page, contents, tmp_path / "explorer.html", (1400, 1000), place, color_scheme=scheme) as other:
         plot = "document.getElementById('interaction_map')"
         marks = {
-            (one["name"], x): (y, size)
+            (one["name"], x): (y, *look)
             for one in other.evaluate(f"{plot}.data.filter(({{ name }}) => {[*BLADES, 'diverged']}.includes(name))")
-            for x, y, size in zip(one["x"], one["y"], np.resize(one["marker"]["size"], len(one["x"])), strict=True)
+            for x, y, *look in zip(
+                one["x"],
+                one["y"],
+                *(np.resize(one["marker"][key], len(one["x"])) for key in ("size", "symbol", "color")),
+                strict=True,
+            )
         }
-        assert set(marks) == {("Ref", 1200.0), ("Ref", 1100.0), ("L<50>", 1000.25), ("diverged", 900.0)}
+        speeds = {("Ref", speed) for speed in (1200.0, 1100.0, 1300.0, 900.0)}
+        assert set(marks) == speeds | {("L<50>", 1000.25), ("diverged", 900.0)}
         assert marks["L<50>", 1000.25][0] == pytest.approx(3 * 1000.25 / (2 * np.pi))
         assert marks["Ref", 1200.0][1] == pytest.approx(2.0 * marks["L<50>", 1000.25][1])
+        assert marks["Ref", 900.0][0] == marks["diverged", 900.0][0] < 0.0
+        looks = {speed: marks["Ref", speed][2:] for speed in (1200.0, 1300.0, 1100.0)}
+        assert [symbol for symbol, _ in looks.values()] == ["circle", "diamond", "circle"]
+        assert [colour == "rgba(0,0,0,0)" for _, colour in looks.values()] == [False, False, True]
         texts = other.evaluate(f"{plot}.layout.annotations.map(({{ text }}) => text)")
-        assert texts[-2:] == ["Ref 1B/4, > 36 rad/s", "L&lt;50> 1B/3, 9 rad/s"]
+        labels = ["Ref 1B/4, > 36 rad/s", "L&lt;50> 1B/3, 9 rad/s", "Ref, 4 rad/s", "Ref 1B/9, up to 4.5 x yield"]
+        assert texts[-5:] == ["no engine order", *labels]
         assert other.locator("#sizes .key").all_text_contents() == [
-            "20 rad/s above yield", "5 rad/s above yield", "not above yield from rest"
+            "20 rad/s above yield in most revolutions", "5 rad/s above yield in most revolutions",
+            "above yield in some revolutions", "below yield in all judged revolutions",
         ]  # fmt: skip
-        assert "1 not shown: higher, or without an engine order" in other.text_content("#sizes")
         circle = other.locator("#interaction_map .points path").nth([name for name, _ in marks].index("L<50>")).bounding_box()
         other.mouse.click(circle["x"] + 0.5 * circle["width"], circle["y"] + 0.5 * circle["height"])
         other.wait_for_function("document.getElementById('now').textContent.startsWith('L<50>, abradable, 1000.3 rad/s')")
@@ -345,17 +362,18 @@ def test_engine_orders_end_at_the_border_with_their_numbers(page, datasets, inte
 def test_stress_above_yield_is_marked_as_outside_the_linear_model(page, datasets, interactions, tmp_path):
     limits = datasets["stress"]["yield_stress"].copy()
     limits[0, 0] = 1e6
-    stressed = interactions.assign(max_von_mises_pa=5e8)
+    stressed = interactions.assign(largest_stress_pa=5e8)
     contents = explorer_contents(datasets | {"stress": datasets["stress"].assign(yield_stress=limits)}, stressed)
     outside = "above yield: outside the linear model"
     with beside(page, contents, tmp_path / "explorer.html", place="#scene=abradable&speed=1000.25") as other:
-        stress = 1e-6 * float(datasets["stress"]["max_von_mises"].sel(blade="Ref", scene="abradable", speed=1000.25))
-        assert other.text_content("#now").endswith(f"completed, stress at this speed {stress:.5g} MPa, {outside}")
-        other.select_option("#quantity", "max_von_mises")
-        assert other.text_content("#now").endswith(f"{stress:.5g} MPa, completed, {outside}")
+        stress = 1e-6 * float(datasets["stress"]["max_von_mises_ever"].sel(blade="Ref", scene="abradable", speed=1000.25))
+        share = 100 * float(
+            datasets["stress"]["share_of_revolutions_above_yield"].sel(blade="Ref", scene="abradable", speed=1000.25)
+        )
+        assert other.text_content("#now").endswith(f"in {share:g}% of the later revolutions, up to {stress:.5g} MPa, {outside}")
         shapes = other.evaluate("document.getElementById('response').layout.shapes")
         across = [(one["name"], one["y0"]) for one in shapes if one["x1"] == 1]
-        assert across == [("outside the linear model", 1), ("yield stress", 1)]
+        assert across == [(outside, 1), ("yield stress", 1)]
         rows = [line.locator("td").all_text_contents() for line in other.locator("#interactions tbody tr").all()]
         assert ["500 *" in row for row in rows] == [True]
         assert outside in other.text_content("#note")
@@ -409,7 +427,12 @@ def test_a_diverged_run_is_marked(page, datasets, interactions, tmp_path):
     assert [one["name"] for one in traces(page, "response")] == ["abradable"]
     made, everywhere = {kind: data.copy(deep=True) for kind, data in datasets.items()}, {"blade": "L<50>", "scene": "direct"}
     made["rms"]["status"].loc[everywhere] = RunStatus.DIVERGED
-    for kind, name in (("rms", "rms_normal"), ("rms", "rms_tangential"), ("rms", "peak_normal"), ("stress", "max_von_mises")):
+    for kind, name in (
+        ("rms", "rms_normal"),
+        ("rms", "rms_tangential"),
+        ("rms", "peak_normal"),
+        ("stress", "max_von_mises_ever"),
+    ):
         made[kind][name].loc[everywhere] = np.nan
     contents = explorer_contents(made, interactions)
     with beside(page, contents, tmp_path / "explorer.html", place="#blade=L%3C50%3E&scene=direct") as other:

@@ -21,7 +21,7 @@ from r37core.config import ConfigError, command_line_document, plain
 from r37core.config.families import design_name
 from r37core.designs.compared import Compared
 from r37core.designs.figures import draw_designs
-from r37core.designs.maps import draw_design_map
+from r37core.designs.maps import draw_design_map, in_some
 from r37core.designs.panel import contents
 from r37core.designs.plan import EXTENSION, Families
 from r37core.designs.table import MEASURES, compared_in, design_table
@@ -190,10 +190,10 @@ def test_designs_are_compared(compared):
 def test_a_family_is_drawn(compared):
     names = (("F_1", "F_2"), ("lined", "bare"))
     figure = draw_designs("F", compared, to_plain(Compared("blade", ("sweep_percent",), *names)))
-    assert len(figure.axes) == 9
+    assert len(figure.axes) == 12
     assert list(figure.axes[0].lines[0].get_xdata()) == [1.0, 2.0]
     figure = draw_designs("F", compared.assign(other=0.0), to_plain(Compared("blade", ("sweep_percent", "other"), *names)))
-    assert [label.get_text() for label in figure.axes[6].get_xticklabels()] == ["F_1", "F_2"]
+    assert [label.get_text() for label in figure.axes[9].get_xticklabels()] == ["F_1", "F_2"]
 
 
 SHIPPED = "abradable, direct, material_abradable"
@@ -390,12 +390,20 @@ def test_what_is_compared_and_drawn(with_scenes, config_copy):
     assert [names["family"] for names in files["<results>/figures/map_{family}.png"]] == ["Room", "Sweep__Lobes"]
 
 
-def test_designs_have_no_figures_of_their_own(with_scenes):
-    settings = with_scenes(ROOM, scenes=["Room", "direct"], blades=["Ref"])
-    files = targets(Sweep(settings))
-    assert [names["scene"] for names in files["<results>/figures/comparison_{scene}.png"]] == ["direct"]
-    alone = Sweep(with_scenes("", scenes=["Room"], blades=["Ref"]))
-    assert alone.drawn["scene"] == alone.settings.scene_names
+def test_scenes_of_a_family_are_drawn_beside_others_six_at_most(with_scenes):
+    few = Sweep(with_scenes(ROOM, scenes=["Room", "direct"], blades=["Ref"]))
+    assert few.drawn["scene"] == few.settings.scene_names and "direct" in few.drawn["scene"]
+    files = targets(few)
+    assert [names["scene"] for names in files["<results>/figures/comparison_{scene}.png"]] == few.settings.scene_names
+    thick = ROOM.replace("Room", "Wide").replace("lining.thickness_m: [", "lining.thickness_m: [0.0011, 0.0012, 0.0013, ")
+    many = Sweep(with_scenes(thick, scenes=["Wide", "direct"], blades=["Ref"]))
+    designs = [scene for scene in many.settings.scene_names if scene != "direct"]
+    drawn = [scene for scene in many.drawn["scene"] if scene != "direct"]
+    assert "direct" in many.drawn["scene"] and len(designs) > len(drawn) == 6
+    assert [drawn[0], drawn[-1]] == [designs[0], designs[-1]]
+    for figure in (figure for figure in FIGURES if figure.rule in ("response_figure", "ranking_figure")):
+        caption = drawing(SimpleNamespace(step=lambda *_: {}), None, figure, many)["caption"]({"blade": "Ref"})
+        assert caption.endswith(f" 7 of {len(designs) + 1} scenes are drawn.")
 
 
 KEYS = ("scene.casing.clearance_m", "scene.lining.thickness_m")
@@ -405,7 +413,9 @@ def table_of(lengths):
     """Lengths above yield over two clearances and two thicknesses, of one blade."""
     places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
     rows = [("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)]
-    return pd.DataFrame(rows, columns=["blade", "scene", "family", *KEYS]).assign(length_most_revolutions_rad_s=lengths)
+    return pd.DataFrame(rows, columns=["blade", "scene", "family", *KEYS]).assign(
+        length_most_revolutions_rad_s=lengths, length_ever_rad_s=lengths
+    )
 
 
 def map_of(table, verdict):
@@ -438,6 +448,20 @@ def test_a_map_without_a_speed_above_yield_shows_how_near_fatigue_is():
     figure = map_of(table, verdict)
     assert [text.get_text() for text in figure.axes[0].texts] == ["1.30", "0.60", "0.90", "0.25"]
     assert "Goodman" in figure.axes[-1].get_ylabel()
+    (shown,) = contents(table, verdict)
+    assert (shown["label"], shown["digits"]) == ("largest share of the Goodman line", 2)
+    assert shown["axes"] == [("casing, clearance (mm)", 1e3), ("lining, thickness (mm)", 1e3)]
+
+
+def test_a_map_marks_designs_that_are_above_yield_but_not_in_most_revolutions():
+    """In operation where its lengths are; in the explorer, too."""
+    table = table_of([40.0, 0.0, 0.0, 0.0]).assign(length_ever_rad_s=[50.0, 9.0, 0.0, 0.0])
+    inside = {"length_most_revolutions_operating_rad_s": 0.0, "exceedance_integral_operating_rad_s": [0.0, 0.0, 0.0, 2.0]}
+    for rows, place in ((table, ([0], [1.3])), (table.assign(**inside), ([1], [1.3]))):
+        axes = map_of(rows, None).axes[0]
+        (diamonds,) = (line for line in axes.lines if line.get_label() == "above yield in some revolutions")
+        assert (list(diamonds.get_xdata()), list(diamonds.get_ydata())) == place
+    assert in_some(table).tolist() == [0.0, 1.0, 0.0, 0.0]
 
 
 @pytest.mark.slow
@@ -466,8 +490,8 @@ def test_each_family_has_a_map_in_the_explorer():
     other = one.assign(family="Other", scene=[f"Other_{number}" for number in range(4)], length_most_revolutions_rad_s=7.0)
     single = one.drop(columns=KEYS[1]).assign(family="Single")
     shown = contents(pd.concat([one, other, single]))
-    described = [(family["family"], family["keys"], family["other"]) for family in shown]
-    assert described == [(name, list(KEYS), "blade") for name in ("Room", "Other")]
+    described = [(family["family"], len(family["axes"]), family["other"]) for family in shown]
+    assert described == [(name, 2, "blade") for name in ("Room", "Other")]
     assert shown[1]["cells"][3] == ["Ref", "Other_3", 6e-4, 0.002]
     assert shown[1]["values"]["shape"] == [4]
     families = compared_in(pd.concat([one, other, single]))

@@ -8,8 +8,9 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from matplotlib.collections import PathCollection
+from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.colors import to_hex
+from matplotlib.markers import MarkerStyle
 from matplotlib.text import Text
 from PIL import Image
 
@@ -51,7 +52,9 @@ def datasets():
     dims, coords = ("blade", "scene", "speed"), {"blade": BLADES, "scene": SCENES, "speed": SPEEDS}
     both = {name: ((*dims, "tip_point"), np.repeat(values[..., None], 2, axis=-1)) for name in ("rms_normal", "rms_tangential")}
     rms = xr.Dataset(both | {"status": (dims, status)}, coords | {"tip_point": ["leading_edge", "trailing_edge"]})
-    stress = xr.Dataset({"max_von_mises": (dims, 2e12 * values), "yield_stress": (dims[:2], np.full((3, 2), 1.38e9))}, coords)
+    stresses = {f"max_von_mises_{name}": (dims, factor * 1e12 * values) for name, factor in (("median", 1.0), ("ever", 2.0))}
+    stresses |= {"yield_stress": (dims[:2], np.full((3, 2), 1.38e9)), "stress_region": (dims[:2], np.full((3, 2), "airfoil"))}
+    stress = xr.Dataset(stresses, coords, {"contact": "11 patches: Ref, L50, S100"})
     order = np.arange(0.0, 20.001, 0.01)
     spectrum = values[..., None] * np.exp(-(((order - 4.0) / 0.02) ** 2)) + 1e-9
     spectra = {name: ((*dims, "engine_order"), spectrum) for name in ("amplitude", "amplitude_tangential")}
@@ -70,8 +73,10 @@ def datasets():
 def interactions(*rows):
     """summary.csv of rows of 1B/4 that differ from one, at 1700 rad/s with 20 rad/s above yield, in what is given."""
     row = {"blade": "Ref", "scene": "abradable", "mode": "1B", "engine_order": 4, "peak_speed_rad_s": 1700.0}
-    row |= {"length_most_revolutions_rad_s": 20.0, "peak_motion_m": 0.01, "status": "completed"}
-    return pd.DataFrame([row | given for given in rows], columns=names(INTERACTIONS)).astype({"engine_order": "Int64"})
+    row |= {"length_most_revolutions_rad_s": 20.0, "share_of_revolutions_above_yield": 0.9, "largest_stress_over_yield": 4.5}
+    row |= {"peak_motion_m": 0.01, "status": "completed"}
+    columns = dict.fromkeys([*names(INTERACTIONS), *row])
+    return pd.DataFrame([row | given for given in rows], columns=list(columns)).astype({"engine_order": "Int64"})
 
 
 def draw_interactions(datasets, *rows):
@@ -175,7 +180,8 @@ def test_a_blade_has_one_colour_everywhere(drawn, root):
     many = style.blade_styles(range(20))
     assert len({tuple(one.values()) for one in many.values()}) == 20
     script = (root / "src/r37core/explorer/explorer.js").read_text()
-    assert f"const COLOURS = {list(style.COLOURS)};".replace("'", '"') in script
+    colours = script[script.index("const COLOURS") :].partition("]")[0]
+    assert re.findall(r"#\w{6}", colours) == list(style.COLOURS)
 
 
 def test_png_and_pdf_are_the_same_bytes_again(datasets, tmp_path):
@@ -219,14 +225,94 @@ def test_spectral_map_has_every_speed_on_its_own_scale(datasets):
     assert "dB" in figure.axes[-1].get_xlabel()
 
 
-def test_stress_above_yield_is_tinted_and_said_to_be_outside_the_linear_model(datasets):
+def test_stress_above_yield_is_tinted_and_outside_the_model_only_where_that_is_linear(datasets):
     of = {kind: datasets[kind].sel(blade="Ref") for kind in ("campbell", "rms", "stress")}
-    figure = response_curves.draw_response("Ref", of["campbell"], of["rms"], of["stress"])
-    axes = figure.axes[2]
-    (tint,) = axes.patches
-    assert tint.get_y() == pytest.approx(1.38)
-    assert axes.get_ylim()[1] < 10.0 < tint.get_y() + tint.get_height()
-    assert style.OUTSIDE in [text.get_text() for text in figure.legends[0].get_texts()]
+    kinds = {"11 patches: Ref": style.OUTSIDE, "patches, quadratic: Ref": style.ABOVE_YIELD}
+    for contact, said in (kinds | {"patches, quadratic: Ref; patches: quadratic": style.OUTSIDE}).items():
+        stress = of["stress"].assign_attrs(contact=contact)
+        figure = response_curves.draw_response("Ref", of["campbell"], of["rms"], stress)
+        axes = figure.axes[2]
+        (tint,) = axes.patches
+        assert tint.get_y() == pytest.approx(1.38)
+        assert axes.get_ylim()[1] < 10.0 < tint.get_y() + tint.get_height()
+        assert figure.legends[0].get_texts()[-1].get_text() == said
+    # of a single response
+    assert not style.is_linear(xr.Dataset(attrs={"contact": "patches", "kinematics": "quadratic"}))
+
+
+def test_stress_is_a_band_from_the_median_to_the_largest_of_the_later_revolutions(datasets):
+    """From 0, like the motion; also of a speed without neighbours, with the region that decides."""
+    of = {
+        kind: data.sel(blade="Ref", speed=[900.0, 1700.0]).copy(deep=True)
+        for kind, data in datasets.items()
+        if kind != "campbell"
+    }
+    for name in ("median", "ever"):
+        of["stress"][f"max_von_mises_{name}"].loc["abradable", 900.0] = np.nan
+    lined = {kind: datasets[kind].sel(scene="abradable") for kind in ("rms", "stress")}
+    for figure, stress, number in (
+        (response_curves.draw_response("Ref", None, of["rms"], of["stress"]), of["stress"].sel(scene="abradable"), 0),
+        (draw_comparison(datasets["campbell"], lined["rms"], lined["stress"]), lined["stress"].sel(blade="Ref"), 0),
+    ):
+        assert [axes.get_ylim()[0] for axes in figure.axes[:3]] == [0.0] * 3
+        axes = figure.axes[2]
+        median, largest = (line.get_ydata() for line in axes.lines[2 * number : 2 * number + 2])
+        assert median.max() == pytest.approx(1e-9 * float(stress["max_von_mises_median"].max()))
+        np.testing.assert_allclose(largest, 2.0 * median)
+        assert len(median) >= 1
+        assert axes.get_ylabel() == "von Mises (GPa)\nmedian to largest\nairfoil"
+        assert any(isinstance(one, PolyCollection) for one in axes.collections)
+
+
+def ranking(*rows):
+    """ranking.csv of blades, scenes, ranks and lengths above yield in most revolutions; in some 5, ever 9 rad/s more."""
+    table = pd.DataFrame(rows, columns=["blade", "scene", "rank", _MOST]).astype({"rank": "Int64"})
+    lengths = {"length_some_revolutions_rad_s": table[_MOST] + 5.0, "length_ever_rad_s": table[_MOST] + 9.0}
+    return table.assign(**lengths, contact="11 patches", length_most_revolutions_within_rad_s=12.0)
+
+
+_MOST = "length_most_revolutions_rad_s"
+
+
+def ticks(axes):
+    return [label.get_text() for label in axes.get_yticklabels()]
+
+
+def test_blades_that_cannot_be_told_apart_are_one_group_of_the_ranking():
+    """In each scene by its own ranks; where all tie, there is no order."""
+    rows = [
+        ("B", "x", 1, 5.0),
+        ("A", "x", 2, 20.0),
+        ("C", "x", 2, 22.0),
+        ("C", "y", 1, 0.0),
+        ("A", "y", 1, 1.5),
+        ("B", "y", 1, 2.0),
+    ]
+    figure = comparison.draw_ranking(ranking(*rows))
+    first, second = figure.axes
+    assert [ticks(axes) for axes in figure.axes] == [["1  B", "2 =  A", "2 =  C"], ["1 =  C", "1 =  A", "1 =  B"]]
+    assert [axes.get_title() for axes in figure.axes] == ["x", "y: cannot be ranked"]
+    assert figure.get_suptitle() == "contact: 11 patches; kinematics: linear"
+    groups = [
+        [patch.get_y() for patch in axes.patches if patch.get_x() == 0.0 and patch.get_width() == 1.0] for axes in figure.axes
+    ]
+    assert groups == [[0.52], [-0.48]]
+    bars = sorted(patch.get_width() for patch in first.patches if patch.get_y() not in groups[0])
+    assert bars == [5.0, 10.0, 14.0, 20.0, 22.0, 25.0, 27.0, 29.0, 31.0]
+    assert "0 / 5 / 9" in [text.get_text() for text in second.texts]
+    # known to within more than the length: the error bar ends at 0
+    ends = second.collections[0].get_segments()
+    assert [(begin[0], end[0]) for begin, end in ends] == [(0.0, 12.0), (0.0, 13.5), (0.0, 14.0)]
+
+
+def test_ranks_are_among_blades_of_one_contact_and_of_many_blades_some_are_left_out():
+    table = ranking(("B", "x", 1, 5.0), ("A", "x", 2, 20.0), ("Mine", "x", 1, 22.0), ("Other", "x", pd.NA, np.nan))
+    figure = comparison.draw_ranking(table.assign(contact=["8 points", "8 points", "12 patches", "12 patches"]))
+    assert ticks(figure.axes[0]) == ["1  B\n8 points", "2  A\n8 points", "1  Mine\n12 patches", "  Other\n12 patches"]
+    assert figure.get_suptitle() == ""
+    many = comparison.draw_ranking(ranking(*((f"blade_{number}", "x", 1 + number, float(number)) for number in range(90))))
+    named = [f"{1 + number}  blade_{number}" for number in range(90)]
+    assert ticks(many.axes[0]) == [*named[:30], "  (30 more)", *named[60:]]
 
 
 def test_comparison_takes_the_order_that_most_blades_meet(datasets):
@@ -264,30 +350,55 @@ def test_comparison_marks_runs_that_diverged(datasets):
 
 
 def test_interactions_are_circles_whose_area_is_their_length_above_yield(datasets):
-    """Where no length is known the width; a ring for none, and a cross for what diverged, with an engine order or without."""
-    unknown = {"length_most_revolutions_rad_s": np.nan}
+    """Crosses are for what diverged; what has no engine order lies below 0, and what is higher than the panel at its edge."""
     figure = draw_interactions(
         datasets,
         {},
-        {"blade": "L50", "engine_order": 6, "peak_speed_rad_s": 1200.0, "width_above_yield_rad_s": 5.0, **unknown},
-        {"blade": "S100", "peak_speed_rad_s": 900.0, "length_most_revolutions_rad_s": 0.0},
-        {"engine_order": pd.NA, "peak_speed_rad_s": 1500.0},
-        {"engine_order": pd.NA, "peak_speed_rad_s": 1900.0, "status": "diverged"},
+        {"blade": "L50", "engine_order": 6, "peak_speed_rad_s": 1200.0, "length_most_revolutions_rad_s": 5.0},
+        {"engine_order": pd.NA, "peak_speed_rad_s": 1500.0, "length_most_revolutions_rad_s": 48.6},
+        {"engine_order": pd.NA, "peak_speed_rad_s": 1900.0, "status": "diverged", "length_most_revolutions_rad_s": 0.0},
         {"peak_speed_rad_s": 1000.0, "status": "diverged", "length_most_revolutions_rad_s": 10.0},
+        {"blade": "S100", "engine_order": 30, "peak_speed_rad_s": 1900.0, "length_most_revolutions_rad_s": 10.0},
     )
     axes = figure.axes[0]
     found = {float(speed): (frequency, area) for speed, frequency, area in circles(axes)}
-    assert sorted(found) == [900.0, 1000.0, 1200.0, 1700.0]
+    assert sorted(found) == [1000.0, 1200.0, 1500.0, 1700.0, 1900.0]
     assert found[1200.0][0] == pytest.approx(6 * 1200.0 / (2 * np.pi))
-    areas = [found[speed][1] / found[1700.0][1] for speed in (1000.0, 1200.0)]
-    assert areas == pytest.approx([0.5, 0.25])
+    bottom, top = axes.get_ylim()
+    assert found[1500.0][0] == pytest.approx(0.5 * bottom)
+    assert found[1900.0][0] == pytest.approx(top)
+    assert [found[speed][1] / found[1700.0][1] for speed in (1000.0, 1200.0, 1500.0)] == pytest.approx([0.5, 0.25, 2.43])
     crosses = [place for line in axes.lines if line.get_label() == "diverged" for place in line.get_xydata().tolist()]
-    assert crosses == [[1000.0, pytest.approx(4 * 1000.0 / (2 * np.pi))], [1900.0, 0.97]]
+    assert crosses == [[1900.0, pytest.approx(0.5 * bottom)], [1000.0, pytest.approx(4 * 1000.0 / (2 * np.pi))]]
     texts = [text.get_text() for text in axes.texts]
-    assert {"Ref 1B/4, 20 rad/s", "L50 1B/6, 5 rad/s", "1 not shown: higher,\nor without an engine order"} <= set(texts)
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["20 rad/s", "2 rad/s"]
-    assert {*BLADES, "not above yield from rest", "diverged"} == {text.get_text() for text in figure.legends[0].get_texts()}
+    assert {"Ref 1B/4, 20 rad/s", "L50 1B/6, 5 rad/s", "Ref, 49 rad/s", "at the upper edge: higher"} <= set(texts)
+    assert "no order" in [label.get_text() for label in axes.get_yticklabels()]
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["20 rad/s", "5 rad/s"]
+    assert {*BLADES, "diverged"} == {text.get_text() for text in figure.legends[0].get_texts()}
     assert [text.get_text() for text in figure.axes[1].texts if "found" in text.get_text()] == ["no interaction was found"]
+
+
+def test_no_interaction_that_was_above_yield_looks_like_one_that_never_was(datasets):
+    """A diamond for some revolutions, however few; an open ring only for none; and a line along the speeds above yield."""
+    none = {"length_most_revolutions_rad_s": 0.0}
+    ends = {"some_revolutions_from_rad_s": 1150.0, "some_revolutions_to_rad_s": 1260.0}
+    figure = draw_interactions(
+        datasets,
+        {},
+        none | ends | {"peak_speed_rad_s": 1200.0, "share_of_revolutions_above_yield": 0.01},
+        none | {"peak_speed_rad_s": 900.0, "share_of_revolutions_above_yield": 0.0},
+        none | {"peak_speed_rad_s": 1000.0, "share_of_revolutions_above_yield": np.nan},
+    )
+    axes = figure.axes[0]
+    marks = [one for one in axes.collections if isinstance(one, PathCollection) and len(one.get_offsets())]
+    looks = {float(one.get_offsets()[0][0]): (len(one.get_paths()[0]), one.get_facecolors()[0][3]) for one in marks}
+    diamond, ring = (len(MarkerStyle(shape).get_path()) for shape in "Do")
+    assert looks == {1700.0: (ring, 0.45), 1200.0: (diamond, 0.45), 900.0: (ring, 0.0), 1000.0: (ring, 0.0)}
+    (line,) = (line for line in axes.lines if line.get_xdata().tolist() == [1150.0, 1260.0])
+    np.testing.assert_allclose(line.get_ydata(), 4 * np.array([1150.0, 1260.0]) / (2 * np.pi))
+    assert "Ref 1B/4, up to 4.5 x yield" in [text.get_text() for text in axes.texts]
+    keys = figure.legends[1].get_texts()
+    assert [text.get_text() for text in keys] == ["above yield in most revolutions", "in some", "in none", "stress not known"]
 
 
 def test_labels_of_interactions_do_not_lie_on_each_other_and_say_where_the_speeds_end(datasets):
@@ -295,14 +406,14 @@ def test_labels_of_interactions_do_not_lie_on_each_other_and_say_where_the_speed
     rows = [{"peak_speed_rad_s": 1600.0 + 20.0 * n, "length_most_revolutions_rad_s": 30.0 - n} for n in range(12)]
     figure = draw_interactions(one, *rows, {"length_most_revolutions_rad_s": 98.4, "most_revolutions_to_rad_s": 2000.0})
     labels = [text for text in figure.axes[0].texts if "rad/s" in text.get_text()]
-    assert len(labels) == 6
+    assert len(labels) == 5
     assert labels[0].get_text() == "1B/4, > 98 rad/s"
     boxes = [text.get_window_extent() for text in labels]
     assert not any(box.count_overlaps(boxes[:number]) for number, box in enumerate(boxes))
 
 
 def test_interactions_without_stress_are_as_large_as_their_motion(datasets):
-    unknown = {"length_most_revolutions_rad_s": np.nan}
+    unknown = {"length_most_revolutions_rad_s": np.nan, "share_of_revolutions_above_yield": np.nan}
     figure = draw_interactions(datasets, unknown, unknown | {"peak_motion_m": 0.0025, "peak_speed_rad_s": 1200.0})
     (_, _, area), (_, _, smaller) = circles(figure.axes[0])
     assert smaller == pytest.approx(0.25 * area)

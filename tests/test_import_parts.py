@@ -266,15 +266,18 @@ def test_a_mirrored_table(config_copy):
 
 
 def test_the_picture_of_a_blade_names_the_side_in_view(mesh, tmp_path, monkeypatch):
-    named = []
+    """And the blade below it in lines that fit, clear of the rotation."""
+    named, titles = [], []
+    monkeypatch.setattr(pyvista.Plotter, "add_text", lambda self, text, position, **how: titles.append((text, position)))
     monkeypatch.setattr(pyvista.Plotter, "add_point_labels", lambda self, points, labels, **how: named.append(labels))
     edges = ("tip_pressure_edge", "tip_suction_edge")
     swapped = mesh.node_sets | {name: mesh.node_set(other) for name, other in zip(edges, reversed(edges), strict=True)}
-    files = {name: tmp_path / f"{name}.vtu" for name in ("ours", "swapped")}
+    files = {name: tmp_path / f"{name[:7]}.vtu" for name in ("ours", "swapped_in_a_long_name_2026")}
     for file, shown in zip(files.values(), (mesh, replace(mesh, node_sets=swapped)), strict=True):
         write_vtu(shown, file, np.ones(sum(map(len, mesh.blocks.values()))))
     draw_blade_shapes(files, tmp_path / "blades.png")
     assert named == [["LE", "TE", "pressure side", "rotation"], ["LE", "TE", "suction side", "rotation"]]
+    assert titles == [("ours", "lower_edge"), ("swapped_in_a_long_name\n_2026", "lower_edge")]
 
 
 @pytest.mark.parametrize(("limit", "taken"), [(("x", "at_most", 0.2), True), (("r", "at_most", 0.203), False)])

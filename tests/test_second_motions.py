@@ -265,6 +265,7 @@ def motions(tmp_path):
         "rms_tangential": (over, values),
         "peak_normal": (over, values),
         "max_von_mises_median": (over, 1e12 * values),
+        "max_von_mises_ever": (over, 2e12 * values),
         "share_of_revolutions_above_yield": (over, 1.0 * (values > 2e-3)),
         "status": (over, np.zeros(values.shape)),
         "differ": ("speed", [0.0, 1.0, 1.0, 1.0, 0.0]),
@@ -338,6 +339,9 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
     pair = motions.sel(blade="Ref", scene="direct")
     figure = draw_second_motions(pair, table, "Ref, direct", blade="Ref", scene="direct")
     assert len(figure.axes[0].patches) == 3
+    # the stress of each motion: its median, and the band up to the largest
+    highest = [line.get_ydata().max() for line in figure.axes[1].lines[:6]]
+    np.testing.assert_allclose(highest[1::2], 2.0 * np.array(highest[::2]))
     rms = xr.Dataset(
         {
             **{f"rms_{name}": (("scene", "speed", "tip_point"), np.ones((1, 5, 1))) for name in ("normal", "tangential")},

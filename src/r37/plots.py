@@ -43,7 +43,7 @@ def plot_campbell(campbell: xr.Dataset, title: str | None = None) -> Figure:
 
 @checked_call
 def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, title: str | None = None) -> Figure:
-    """Figure of the leading edge's rms and the largest stress over speed.
+    """Figure of the leading edge's rms and the stress over speed, from the median to the largest of the later revolutions.
 
     Args:
         response: The result of `r37.sweep`, or a part of the dataset rms of a run.
@@ -65,7 +65,7 @@ def plot_response(response: xr.Dataset, campbell: xr.Dataset | None = None, titl
     scenes = judged(response).drop_vars("scene", errors="ignore").expand_dims(scene=[_label(response, "scene")])
     if "speed" not in scenes.dims:
         scenes = scenes.expand_dims("speed")
-    stress = scenes if "max_von_mises" in scenes else None
+    stress = scenes if "max_von_mises_median" in scenes else None
     return _drawn("figures.response_curves.draw_response", name, campbell, scenes, stress)
 
 

@@ -12,15 +12,17 @@ from matplotlib.figure import Figure
 
 from r37core.base.plain import from_plain
 from r37core.figures import style
-from r37core.results.columns import names
+from r37core.results.columns import LENGTHS, names
 
 from .compared import Compared, axis_of_key
 from .table import MEASURES, STRUCTURE
 
-_ROBUSTNESS = ("shift_1b_rad_s", "length_most_revolutions_rad_s", "length_some_revolutions_rad_s")
+_ROBUSTNESS = (
+    "shift_1b_rad_s", *names(LENGTHS), "largest_median_stress_pa", "largest_stress_pa", "largest_goodman_share"
+)  # fmt: skip
 _DRAWN = {
-    "blade": (*names(STRUCTURE), *_ROBUSTNESS, "largest_median_stress_pa"),
-    "scene": (*_ROBUSTNESS, "exceedance_integral_rad_s", "largest_median_stress_pa", "largest_rms_m"),
+    "blade": (*names(STRUCTURE), *_ROBUSTNESS),
+    "scene": (*_ROBUSTNESS, "exceedance_integral_rad_s", "largest_rms_m"),
 }
 """Measures that a family of blades, or of scenes, is chosen by."""
 

@@ -22,13 +22,14 @@ def draw_design_map(
 ) -> Figure:
     """Length above yield in most revolutions over two keys, a panel for each of what does not vary.
 
-    Where no design is above yield, the largest share of the Goodman line in all that was tried is drawn instead.
+    Where no design is above yield, the largest share of the Goodman line in all that was tried is drawn instead. Diamonds
+    mark designs that are above yield, but not in most revolutions.
     `compared`: a Compared, as plain values; `verdict`: verdict.csv, whose requirements are lines round the designs
     that do not fail them, and marks on those that meet all.
     """
     chosen = from_plain(Compared, compared)
     keys = chosen.keys
-    rows, column, label, digits = _measured(chosen.rows(table), verdict)
+    rows, column, label, digits = measured(chosen.rows(table), verdict)
     panels = [(str(name), part) for name, part in rows.groupby(chosen.other, sort=False)] if chosen.other else [(title, rows)]
     across = min(len(panels), 3)
     down = -(-len(panels) // across)
@@ -40,6 +41,10 @@ def draw_design_map(
         axes.set_title(name)
         _label(axes, part, keys)
         axes.label_outer()
+        up, across_some = np.nonzero(_grid(part.assign(some=in_some(part)), keys, "some", "max") == 1.0)
+        if len(up):
+            look: dict[str, Any] = {"color": "white", "markeredgecolor": "black", "markersize": 5}
+            axes.plot(across_some, up + 0.3, "D", label="above yield in some revolutions", **look)
         if verdict is not None:
             _draw_verdict(axes, part, keys, verdict)
     for axes in list(grid.flat)[len(panels) :]:
@@ -52,15 +57,22 @@ def draw_design_map(
     return figure
 
 
-def _measured(rows: pd.DataFrame, verdict: pd.DataFrame | None) -> tuple[pd.DataFrame, str, str, int]:
-    """Rows with the column that is drawn, its name, its label and the digits of its values."""
+def in_some(rows: pd.DataFrame) -> pd.Series:
+    """1.0 for designs whose length above yield in most revolutions is 0, but not in all their revolutions; else 0.0."""
+    length = length_column(rows)
+    any_revolution = "exceedance_integral_operating_rad_s" if "operating" in length else "length_ever_rad_s"
+    return ((rows[length] == 0.0) & (rows[any_revolution] > 0.0)).astype(float)
+
+
+def measured(rows: pd.DataFrame, verdict: pd.DataFrame | None) -> tuple[pd.DataFrame, str, str, int]:
+    """Rows with the column that is drawn, here and in the explorer, its name, its label and the digits of its values."""
     column = length_column(rows)
     if verdict is not None and not rows[column].any():
         tried = verdict[verdict["requirement"] == "goodman_share"][["blade", "scene", "value_highest"]]
         if len(tried):
             label = "largest share of the Goodman line"
             return rows.merge(tried, on=["blade", "scene"]), "value_highest", label, 2
-    return rows, column, f"length above yield{' in operation' if 'operating' in column else ''} (rad/s)", 0
+    return rows, column, f"above yield in most revolutions{' in operation' if 'operating' in column else ''} (rad/s)", 0
 
 
 def _grid(rows: pd.DataFrame, keys: Sequence[str], column: str, together: str) -> np.ndarray:

@@ -1,15 +1,14 @@
-// designs over two numbers that vary: length above yield in most revolutions, of the family that the chosen blade or scene is of; a click
-// chooses a design. Lines go round the designs that do not fail a requirement, and those that meet all have a mark
+// designs over two numbers that vary, with the values of their figure, of the family that the chosen blade or scene is of; a click
+// chooses a design. Diamonds are above yield, but not in most revolutions. Lines go round the designs that do not fail a requirement, and those that meet all have a mark
 panels.designs = (families, page) => {
   const { state, digits, axis, layout, draw } = page;
   const distinct = (place, rows) => [...new Set(rows.map((row) => row[place]))].sort((one, other) => one - other);
-  const axisOf = (key) => (key.endsWith("_m") ? [`${key.slice(0, -2)} (mm)`, 1e3] : [key, 1]);
   const isOf = (other) => ([blade, scene]) => other === "" || (other === "blade" ? blade === state.blade : scene === state.scene);
   let cellAt = null;
 
   function chosen() {
-    const shown = families.map(({ cells, values, ...family }) => ({
-      ...family, rows: cells.map((cell, at) => [...cell, values.values[at]]),
+    const shown = families.map(({ cells, values, some, ...family }) => ({
+      ...family, rows: cells.map((cell, at) => [...cell, values.values[at], some.values[at]]),
     }));
     const own = shown.find(({ rows }) => rows.some(([blade, scene]) => blade === state.blade && scene === state.scene));
     return own ?? shown[0];
@@ -45,7 +44,7 @@ panels.designs = (families, page) => {
   }
 
   function map() {
-    const { family, keys, other, rows: all } = chosen();
+    const { family, axes, other, label, digits: decimals, rows: all } = chosen();
     const rows = all.filter(isOf(other));
     if (!rows.length) return draw("designs", [], null);
     const [across, up] = [distinct(2, rows), distinct(3, rows)];
@@ -54,20 +53,24 @@ panels.designs = (families, page) => {
       const cell = cellAt(column, row);
       return cell ? value(cell) : null;
     }));
-    const [[acrossTitle, acrossFactor], [upTitle, upFactor]] = keys.map(axisOf);
+    const [[acrossTitle, acrossFactor], [upTitle, upFactor]] = axes;
+    const marks = ([blade, scene, , , , some]) => `${some ? " \u25C7" : ""}${meets([blade, scene]) ? " \u2713" : ""}`;
     const trace = {
       type: "heatmap", x: across.map((value) => digits(acrossFactor * value, 4)), y: up.map((value) => digits(upFactor * value, 4)),
       z: grid((cell) => cell[4]), zmin: 0, colorscale: page.MAGMA, zsmooth: false, hoverinfo: "text", texttemplate: "%{text}",
-      text: grid((cell) => (Number.isFinite(cell[4]) ? `${cell[4].toFixed(0)}${meets(cell) ? " \u2713" : ""}` : "")),
-      hovertext: grid(([blade, scene, , , length]) => `${blade} in ${scene}<br>${digits(length, 3)} rad/s above yield in most revolutions`
-        + `${meets([blade, scene]) ? "<br>meets all requirements" : ""}`),
-      colorbar: { title: { text: `${family}: above yield (rad/s)`, side: "right" }, thickness: 12 },
+      text: grid((cell) => (Number.isFinite(cell[4]) ? `${cell[4].toFixed(decimals)}${marks(cell)}` : "")),
+      hovertext: grid(([blade, scene, , , value, some]) => `${blade} in ${scene}<br>${label}: ${digits(value, 3)}`
+        + `${some ? "<br>above yield in some revolutions" : ""}${meets([blade, scene]) ? "<br>meets all requirements" : ""}`),
+      colorbar: { title: { text: `${family}: ${label}`, side: "right" }, thickness: 12 },
     };
     const plan = layout(axis(acrossTitle, { type: "category" }), axis(upTitle, { type: "category" }), {
-      shapes: limits(across.length, up.length), showlegend: page.requirements.length > 0,
+      shapes: limits(across.length, up.length), showlegend: true,
     });
-    const mark = { x: [null], y: [null], mode: "markers", marker: { color: "rgba(0,0,0,0)" }, name: "\u2713 meets all requirements" };
-    draw("designs", [trace, ...(page.requirements.length ? [mark] : [])], plan, false);
+    const mark = (name) => ({ x: [null], y: [null], mode: "markers", marker: { color: "rgba(0,0,0,0)" }, name });
+    draw("designs", [
+      trace, ...(page.requirements.length ? [mark("\u2713 meets all requirements")] : []),
+      ...(rows.some((cell) => cell[5]) ? [mark("\u25C7 above yield in some revolutions")] : []),
+    ], plan, false);
     const place = document.getElementById("designs");
     if (place.dataset.chooses) return undefined;
     place.dataset.chooses = "yes";

@@ -4,20 +4,23 @@ import pandas as pd
 
 from r37core.explorer.contents import packed
 
-from .table import compared_in, length_column
+from .compared import axis_of_key
+from .maps import in_some, measured
+from .table import compared_in
 
 
-def contents(table: pd.DataFrame) -> list[dict[str, object]]:
-    """A map of each family of two keys: its `family`, `keys`, `other` (blade or scene, of which each has a map), and cells.
+def contents(designs: pd.DataFrame, verdict: pd.DataFrame | None = None) -> list[dict[str, object]]:
+    """A map of each family of two keys: its `family`, `axes`, `other` (blade or scene, of which each has a map), and cells.
 
-    `cells`: blade, scene and values of the keys; `values`: length above yield in most revolutions (rad/s), by cell.
+    `axes`: label and factor of each key; `cells`: blade, scene and values of the keys; `values`, `label` and `digits`: those
+    of the figure (maps.measured), `some`: maps.in_some, by cell.
     """
     maps: list[dict[str, object]] = []
-    for name, compared in compared_in(table).items():
+    for name, compared in compared_in(designs).items():
         if len(compared.keys) == 2:
-            rows = table[table["family"] == name]
+            rows, column, label, digits = measured(designs[designs["family"] == name], verdict)
             cells = rows[["blade", "scene", *compared.keys]].to_numpy().tolist()
-            values = packed(rows[length_column(table)].to_numpy(float))
-            about = {"family": name, "keys": list(compared.keys), "other": compared.other}
-            maps.append(about | {"cells": cells, "values": values})
+            values, some = packed(rows[column].to_numpy(float)), packed(in_some(rows).to_numpy())
+            about = {"family": name, "axes": [axis_of_key(key) for key in compared.keys], "other": compared.other}
+            maps.append(about | {"cells": cells, "values": values, "some": some, "label": label, "digits": digits})
     return maps

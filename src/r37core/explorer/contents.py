@@ -10,6 +10,7 @@ import pandas as pd
 import xarray as xr
 
 from r37core.base.units import shown_unit
+from r37core.figures.style import ABOVE_YIELD, OUTSIDE, is_linear
 from r37core.results.closing import interaction_title
 from r37core.results.columns import RANKING, SUMMARY, Column, column_named
 from r37core.results.interactions import sized
@@ -18,17 +19,20 @@ from r37core.results.ranges import as_ranges_bear
 from r37core.results.variables import VARIABLES
 
 CURVES = (
+    ("stress", "max_von_mises_ever"),
+    ("stress", "max_von_mises_high"),
+    ("stress", "max_von_mises_median"),
+    ("stress", "share_of_revolutions_above_yield"),
+    ("fatigue", "goodman_share"),
     ("rms", "rms_normal"),
     ("rms", "rms_tangential"),
     ("rms", "peak_normal"),
-    ("stress", "max_von_mises"),
-    ("fatigue", "goodman_share"),
     ("wear", "max_wear"),
     ("wear", "worn_through_share"),
     ("rms", "largest_penetration"),
     ("rms", "share_of_time_in_contact"),
 )
-"""Dataset and variable; of the leading edge where a variable has tip points."""
+"""Dataset and variable, the one first that the page opens with; of the leading edge where a variable has tip points."""
 
 MOST_SPEEDS = 400
 """Speeds of a map; beyond it neighbours are joined by their maximum. Curves keep every speed."""
@@ -53,6 +57,7 @@ def explorer_contents(
     blades, scenes = [str(name) for name in rms["blade"].values], [str(name) for name in rms["scene"].values]
     return {
         "about": {name: str(rms.attrs[name]) for name in ("r37core_version", "fidelity") if name in rms.attrs},
+        "outside": OUTSIDE if is_linear(rms) else ABOVE_YIELD,
         "blades": blades,
         "scenes": scenes,
         "speeds": packed(rms["speed"].values, 64),
@@ -189,15 +194,24 @@ COLUMNS = [
 ]
 """Columns of the table of interactions, in this order; those that summary.csv does not have are left out."""
 
+MAIN = (
+    "interaction", "blade", "scene", "peak_speed_rad_s", "shift_rad_s", "peak_rms_normal_m", "length_most_revolutions_rad_s",
+    "length_some_revolutions_rad_s", "length_ever_rad_s", "share_of_revolutions_above_yield", "largest_median_stress_pa",
+    "largest_stress_pa", "largest_stress_over_yield", "largest_goodman_share", "max_wear_m", "worn_through_share",
+    "motion_at_end", "share_of_members", "second_motion", "status",
+)  # fmt: skip
+"""Those of them that are shown unless all are asked for: as many as a screen has room for."""
+
 
 def interaction_table(interactions: pd.DataFrame) -> dict[str, object]:
-    """`interactions`, rows as in summary.csv with their title, and `columns`."""
+    """`interactions`, rows as in summary.csv with their title, and `columns`, of which those of no `detail` are shown first."""
     table = interactions.astype(object).where(interactions.notna(), None)
     titles = [interaction_title(*row) for row in table[["mode", "engine_order"]].values]
     table = table.assign(interaction=titles)
+    columns = _columns([name for name in COLUMNS if name in table], (INTERACTION, *SUMMARY))
     return {
         "interactions": table.to_dict("records"),
-        "columns": _columns([name for name in COLUMNS if name in table], (INTERACTION, *SUMMARY)),
+        "columns": [column | {"detail": column["name"] not in MAIN} for column in columns],
     }
 
 

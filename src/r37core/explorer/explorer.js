@@ -1,7 +1,10 @@
 (async () => {
   const data = JSON.parse(document.getElementById("data").textContent);
-  // Okabe and Ito's colours, told apart with any colour vision; further blades repeat them with another marker
-  const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"];
+  // Okabe and Ito's colours, told apart with any colour vision, and darker ones of them; further blades repeat them with another marker
+  const COLOURS = [
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000",
+    "#003F62", "#8A3D00", "#00573F", "#7A3F61", "#2B6E94", "#7F5700", "#888888",
+  ];
   const MARKERS = ["circle", "square", "diamond", "triangle-up", "star"];
   const DASHES = ["solid", "dash", "dot", "dashdot"];
   // of the figures; plotly does not have it
@@ -17,7 +20,7 @@
   };
   // a finger that drags over a plot scrolls the page
   const DRAG = window.matchMedia("(pointer: coarse)").matches ? false : "zoom";
-  const OUTSIDE = "above yield: outside the linear model";
+  const OUTSIDE = data.outside;
   const SPECTRUM_DECIBELS = 60;
   // width and height that the number of an engine order takes (pixels)
   const NUMBER_SIZE = [16, 12];
@@ -57,7 +60,7 @@
   const maps = await unpackAll({ spectrum: data.spectrum, wear: data.wear });
 
   // and what they are where the address does not say
-  const SWITCHES = { all: false, every: false };
+  const SWITCHES = { all: false, every: false, columns: false };
   const state = { blade: data.blades[0], scene: data.scenes[0], quantity: curves[0].name, speed: speeds[0], unit: "rad/s", sort: "", ...SWITCHES };
 
   const bladeIndex = () => data.blades.indexOf(state.blade);
@@ -83,15 +86,12 @@
 
   const modeText = (mode) => (/^\d+$/.test(mode) ? `mode ${mode}` : mode);
 
-  // whether a stress (MPa) is beyond what a linear blade can tell
-  const aboveYield = (stress, blade, scene) => Boolean(yieldStress) && stress > yieldStress.row(blade)[scene];
-
-  // of the run at a speed, whatever is shown of it
-  function yieldText(shownCurve, blade, scene, at) {
-    const curve = curves.find((one) => one.name === "max_von_mises");
-    const stress = curve?.values.row(blade, scene)[at];
-    if (!aboveYield(stress, blade, scene)) return "";
-    return curve === shownCurve ? `<br>${OUTSIDE}` : `<br>stress at this speed ${digits(stress)} MPa, ${OUTSIDE}`;
+  // of the run at a speed, whatever is shown of it: how often and how far its stress is above yield
+  function yieldText(blade, scene, at) {
+    const [stress, share] = ["max_von_mises_ever", "share_of_revolutions_above_yield"]
+      .map((name) => curves.find((one) => one.name === name)?.values.row(blade, scene)[at]);
+    if (!(stress > yieldStress?.row(blade)[scene])) return "";
+    return `<br>in ${digits(100 * share, 3)}% of the later revolutions, up to ${digits(stress)} MPa, ${OUTSIDE}`;
   }
 
   // name of a curve -> what one of its points says
@@ -100,7 +100,7 @@
     const number = status.row(blade, scene)[at];
     const where = `${data.blades[blade]}, ${data.scenes[scene]}<br>${speedText(speeds[at])}<br>`;
     if (number === DIVERGED) return `${where}diverged: beyond all that has a number`;
-    return `${where}${quantityText(value, curve.unit)}<br>${STATUS[number]}${yieldText(curve, blade, scene, at)}`;
+    return `${where}${quantityText(value, curve.unit)}<br>${STATUS[number]}${yieldText(blade, scene, at)}`;
   }
 
   // the speeds in operation, shaded
@@ -141,7 +141,7 @@
     const top = 1.05 * traces.flatMap(({ y }) => y).filter(Number.isFinite).reduce((most, value) => Math.max(most, value), lowest);
     plan.yaxis.range = [0, top];
     plan.shapes.push({
-      ...across, type: "rect", y0: lowest, y1: top, line: { width: 0 }, fillcolor: theme.colour("warning"), opacity: 0.12, name: "outside the linear model",
+      ...across, type: "rect", y0: lowest, y1: top, line: { width: 0 }, fillcolor: theme.colour("warning"), opacity: 0.12, name: OUTSIDE,
     });
     [...bladesOf].forEach(([limit, names], number) => {
       plan.shapes.push({
@@ -325,8 +325,8 @@
     // above all that has a number: nothing is worse
     const top = 1.08 * traces.flatMap(({ y }) => y).filter(Number.isFinite).reduce((most, y) => Math.max(most, y), 0) || 1;
     traces.push(...crosses.map((cross) => ({ ...cross, y: cross.x.map(() => top) })));
-    const plan = layout(speedAxis(), axis(broken(labelText(curve)), { automargin: true, title: { text: broken(labelText(curve)), font: { size: 12 } } }));
-    if (state.quantity === "max_von_mises" && yieldStress) markStress(plan, traces, blades, scene);
+    const plan = layout(speedAxis(), axis(broken(labelText(curve)), { automargin: true, rangemode: "tozero", title: { text: broken(labelText(curve)), font: { size: 12 } } }));
+    if (state.quantity.startsWith("max_von_mises") && yieldStress) markStress(plan, traces, blades, scene);
     draw("response", traces, plan);
   }
 
@@ -388,7 +388,7 @@
       const near = Math.abs(speed - state.speed) < 1e-6 * speed;
       traces.push({
         x: values.map((_, at) => at + 1), y: values, name: `${digits(speed)} rad/s`, mode: "lines", hoverinfo: "text",
-        line: { color: colourOf(number), width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / 7) % 4] },
+        line: { color: colourOf(number), width: near ? 3 : 1.2, dash: DASHES[Math.floor(number / COLOURS.length) % 4] },
         text: values.map((value, at) => `${speedText(speed)}<br>revolution ${at + 1}<br>${digits(value)} MPa`),
       });
     });
@@ -396,8 +396,8 @@
     draw("stress", traces, plan, false);
   }
 
-  const STRESSES = ["max_von_mises_pa", "median_von_mises_pa"];
-  const outside = (row, name) => aboveYield(1e-6 * row[name], data.blades.indexOf(row.blade), data.scenes.indexOf(row.scene));
+  const STRESSES = ["largest_stress_pa", "largest_high_stress_pa", "largest_median_stress_pa"];
+  const outside = (row, name) => 1e-6 * row[name] > yieldStress?.row(data.blades.indexOf(row.blade))[data.scenes.indexOf(row.scene)];
   // a cell of a table: in the unit that its head has
   function valueText(row, { name, unit, factor: toUnit, digits: count }) {
     const value = row[name] ?? "";
@@ -425,7 +425,7 @@
     const chosen = data.interactions.find(
       (row) => row.blade === state.blade && row.scene === state.scene && row.peak_speed_rad_s === state.speed,
     );
-    const { max_von_mises_pa: stress, max_von_mises_speed_rad_s: speed } = chosen ?? {};
+    const { largest_stress_pa: stress, largest_stress_speed_rad_s: speed } = chosen ?? {};
     if (!Number.isFinite(stress) || !Number.isFinite(speed) || speed === state.speed) return "";
     return `; interaction ${chosen.interaction}: largest stress ${digits(1e-6 * stress)} MPa at ${speedText(speed)}`;
   }
@@ -557,7 +557,7 @@
 
   // the worst run of all blades and scenes: one that diverged, else the largest stress, or motion where there is no stress
   function worstRun() {
-    const loads = ["max_von_mises", "rms_normal"].map((name) => curves.find((curve) => curve.name === name)).filter(Boolean);
+    const loads = ["max_von_mises_ever", "rms_normal"].map((name) => curves.find((curve) => curve.name === name)).filter(Boolean);
     let worst = { load: [] };
     data.blades.forEach((blade, row) => data.scenes.forEach((scene, column) => ran(row, column).forEach((at) => {
       const diverged = status.row(row, column)[at] === DIVERGED;

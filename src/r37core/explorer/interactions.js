@@ -72,10 +72,10 @@ const drawInteractions = (() => {
     table.tBodies[0].replaceChildren(...shown.map(({ line }) => line));
     if (focused?.isConnected) focused.focus({ preventScroll: true });
     table.hidden = shown.length === 0;
-    // columns without a number in these rows take no room
+    // columns without a number in these rows take no room, nor do details
     columns.forEach((column, at) => {
-      const empty = shown.every(({ row }) => (row[column.name] ?? "") === "");
-      [heads.get(column), ...shown.map(({ line }) => line.cells[at])].forEach((cell) => { cell.hidden = empty; });
+      const hidden = (column.detail && !state.columns && by !== column.name) || shown.every(({ row }) => (row[column.name] ?? "") === "");
+      [heads.get(column), ...shown.map(({ line }) => line.cells[at])].forEach((cell) => { cell.hidden = hidden; });
     });
     const where = `${state.all ? "all blades" : state.blade} in ${state.scene}`;
     document.getElementById("shown").textContent = state.every ? `all ${lines.length}` : `${shown.length || "none"} of ${where}`;

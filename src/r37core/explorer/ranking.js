@@ -1,7 +1,7 @@
-// the first panel: which blade? Two bars for each blade and scene, above yield in most and in some revolutions; thin ones by the worst
+// the first panel: which blade? Bars for each blade and scene, above yield in most revolutions, in some and ever; thin ones by the worst
 // motion and, with a limit to compare it to, in operation; and the other numbers
 const drawRanking = (() => {
-  const KINDS = { length_most_revolutions_rad_s: "certain", length_some_revolutions_rad_s: "possible" };
+  const KINDS = { length_most_revolutions_rad_s: "certain", length_some_revolutions_rad_s: "possible", length_ever_rad_s: "ever" };
   const [WORST, REST, OPERATING] = ["worst", "rest", "operating"].map((name) => `length_most_revolutions_${name}_rad_s`);
   const THIN = { [WORST]: "worst", [OPERATING]: "inside" };
   const element = (tag, className, text = "") => Object.assign(document.createElement(tag), { className, textContent: text });
@@ -12,6 +12,11 @@ const drawRanking = (() => {
   };
   let drawn = null;
 
+  // blades that cannot be told apart share a rank
+  const rankOf = (data, { scene, contact, rank }) => {
+    const tied = data.ranking.filter((row) => row.scene === scene && row.contact === contact && row.rank === rank).length > 1;
+    return rank === null ? "" : `${rank}${tied ? " =" : ""}`;
+  };
   const rowOf = (data, blade, scene) => data.ranking.find((row) => row.blade === blade && row.scene === scene);
   const barsOf = (data) => data.ranking_columns.filter(({ name }) => name in KINDS);
   // the limit (rad/s) of the length in operation, of a run with requirements
@@ -72,7 +77,7 @@ const drawRanking = (() => {
         const row = rowOf(data, blade, scene);
         cell.dataset.scene = scene;
         if (!row) return;
-        if (ranked) cell.append(element("span", "rank", `${row.rank ?? ""}`));
+        if (ranked) cell.append(element("span", "rank", rankOf(data, row)));
         const lines = element("span", "bars");
         lines.append(...[...bars, ...thin].map(({ name }) => bar(row, name, scale(scene), limit)));
         cell.append(lines, element("span", "numbers", bars.map((column) => valueText(row, column) || "no stress").join(" / ")));

@@ -1,5 +1,7 @@
 """Steps of the workflow (docs/architecture.md): the page to look at all results."""
 
+from inspect import signature
+from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any
 
@@ -17,10 +19,15 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
 
     Params: title, figures (of extensions, linked), operating (the range, or None); panels: extension -> function that gives
-    what its panels show of the table that is called like it; programs: files that draw them.
+    what its panels show of the tables of all, by the names of their files; programs: files that draw them.
     """
     files = dict(input.items())
-    panels = {name: resolve_name(function)(read_table(files.pop(name))) for name, function in params.panels.items()}
+    tables = {Path(file).stem: read_table(file) for file in (files.pop(name) for name in params.panels)}
+    functions = {name: resolve_name(function) for name, function in params.panels.items()}
+    panels = {
+        name: function(**{each: tables[each] for each in signature(function).parameters if each in tables})
+        for name, function in functions.items()
+    }
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_judged(file) for kind, file in files.items()}
     operating = params.operating and from_plain(OperatingRange, params.operating)

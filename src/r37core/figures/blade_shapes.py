@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 import matplotlib
@@ -16,6 +17,8 @@ from .style import blade_styles
 
 _BESIDE = 0.09
 """Distance of a name from what it names, as a share of the blade's height."""
+_LINE = 22
+"""Letters of a name in a line of a panel."""
 _LETTERS = str(Path(matplotlib.get_data_path(), "fonts/ttf/DejaVuSans.ttf"))
 """Font of all other figures."""
 
@@ -36,7 +39,8 @@ def draw_blade_shapes(meshes: Mapping[str, Path | str], file: Path | str) -> Non
         plotter.add_mesh(surface, color=light, ambient=0.35, diffuse=0.65, smooth_shading=True, split_sharp_edges=True)
         plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
         _mark_sense(plotter, grid)
-        plotter.add_text(name, font_size=18, font_file=_LETTERS)
+        # below, clear of the rotation
+        plotter.add_text(fill(name, _LINE), position="lower_edge", font_size=13, font_file=_LETTERS)
         look(plotter)
     save_picture(plotter, file)
 

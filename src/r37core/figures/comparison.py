@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.rom.reduction_choice import LINEAR
 from r37core.time_integration.status import RunStatus
 
 from . import style
@@ -16,7 +17,13 @@ from . import style
 _MOST_RANKED = 60
 """Blades whose bars fit in a picture."""
 
-_IN_MOST, _IN_SOME = "length_most_revolutions_rad_s", "length_some_revolutions_rad_s"
+_IN_MOST = "length_most_revolutions_rad_s"
+_LENGTHS = {
+    "length_ever_rad_s": "in any revolution",
+    "length_some_revolutions_rad_s": "in some revolutions",
+    _IN_MOST: "in most revolutions",
+}
+"""Lengths above yield, each a bar on the one before, and what they are called."""
 
 
 def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
@@ -43,7 +50,7 @@ def draw_comparison(
     panels_of = {"rms, normal (mm)": 1e3 * rms["rms_normal"].sel(tip_point="leading_edge")}
     panels_of["rms, tangential (mm)"] = 1e3 * rms["rms_tangential"].sel(tip_point="leading_edge")
     if stress is not None:
-        panels_of["largest von Mises (GPa)"] = 1e-9 * stress["max_von_mises"]
+        panels_of[style.stress_label(stress)] = stress["max_von_mises_median"]
     figure, panels = plt.subplots(len(panels_of), 1, figsize=(style.PAGE, 1.9 * len(panels_of) + 0.5), sharex=True)
     for axes, (label, values) in zip(panels, panels_of.items(), strict=True):
         for blade in values["blade"].values if order else []:
@@ -54,12 +61,18 @@ def draw_comparison(
             diverged = status["speed"].values[status.values == RunStatus.DIVERGED]
             if curve.size or len(diverged):
                 above_crossing = 100 * (curve["speed"] / crossing - 1.0)
-                axes.plot(above_crossing, curve, marker=".", markersize=3, label=str(blade), **styles[str(blade)])
+                if stress is not None and axes is panels[2]:
+                    runs = stress.sel(blade=blade, speed=curve["speed"])
+                    style.stress_band(axes, above_crossing, runs, str(blade), **styles[str(blade)])
+                else:
+                    axes.plot(above_crossing, curve, marker=".", markersize=3, label=str(blade), **styles[str(blade)])
                 style.mark_diverged(axes, 100 * (diverged / crossing - 1.0), styles[str(blade)]["color"])
         axes.axvline(0.0, color="0.5", linewidth=0.8, linestyle=":")
         axes.set_ylabel(label)
     if stress is not None:
-        style.yield_lines(panels[-1], stress["yield_stress"].to_series(), named=True)
+        style.yield_lines(panels[-1], stress["yield_stress"].to_series(), named=True, linear=style.is_linear(stress))
+    for axes in panels:
+        axes.set_ylim(bottom=0.0)
     label = f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
     panels[-1].set_xlabel(label)
     panels[0].set_title(f"blades in scene {title}")
@@ -69,50 +82,71 @@ def draw_comparison(
 
 
 def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> Figure:
-    """Bars of the speeds above yield in most and in some revolutions, a panel per scene, blades in the order of the first.
+    """Bars of the speeds above yield in most revolutions, in some and ever, a panel per scene with its blades by their rank.
 
-    `scenes`: those that are drawn, or all. Of many blades the first and the last in that order are drawn; a row between them
-    says how many are left out.
+    Blades that cannot be told apart share a rank and a background. `scenes`: those that are drawn, or all. Of many blades the
+    first and the last are drawn; a row between them says how many are left out.
     """
     scenes = [name for name in dict.fromkeys(ranking["scene"]) if scenes is None or name in scenes]
-    first = ranking[ranking["scene"] == scenes[0]]["blade"]
-    contacts = dict(zip(ranking["blade"], ranking["contact"], strict=True)) if ranking["contact"].nunique() > 1 else {}
-    blades = list(dict.fromkeys([*first, *ranking["blade"]]))
-    if len(blades) > _MOST_RANKED:
-        half = _MOST_RANKED // 2
-        blades = [*blades[:half], f"({len(blades) - _MOST_RANKED} more)", *blades[-half:]]
+    tables = {scene: _of_many(ranking[ranking["scene"] == scene].set_index("blade")) for scene in scenes}
     columns = min(len(scenes), 2)
     rows = -(-len(scenes) // columns)
-    size = (style.PAGE, 0.5 + rows * (0.4 + 0.34 * max(len(blades), 3)))
-    figure, panels = plt.subplots(rows, columns, figsize=size, sharey=True, squeeze=False)
+    size = (style.PAGE, 0.7 + rows * (0.5 + 0.34 * max(3, *map(len, tables.values()))))
+    figure, panels = plt.subplots(rows, columns, figsize=size, squeeze=False)
     for axes in panels.flat[len(scenes) :]:
         axes.set_visible(False)
-    for axes, scene in zip(panels.flat, scenes, strict=False):
-        _draw_bars(axes, ranking[ranking["scene"] == scene].set_index("blade").reindex(blades))
-        axes.set(title=style.scene_words(scene), xlabel="speeds above yield (rad/s)")
-    named = [f"{blade}\n{contacts[blade]}" if blade in contacts else blade for blade in blades]
-    panels[0][0].set_yticks(np.arange(len(blades)), named)
-    panels[0][0].invert_yaxis()
-    figure.legend(*style.legend_entries(list(panels.flat)), loc="outside lower center", ncols=3)
+    contacts = ranking["contact"].unique()
+    for axes, (scene, table) in zip(panels.flat, tables.items(), strict=False):
+        _draw_bars(axes, table, named=len(contacts) > 1)
+        tied = len(table) > 1 and len(set(zip(table["rank"], table["contact"], strict=True))) == 1
+        title = f"{style.scene_words(scene)}{': cannot be ranked' if tied else ''}"
+        axes.set(title=title, xlabel="speeds above yield (rad/s): most / some / ever")
+    if len(contacts) == 1 and contacts[0]:
+        nodes, _, kinematics = contacts[0].partition(", ")
+        figure.suptitle(f"contact: {nodes}; kinematics: {kinematics or LINEAR}")
+    figure.legend(*style.legend_entries(list(panels.flat)), loc="outside lower center", ncols=4)
     return figure
 
 
-def _draw_bars(axes: Axes, rows: pd.DataFrame) -> None:
+def _of_many(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows of a scene by blade; of many the first and the last, with one of nothing between them."""
+    if len(rows) <= _MOST_RANKED:
+        return rows
+    half = _MOST_RANKED // 2
+    return rows.reindex([*rows.index[:half], f"({len(rows) - _MOST_RANKED} more)", *rows.index[-half:]])
+
+
+def _draw_bars(axes: Axes, rows: pd.DataFrame, *, named: bool) -> None:
+    """Bars of one scene, the best above; with `named` contacts under the names of the blades."""
     positions = np.arange(float(len(rows)))
-    axes.barh(positions, rows[_IN_SOME], 0.76, color="C0", alpha=0.35, label="in some revolutions")
-    axes.barh(positions, rows[_IN_MOST], 0.44, color="C0", label="in most revolutions")
+    for (name, label), height, alpha in zip(_LENGTHS.items(), (0.84, 0.66, 0.4), (0.15, 0.4, 1.0), strict=True):
+        axes.barh(positions, rows[name], height, color="C0", alpha=alpha, label=label)
     low, high, meaning = _range(rows)
     if np.isfinite(low).any():
         axes.errorbar(
             rows[_IN_MOST], positions, xerr=[low, high], fmt="none", ecolor="0.15", elinewidth=1.0, capsize=2.5, label=meaning
         )
-    high = np.nan_to_num(high)
-    largest = np.nanmax([1.0, *rows[_IN_SOME], *(rows[_IN_MOST] + high)])
-    for position, above, (_, row) in zip(positions, high, rows.iterrows(), strict=True):
-        if np.isfinite(row[_IN_MOST]):
-            ends = np.nanmax([row[_IN_SOME], row[_IN_MOST] + above])
-            axes.text(ends + 0.02 * largest, position, f"{row[_IN_MOST]:.0f} to {row[_IN_SOME]:.0f}", va="center", fontsize=7)
-    axes.set_xlim(0.0, 1.25 * largest)
+    ends = np.fmax(rows[list(_LENGTHS)].max(axis=1), rows[_IN_MOST] + np.nan_to_num(high))
+    largest = np.nanmax([1.0, *ends])
+    for position, end, (_, row) in zip(positions, ends, rows.iterrows(), strict=True):
+        if np.isfinite(end):
+            numbers = " / ".join(f"{row[name]:.0f}" for name in reversed(_LENGTHS))
+            axes.text(end + 0.02 * largest, position, numbers, va="center", fontsize=7)
+    # a rank is among blades of one contact; rows are in the order of both
+    rank = rows["rank"].astype(object).where(rows["rank"].notna(), "")
+    shared = pd.Series(list(zip(rank, rows["contact"].fillna(""), strict=True)))
+    ties = shared.duplicated(keep=False).values & (rank != "").values
+    group = (shared != shared.shift()).cumsum()
+    for _, places in pd.Series(positions)[ties].groupby(group[ties]):
+        axes.axhspan(places.min() - 0.48, places.max() + 0.48, color="0.5", alpha=0.15, linewidth=0.0, zorder=0.0)
+    names = [
+        "\n".join([f"{place}{' =' if tie else ''}  {blade}", *([contact] if named and contact else [])])
+        for blade, (place, contact), tie in zip(rows.index, shared, ties, strict=True)
+    ]
+    axes.set_yticks(positions, names)
+    axes.grid(visible=False, axis="y")
+    axes.set_axisbelow(True)
+    axes.set(xlim=(0.0, 1.45 * largest), ylim=(len(rows) - 0.5, -0.5))
 
 
 def _range(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, str]:
@@ -120,5 +154,5 @@ def _range(rows: pd.DataFrame) -> tuple[np.ndarray, np.ndarray, str]:
     if f"{_IN_MOST}_low" in rows and rows[f"{_IN_MOST}_low"].notna().any():
         low, high = rows[_IN_MOST] - rows[f"{_IN_MOST}_low"], rows[f"{_IN_MOST}_high"] - rows[_IN_MOST]
         return low.clip(lower=0.0).values, high.clip(lower=0.0).values, "nine tenths of the members"
-    scatter = rows["length_most_revolutions_scatter_rad_s"].values
-    return scatter, scatter, "standard deviation by chance"
+    within = rows["length_most_revolutions_within_rad_s"].values
+    return np.minimum(within, rows[_IN_MOST].values), within, "in most revolutions, known to within"

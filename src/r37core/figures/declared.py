@@ -1,6 +1,5 @@
 """The pipeline's figures, each declared once; a caption stands in the file itself, in the report and in the gallery."""
 
-from collections.abc import Callable
 from typing import Any
 
 from r37core.base.plain import to_plain
@@ -19,14 +18,9 @@ def _stress(sweep: Sweep, wildcards: Any) -> str | list[str]:
     return STRESS if any(shown <= run.items() for run in runs) else []
 
 
-def _drawn(*names: str) -> Callable[[Sweep], dict[str, Any]]:
-    """Argument of a figure that shows the drawn blades, scenes or both alone; another scene draws no figure of blades anew."""
-    return lambda sweep: {"drawn": {name: sweep.drawn[name] for name in names}}
-
-
 def _about_crossings(sweep: Sweep) -> dict[str, Any]:
     interactions = sweep.settings.config.interactions
-    return {"below": interactions.below, "above": interactions.above, **_drawn("blade")(sweep)}
+    return {"below": interactions.below, "above": interactions.above, "drawn": {"blade": sweep.drawn["blade"]}}
 
 
 BLADES = "The blades, seen from the side, each in its colour of all figures. The arrow shows the rotation, LE the leading edge."
@@ -72,7 +66,7 @@ FIGURES = (
         "the last revolution; where it is above yield (tinted) it is outside the linear model. Dotted: crossings of 1B with "
         "engine orders; red crosses: runs that diverged. Open circles: the blade has cut itself free by the end of the run; "
         "open triangles: its motion or the wear still grows there.",
-        arguments=_drawn("scene"),
+        arguments=lambda sweep: {"drawn": {"scene": sweep.drawn["scene"]}},
         offered="motions",
     ),
     Figure(

@@ -1,4 +1,4 @@
-"""Campbell diagrams with the interactions of a run, each a circle whose area is its length above yield."""
+"""Campbell diagrams with the interactions of a run, each a mark by the revolutions above yield, of the area of its length."""
 
 from itertools import product
 from typing import Any
@@ -15,6 +15,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
 from r37core.results.closing import interaction_title
+from r37core.results.columns import MOST, NEVER, SOME
 from r37core.results.interactions import sized
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
@@ -25,9 +26,17 @@ from .campbell_diagram import draw_engine_orders
 _WIDTH = 5.2
 """Width (inch) at which letters can still be read where a telephone shows the figure."""
 
-_MOST_SCENES, _MOST_LABELS = 6, 6
-_LARGEST, _RING = 26.0, 5.0
-"""Diameters (pt) of the largest circle, and of the ring for an interaction that is not above yield."""
+_MOST_SCENES, _MOST_LABELS = 6, 5
+_LARGEST, _STRIP = 26.0, 0.09
+"""Diameter (pt) of the largest circle; how deep below 0 the strip of what has no engine order lies, as a share of the panel."""
+
+_MARKS = {
+    MOST: ("o", np.nan, 0.45, "above yield in most revolutions"),
+    SOME: ("D", 36.0, 0.45, "in some"),
+    NEVER: ("o", 25.0, 0.0, "in none"),
+    "": (".", 12.0, 0.0, "stress not known"),
+}
+"""`above` of results.interactions.sized -> marker, its area (pt^2; NaN: by the size), how dense it is, and its meaning."""
 
 _SMALL = 0.2
 """Share of the largest size of all below which a scene has a scale of its own."""
@@ -43,10 +52,11 @@ _OTHERS = "0.45"
 
 
 def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.DataFrame) -> Figure:
-    """Draw a panel for each scene, at most six: those with the longest length above yield.
+    """Draw a panel for each scene, at most six: those with the longest lengths above yield.
 
     `interactions`: summary.csv; `rms`: which speeds were run. A circle stands at the peak speed and at the frequency of its
-    engine order there. Its area is the length above yield in most revolutions or, in a scene without stress, the motion.
+    engine order there, without one on a strip below. Its area is the length above yield in most revolutions or, in a scene
+    without stress, the motion; other marks are above yield in some revolutions or never. Lines: speeds above yield.
     """
     rows = sized(interactions, rms)
     lengths = rows[rows["unit"] == "rad/s"].groupby("scene")["size"].max()
@@ -61,25 +71,42 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     ran = rms["speed"].values[(rms["status"] != RunStatus.NOT_RUN).any(("blade", "scene")).values]
     margin = max(0.03 * (ran[-1] - ran[0]), 0.01 * ran[-1])
     highest = np.nanmin([1.3 * float(campbell["frequency"].sel(mode="2B").max()), 1.15 * rows["frequency"].max()])
+    strip = -_STRIP * highest if rows["frequency"].isna().any() else 0.0
+    rows = rows.assign(frequency=rows["frequency"].fillna(strip).clip(upper=highest), higher=rows["frequency"] > highest)
+    by_motion = rows["unit"] == "mm"
+    rows["above"] = rows["above"].mask(by_motion, MOST)
+    rows["area"] = rows["above"].map({above: area for above, (_, area, *_) in _MARKS.items()}).fillna(_areas(rows))
     with plt.rc_context(_LETTERS | {"axes.titlesize": 10}):
         size = (_WIDTH, 0.9 + len(scenes) * (3.0 if len(scenes) < 3 else 2.4))
         figure, grid = plt.subplots(len(scenes), 1, figsize=size, sharex=True, sharey=True, squeeze=False)
         panels = dict(zip(scenes, grid.flat, strict=True))
-        grid[0, 0].set(xlim=(ran[0] - margin, ran[-1] + margin), ylim=(0.0, highest))
+        grid[0, 0].set(xlim=(ran[0] - margin, ran[-1] + margin), ylim=(2.0 * strip, highest))
         style.rpm_axis(grid[0, 0], most_ticks=6)
         grid[-1, 0].set_xlabel(style.SPEED_LABEL)
         for scene, axes in panels.items():
             axes.set(title=style.scene_words(scene), ylabel="frequency (Hz)")
             axes.grid(visible=False)
             _draw_modes(axes, campbell)
+            if strip:
+                axes.axhline(0.0, color="0.3", linewidth=0.8)
+                ticks = [tick for tick in axes.get_yticks() if 0.0 <= tick <= highest]
+                axes.set_yticks([strip, *ticks], ["no order", *(f"{tick:g}" for tick in ticks)])
             _draw_marks(axes, rows[rows["scene"] == scene], colours)
         handles, labels = style.legend_entries(grid.flat)
+        close: dict[str, Any] = {"handletextpad": 0.1, "columnspacing": 1.0}
         if handles:
-            figure.legend(handles, labels, loc="outside lower center", ncols=5, handletextpad=0.1, columnspacing=1.0)
+            figure.legend(handles, labels, loc="outside lower center", ncols=5, **close)
+        if not by_motion.all():
+            known = {above: mark for above, mark in _MARKS.items() if above or "" in set(rows["above"])}
+            look: dict[str, Any] = {"linestyle": "", "color": "0.2"}
+            keys = [
+                Line2D([], [], marker=mark, markerfacecolor=to_rgba("0.2", share), **look)
+                for mark, _, share, _ in known.values()
+            ]
+            figure.legend(keys, [label for *_, label in known.values()], loc="outside upper center", ncols=4, **close)
         figure.draw_without_rendering()
         for scene, axes in panels.items():
-            own = rows[(rows["scene"] == scene) & (rows["size"] > 0.0) & (rows["frequency"] <= highest)]
-            _label(axes, own.sort_values("size", ascending=False), figure.dpi / 72.0, named=len(colours) > 1)
+            _label(axes, _by_danger(rows[rows["scene"] == scene]), figure.dpi / 72.0, named=len(colours) > 1)
     return figure
 
 
@@ -109,35 +136,43 @@ def _draw_modes(axes: Axes, campbell: xr.Dataset) -> None:
             axes.annotate(mode, place, fontweight="bold", color="0.2", path_effects=_HALO, **above)
 
 
+def _by_danger(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows above yield, or with a motion, the longest first and then those with the most revolutions."""
+    dangerous = rows[rows["above"].isin([MOST, SOME])]
+    return dangerous.sort_values(["size", "share_of_revolutions_above_yield"], ascending=False)
+
+
 def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None:
-    """Circles, the largest first, rings for what is not above yield, crosses for what diverged, and a key of the sizes."""
+    """Marks, the largest first, on lines along the speeds above yield; crosses for what diverged, and a key of the sizes."""
     if rows.empty:
         style.say(axes, "no interaction was found")
         return
-    inside, diverged = rows["frequency"] <= axes.get_ylim()[1], rows["status"] == RunStatus.DIVERGED.text
-    shown = rows[inside].sort_values("size", ascending=False)
-    for blade in [blade for blade in colours if blade in set(shown["blade"])] if len(colours) > 1 else []:
+    if rows["higher"].any():
+        corner: dict[str, Any] = {"ha": "right", "va": "top", "transform": axes.transAxes, "path_effects": _HALO}
+        axes.text(0.99, 0.97, "at the upper edge: higher", color="0.3", **corner)
+    for blade in [blade for blade in colours if blade in set(rows["blade"])] if len(colours) > 1 else []:
         axes.scatter([], [], 30.0, color=colours[blade], label="other blades" if colours[blade] == _OTHERS else blade)
-    above, none = shown[shown["size"] > 0.0], shown[shown["size"] == 0.0]
-    for part, areas, share in ((above, _areas(above), 0.45), (none, _RING**2, 0.0)):
+    for row in rows.to_dict("records"):
+        ends = np.array([row["some_revolutions_from_rad_s"], row["some_revolutions_to_rad_s"]], float)
+        along = ends / row["peak_speed_rad_s"] if row["frequency"] > 0.0 and not row["higher"] else 1.0
+        look: dict[str, Any] = {"color": colours[row["blade"]], "linewidth": 2.5, "alpha": 0.45, "zorder": 2.4}
+        axes.plot(ends, row["frequency"] * np.broadcast_to(along, 2), solid_capstyle="butt", **look)
+    diverged = rows["status"] == RunStatus.DIVERGED.text
+    for above, (marker, _, share, _) in _MARKS.items():
+        part = rows[(rows["above"] == above) & (~diverged | (rows["size"] > 0.0))].sort_values("area", ascending=False)
         faces, edges = ([to_rgba(colours[blade], alpha) for blade in part["blade"]] for alpha in (share, 1.0))
-        axes.scatter(*_places(part), areas, facecolors=faces, edgecolors=edges, linewidths=0.9, zorder=2.5)
-    if len(none):
-        axes.scatter([], [], _RING**2, facecolors="none", edgecolors="0.2", label="not above yield from rest")
-    if (diverged & inside).any():
-        axes.plot(*_places(rows[diverged & inside]), "x", color="red", zorder=2.6, label="diverged")
-    # without an engine order it has no frequency
-    style.mark_diverged(axes, rows["peak_speed_rad_s"][diverged & ~inside].values)
-    if left_out := int((~inside & ~diverged).sum()):
-        where: dict[str, Any] = {"xycoords": "axes fraction", "va": "bottom", "path_effects": _HALO}
-        axes.annotate(f"{left_out} not shown: higher,\nor without an engine order", (0.01, 0.02), **where)
-    if len(above):
-        unit, scale, largest = above["unit"].iloc[0], above["scale"].iloc[0], above["size"].max()
+        look = {"facecolors": faces, "edgecolors": edges, "linewidths": 0.9, "zorder": 2.5, "clip_on": False}
+        axes.scatter(*_places(part), part["area"], marker=marker, **look)
+    if diverged.any():
+        axes.plot(*_places(rows[diverged]), "x", color="red", zorder=2.6, label="diverged", clip_on=False)
+    circles = rows[rows["size"] > 0.0]
+    if len(circles):
+        unit, scale, largest = circles["unit"].iloc[0], circles["scale"].iloc[0], circles["size"].max()
         sizes = [_round(largest), _round(0.15 * largest)]
         key: dict[str, Any] = {"marker": "o", "linestyle": "", "color": "0.8", "markeredgecolor": "0.3"}
         handles = [Line2D([], [], markersize=_LARGEST * np.sqrt(each / scale), **key) for each in sizes]
         box: dict[str, Any] = {"frameon": True, "framealpha": 0.9, "edgecolor": "none", "columnspacing": 1.0, "borderpad": 0.6}
-        axes.legend(handles, [f"{each:g} {unit}" for each in sizes], loc="lower right", ncols=2, **box)
+        axes.legend(handles, [f"{each:g} {unit}" for each in sizes], loc="upper left", ncols=2, **box)
 
 
 def _places(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
@@ -146,7 +181,7 @@ def _places(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
 
 def _areas(rows: pd.DataFrame) -> pd.Series:
     """Areas (square points) of the circles, all large enough to be seen."""
-    return (_LARGEST**2 * rows["size"] / rows["scale"]).clip(lower=4.0)
+    return (_LARGEST**2 * rows["size"] / rows["scale"]).fillna(0.0).clip(lower=4.0)
 
 
 def _round(value: float) -> float:
@@ -157,7 +192,7 @@ def _round(value: float) -> float:
 
 def _label(axes: Axes, rows: pd.DataFrame, point: float, *, named: bool) -> None:
     """Label the largest circles, as far as there is room: neither on each other nor on other circles. `point`: in pixels."""
-    radii, legend = 0.5 * np.sqrt(_areas(rows)).values, axes.get_legend()
+    radii, legend = 0.5 * np.sqrt(rows["area"].values), axes.get_legend()
     middles = axes.transData.transform(np.column_stack(_places(rows)))
     reach = point * radii[:, None]
     circles = [Bbox(corners) for corners in np.stack([middles - reach, middles + reach], axis=1)]
@@ -182,8 +217,12 @@ def _label(axes: Axes, rows: pd.DataFrame, point: float, *, named: bool) -> None
 
 
 def _text(row: dict[str, Any], *, named: bool) -> str:
-    """Label of a circle: Ref 1B/4, 98 rad/s."""
-    title = interaction_title(row["mode"], row["engine_order"]).removeprefix("engine ")
+    """Label of a mark: Ref 1B/4, 98 rad/s; of one above yield in some revolutions: Ref 1B/5, up to 4.5 x yield."""
+    order = row["engine_order"]
+    title = interaction_title(row["mode"], order).removeprefix("engine ") if pd.notna(order) else ""
+    name = " ".join([row["blade"]] * named + [title] * bool(title))
     amount = f"{row['size']:.0f}" if row["size"] >= 10.0 else f"{row['size']:.2g}"
-    blade = f"{row['blade']} " if named else ""
-    return f"{blade}{title}, {'> ' * row['onward']}{amount} {row['unit']}"
+    amount = f"{'> ' * row['onward']}{amount} {row['unit']}"
+    if row["above"] == SOME:
+        amount = f"up to {row['largest_stress_over_yield']:.2g} x yield"
+    return f"{name}, {amount}" if name else amount

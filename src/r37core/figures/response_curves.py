@@ -1,4 +1,4 @@
-"""Response over speed: rms of the leading edge, and largest stress against yield."""
+"""Response over speed: rms of the leading edge, and stress against yield, from its median to the largest."""
 
 from typing import Any
 
@@ -24,7 +24,7 @@ def draw_response(
     stress: xr.Dataset | None = None,
     motions: xr.Dataset | None = None,
 ) -> Figure:
-    """One blade: normal and tangential rms of the leading edge in every scene, and the largest stress with the yield line.
+    """One blade: normal and tangential rms of the leading edge in every scene, and bands of the stress with the yield line.
 
     `campbell`: where 1B crosses engine orders, None to leave that out; `motions`: more than that from rest, whose largest is
     drawn where it differs from that (results/other_motions.py), and these speeds shaded.
@@ -43,10 +43,12 @@ def draw_response(
     panels[0].set_title(f"blade {title}: leading edge over the last half of the run{crossings}")
     if stress is not None:
         for scene in stress["scene"].values:
-            largest = stress["max_von_mises"].sel(scene=scene).dropna("speed")
-            panels[2].plot(largest["speed"], 1e-9 * largest, ".-", markersize=3, label=style.scene_words(scene))
-        style.yield_lines(panels[2], stress["yield_stress"].to_series(), named=True)
-        panels[2].set_ylabel("largest von Mises (GPa)")
+            runs = stress.sel(scene=scene).dropna("speed", subset=["max_von_mises_median"])
+            style.stress_band(panels[2], runs["speed"], runs, style.scene_words(scene))
+        style.yield_lines(panels[2], stress["yield_stress"].to_series(), named=True, linear=style.is_linear(stress))
+        panels[2].set_ylabel(style.stress_label(stress))
+    for axes in panels:
+        axes.set_ylim(bottom=0.0)
     panels[-1].set_xlabel(style.SPEED_LABEL)
     style.rpm_axis(panels[0])
     figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 import matplotlib
@@ -24,12 +25,16 @@ from matplotlib.ticker import MaxNLocator
 from r37core.base.io import atomic_write
 from r37core.base.units import RPM
 from r37core.results.operating_range import OperatingRange
+from r37core.rom.reduction_choice import QUADRATIC
 
 COLUMN, PAGE = 3.5, 7.2
 """Widths (inch) of a figure that goes into one column of a journal and across its page, at the size of its text."""
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
-"""Okabe and Ito's colours, in the explorer's order."""
+COLOURS = (
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000",
+    "#003F62", "#8A3D00", "#00573F", "#7A3F61", "#2B6E94", "#7F5700", "#888888",
+)  # fmt: skip
+"""Okabe and Ito's colours, and darker ones of them, in the explorer's order."""
 CURVES = {
     "rms_normal": ("rms, normal (mm)", 1e3),
     "rms_tangential": ("rms, tangential (mm)", 1e3),
@@ -49,7 +54,8 @@ def scene_words(scene: Any) -> str:
     return _SHIPPED.get(str(scene), str(scene))
 
 
-OUTSIDE = "above yield: outside the linear model"
+ABOVE_YIELD = "above yield"
+OUTSIDE = f"{ABOVE_YIELD}: outside the linear model"
 
 PARAMETERS: dict[Any, Any] = {
     "figure.dpi": 110,
@@ -90,10 +96,31 @@ def mode_colour(campbell: xr.Dataset, mode: str) -> str:
     return COLOURS[list(campbell["mode"].values).index(mode) % len(COLOURS)]
 
 
-def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False) -> None:
-    """A dashed line (GPa) at each of the yield stresses (Pa), each by its name, and above the lowest a tint: not linear there.
+def is_linear(data: xr.Dataset) -> bool:
+    """Whether a run of a dataset has linear kinematics, by its attributes (results.datasets.write_sweep_dataset)."""
+    kinds = [part.partition(":")[0] for part in str(data.attrs.get("contact")).split("; ")]
+    return any(QUADRATIC not in f"{kind} {data.attrs.get('kinematics')}" for kind in kinds)
 
-    Several lines say whose they are. `named`: whether the legend says what line and tint are.
+
+def stress_band(axes: Axes, places: Any, stress: xr.Dataset, label: str, **look: Any) -> None:
+    """Median (GPa) of the largest stress of each later revolution, over `places`, and a band from it up to their largest."""
+    median, largest = (1e-9 * stress[f"max_von_mises_{name}"] for name in ("median", "ever"))
+    (line,) = axes.plot(places, median, marker=".", markersize=3, label=label, **look)
+    axes.fill_between(places, median, largest, color=line.get_color(), alpha=0.12, linewidth=0.0)
+    # also of a speed without neighbours
+    axes.plot(places, largest, marker=".", markersize=2, **look | {"color": line.get_color(), "linewidth": 0.6})
+
+
+def stress_label(stress: xr.Dataset) -> str:
+    """Label of an axis of stress_band, with the region of the stress where all runs have the same."""
+    regions = set(map(str, stress["stress_region"].values.flat)) - {""} if "stress_region" in stress else set()
+    return "\n".join(["von Mises (GPa)", "median to largest", *(fill(one, 30) for one in regions if len(regions) == 1)])
+
+
+def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False, linear: bool = True) -> None:
+    """A dashed line (GPa) at each of the yield stresses (Pa), each by its name, and a tint above the lowest.
+
+    Several lines say whose they are. `named`: whether the legend says what line and tint are; `linear`: is_linear of the runs.
     """
     blades_of: dict[float, list[str]] = {}
     for blade, limit in limits.items():
@@ -106,7 +133,7 @@ def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False) ->
             along: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "bottom"}
             axes.text(1.0, limit, ", ".join(blades), fontsize=6, color="0.3", **along)
     if blades_of:
-        lowest, label = min(blades_of), OUTSIDE if named else "_"
+        lowest, label = min(blades_of), (OUTSIDE if linear else ABOVE_YIELD) if named else "_"
         tint: dict[str, Any] = {"facecolor": "#B00020", "alpha": 0.08, "linewidth": 0.0, "zorder": 0.0, "label": label}
         # an artist does not stretch the axis; no stress reaches 1e6 GPa
         axes.add_artist(Rectangle((0.0, lowest), 1.0, 1e6 - lowest, transform=axes.get_yaxis_transform(), **tint))

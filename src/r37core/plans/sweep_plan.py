@@ -110,7 +110,7 @@ class Sweep:
     def drawn(self) -> dict[str, list[str]]:
         """Blades and scenes with figures of their own and in figures of all, by `blade` and `scene`.
 
-        Blades: all of them; of many those of no family and some designs. Scenes: those of no family, or some designs.
+        Blades: all of them; of many those of no family and some designs. Scenes: those of no family, and some designs.
         """
         blades, scenes = list(self.settings.blades), list(self.settings.scenes)
         families, scene_families = self.settings.designs.family_of, self.settings.scene_designs.family_of
@@ -118,8 +118,8 @@ class Sweep:
             designs = [blade for blade in blades if blade in families]
             blades = _evenly([blade for blade in blades if blade not in families], MOST_BLADES_DRAWN)
             blades += _evenly(designs, MOST_DRAWN)
-        plain_scenes = [scene for scene in scenes if scene not in scene_families]
-        return {"blade": blades, "scene": plain_scenes or _evenly(scenes, MOST_DRAWN)}
+        shown = _evenly([scene for scene in scenes if scene in scene_families], MOST_DRAWN)
+        return {"blade": blades, "scene": [scene for scene in scenes if scene in shown or scene not in scene_families]}
 
     def drawn_runs(self, kind: str) -> list[tuple[str, str]]:
         """Pairs of blade and scene that have this kind of result and figures of their own."""

@@ -74,11 +74,13 @@ FIGURES: tuple[Figure, ...] = (*PIPELINE, *(figure for extension in EXTENSIONS f
 def drawing(code: CodeHashes, operating: Mapping[str, Any] | None, figure: Figure, sweep: Sweep) -> dict[str, Any]:
     """Parameters of the rule of a figure, with the code of its drawing function alone.
 
-    `operating`: range of speeds that is marked in the figure, as plain values. The caption says where not all blades are drawn.
+    `operating`: range of speeds that is marked, as plain values. The caption says where not all blades or scenes are drawn.
     """
-    arguments, every = figure.arguments(sweep), sweep.settings.blades
-    shown = arguments.get("drawn", {}).get("blade", every)
-    caption = figure.caption + (f" {len(shown)} of {len(every)} blades are drawn." if len(shown) < len(every) else "")
+    arguments, caption = figure.arguments(sweep), figure.caption
+    scenes = {"scene": arguments["scenes"]} if "scenes" in arguments else {}
+    for kind, shown in (scenes | arguments.get("drawn", {})).items():
+        every = getattr(sweep.settings, f"{kind}s")
+        caption += f" {len(shown)} of {len(every)} {kind}s are drawn." if len(shown) < len(every) else ""
     return {
         **code.step("figures.steps.draw", figure.draw.rpartition(".")[0]),
         "draw": f"r37core.{figure.draw}",

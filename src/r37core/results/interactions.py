@@ -15,7 +15,7 @@ from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
 from .closing import interaction_title
-from .columns import DROP_WITHIN, INTERACTIONS, names
+from .columns import DROP_WITHIN, INTERACTIONS, above_yield, names
 from .contact_ranges import ranges_without_peak, rows_above_yield
 from .datasets import response_of
 from .exceedance import SpeedRange, exceedance_of, is_lined
@@ -203,21 +203,21 @@ def summarise(datasets: Mapping[str, xr.Dataset], choice: InteractionChoice) -> 
 
 
 _OF = (
-    "length_most_revolutions_rad_s", "width_above_yield_rad_s", "most_revolutions_from_rad_s", "most_revolutions_to_rad_s",
-    "peak_motion_m",
+    "length_most_revolutions_rad_s", "share_of_revolutions_above_yield", "most_revolutions_from_rad_s",
+    "most_revolutions_to_rad_s", "peak_motion_m",
 )  # fmt: skip
 
 
 def sized(interactions: pd.DataFrame, rms: xr.Dataset) -> pd.DataFrame:
-    """The table with columns `frequency`, `size`, `unit` and `onward`.
+    """The table with columns `frequency`, `size`, `unit`, `above` and `onward`.
 
-    `frequency` (Hz): of the engine order at the peak speed, NaN without one. `size`: length above yield in most revolutions,
-    or the width where there is none (rad/s); in a scene without stress the motion (mm); `unit`: which of these. `onward`:
-    whether the speeds above yield reach to an end of those that were run, by `rms`.
+    `frequency` (Hz): of the engine order at the peak speed, NaN without one. `size`: length above yield in most revolutions
+    (rad/s); in a scene without stress the motion (mm); `unit`: which of these. `above`: columns.above_yield of the largest
+    share at any of the speeds. `onward`: whether the speeds above yield in most revolutions reach to an end of those that were
+    run, by `rms`.
     """
     table = interactions.reindex(columns=[*interactions.columns, *(name for name in _OF if name not in interactions)])
-    length, width, begin, end, motion = (table[name].astype(float) for name in _OF)
-    length = length.fillna(width)
+    length, share, begin, end, motion = (table[name].astype(float) for name in _OF)
     stress = length.notna().groupby(table["scene"]).transform("any").astype(bool)
     ran = rms["speed"].where(rms["status"] != RunStatus.NOT_RUN)
     pairs = pd.MultiIndex.from_frame(table[["blade", "scene"]])
@@ -226,5 +226,6 @@ def sized(interactions: pd.DataFrame, rms: xr.Dataset) -> pd.DataFrame:
         frequency=table["engine_order"].astype(float) * table["peak_speed_rad_s"] / (2.0 * np.pi),
         size=length.where(stress, 1e3 * motion).fillna(0.0),
         unit=np.where(stress, "rad/s", "mm"),
+        above=share.map(above_yield),
         onward=(begin <= first) | (end >= last),
     )

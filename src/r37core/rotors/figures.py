@@ -66,7 +66,7 @@ def _draw_worst(axes: Axes, rotor: xr.Dataset) -> None:
     stress = 1e-9 * rotor["blade_max_von_mises_ever"]
     axes.plot(speeds, stress.max("blade_number"), ".-", markersize=3, label="worst blade")
     axes.plot(speeds, stress.median("blade_number"), "-", color="0.5", label="median blade")
-    style.yield_lines(axes, {"": rotor["yield_stress"].item()}, named=True)
+    style.yield_lines(axes, {"": rotor["yield_stress"].item()}, named=True, linear=style.is_linear(rotor))
     axes.set_ylabel("largest von Mises (GPa)")
     most = int(np.round(number * np.nan_to_num(float(rotor["blades_ever_above_yield"].max()))))
     lost = int(np.sum(rotor["status"].values == RunStatus.DIVERGED))

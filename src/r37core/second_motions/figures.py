@@ -40,10 +40,9 @@ def draw_second_motions(motions: xr.Dataset, dwells: pd.DataFrame, title: str, b
     if stress:
         axes = next(left)
         for motion in MOTIONS:
-            median = 1e-9 * pair["max_von_mises_median"].sel(motion=motion)
-            axes.plot(pair["speed"], median, LINES[motion], color=COLOURS[motion])
-        style.yield_lines(axes, {blade: float(pair["yield_stress"])}, named=True)
-        axes.set_ylabel("median von Mises (GPa)")
+            style.stress_band(axes, pair["speed"], pair.sel(motion=motion), "_", linestyle=LINES[motion], color=COLOURS[motion])
+        style.yield_lines(axes, {blade: float(pair["yield_stress"])}, named=True, linear=style.is_linear(motions))
+        axes.set_ylabel("von Mises (GPa)\nmedian to largest")
     if shares:
         axes = next(left)
         axes.plot(blade_dwells["speed_rad_s"], blade_dwells["share_of_time_high"], ".", color="0.1")
