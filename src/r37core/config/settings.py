@@ -184,7 +184,8 @@ class Settings:
 
     def stress_regions(self, blade: str) -> dict[str, RegionChoice]:
         """Regions of a blade where stress is looked for."""
-        return chosen_regions(self.structure.stress_regions) | dict(self.blades[blade].stress_regions)
+        shared, own = self.structure.stress_regions, self.blades[blade].stress_regions
+        return chosen_regions(shared) | {name: region for name, region in own.items() if shared.get(name, region)}
 
     @property
     def linings(self) -> dict[str, Lining]:
