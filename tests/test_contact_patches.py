@@ -315,7 +315,7 @@ def test_unlike_contact_is_told_before_the_run(settings_with):
 
     (remark,) = told()
     assert remark.startswith(
-        "contact differs (8 points: Ref, L50, L100, ...; 12 patches: Mine, Sweep_5, Sweep_10; 12 patches, qu"
+        "contact differs (8 points, linear: Ref, L50, L100, ...; patches, linear: Mine, Sweep_5, Sweep_10; patches, quadratic: "
     )
     assert remark.endswith("; structure: { kinematics: quadratic, boundary: { contact: patches } } gives all blades one order")
     assert remark in remarks_of_pipeline(settings_with())

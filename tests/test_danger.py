@@ -128,7 +128,9 @@ def test_the_response_reaches_to_the_largest_stress_of_the_region_that_decides(d
     for scene in ("Stage", "Bare"):
         stress = drawn["stress"].sel(scene=scene)
         for name in ("max_von_mises_median", "max_von_mises_ever"):
-            assert any(np.allclose(line.get_ydata(), 1e-9 * stress[name]) for line in axes.lines if len(line.get_ydata()) == 4), name
+            assert any(
+                np.allclose(line.get_ydata(), 1e-9 * stress[name]) for line in axes.lines if len(line.get_ydata()) == 4
+            ), name
     assert str(drawn["stress"]["stress_region"].values.flat[0]).split(",")[0] in axes.get_ylabel().replace("\n", " ")
 
 
@@ -136,7 +138,9 @@ def test_the_response_reaches_to_the_largest_stress_of_the_region_that_decides(d
 def test_the_map_has_the_share_and_the_region_of_the_verdict(results, tables, pair):
     folder = results / pair[0]
     response = read_dataset(folder / pair[1] / "response.nc")
-    title = draw_fatigue_map(folder / "mesh.vtu", folder / "rom_pressure_edge.nc", read_judged(folder / pair[1] / "response.nc"), "map")
+    title = draw_fatigue_map(
+        folder / "mesh.vtu", folder / "rom_pressure_edge.nc", read_judged(folder / pair[1] / "response.nc"), "map"
+    )
     found = float(re.findall(r"largest share ([\d.]+)", title.get_suptitle())[0])
     assert found == pytest.approx(of(tables["ranking"], pair)["largest_goodman_share"].item(), rel=1e-2)
     assert str(response["stress_region"].values[0]) in title.get_suptitle()

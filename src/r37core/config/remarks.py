@@ -6,7 +6,7 @@ from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibili
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.source import MeshSource
-from r37core.rom.reduction_choice import LINEAR, MOST_USUAL_PATCHES, POINTS, QUADRATIC
+from r37core.rom.reduction_choice import LINEAR, POINTS, QUADRATIC
 
 from .settings import Settings, contact_of_blades, direct_on_points, fastest_of, length_of_run, most_runs, slowest_speeds
 from .spread import Spreads
@@ -189,12 +189,10 @@ def remarks_on_unlike_contact(settings: Settings) -> list[str]:
     if len(kinds) < 2:
         return []
     different = "; ".join(f"{contact}: {_first_few(names)}" for contact, names in kinds.items())
-    # a number that the mesh of another program decides is known where config.yaml gives it
     kinematics = "" if len({settings.kinematics_of(name) for name in settings.blades}) == 1 else f"kinematics: {QUADRATIC}, "
-    nodes = "" if all(contact[0].isdigit() for contact in kinds) else f", nodes: {MOST_USUAL_PATCHES}"
     return [
         f"contact differs ({different}): blades are ranked among those of the same contact; "
-        f"structure: {{ {kinematics}boundary: {{ contact: patches{nodes} }} }} gives all blades one order"
+        f"structure: {{ {kinematics}boundary: {{ contact: patches }} }} gives all blades one order"
     ]
 
 
