@@ -132,6 +132,17 @@ def test_quantities_and_the_two_stresses_have_long_names_and_speeds_the_chosen_u
     assert "above yield in most revolutions (rpm)" in at_ref.text_content("#keys")
 
 
+def test_details_are_columns_on_request(at_ref):
+    """And the one by which rows are sorted."""
+    assert at_ref.is_visible("#interactions th.drop")
+    at_ref.uncheck("#columns")
+    assert at_ref.is_hidden("#interactions th.drop")
+    assert at_ref.is_visible("#interactions th.largest_stress_pa")
+    at_ref.evaluate("location.hash = 'columns=false&sort=-drop'")
+    at_ref.wait_for_selector("#interactions th.drop[aria-sort='descending']")
+    assert column(at_ref, "drop") == ["90", "50", ""]
+
+
 def test_a_step_in_speed_moves_the_cursors(at_ref):
     """Without drawing the plots anew."""
     places = (
@@ -225,6 +236,30 @@ def test_the_map_of_designs_has_the_line_of_a_requirement(page, rows, tmp_path):
         other.keyboard.press("ArrowRight")
         assert "1000.3 rad/s" in other.text_content("#now")
         assert [0.5, 0.5, 0.5, 1.5] in other.evaluate(sides)
+
+
+@pytest.mark.parametrize("width", [390, 1400])
+def test_each_of_six_scenes_has_bars_and_a_name(page, rows, tmp_path, width):
+    """The reason of a verdict stands on the screen, too."""
+    names = [f"a_scene_with_a_long_name_{number}" for number in range(6)]
+    datasets = {kind: data for kind, data in sweep().items() if kind != "wear"}
+    of_scenes = ("rms", "stress", "spectrum")
+    many = datasets | {kind: datasets[kind].isel(scene=[0] * 6).assign_coords(scene=names) for kind in of_scenes}
+    ranking = pd.concat([RANKING[RANKING["scene"] == "abradable"].assign(scene=name) for name in names])
+    panel = judged(("Ref", names[0], "fails"))
+    panel["requirements"]["pairs"] = [{"blade": "Ref", "scene": names[0], "verdict": "fails", "reason": "too long " * 12}]
+    contents = explorer_contents(many, rows.iloc[:0], ranking=ranking) | {"panels": panel}
+    parts = page_parts([FOLDER.parent / "requirements/panel.js"])
+    with beside(page, contents, tmp_path / "explorer.html", (width, 844), parts=parts) as other:
+        bars = [bar.bounding_box()["width"] for bar in other.locator("#bars .bars").all()]
+        assert len(bars) == 12 and min(bars) > 30
+        heads = [head.bounding_box() for head in other.locator("#bars thead th").all()]
+        assert all(one["x"] + one["width"] <= other["x"] + 1 for one, other in zip(heads, heads[1:], strict=False))
+        over = "[...document.querySelectorAll('#bars thead th')].some(head => head.scrollWidth > head.clientWidth + 1)"
+        assert not other.evaluate(over)
+        assert heads[0]["width"] > 50
+        reason = other.locator("#verdict td:last-child").bounding_box()
+        assert reason["x"] + reason["width"] <= width
 
 
 def test_a_ranking_without_some_columns(page, rows, tmp_path):
