@@ -200,7 +200,7 @@ MAIN = (
     "largest_stress_pa", "largest_stress_over_yield", "largest_goodman_share", "max_wear_m", "worn_through_share",
     "motion_at_end", "share_of_members", "status",
 )  # fmt: skip
-"""Those of them that are shown unless all are asked for: as many as a screen has room for."""
+"""Columns that are shown unless all are asked for: as many as a screen has room for."""
 
 
 def interaction_table(interactions: pd.DataFrame) -> dict[str, object]:
