@@ -5,7 +5,7 @@ import pandas as pd
 from r37core.explorer.contents import packed
 
 from .compared import axis_of_key
-from .maps import some_above_yield, measured
+from .maps import measured, some_above_yield
 from .table import compared_in
 
 

@@ -97,7 +97,7 @@ def mode_colour(campbell: xr.Dataset, mode: str) -> str:
 
 
 def is_linear(data: xr.Dataset) -> bool:
-    """Whether a run of a dataset has linear kinematics, by its attributes (results.datasets.write_sweep_dataset)."""
+    """True for a dataset with runs of linear kinematics, by its attributes (results.datasets.write_sweep_dataset)."""
     kinds = [part.partition(":")[0] for part in str(data.attrs.get("contact")).split("; ")]
     return any(QUADRATIC not in f"{kind} {data.attrs.get('kinematics')}" for kind in kinds)
 
