@@ -90,22 +90,24 @@ def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
     """A sum of several ranges is told apart from the widest of them."""
     head = "blade,scene,rank,contact,rank_over_scenes,length_most_revolutions_rad_s,"
     head += "ranges_most_revolutions,widest_range_from_rad_s,widest_range_rad_s\n"
-    points = "S100,x,1,8 points,3,13.2,1,1200,13.2\nA,x,2,8 points,1,40,1,1200,40\nRef,x,3,8 points,1,128.9,3,1635.2,119.9\n"
-    points += "Ref,y,1,8 points,1,47,1,1300,47\nA,y,2,8 points,1,130,2,900,100\nS100,y,3,8 points,3,854.2,4,900,800\n"
+    points = "S100,x,1,{0},3,13.2,1,1200,13.2\nA,x,2,{0},1,40,1,1200,40\nRef,x,3,{0},1,128.9,3,1635.2,119.9\n"
+    points += "Ref,y,1,{0},1,47,1,1300,47\nA,y,2,{0},1,130,2,900,100\nS100,y,3,{0},3,854.2,4,900,800\n"
+    points = points.format('"8 points, linear"')
     (tmp_path / "ranking.csv").write_text(head + points)
     lined, bare, over, contact = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
+    assert lined.startswith("8 points, linear: x: S100 is above yield") and over.startswith(
+        "8 points, linear: over both scenes"
+    )
     assert "Ref at the most (129 rad/s in 3 ranges, the widest from 1635 to 1755); " in lined and "(13 rad/s)" in lined
     assert "S100 at the most (854 rad/s in 4 ranges" in bare
-    assert over == "over both scenes, by the longest length in any (rad/s): Ref 129 = A 130, S100 854 (=: cannot be told apart)"
+    assert over.endswith(", by the longest length in any (rad/s): Ref 129 = A 130, S100 854 (=: cannot be told apart)")
     assert contact == ("the ranking is of contact on points; a decision needs structure: { boundary: { contact: patches } }")
-    patches = "Mine,x,1,12 patches,1,5,1,900,5\nMine,y,1,12 patches,1,5,1,900,5\n"
-    (tmp_path / "ranking.csv").write_text(head + points + patches)
-    lined, bare, over, contact = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
-    assert lined.startswith("8 points: x: S100 is above yield") and over.startswith("8 points: over both scenes")
-    assert contact.startswith(
-        "ranks are among blades of the same contact (8 points: S100, A, Ref; 12 patches: Mine); structure: {"
-    )
-    (tmp_path / "ranking.csv").write_text(head + points + patches.replace("12 patches", '"12 patches, quadratic"'))
+    patches = 'Mine,x,1,"patches, {0}",1,5,1,900,5\nMine,y,1,"patches, {0}",1,5,1,900,5\n'
+    (tmp_path / "ranking.csv").write_text(head + points + patches.format("linear"))
+    contact = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[-3]
+    among = "(8 points, linear: S100, A, Ref; patches, linear: Mine)"
+    assert contact.startswith(f"ranks are among blades of the same contact {among}; structure: {{ boundary: {{")
+    (tmp_path / "ranking.csv").write_text(head + points + patches.format("quadratic"))
     assert "structure: { kinematics: quadratic, boundary: {" in closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[-3]
 
 

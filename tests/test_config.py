@@ -30,7 +30,7 @@ def regions(**changes):
     [
         (regions(box={"minimum_z_m": 1, "maximum_z_m": 1}), r"box\.minimum_z_m: found 1; allowed: less than"),
         (regions(airfoil={"minimum_span": 0.9, "maximum_span": 0.9}), r"minimum_span: found 0\.9; allowed: less than max"),
-        (regions(airfoil=None, airfoil_unfiltered=None, box=None), r"stress_regions: found no region; allowed: one or more"),
+        (regions(airfoil=None, airfoil_unfiltered=None), r"stress_regions: found no region; allowed: one or more"),
         (regions(worst={}), r"stress_regions\.worst: found 'worst'; allowed: another name"),
         ({"blades_file": "config/none.yaml"}, r"config/none\.yaml: there is no such file"),
     ],
@@ -38,6 +38,26 @@ def regions(**changes):
 def test_config_refusals(config_copy, changes, message):
     with pytest.raises(ConfigError, match=message):
         load(config_copy, **changes)
+
+
+def test_the_box_is_of_the_benchmark_and_its_variants(config_copy):
+    """A blade of one's own has the regions of config.yaml, a variant may have others; null leaves one out of all blades."""
+    text = (config_copy / "config/blades.yaml").read_text()
+    material = "{ youngs_modulus_pa: 1.8e+11, density_kg_m3: 8000, poissons_ratio: 0.3, yield_stress_pa: 1.38e+9 }"
+    text += (
+        f"Mine: {{ profiles: config/profiles/rotor37.csv, material: {material} }}\nVariant: {{ base: S50, stagger_deg: 1 }}\n"
+    )
+    text += "Other: { base: Variant, stress_regions: { foot: { maximum_span: 0.1 } } }\n"
+    (config_copy / "config/blades.yaml").write_text(text)
+    more = {"Ref": ["box"], "CS100": ["box"], "Variant": ["box"], "Mine": [], "Other": ["foot"]}
+    found = load(config_copy)
+    assert {name: list(found.stress_regions(name))[2:] for name in more} == more
+    left_out = load(config_copy, **regions(airfoil={"minimum_span": 0.1}, box=None))
+    assert list(left_out.stress_regions("Variant")) == ["airfoil"]
+    refused = text.replace("foot:", "worst:")
+    (config_copy / "config/blades.yaml").write_text(refused)
+    with pytest.raises(ConfigError, match=r"Other\.stress_regions\.worst: found 'worst'"):
+        load(config_copy)
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,13 @@ from integration_runs import ENGINES
 
 import r37
 from r37core.config import ConfigError, command_line_document
-from r37core.config.remarks import remarks_of_pipeline, remarks_on_points, remarks_on_unlike_contact
+from r37core.config.remarks import (
+    remarks_at_end,
+    remarks_of_pipeline,
+    remarks_on_linear_variants,
+    remarks_on_points,
+    remarks_on_unlike_contact,
+)
 from r37core.config.settings import location_of_contact
 from r37core.exchange.importing.matrices_in import import_matrices
 from r37core.exchange.orientation import OURS
@@ -309,7 +315,7 @@ def test_unlike_contact_is_told_before_the_run(settings_with):
 
     (remark,) = told()
     assert remark.startswith(
-        "contact differs (8 points: Ref, L50, L100, ...; 12 patches: Mine, Sweep_5, Sweep_10; 12 patches, qu"
+        "contact differs (8 points, linear: Ref, L50, L100, ...; patches, linear: Mine, Sweep_5, Sweep_10; patches, quadratic: "
     )
     assert remark.endswith("; structure: { kinematics: quadratic, boundary: { contact: patches } } gives all blades one order")
     assert remark in remarks_of_pipeline(settings_with())
@@ -328,6 +334,27 @@ def test_direct_contact_on_points_is_told_at_the_end(settings_with):
     assert told(blades=["Ref"])[0].startswith("direct: contact of Ref acts")
     assert told(blades=["Ref"], scenes=["abradable"]) == told(blades=["Mine"]) == []
     assert told({"contact": "patches"}) == []
+
+
+def test_a_variant_that_is_linear_by_its_base_is_told_before_the_run(settings_with, config_copy):
+    (remark,) = remarks_on_linear_variants(settings_with(blades=["Ref", "Like", "Sweep", "Alone"]))
+    assert remark.startswith("Like, Sweep_5, Sweep_10: linear, as the base is; ")
+    assert "structure: { kinematics: quadratic }" in remark
+    assert remark in remarks_of_pipeline(settings_with(blades=["Ref", "Like", "Sweep", "Alone"]))
+    assert remarks_on_linear_variants(settings_with(blades=["Ref", "Alone"])) == []
+    for kinematics in ("linear", "quadratic"):
+        changes = {"structure": {"kinematics": kinematics, "boundary": {}}}
+        assert remarks_on_linear_variants(settings_with(blades=["Like"], **changes)) == []
+
+
+def test_a_rigid_bare_casing_is_told_at_the_end(settings_with):
+    def told(*scenes):
+        return remarks_at_end(settings_with(blades=["Alone"], scenes=scenes))
+
+    (remark,) = told("abradable", "direct", "elastic_direct", "physical_direct")
+    assert remark.startswith("direct, physical_direct: the bare casing is rigid; an elastic one took")
+    assert told("abradable", "elastic_direct") == []
+    assert len(remarks_at_end(settings_with(blades=["Ref"], scenes=["direct"]))) == 2
 
 
 def test_the_place_that_chose_is_blamed(settings_with):

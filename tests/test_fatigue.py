@@ -9,17 +9,19 @@ from box_operator import box_operator
 from defaults import IntegrationChoice
 from integration_cases import DIRECT, NARROW
 
+from r37core.base.dataset_file import read_dataset
 from r37core.config import ConfigError
 from r37core.config.changed_numbers import ImpossibleValueError, blade_number, changed_blade
 from r37core.contact.scene import Rotor
 from r37core.fem.stress import nodal_stress
-from r37core.figures.fatigue_map import draw_fatigue
+from r37core.figures.fatigue_map import draw_fatigue, draw_fatigue_map
 from r37core.mesh.mesh_files import write_vtu
 from r37core.results.datasets import write_sweep_dataset
 from r37core.results.ranking import robustness
 from r37core.results.regions import read_judged
 from r37core.results.response import write_response
 from r37core.rom.reduced_model import contact_model
+from r37core.rom.rom_file import write_reduced_model
 from r37core.rom.rotation import rotation_amplitudes
 from r37core.run_ups.choice import RunUp
 from r37core.run_ups.integration import RunUpIntegration
@@ -27,6 +29,7 @@ from r37core.run_ups.revolutions import record_run_up
 from r37core.stress.cycles import StressCycles, rainflow_cycles
 from r37core.stress.damage import largest_damage
 from r37core.stress.operator import StressOperator, von_mises
+from r37core.stress.recovery import stress_operators
 from r37core.stress.revolutions import largest_cycles, stress_cycles
 from r37core.stress.statistic import Strengths, goodman_statistic
 from r37core.time_integration.integrators import EXACT_MODAL
@@ -254,6 +257,23 @@ def test_the_picture_shows_the_worst_speed(responses, model, mesh, tmp_path):
     # the colours of the map, and the red dot of the worst node on one of both sides
     assert np.any(np.ptp(pixels.astype(int), axis=2) > 60)
     assert figures[1].axes[0].texts[0].get_text() == "Unknown: no strengths in blades.yaml"
+
+
+def test_the_picture_shows_the_region_that_decides(contact, model, mesh, steel, tmp_path):
+    """Its number is that of the verdict, also where few nodes of the region are evaluated and a later region has all."""
+    stress = stress_operators(model, steel)
+    write_speed(
+        run_speed(contact, 1340.0, DIRECT, CHOICE, ("stress", "fatigue"), stress=stress, **KEPT), tmp_path / "1.npz", {}
+    )
+    limits = {"yield_stress": 1e9, "strengths": Strengths(3e8, 5e8)}
+    write_response([tmp_path / "1.npz"], [1340.0], tmp_path / "1.nc", stress_history_speeds=(), **limits, provenance={})
+    write_vtu(mesh, tmp_path / "mesh.vtu", np.ones(sum(map(len, mesh.blocks.values()))))
+    write_reduced_model(model, tmp_path / "rom.nc", {})
+    shares = read_dataset(tmp_path / "1.nc")["goodman_share"]
+    judged = float(shares.isel(region=0).item())
+    assert list(shares["region"].values)[::2] == ["airfoil", "box"] and judged != float(shares.sel(region="box").item())
+    figure = draw_fatigue_map(tmp_path / "mesh.vtu", tmp_path / "rom.nc", read_judged(tmp_path / "1.nc"), "Ref")
+    assert "5 to 90% span" in figure.get_suptitle() and f"largest share {judged:.3g}\n" in figure.get_suptitle()
 
 
 @pytest.mark.parametrize(

@@ -9,16 +9,18 @@ import pytest
 import yaml
 from box_mesh import TITANIUM, box_mesh, plate, write_deck
 from defaults import MeshSource, Orientation, Where
+from pydantic import ValidationError
 
 from r37core.config.imported_entry import MeshEntry, SurfaceRule
 from r37core.exchange.importing.file_material import ignored_material
-from r37core.exchange.importing.import_mesh import import_mesh
+from r37core.exchange.importing.import_mesh import import_mesh, size_in_words
 from r37core.exchange.importing.source import mesh_files
 from r37core.exchange.orientation import OURS
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.exchange.write_mesh import write_mesh
 from r37core.fem.elements import ELEMENTS
 from r37core.mesh.generate import generate_mesh, quiet_gmsh
+from r37core.rom.region_choice import RegionChoice
 
 THEIRS = Orientation("mm", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), "negative")
 """x along the rotor's axis, y through the blade."""
@@ -370,3 +372,47 @@ def test_what_gmsh_has_written_otherwise(tmp_path, options, grouped, said):
         gmsh.write(str(tmp_path / "boxes.msh"))
     with pytest.raises(ImportRefused, match=said):
         attempt(tmp_path, OF_OURS | {"mesh": "boxes.msh"})
+
+
+@pytest.fixture(scope="module")
+def footed(tmp_path_factory):
+    """A folder with a plate of 50 mm on a foot of 20 mm, `foot.msh`: x radial, z along the axis, metres."""
+    folder = tmp_path_factory.mktemp("footed")
+    with quiet_gmsh():
+        occ = gmsh.model.occ
+        foot = occ.addBox(0.18, -0.015, -0.02, 0.02, 0.03, 0.04)
+        occ.fuse([(3, foot)], [(3, occ.addBox(0.2, -0.002, -0.015, 0.05, 0.004, 0.03))])
+        occ.synchronize()
+        gmsh.option.setNumber("Mesh.MeshSizeMax", 0.005)
+        gmsh.model.mesh.generate(3)
+        gmsh.model.mesh.setOrder(2)
+        gmsh.write(str(folder / "foot.msh"))
+    return folder
+
+
+FOOTED = OF_OURS | {"mesh": "foot.msh", "root": {"x_at_most_m": 0.18}, "tip": {"x_at_least_m": 0.25}, "sense_check": False}
+
+
+def test_the_span_of_a_modelled_root_begins_at_its_platform(footed):
+    """The first answer says where, and no element of the foot is in the region of the airfoil."""
+    with pytest.raises(ImportRefused) as refusal:
+        attempt(footed, FOOTED | {"root": "?", "tip": "?"})
+    suggested = yaml.safe_load(re.search(r"hub_zr_m: (.*)", str(refusal.value))[1])
+    assert [z for z, _ in suggested] == [-0.02, 0.02] and [r for _, r in suggested] == pytest.approx([0.2, 0.2], abs=5e-4)
+    region = RegionChoice(minimum_span=0.05, maximum_span=0.9)
+    lowest = {}
+    for name, entry in {"clamped": FOOTED, "platform": FOOTED | {"hub_zr_m": suggested}}.items():
+        mesh = attempt(footed, entry)
+        x, span = mesh.points[:, 0], mesh.parameters[:, 1]
+        elements = region.elements(mesh, mesh.node_set("tip_pressure_edge"))["tetra10"]
+        lowest[name] = x[elements].min()
+        said = size_in_words(mesh, MeshEntry.model_validate(entry).source(footed))
+        assert ("span begins at the clamped faces; the root is modelled" in said) == (name == "clamped")
+        assert span.min() == 0.0 and span.max() == 1.0
+    np.testing.assert_allclose(span[x > 0.205], (x[x > 0.205] - 0.2) / 0.05, atol=0.02)
+    assert not span[x < 0.2].any()
+    assert lowest["clamped"] < 0.19 and 0.2 < lowest["platform"] < 0.21
+    with pytest.raises(ImportRefused, match="found a tip that is not above hub_zr_m"):
+        attempt(footed, FOOTED | {"hub_zr_m": [[0.0, 0.26], [0.1, 0.26]]})
+    with pytest.raises(ValidationError, match="the same z twice"):
+        MeshEntry.model_validate(FOOTED | {"hub_zr_m": [[0.0, 0.2], [0.0, 0.2]]})

@@ -119,7 +119,7 @@ def test_a_mesh(settings_with, config_copy):
     assert source.tip == Where(limits=(("r", "at_least", 0.25),))
     assert not source.pressure_side_forward
     np.testing.assert_allclose(source.orientation.points_to_blade(np.array([[1.0, 2.0, 1003.0]])), [[1.0, 0.0, 0.0]])
-    assert list(settings.stress_regions("Fan")) == ["airfoil", "airfoil_unfiltered", "box"]
+    assert list(settings.stress_regions("Fan")) == ["airfoil", "airfoil_unfiltered"]
     assert settings.boundary_choice("Fan").contact == "patches"
     before = structure_hash(settings, "Fan")
     (config_copy / "meshes/more.inc").write_text("1, 0, 0, 1\n")

@@ -127,7 +127,10 @@ def test_speeds_above_yield_inside_the_range_alone():
     assert verdict(Requirements(above_yield=67.6), runs) == MEETS
     # what lies outside does not count
     outside = one(NEEDS, response(above(1270.0, 1290.0)))
-    assert outside["verdict"] == MEETS and np.isnan(outside["from_rad_s"])
+    assert outside["verdict"] == MEETS and np.isnan(outside["from_rad_s"]) and outside["note"] == ""
+    # a few revolutions are no length, and are told all the same
+    some = one(NEEDS, response(at(1100.0, 0.42, 0.0)))
+    assert (some["verdict"], some["value"], some["note"]) == (MEETS, 0.0, "above yield in up to 0.42 of the revolutions")
     across = one(NEEDS, response(above(1020.0, 1080.0)))
     assert (across["from_rad_s"], across["to_rad_s"]) == (1050.0, 1082.5)
 

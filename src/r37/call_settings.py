@@ -14,7 +14,7 @@ from typing import Any, TypedDict
 from r37core.config import ConfigError, Document, Settings, command_line_document
 from r37core.config.cross_checks import history_speeds_are_run
 from r37core.config.messages import single_line
-from r37core.config.remarks import remarks_on_input, remarks_on_points
+from r37core.config.remarks import remarks_at_end, remarks_on_input
 from r37core.product.extensions import EXTENSIONS, READER
 
 from .arguments import finite
@@ -82,7 +82,7 @@ class Call:
     def tell_remarks(self) -> None:
         """Warn of what the settings may not mean."""
         changed = [scene.name for scene in self.scenes if scene.changes_clearance]
-        tell([*remarks_on_input(self.settings, changed), *remarks_on_points(self.settings)])
+        tell([*remarks_on_input(self.settings, changed), *remarks_at_end(self.settings)])
 
 
 def chosen_blade(blade: BladeChoice | str, config: Path | str | None) -> BladeChoice:

@@ -125,7 +125,7 @@ def _campbell_table(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def _check(options: argparse.Namespace) -> None:
-    from r37core.config.remarks import remarks_on_points
+    from r37core.config.remarks import remarks_at_end
     from r37core.plans.extent import extent_of
     from r37core.product.extensions import load_settings, simulations_of_members
     from r37core.product.remarks import remarks
@@ -143,7 +143,7 @@ def _check(options: argparse.Namespace) -> None:
     if measured is not None:
         cost = extent.cpu_time(measured.cpu_s_per_run)
         print(f"their CPU time: about {cost} at most, as measured on the reference blade; of yours: snakemake estimate")
-    for remark in [*remarks(settings), *remarks_on_points(settings)]:
+    for remark in [*remarks(settings), *remarks_at_end(settings)]:
         print(remark)
 
 

@@ -29,7 +29,9 @@ from .blade_sections import (
     Contact,
     Kinematics,
     MaterialSection,
+    RegionSection,
     chosen_regions,
+    refuse_taken_names,
 )
 from .declaring import si_fields, si_form
 from .document import ConfigError, Document, chain_of_bases
@@ -56,6 +58,7 @@ class BladeEntry(ShapeKeys, GivenShape):
     contact: Contact | LeftOut = left_out(f"{CONTACT_IN_WORDS}; by default that of the base, without one patches")
     kinematics: Kinematics | LeftOut = left_out(f"{KINEMATICS_IN_WORDS}; by default that of the base, without one quadratic")
     sense_check: bool = Field(default=True, description="Whether a blade whose trailing edge leads is refused")
+    stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions beside those of config.yaml; by default of the base")
     material: MaterialSection = MaterialSection()
     vary: Vary = vary_field("sweep_percent or material.density_kg_m3")
     combine: Combine = COMBINE
@@ -63,6 +66,7 @@ class BladeEntry(ShapeKeys, GivenShape):
 
     def _check(self) -> None:
         super()._check()
+        refuse_taken_names(self.stress_regions or ())
         if self.profiles is not None and self.base is not None:
             raise refused((), "both profiles and base", "one of them")
         if self.profiles is None and self.base is None:
@@ -147,6 +151,9 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         getattr(entries[link_with(key, chain, entries)], key) or otherwise
         for key, otherwise in (("contact", PATCHES), ("kinematics", QUADRATIC))
     )
+    # sections have the regions of config.yaml alone
+    own = (getattr(entries[link], "stress_regions", None) for link in reversed(chain))
+    regions = chosen_regions(next(filter(None, own), {}))
     if isinstance(entry, MeshEntry):
         for link in chain[1:]:
             keys = [key for key in (*SHIFTS, *SHARES, *SECTION_KEYS) if getattr(entries[link], key) is not None]
@@ -158,7 +165,6 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
             material.check_units()
         except ValueError as error:
             raise document.error((name, "material"), str(error)) from None
-        regions = chosen_regions(entry.stress_regions or {})
         return BladeSettings(_source(entry, first, root, document), material, contact, kinematics, regions)
     shift: dict[str, Any] = {}
     place = name, "base"
@@ -175,7 +181,7 @@ def blade_settings(name: str, entries: Mapping[str, Any], root: Path, document: 
         check_sweep(shift.get("stacking") or (), shape.height)
     except BladeShapeError as error:
         raise document.error(place, f"blade {name}: {error}") from None
-    return BladeSettings(shape, material, contact, kinematics)
+    return BladeSettings(shape, material, contact, kinematics, regions)
 
 
 def _shape(chain: Sequence[str], entries: Mapping[str, Any], root: Path, document: Document) -> Shape:

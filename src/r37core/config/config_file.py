@@ -29,7 +29,6 @@ _SHIPPED_REGIONS: dict[str, RegionSection | None] = {
     for name, bounds in {
         "airfoil": {"minimum_span": 0.05, "maximum_span": 0.9, "highest_frequency_hz": 7500.0},
         "airfoil_unfiltered": {"minimum_span": 0.05, "maximum_span": 0.9},
-        "box": {"maximum_x_m": 0.197, "minimum_z_m": 0.0165, "maximum_z_m": 0.0265},
     }.items()
 }
 
@@ -46,7 +45,7 @@ class StructureSection(Section):
     spin_softening: Any = DECLARED
     coriolis: Any = DECLARED
     stress_regions: ByName[RegionSection | None] = Field(
-        default=_SHIPPED_REGIONS, description="Regions of the stress; the first decides, null leaves one out"
+        default=_SHIPPED_REGIONS, description="Regions of the stress; the first decides, null leaves one out of every blade"
     )
     recover_whole_blade: Any = DECLARED
 

@@ -110,12 +110,15 @@ class MeshEntry(Oriented):
     drop_free_nodes: Any = DECLARED
     minimum_scaled_jacobian: Any = DECLARED
     end_check: Any = DECLARED
+    hub_zr_m: Any = DECLARED
     contact: Contact = Field(default="patches", description=CONTACT_IN_WORDS)
     kinematics: Kinematics = Field(default="quadratic", description=KINEMATICS_IN_WORDS)
     stress_regions: ByName[RegionSection] | LeftOut = left_out("Regions in place of, or beside, those of config.yaml")
 
     def _check(self) -> None:
         refuse_taken_names(self.stress_regions or ())
+        if self.hub_zr_m is not None and self.hub_zr_m[0][0] == self.hub_zr_m[1][0]:
+            raise refused(("hub_zr_m",), "the same z twice", "two points [z, r] of different z")
 
     def source(self, root: Path) -> MeshSource:
         """Mesh to import, from the folder `root`; ImportRefused for a file that is not there or of another kind."""

@@ -6,7 +6,7 @@ from r37core.contact.elastic_casing import ElasticCasing, flexibility, flexibili
 from r37core.contact.ring import MOST_NODAL_DIAMETERS, Ring
 from r37core.exchange.importing.file_material import ignored_material
 from r37core.exchange.importing.source import MeshSource
-from r37core.rom.reduction_choice import MOST_USUAL_PATCHES, POINTS, QUADRATIC
+from r37core.rom.reduction_choice import LINEAR, POINTS, QUADRATIC
 
 from .settings import Settings, contact_of_blades, direct_on_points, fastest_of, length_of_run, most_runs, slowest_speeds
 from .spread import Spreads
@@ -47,7 +47,7 @@ def remarks_on_input(settings: Settings, changed: Collection[str] = ()) -> list[
     `changed`: scenes whose clearance a call has changed.
     """
     lines = [*remarks_on_speeds(settings), *remarks_on_materials(settings), *remarks_on_laws(settings)]
-    lines += remarks_on_lobes(settings, changed)
+    lines += [*remarks_on_lobes(settings, changed), *remarks_on_linear_variants(settings)]
     for scene, casing in elastic_casings(settings).items():
         lines.append(remark_on_overtaken_waves(scene, casing, fastest_of(settings, scene)))
     return [line for line in lines if line]
@@ -141,6 +141,33 @@ def _spread_numbers(settings: Settings) -> set[str]:
     return {key for section in sections if isinstance(section, Spreads) for key in section.of_scenes}
 
 
+def remarks_on_linear_variants(settings: Settings) -> list[str]:
+    """Remark on blades that are linear because their base is, where nothing of their own says so."""
+    entries = settings.designs.entries
+    variants = [
+        name
+        for name in settings.blades
+        if settings.kinematics_of(name) == LINEAR and not settings.structure.kinematics and not entries[name].kinematics
+    ]
+    if not variants:
+        return []
+    return [
+        f"{_first_few(variants)}: linear, as the base is; large motions and their stress come out too high; for numbers to "
+        f"decide from: structure: {{ kinematics: {QUADRATIC} }} (docs/large_motion.md)"
+    ]
+
+
+def remarks_at_end(settings: Settings) -> list[str]:
+    """Remarks at the end of a run on its contact and on rigid casings without a lining."""
+    casings = {name: settings.scene_designs.entries[name] for name in settings.scene_names}
+    rigid = [name for name, entry in casings.items() if entry.lining is None and not entry.casing.elastic]
+    remark = (
+        f"{_first_few(rigid)}: the bare casing is rigid; an elastic one took the largest stress of Ref at 1330 rad/s from 1.34 "
+        "to 0.28 times yield (docs/accuracy.md#which-modes-the-stress-counts): casing.ring (docs/elastic_casing.md)"
+    )
+    return [*remarks_on_points(settings), *([remark] if rigid else [])]
+
+
 def remarks_on_points(settings: Settings) -> list[str]:
     """Remark at the end of a run on direct contact on points, which has no limit in the mesh."""
     scenes, blades = direct_on_points(settings)
@@ -162,12 +189,10 @@ def remarks_on_unlike_contact(settings: Settings) -> list[str]:
     if len(kinds) < 2:
         return []
     different = "; ".join(f"{contact}: {_first_few(names)}" for contact, names in kinds.items())
-    # a number that the mesh of another program decides is known where config.yaml gives it
     kinematics = "" if len({settings.kinematics_of(name) for name in settings.blades}) == 1 else f"kinematics: {QUADRATIC}, "
-    nodes = "" if all(contact[0].isdigit() for contact in kinds) else f", nodes: {MOST_USUAL_PATCHES}"
     return [
         f"contact differs ({different}): blades are ranked among those of the same contact; "
-        f"structure: {{ {kinematics}boundary: {{ contact: patches{nodes} }} }} gives all blades one order"
+        f"structure: {{ {kinematics}boundary: {{ contact: patches }} }} gives all blades one order"
     ]
 
 

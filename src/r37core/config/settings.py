@@ -15,7 +15,7 @@ from r37core.base.speeds import SpeedError, SpeedPlan, plan_speeds
 from r37core.base.yaml_file import KeyPath
 from r37core.contact.scene import Lining, Scene
 from r37core.results.operating_range import OperatingRange
-from r37core.rom.reduction_choice import LINEAR, POINTS, BoundaryChoice, ReductionChoice
+from r37core.rom.reduction_choice import POINTS, BoundaryChoice, ReductionChoice
 from r37core.rom.region_choice import RegionChoice
 from r37core.time_integration.integration_choice import SECONDS_PER_STEP, IntegrationChoice
 
@@ -184,7 +184,8 @@ class Settings:
 
     def stress_regions(self, blade: str) -> dict[str, RegionChoice]:
         """Regions of a blade where stress is looked for."""
-        return chosen_regions(self.structure.stress_regions) | dict(self.blades[blade].stress_regions)
+        shared, own = self.structure.stress_regions, self.blades[blade].stress_regions
+        return chosen_regions(shared) | {name: region for name, region in own.items() if shared.get(name, region)}
 
     @property
     def linings(self) -> dict[str, Lining]:
@@ -304,15 +305,15 @@ def direct_on_points(settings: Settings) -> tuple[list[str], list[str]]:
 
 
 def contact_of_blades(settings: Settings) -> dict[str, str]:
-    """Blade -> what its contact acts on, and its kinematics where these are not linear: 8 points; 12 patches, quadratic.
+    """Blade -> what its contact acts on, and its kinematics: 8 points, linear; patches, quadratic.
 
-    Without a number where a mesh of another program decides it.
+    Of points with their number, which the results depend on, unless matrices of another program decide it.
     """
     kinds = {}
     for name in settings.blades:
-        number, kinematics = contact_nodes(settings, name, settings.fidelity.mesh.tip_elements), settings.kinematics_of(name)
-        contact = f"{number or ''} {settings.contact_of(name)}".strip()
-        kinds[name] = contact if kinematics == LINEAR else f"{contact}, {kinematics}"
+        contact, number = settings.contact_of(name), contact_nodes(settings, name, settings.fidelity.mesh.tip_elements)
+        points = f"{number or ''} {contact}".strip() if contact == POINTS else contact
+        kinds[name] = f"{points}, {settings.kinematics_of(name)}"
     return kinds
 
 

@@ -20,7 +20,7 @@ from typing import Any
 
 from r37core.base.io import InputFileError
 from r37core.config import ConfigError, Settings
-from r37core.config.remarks import remarks_on_points
+from r37core.config.remarks import remarks_at_end
 from r37core.plans.extent import extent_of
 from r37core.product.closing import closing_lines
 from r37core.product.extensions import settings_of_run, simulations_of_members
@@ -70,7 +70,7 @@ class Console:
         if self.caller:
             return
         extension_lines = lines_of_extensions(self.settings, self.began)
-        lines = closing_lines(self.settings.results, self.began, time.time(), remarks_on_points(self.settings), extension_lines)
+        lines = closing_lines(self.settings.results, self.began, time.time(), remarks_at_end(self.settings), extension_lines)
         _say_last([*failures.taken(), *lines])
 
     def fail(self) -> None:

@@ -112,8 +112,8 @@ FIGURES = (
         label="fatigue",
         caption="Share of the Goodman line on blade {blade} in scene {scene}, at the speed where it is largest. It is the "
         "alternating stress over the fatigue strength, plus the mean stress, with that of rotation, over the ultimate "
-        "strength. Dots are nodes, each with its largest share of the later revolutions. Red: largest of all; grey: outside "
-        "the region of the stress.",
+        "strength. Dots are the nodes where the stress of the first region is computed, each with its largest share of the "
+        "later revolutions. Red: largest of all.",
     ),
     Figure(
         rule="comparison_figure",

@@ -14,7 +14,6 @@ from matplotlib.figure import Figure
 from r37core.base.io import readable
 from r37core.results.measures import has_strengths
 from r37core.rom.rom_file import read_reduced_model
-from r37core.stress.operator import mapped_region
 from r37core.stress.statistic import Strengths
 
 from .offscreen import look, new_plotter, rendered, without_margins
@@ -26,9 +25,8 @@ _DIRECTIONS = ((0.35, -1.0, -0.25), (0.35, 1.0, 0.25))
 
 
 def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str) -> Figure:
-    """Draw as draw_fatigue does, with nodes of the reduced model in the file `rom`."""
-    regions = read_reduced_model(rom).stress_regions
-    region = regions[mapped_region(regions)]
+    """Draw as draw_fatigue does, at the nodes of the region that decides, of the reduced model in the file `rom`."""
+    region = next(iter(read_reduced_model(rom).stress_regions.values()))
     return draw_fatigue(mesh, region.nodes.nodes[region.evaluated], response, f"{title}, {region.description}")
 
 
@@ -36,7 +34,7 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
     """Draw the largest share of the Goodman line of each node, at the speed where one is largest, on both sides of the blade.
 
     `mesh`: a .vtu; `nodes`, shape (stress nodes,): its numbers of the nodes that have stress; `response`: of the blade in a
-    scene. Grey has no stress. Without strengths, or a run that ended, the figure says so.
+    scene. Between the dots stress is not computed. Without strengths, or a run that ended, the figure says so.
     """
     if not has_strengths(response) or not response["goodman_share"].notnull().any():
         missing = "no run that ended" if has_strengths(response) else "no strengths in blades.yaml"
@@ -48,7 +46,8 @@ def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, titl
     share = strengths.share(alternating, mean)
     with readable(mesh):
         grid = pyvista.read(mesh)
-    largest, surface = float(share.max()), _surface(grid, nodes, share)
+    largest = float(share.max())
+    surface = grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
     figure, panels = plt.subplots(1, 4, figsize=(PAGE, _HEIGHT), layout="constrained")
     for axes in panels:
         axes.set_axis_off()
@@ -75,36 +74,18 @@ def _sides(grid: Any) -> tuple[str, str]:
     return ("pressure side", "suction side") if pressure < suction else ("suction side", "pressure side")
 
 
-def _surface(grid: Any, nodes: np.ndarray, share: np.ndarray) -> Any:
-    """The surface of the blade with the values "shown" at some `nodes`, NaN elsewhere."""
-    shown = np.full(grid.n_points, np.nan)
-    shown[nodes] = share
-    grid.point_data["shown"] = shown
-    return grid.extract_surface(nonlinear_subdivision=1, algorithm="dataset_surface")
-
-
 def _rendered(
     surface: Any, points: np.ndarray, share: np.ndarray, seen_from: tuple[float, float, float], close_up: np.ndarray | None
 ) -> np.ndarray:
-    """The blade coloured by "shown", a red dot at the worst of the `points` and, in a `close_up` of them, one at each."""
+    """The grey blade with a dot at each of the `points`, red at the worst one; `close_up`: those to look at, None: whole."""
     plotter = new_plotter(1, _PIXELS)
-    colours: dict[str, Any] = {"clim": (0.0, float(share.max())), "cmap": _COLOUR_MAP, "show_scalar_bar": False}
+    size = 5 if close_up is None else 10
     plotter.add_mesh(surface.extract_feature_edges(feature_angle=50.0), color="black", line_width=1.5)
-    plotter.add_mesh(
-        surface,
-        scalars="shown",
-        nan_color="lightgrey",
-        ambient=0.75,
-        diffuse=0.3,
-        smooth_shading=True,
-        split_sharp_edges=True,
-        **colours,
-    )
+    shading: dict[str, Any] = {"ambient": 0.75, "diffuse": 0.3}
+    plotter.add_mesh(surface, color="lightgrey", smooth_shading=True, split_sharp_edges=True, **shading)
     worst = points[[share.argmax()]]
-    plotter.add_points(worst, color="red", point_size=20 if close_up is not None else 12, render_points_as_spheres=True)
-    if close_up is not None:
-        plotter.add_points(
-            points, scalars=share, point_size=10, render_points_as_spheres=True, ambient=0.75, diffuse=0.3, **colours
-        )
+    plotter.add_points(worst, color="red", point_size=2 * size, render_points_as_spheres=True)
+    colours: dict[str, Any] = {"scalars": share, "clim": (0.0, float(share.max())), "cmap": _COLOUR_MAP}
+    plotter.add_points(points, point_size=size, render_points_as_spheres=True, show_scalar_bar=False, **colours, **shading)
     look(plotter, seen_from=seen_from, zoom=1.15 if close_up is None else 1.2, close_up=close_up)
     return without_margins(rendered(plotter))

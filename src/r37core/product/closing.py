@@ -111,7 +111,7 @@ def _ranked(file: Path) -> list[str]:
         alike.setdefault(row.get("contact", ""), []).append(row)
     lines = []
     for contact, ranked in alike.items():
-        among = f"{contact}: " if len(alike) > 1 else ""
+        among = f"{contact}: " if contact else ""
         lines += [f"{among}{line}" for line in (*_extremes(ranked, file), *_overall(ranked))]
     lines += _remarks_on_contact({contact: list(dict.fromkeys(row["blade"] for row in alike[contact])) for contact in alike})
     gap = max((_number(row, "largest_gap_rad_s") for row in rows), default=0.0)

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from r37core.results.columns import MOST_REVOLUTIONS
+from r37core.results.columns import MOST_REVOLUTIONS, SOME, above_yield
 from r37core.results.exceedance import SpeedRange, exceedance_of
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
@@ -282,7 +282,10 @@ def _above_yield(evidence: Evidence) -> Columns:
     inside = [part for part in exceedance.ranges(MOST_REVOLUTIONS) if operating.overlap(part.begin, part.end) > 0.0]
     widest = max(inside, key=lambda part: operating.overlap(part.begin, part.end), default=SpeedRange(np.nan, np.nan, False))
     has_rotation = "static_stress" in response and bool(response["static_stress"])
-    notes = [evidence.divergence, "" if has_rotation else VIBRATION_ALONE]
+    operates = (exceedance.speeds >= operating.first) & (exceedance.speeds <= operating.last)
+    share = float(np.max(exceedance.shares, where=operates, initial=0.0))
+    some = f"above yield in up to {share:.2g} of the revolutions" if above_yield(share) == SOME else ""
+    notes = [evidence.divergence, "" if has_rotation else VIBRATION_ALONE, some]
     return {
         "value": operating.length(inside),
         "from_rad_s": max(widest.begin, operating.first),

@@ -34,11 +34,6 @@ class StressRegion:
     evaluated: np.ndarray
     places: np.ndarray
 
-    @property
-    def is_complete(self) -> bool:
-        """True where stress is recovered at all nodes of the region, and it has some."""
-        return 0 < len(self.evaluated) == len(self.nodes.nodes)
-
 
 @dataclass(frozen=True)
 class RegionMaker:

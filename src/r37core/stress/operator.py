@@ -30,8 +30,7 @@ class StressOperator:
     `operator`, shape (6, nodes, numbers + shapes): components xx yy zz xy yz zx (Pa) per unit of each number of the vibration,
     then of each amplitude of rotation's shapes. `coordinates`: how many reduced coordinates there are. `band`, shape (numbers,
     coordinates): amplitudes of the modes that count, per coordinate; None where the numbers are the coordinates. `region`: in
-    words; `is_complete`: whether its nodes are all of the region's; `places`, shape (nodes, 3): their chord, span, thickness,
-    where known.
+    words; `places`, shape (nodes, 3): chord, span and thickness of its nodes, where known.
 
     Of a blade about its equilibrium under rotation: `per_rotation`, shape (shapes, 6, nodes, coordinates): what an amplitude of
     rotation's shapes adds to the operator, see `displaced`, and their `rotation_stiffening`; `large_coordinates`, shape (modes,
@@ -42,7 +41,6 @@ class StressOperator:
     coordinates: int
     region: str
     band: np.ndarray | None = None
-    is_complete: bool = True
     places: np.ndarray | None = None
     per_rotation: np.ndarray | None = None
     rotation_stiffening: np.ndarray | None = None
@@ -121,11 +119,6 @@ def operators_at(operators: StressOperators, speed: float) -> dict[str, StressOp
 def judged_operator(operators: StressOperators) -> StressOperator:
     """The operator of the region that decides."""
     return next(iter(operators.values()))
-
-
-def mapped_region(regions: Mapping[str, Any]) -> str:
-    """Name of the region whose nodes a map shows: the first with all of its nodes, else the one that decides."""
-    return next((name for name, region in regions.items() if region.is_complete), next(iter(regions)))
 
 
 def write_stress_operators(operators: StressOperators, file: Path | str) -> None:

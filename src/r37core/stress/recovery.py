@@ -62,7 +62,6 @@ def _operator(model: ReducedModel, region: StressRegion, material: Material) -> 
         coordinates=model.size,
         region=region.description,
         band=None if band is None else band[0],
-        is_complete=region.is_complete,
         places=region.places,
         per_rotation=None if large is None else large.per_rotation,
         rotation_stiffening=None if large is None else model.rotation_stiffening,

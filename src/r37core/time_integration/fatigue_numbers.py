@@ -3,7 +3,7 @@
 import numpy as np
 
 from r37core.rom.rotation import rotation_amplitudes
-from r37core.stress.operator import StressOperator, StressOperators, mapped_region
+from r37core.stress.operator import StressOperator, StressOperators, judged_operator
 from r37core.stress.revolutions import largest_cycles, stress_cycles
 
 from .finished_run import FinishedRun
@@ -13,13 +13,13 @@ from .problem import Problem
 def fatigue_numbers(run: FinishedRun, stress: StressOperators, shown: int) -> dict[str, np.ndarray]:
     """Alternating and mean stress (Pa) over the revolutions of the statistic; rotation is always in the mean.
 
-    `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, in mapped_region, the
-    former the largest of all revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), region by region, and
+    `alternating_stress` and `mean_stress`, shape (nodes,): of one blade, that at the place `shown`, in the region that
+    decides, the former the largest of all revolutions. `cycle_alternating`, `cycle_mean`, shape (pairs,), region by region, and
     `cycle_counts`, shape (regions, revolutions): those of all blades, see largest_cycles. A diverged run has NaN and no pairs.
     """
-    mapped = stress[mapped_region(stress)]
+    judged = judged_operator(stress)
     if run.first_diverged is not None:
-        alternating_stress = mean_stress = np.full(mapped.operator.shape[1], np.nan, dtype=np.float32)
+        alternating_stress = mean_stress = np.full(judged.operator.shape[1], np.nan, dtype=np.float32)
         nothing = np.empty(0, dtype=np.float32)
         pairs = len(stress) * [(nothing, nothing, np.empty(0, dtype=np.int32))]
     else:
@@ -27,7 +27,7 @@ def fatigue_numbers(run: FinishedRun, stress: StressOperators, shown: int) -> di
         motions = [(problem, part.snapshots) for problem, part in zip(run.problems, run.records, strict=True)]
         for operator in stress.values():
             blades = [_cycles(*motion, operator) for motion in motions]
-            if operator is mapped:
+            if operator is judged:
                 alternating_stress, mean_stress = blades[shown][0].max(axis=0), blades[shown][1]
             alternating, mean = (np.concatenate(parts, axis=-1) for parts in zip(*blades, strict=True))
             pairs.append(largest_cycles(alternating, mean))

@@ -14,6 +14,7 @@ _CREASE = np.radians(40.0)
 _RADIAL = 0.5  # of a unit normal: faces that look along the radius, out or in
 _STRAIGHT = 2e-3  # of the blade's height: how far the nodes of an end may be from a cone
 _LARGE = 0.1  # of the largest patch's area: smaller ones are no end
+_BELOW = 0.2  # of the blade's height: how far a platform is below the tip, a conical tip's edge is not
 _ROUNDED = 7  # decimals of the rule's numbers (m)
 _TOLERANCES = (1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, np.inf)  # m
 _LOOKS = {"root": "towards the axis", "tip": "towards the casing"}
@@ -59,6 +60,17 @@ def find_end(what: str, points: np.ndarray, surface: list[Faces]) -> End | None:
     straight = rule.tolerance <= max(_STRAIGHT * np.ptp(radius), _TOLERANCES[0])
     is_exact = np.array_equal(mask_within(surface, rule.within(points)), mask)
     return End(nodes, faces, mask, rule, straight) if is_exact else None
+
+
+def find_platform(points: np.ndarray, surface: list[Faces]) -> Where | None:
+    """The cone of a modelled root's top, the outermost large patch that looks outward far below the tip; None without one."""
+    patch, sizes, radius = _radial_patches("tip", points, surface)
+    areas = np.bincount(patch[patch >= 0], sizes[patch >= 0])
+    heights = np.bincount(patch[patch >= 0], (sizes * radius)[patch >= 0]) / np.maximum(areas, 1e-300)
+    below = (areas >= _LARGE * areas.max(initial=0.0)) & (heights < radius.max() - _BELOW * np.ptp(radius))
+    if not below.any():
+        return None
+    return _cone(points[nodes_of(chosen(surface, patch == np.argmax(heights * below)))])
 
 
 def _radial_patches(what: str, points: np.ndarray, surface: list[Faces]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

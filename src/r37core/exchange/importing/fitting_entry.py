@@ -11,7 +11,7 @@ from r37core.exchange.orientation import Orientation, fitting_units
 from r37core.exchange.refusal import ImportRefused, MeshWarning
 from r37core.fem.surface import Faces, outer_faces
 
-from .ends import End, caught_by, check_end, find_end
+from .ends import End, caught_by, check_end, find_end, find_platform
 from .raw_mesh import RawMesh
 from .source import MeshSource
 from .tip import check_sense, find_tip_lines, is_flat, off_revolution
@@ -48,6 +48,9 @@ def fitting_entry(source: MeshSource, raw: RawMesh) -> dict[str, str]:
             entry[what] = end.rule.as_yaml()
         if what == "tip" and end is not None:
             entry |= _tolerance_of_flat_tip(mesh.points[end.nodes], source.revolution_tolerance)
+    platform = None if source.hub_zr else find_platform(mesh.points, surface)
+    if platform is not None:
+        entry["hub_zr_m"] = platform.meridian_as_yaml()
     return entry
 
 

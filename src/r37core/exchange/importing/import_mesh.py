@@ -11,7 +11,7 @@ from r37core.fem.surface import outer_faces
 from r37core.mesh.blade_mesh import NODE_SETS, BladeMesh
 
 from .abaqus_reader import read_abaqus
-from .ends import Caught, caught_by, check_end, check_root, find_end
+from .ends import Caught, caught_by, check_end, check_root, find_end, find_platform
 from .fitting_entry import fitting_entry
 from .mesh_checks import checked, without_free_nodes
 from .meshio_reader import read_ansys, read_nastran, read_with_meshio
@@ -56,8 +56,11 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
             )
         raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw)) from None
     raw = placed
+    height = source.height(raw.points)
+    if height is not None and height[tip].min() <= 0.0:
+        raise ImportRefused(f"{source.file}: found a tip that is not above hub_zr_m; allowed: the platform's top", "hub_zr_m")
     with blamed("mesh", source.file):
-        parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward)
+        parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward, height)
     sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
     # the edges come last: nodes that they share with the camber line count by their place on the edge
     for name, (nodes, fractions) in reversed(lines.items()):
@@ -69,15 +72,24 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
     return BladeMesh(raw.points, raw.blocks, parameters, normals, sets), quality
 
 
-def size_in_words(mesh: BladeMesh) -> str:
-    """Length and width, radii of both ends of the tip and of the root, as text, to be compared with the real blade."""
+def size_in_words(mesh: BladeMesh, source: MeshSource) -> str:
+    """Length and width, radii of tip and root, and where the span begins, as text, to be compared with the real blade."""
     radius, size = np.hypot(mesh.points[:, 0], mesh.points[:, 1]), np.ptp(mesh.points, axis=0)
     leading, trailing = (radius[mesh.node_set(f"{name}_edge")].max() for name in ("leading", "trailing"))
     root = radius[mesh.node_set("root")].mean()
     return (
         f"{size[0]:.4g} m long and {size[2]:.4g} m wide along the axis, "
         f"radius of the tip {leading:.4g} m at the leading and {trailing:.4g} m at the trailing edge, of the root {root:.4g} m"
+        f"; {_span_in_words(mesh, source)}"
     )
+
+
+def _span_in_words(mesh: BladeMesh, source: MeshSource) -> str:
+    if source.hub_zr is not None:
+        return "span begins at hub_zr_m, stress regions with a minimum_span lie above"
+    platform = find_platform(mesh.points, outer_faces(mesh.blocks))
+    hint = "" if platform is None else f"; the root is modelled: at its platform with hub_zr_m: {platform.meridian_as_yaml()}"
+    return f"span begins at the clamped faces{hint}"
 
 
 def _ends(source: MeshSource, raw: RawMesh) -> tuple[np.ndarray, np.ndarray, TipLines]:
@@ -132,32 +144,34 @@ _FEWEST = 24  # nodes of a section
 
 
 def blade_parameters(
-    points: np.ndarray, root: np.ndarray, tip: np.ndarray, pressure_forward: bool
+    points: np.ndarray, root: np.ndarray, tip: np.ndarray, pressure_forward: bool, height: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """(chord, span, thickness) of every node, shape (nodes, 3), and unit normals, shape (nodes, 3).
 
     `points` (m), shape (nodes, 3), in the blade's frame; `root` and `tip`: node numbers. Span is the distance to the root
-    over that to root and tip. Each section (nodes of like span) has a chord, the longest principal axis of its nodes across
-    the blade's height, pointing downstream, and a normal, the shortest, from the pressure to the suction side; chord and
-    thickness are the place between the section's extremes along them. They serve the names of the modes and pictures; of the
-    mechanics only the weights of patches, along the chord. `pressure_forward`: whether the pressure side looks towards the
-    rotation. Raises ImportRefused for a mesh with too few nodes for sections.
+    over that to root and tip; of a modelled root it is 0, and `height` (m), shape (nodes,), above its platform counts instead.
+    Each section (nodes of like span) has a chord, the longest principal axis of its nodes across the blade's height, pointing
+    downstream, and a normal, the shortest, from the pressure to the suction side; chord and thickness are the place between
+    the section's extremes along them. They serve the names of the modes and pictures; of the mechanics only the weights of
+    patches, along the chord. `pressure_forward`: whether the pressure side looks towards the rotation. Raises ImportRefused
+    for a mesh with too few nodes for sections.
     """
-    root_distance, _ = cKDTree(points[root]).query(points)
+    root_distance = cKDTree(points[root]).query(points)[0] if height is None else height
     tip_distance, _ = cKDTree(points[tip]).query(points)
-    span = root_distance / (root_distance + tip_distance)
+    # nodes of a modelled root are in no section
+    span = np.where(root_distance < 0.0, -1.0, root_distance / (root_distance + tip_distance))
     levels = np.linspace(0.0, 1.0, _SECTIONS)
     members = [_members(span, level) for level in levels]
     centres = np.array([0.5 * (points[m].max(axis=0) + points[m].min(axis=0)) for m in members])
-    height = np.gradient(centres, levels, axis=0)
+    upward = np.gradient(centres, levels, axis=0)
     if not np.linalg.norm(centres[-1] - centres[0]) > 1e-6 * np.ptp(points, axis=0).max():
         raise ImportRefused(
             f"found a mesh of {len(points)} nodes, too few to tell sections between root and tip; mesh the blade finer"
         )
     # a coarse mesh has the same nodes in neighbouring sections
-    height[np.linalg.norm(height, axis=1) < 0.2 * np.linalg.norm(centres[-1] - centres[0])] = centres[-1] - centres[0]
-    height /= np.linalg.norm(height, axis=1)[:, None]
-    chords, normals = _section_axes(points, members, centres, height, pressure_forward)
+    upward[np.linalg.norm(upward, axis=1) < 0.2 * np.linalg.norm(centres[-1] - centres[0])] = centres[-1] - centres[0]
+    upward /= np.linalg.norm(upward, axis=1)[:, None]
+    chords, normals = _section_axes(points, members, centres, upward, pressure_forward)
     extremes = []
     for m, centre, chord, normal in zip(members, centres, chords, normals, strict=True):
         along, across = (points[m] - centre) @ chord, (points[m] - centre) @ normal
@@ -169,7 +183,7 @@ def blade_parameters(
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     chord_fraction = (np.sum((points - centre) * chord, axis=1) - along_low) / along_size
     thickness = 2.0 * (np.sum((points - centre) * normal, axis=1) - across_low) / across_size - 1.0
-    return np.stack([np.clip(chord_fraction, 0.0, 1.0), span, np.clip(thickness, -1.0, 1.0)], axis=1), normal
+    return np.stack([chord_fraction.clip(0.0, 1.0), span.clip(0.0), thickness.clip(-1.0, 1.0)], axis=1), normal
 
 
 def _members(span: np.ndarray, level: float) -> np.ndarray:

@@ -78,9 +78,12 @@ class Where:
 
     def as_yaml(self) -> str:
         """The rule of a cone as an entry of blades.yaml has it."""
+        return f"{{ cone_zr_m: {self.meridian_as_yaml()}, tolerance_m: {_plain(self.tolerance)} }}"
+
+    def meridian_as_yaml(self) -> str:
+        """Two points [z, r] (m) of the cone as an entry of blades.yaml has them."""
         assert self.cone_zr is not None
-        points = ", ".join(f"[{_plain(z)}, {_plain(r)}]" for z, r in self.cone_zr)
-        return f"{{ cone_zr_m: [{points}], tolerance_m: {_plain(self.tolerance)} }}"
+        return f"[{', '.join(f'[{_plain(z)}, {_plain(r)}]' for z, r in self.cone_zr)}]"
 
 
 @dataclass(frozen=True)
@@ -110,8 +113,18 @@ class MeshSource:
         float, Key("Smallest scaled Jacobian of an accepted mesh; 1 is ideal, 0 folded", ge=1e-6, le=1)
     ] = 0.02
     end_check: Annotated[bool, Key("Whether a root or tip that is incomplete or has side faces is refused")] = True
+    hub_zr: Annotated[
+        tuple[tuple[float, float], tuple[float, float]] | None,
+        Key("two points [z, r] of the platform's top, where the span begins; left out: at the root", "_m", ge=-100, le=100),
+    ] = None
     sense_check: bool = field(kw_only=True)
     digest: str = ""
+
+    def height(self, points: np.ndarray) -> np.ndarray | None:
+        """Distance (m) of `points`, shape (n, 3), above the platform's top, shape (n,); None without a platform."""
+        if self.hub_zr is None:
+            return None
+        return Where(cone_zr=self.hub_zr).off_cone(points) * np.sign(self.hub_zr[1][0] - self.hub_zr[0][0])
 
 
 @dataclass(frozen=True)

@@ -21,13 +21,14 @@ def imported_mesh(input: Any, output: Any, params: Any) -> str:
     Params: source, folder, locations (of the keys, as `located` takes them). Raises ImportRefused.
     """
     with located(params.locations):
-        mesh, quality = import_mesh(from_plain(MeshSource, params.source), params.folder["folder"])
+        source = from_plain(MeshSource, params.source)
+        mesh, quality = import_mesh(source, params.folder["folder"])
     JOB_LOG.debug(f"{len(mesh.points)} nodes, " + ", ".join(f"{len(nodes)} {name}" for name, nodes in mesh.blocks.items()))
     JOB_LOG.debug(f"root: {len(mesh.node_set('root'))} nodes, tip: {len(mesh.node_set('tip'))} nodes")
     JOB_LOG.debug(f"scaled Jacobian: minimum {quality.min():.3f}")
     write_mesh(mesh, output.msh)
     write_vtu(mesh, output.vtu, quality)
-    return f"{params.locations['mesh']}: {size_in_words(mesh)}"
+    return f"{params.locations['mesh']}: {size_in_words(mesh, source)}"
 
 
 def imported_matrices(input: Any, output: Any, params: Any) -> str:
