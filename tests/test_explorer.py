@@ -74,6 +74,10 @@ def test_contents_are_those_of_the_datasets(datasets, interactions):
     largest = datasets["spectrum"]["amplitude"].sel(engine_order=slice(1.95, 2.045)).max("engine_order")
     np.testing.assert_allclose(unpacked(contents["spectrum"]["values"])[..., 20], 1e3 * largest, rtol=1e-4)
     assert contents["interactions"][1]["mode"] is None
+    # only a linear model is left above yield
+    assert contents["outside"] == "above yield: outside the linear model"
+    quadratic = datasets | {"rms": datasets["rms"].assign_attrs(contact="11 patches, quadratic: Ref")}
+    assert explorer_contents(quadratic, interactions)["outside"] == "above yield"
 
 
 def test_a_blade_called_na_keeps_its_name(interactions, tmp_path):
@@ -240,6 +244,7 @@ def test_interactions_are_circles_by_danger(page, datasets, interactions, tmp_pa
         marks = {
             (one["name"], x): (y, *look)
             for one in other.evaluate(f"{plot}.data.filter(({{ name }}) => {[*BLADES, 'diverged']}.includes(name))")
+            if one["x"] != [None]
             for x, y, *look in zip(
                 one["x"],
                 one["y"],

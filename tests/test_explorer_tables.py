@@ -1,5 +1,7 @@
 """The explorer's tables: interactions of what is chosen, their words, and which blade is the best; and light and dark."""
 
+from itertools import pairwise
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -14,13 +16,13 @@ from r37core.results.columns import SUMMARY, column_named
 
 RANKING = pd.DataFrame(
     [
-        ("L<50>", "abradable", 1, 10.0, 20.0, 5.0, 12.0, 4e9, 0.75),
-        ("Ref", "abradable", 2, 30.2, 60.0, 20.0, 45.0, 9e9, np.nan),
-        ("Ref", "direct", 1, 0.0, 100.0, np.nan, np.nan, 2e9, np.nan),
-        ("L<50>", "direct", 2, 50.0, 55.0, np.nan, np.nan, 3e9, 0.25),
+        ("L<50>", "abradable", 1, 10.0, 20.0, 22.0, 5.0, 12.0, 4e9, 0.75),
+        ("Ref", "abradable", 2, 30.2, 60.0, 80.0, 20.0, 45.0, 9e9, np.nan),
+        ("Ref", "direct", 1, 0.0, 100.0, 110.0, np.nan, np.nan, 2e9, np.nan),
+        ("L<50>", "direct", 1, 50.0, 55.0, 56.0, np.nan, np.nan, 3e9, 0.25),
     ],
     columns=[
-        "blade", "scene", "rank", "length_most_revolutions_rad_s", "length_some_revolutions_rad_s",
+        "blade", "scene", "rank", "length_most_revolutions_rad_s", "length_some_revolutions_rad_s", "length_ever_rad_s",
         "length_most_revolutions_rad_s_low", "length_most_revolutions_rad_s_high",
         "largest_median_stress_pa", "chance_better_than_Ref",
     ],
@@ -50,7 +52,7 @@ def page(rows, tmp_path_factory):
 @pytest.fixture
 def at_ref(page):
     """The page with Ref in the lining, at a speed of no interaction."""
-    page.evaluate("location.hash = 'blade=Ref&scene=abradable&quantity=rms_normal&speed=900&unit=rad/s&sort='")
+    page.evaluate("location.hash = 'blade=Ref&scene=abradable&quantity=rms_normal&speed=900&unit=rad/s&sort=&columns=true'")
     page.wait_for_function("document.getElementById('now').textContent.startsWith('Ref, abradable, 900 rad/s')")
     return page
 
@@ -120,16 +122,27 @@ def test_quantities_and_the_two_stresses_have_long_names_and_speeds_the_chosen_u
     now = at_ref.text_content("#now")
     assert now.startswith("Ref, abradable, 1000.3 rad/s")
     assert now.endswith("; interaction 1T/12: largest stress 14000 MPa at 1200 rad/s, 11459 rpm")
-    assert "largest stress, last revolution (MPa)" in at_ref.locator("#interactions th").all_text_contents()
+    assert "largest stress (MPa)" in at_ref.locator("#interactions th").all_text_contents()
     at_ref.click("#interactions tbody tr:has-text('1B/4')")
     assert "interaction" not in at_ref.text_content("#now")
     options = at_ref.locator("#quantity option").all_text_contents()
-    assert "largest von Mises stress in the region in the last revolution (MPa)" in options
+    assert "largest von Mises stress of each of the later revolutions: largest (MPa)" in options
     assert "share of the steps with a contact force" in options
     at_ref.select_option("#unit", "rpm")
     assert "peak speed (rpm)" in at_ref.locator("#interactions th").all_text_contents()
     assert column(at_ref, "peak_speed_rad_s")[0] == "11459"
     assert "above yield in most revolutions (rpm)" in at_ref.text_content("#keys")
+
+
+def test_details_are_columns_on_request(at_ref):
+    """And the one by which rows are sorted."""
+    assert at_ref.is_visible("#interactions th.drop")
+    at_ref.uncheck("#columns")
+    assert at_ref.is_hidden("#interactions th.drop")
+    assert at_ref.is_visible("#interactions th.largest_stress_pa")
+    at_ref.evaluate("location.hash = 'columns=false&sort=-drop'")
+    at_ref.wait_for_selector("#interactions th.drop[aria-sort='descending']")
+    assert column(at_ref, "drop") == ["90", "50", ""]
 
 
 def test_a_step_in_speed_moves_the_cursors(at_ref):
@@ -148,18 +161,19 @@ def test_which_blade(at_ref):
     """By rank in the first scene; the lengths of the bars are those of the table, and a click goes to a blade and scene."""
     assert at_ref.locator("#bars tbody th").all_text_contents() == ["L<50>", "Ref"]
     lines = at_ref.locator("#bars tbody tr").nth(1)
-    assert lines.locator(".rank").all_text_contents() == ["2", "1"]
-    assert lines.locator(".numbers").all_text_contents() == ["30 / 60", "0 / 100"]
-    line, certain, possible, range_ = (
-        lines.locator(f"td:nth-of-type(1) .{name}").first.bounding_box() for name in ("bar", "certain", "possible", "range")
+    assert lines.locator(".rank").all_text_contents() == ["2", "1 ="]
+    assert lines.locator(".numbers").all_text_contents() == ["30 / 60 / 80", "0 / 100 / 110"]
+    line, range_, *bars = (
+        lines.locator(f"td:nth-of-type(1) .{name}").first.bounding_box()
+        for name in ("bar", "range", "certain", "possible", "ever")
     )
-    assert certain["width"] == pytest.approx(0.5 * line["width"], rel=0.02)
-    assert possible["width"] == pytest.approx(1.0 * line["width"], rel=0.02)
-    assert range_["x"] - line["x"] == pytest.approx(20 / 60 * line["width"], rel=0.02)
-    assert range_["width"] == pytest.approx(25 / 60 * line["width"], rel=0.02)
+    shares = [bar["width"] / line["width"] for bar in bars]
+    assert shares == pytest.approx([30 / 80, 60 / 80, 1.0], rel=0.02)
+    assert range_["x"] - line["x"] == pytest.approx(20 / 80 * line["width"], rel=0.02)
+    assert range_["width"] == pytest.approx(25 / 80 * line["width"], rel=0.02)
     at_ref.click("#numbers-of")
     numbers = [line.locator("th, td").all_text_contents() for line in at_ref.locator("#numbers tbody tr").all()]
-    assert ["largest median stress (MPa)", "9000", "2000"] in numbers
+    assert ["median stress (MPa)", "9000", "2000"] in numbers
     at_ref.locator("#bars tbody tr").nth(0).locator("td").nth(1).click()
     assert at_ref.text_content("#now").startswith("L<50>, direct")
     assert at_ref.text_content("#numbers-of") == "All numbers of L<50>"
@@ -189,18 +203,18 @@ def test_the_ranking_shows_the_worst_motion_and_the_limit(page, rows, tmp_path):
         cell = other.locator("#bars tbody tr").nth(1).locator("td:nth-of-type(1)")
         boxes = {name: cell.locator(f".{name}").bounding_box() for name in ("worst", "rest", "inside", "limit")}
         line = cell.locator(".bar").first.bounding_box()
-        assert boxes["worst"]["width"] == pytest.approx(45 / 60 * line["width"], rel=0.02)
-        assert boxes["inside"]["width"] == pytest.approx(12 / 60 * line["width"], rel=0.02)
+        assert boxes["worst"]["width"] == pytest.approx(45 / 80 * line["width"], rel=0.02)
+        assert boxes["inside"]["width"] == pytest.approx(12 / 80 * line["width"], rel=0.02)
         places = [(boxes[name]["x"] - line["x"]) / line["width"] for name in ("rest", "limit")]
-        assert places == pytest.approx([30 / 60, 24 / 60], abs=0.01)
-        assert other.locator("#keys button").all_text_contents()[3:] == [
+        assert places == pytest.approx([30 / 80, 24 / 80], abs=0.01)
+        assert other.locator("#keys button").all_text_contents()[4:] == [
             "above yield in most revolutions, worst motion (rad/s)", "above yield in most revolutions, in operation (rad/s)",
             "above yield in most revolutions, from rest (rad/s)", "limit in operation (rad/s)",
         ]  # fmt: skip
-        assert cell.locator(".numbers").text_content() == "30 / 60"
+        assert cell.locator(".numbers").text_content() == "30 / 60 / 80"
     with beside(page, explorer_contents(sweep(), rows, ranking=more.drop(columns=worst[:2])), tmp_path / "other.html") as other:
         assert other.locator("#bars .thin").count() == 0
-        assert len(other.locator("#keys button").all()) == 3
+        assert len(other.locator("#keys button").all()) == 4
 
 
 def test_the_map_of_designs_has_the_line_of_a_requirement(page, rows, tmp_path):
@@ -209,7 +223,7 @@ def test_the_map_of_designs_has_the_line_of_a_requirement(page, rows, tmp_path):
     places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
     designs = pd.DataFrame([("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)])
     table = designs.set_axis(["blade", "scene", "family", *keys], axis=1).assign(
-        length_most_revolutions_rad_s=[40.0, 30, 20, 0]
+        length_most_revolutions_rad_s=[40.0, 30, 20, 0], length_ever_rad_s=[40.0, 30, 20, 9]
     )
     verdicts = [("Ref", f"Room_{number}", verdict) for number, verdict in enumerate(("fails", "fails", "fails", "meets"))]
     contents = explorer_contents(sweep(), rows) | {"panels": {"designs": design_panel(table)} | judged(*verdicts)}
@@ -218,12 +232,36 @@ def test_the_map_of_designs_has_the_line_of_a_requirement(page, rows, tmp_path):
         map_ = "document.getElementById('designs')"
         sides = f"{map_}.layout.shapes.map(one => [one.x0, one.y0, one.x1, one.y1])"
         assert sorted(other.evaluate(sides)) == [[0.5, 0.5, 0.5, 1.5], [0.5, 0.5, 1.5, 0.5]]
-        assert other.evaluate(f"{map_}.data[0].text") == [["40", "20"], ["30", "0 \u2713"]]
+        assert other.evaluate(f"{map_}.data[0].text") == [["40", "20"], ["30", "0 \u25c7 \u2713"]]
         assert "limit of above yield" in other.text_content("#designs .legend")
         other.locator("h1").click()
         other.keyboard.press("ArrowRight")
         assert "1000.3 rad/s" in other.text_content("#now")
         assert [0.5, 0.5, 0.5, 1.5] in other.evaluate(sides)
+
+
+@pytest.mark.parametrize("width", [390, 1400])
+def test_each_of_six_scenes_has_bars_and_a_name(page, rows, tmp_path, width):
+    """The reason of a verdict stands on the screen, too."""
+    names = [f"a_scene_with_a_long_name_{number}" for number in range(6)]
+    datasets = {kind: data for kind, data in sweep().items() if kind != "wear"}
+    of_scenes = ("rms", "stress", "spectrum")
+    many = datasets | {kind: datasets[kind].isel(scene=[0] * 6).assign_coords(scene=names) for kind in of_scenes}
+    ranking = pd.concat([RANKING[RANKING["scene"] == "abradable"].assign(scene=name) for name in names])
+    panel = judged(("Ref", names[0], "fails"))
+    panel["requirements"]["pairs"] = [{"blade": "Ref", "scene": names[0], "verdict": "fails", "reason": "too long " * 12}]
+    contents = explorer_contents(many, rows.iloc[:0], ranking=ranking) | {"panels": panel}
+    parts = page_parts([FOLDER.parent / "requirements/panel.js"])
+    with beside(page, contents, tmp_path / "explorer.html", (width, 844), parts=parts) as other:
+        bars = [bar.bounding_box()["width"] for bar in other.locator("#bars .bars").all()]
+        assert len(bars) == 12 and min(bars) > (30 if width == 390 else 100)
+        heads = [head.bounding_box() for head in other.locator("#bars thead th").all()]
+        assert all(one["x"] + one["width"] <= following["x"] + 1 for one, following in pairwise(heads))
+        over = "[...document.querySelectorAll('#bars thead th')].some(head => head.scrollWidth > head.clientWidth + 1)"
+        assert not other.evaluate(over)
+        assert heads[0]["width"] > 50
+        reason = other.locator("#verdict td:last-child").bounding_box()
+        assert reason["x"] + reason["width"] <= width
 
 
 def test_a_ranking_without_some_columns(page, rows, tmp_path):
@@ -238,7 +276,7 @@ def test_a_finger_finds_all(page, rows, tmp_path):
     """On a phone: nothing runs over the side, controls have room, a tap says what a column is, tables scroll in their box."""
     contents = explorer_contents(sweep(), rows, ranking=RANKING)
     phone = {"is_mobile": True, "has_touch": True}
-    with beside(page, contents, tmp_path / "explorer.html", (390, 844), "#scene=abradable", **phone) as other:
+    with beside(page, contents, tmp_path / "explorer.html", (390, 844), "#scene=abradable&columns=true", **phone) as other:
         assert other.evaluate("document.documentElement.scrollWidth") == 390
         wanted = "#controls label:visible, #interactions th:visible button, #bars tbody th button, section > label, summary"
         sizes = [one.bounding_box()["height"] for one in other.locator(wanted).all()]

@@ -21,7 +21,7 @@ from r37core.config import ConfigError, command_line_document, plain
 from r37core.config.families import design_name
 from r37core.designs.compared import Compared
 from r37core.designs.figures import draw_designs
-from r37core.designs.maps import draw_design_map, in_some
+from r37core.designs.maps import draw_design_map, some_above_yield
 from r37core.designs.panel import contents
 from r37core.designs.plan import EXTENSION, Families
 from r37core.designs.table import MEASURES, compared_in, design_table
@@ -461,7 +461,7 @@ def test_a_map_marks_designs_that_are_above_yield_but_not_in_most_revolutions():
         axes = map_of(rows, None).axes[0]
         (diamonds,) = (line for line in axes.lines if line.get_label() == "above yield in some revolutions")
         assert (list(diamonds.get_xdata()), list(diamonds.get_ydata())) == place
-    assert in_some(table).tolist() == [0.0, 1.0, 0.0, 0.0]
+    assert some_above_yield(table).tolist() == [0.0, 1.0, 0.0, 0.0]
 
 
 @pytest.mark.slow

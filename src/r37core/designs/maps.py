@@ -41,7 +41,7 @@ def draw_design_map(
         axes.set_title(name)
         _label(axes, part, keys)
         axes.label_outer()
-        up, across_some = np.nonzero(_grid(part.assign(some=in_some(part)), keys, "some", "max") == 1.0)
+        up, across_some = np.nonzero(_grid(part.assign(some=some_above_yield(part)), keys, "some", "max") == 1.0)
         if len(up):
             look: dict[str, Any] = {"color": "white", "markeredgecolor": "black", "markersize": 5}
             axes.plot(across_some, up + 0.3, "D", label="above yield in some revolutions", **look)
@@ -57,7 +57,7 @@ def draw_design_map(
     return figure
 
 
-def in_some(rows: pd.DataFrame) -> pd.Series:
+def some_above_yield(rows: pd.DataFrame) -> pd.Series:
     """1.0 for designs whose length above yield in most revolutions is 0, but not in all their revolutions; else 0.0."""
     length = length_column(rows)
     any_revolution = "exceedance_integral_operating_rad_s" if "operating" in length else "length_ever_rad_s"

@@ -116,8 +116,8 @@ EXTENSION = Extension(
             files={"table": TABLE},
             label="map of {family}",
             caption="Family {family} over two numbers that vary. Colour: length of the speeds above yield in most "
-            "revolutions, in the operating range where there is one; without any, share of the Goodman line. Lines: where a "
-            "requirement begins to fail.",
+            "revolutions, in the operating range where there is one; without any, share of the Goodman line. Diamonds: above "
+            "yield, but not in most revolutions. Lines: where a requirement begins to fail.",
             category="Families",
             arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
             offered="verdict",
@@ -130,8 +130,8 @@ EXTENSION = Extension(
             files={"table": TABLE},
             label="{family}",
             caption="Family {family}: what each design is and how robust, over what varies. Of blades frequencies and largest "
-            "loss of clearance as the tip swings along free modes; where interactions lie, speeds above yield in most and in "
-            "some revolutions, largest stress.",
+            "loss of clearance as the tip swings along free modes; where interactions lie, speeds above yield in most "
+            "revolutions, in some and ever, stress, share of the Goodman line.",
             category="Families",
             arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
         ),

@@ -198,9 +198,9 @@ MAIN = (
     "interaction", "blade", "scene", "peak_speed_rad_s", "shift_rad_s", "peak_rms_normal_m", "length_most_revolutions_rad_s",
     "length_some_revolutions_rad_s", "length_ever_rad_s", "share_of_revolutions_above_yield", "largest_median_stress_pa",
     "largest_stress_pa", "largest_stress_over_yield", "largest_goodman_share", "max_wear_m", "worn_through_share",
-    "motion_at_end", "share_of_members", "second_motion", "status",
+    "motion_at_end", "share_of_members", "status",
 )  # fmt: skip
-"""Those of them that are shown unless all are asked for: as many as a screen has room for."""
+"""Columns that are shown unless all are asked for: as many as a screen has room for."""
 
 
 def interaction_table(interactions: pd.DataFrame) -> dict[str, object]:

@@ -33,7 +33,7 @@ const interactionMap = (data, page) => {
   function trace(rows, blade, largest) {
     const colour = colourOf(data.blades.indexOf(blade));
     return {
-      x: shown(rows.map((row) => row.peak_speed_rad_s)), y: rows.map((row) => row.height), name: blade, mode: "markers",
+      x: shown(rows.map((row) => row.peak_speed_rad_s)), y: rows.map((row) => row.height), name: blade, legendgroup: blade, showlegend: false, mode: "markers",
       customdata: rows, hoverinfo: "text", cliponaxis: false,
       text: rows.map((row) => `${blade}, ${row.interaction}<br>${speedText(row.peak_speed_rad_s)}<br>`
         + `${isDangerous(row) ? `${amount(row)}, ` : ""}${meaning(row)}<br>${row.status}`),
@@ -140,12 +140,16 @@ const interactionMap = (data, page) => {
       text: diverged.map((row) => `${row.blade} diverged<br>${speedText(row.peak_speed_rad_s)}`),
       marker: { symbol: "x", size: 9, color: theme.colour("warning") },
     };
+    // in the legend blades have their colour alone, whatever the mark of their first row
+    const legend = (blade) => ({
+      x: [null], y: [null], name: blade, legendgroup: blade, mode: "markers", marker: { size: RING, color: colourOf(data.blades.indexOf(blade)) },
+    });
     const traces = data.blades.map((blade) => trace(rows.filter((row) => row.blade === blade && (row.status !== "diverged" || row.size > 0)), blade, largest))
       .filter(({ x: places }) => places.length);
     const plan = layout(x, axis("frequency (Hz)", { range: [2 * strip, top], zeroline: strip < 0, labelalias: BELOW }), { margin: { l: 60, r: 30, t: 10, b: 45 } });
     Object.assign(plan.legend, { itemsizing: "constant", y: 1.06 });
     const [lines, numbers] = page.orderTraces(NAME, x.range, [0, top]);
-    const marks = [...named.map(({ band }) => band), ...traces, ...(diverged.length ? [crosses] : [])];
+    const marks = [...named.map(({ band }) => band), ...traces, ...traces.map(({ name }) => legend(name)), ...(diverged.length ? [crosses] : [])];
     draw(NAME, [{ ...lines, showlegend: false }, ...marks, numbers], plan, false);
     page.followView(NAME);
     const below = {

@@ -48,11 +48,11 @@ FIGURES = (
         files={"campbell": ALL_CAMPBELL, "rms": RMS, "interactions": "<results>/summary.csv"},
         label="interactions",
         caption="Which interactions are dangerous? A Campbell diagram of each scene: engine orders (grey, with their numbers), "
-        "and 1B, 1T and 2B, bands over several blades. A circle is an interaction, at its peak speed and engine order. Its "
-        "area is the length of its speeds above yield in most revolutions; without stress, the rms of the motion. The scale "
-        "stands in the corner of each panel. '>': the range goes on to an end of the speeds that were run. Red crosses: runs "
-        "that diverged, at the upper edge where no engine order is known. Of more than six scenes those with the longest "
-        "lengths.",
+        "and 1B, 1T and 2B, bands over several blades. A circle is an interaction above yield in most of the later "
+        "revolutions, at its peak speed and engine order; its area is the length of these speeds, or the rms of the motion "
+        "without stress. Diamonds are above yield in some of the later revolutions, open rings in none. Lines along a mark: "
+        "its speeds above yield. Ranges without an engine order lie on a strip below 0. '>': the range goes on to an end of "
+        "the speeds that were run. Red crosses: runs that diverged. Of more than six scenes those with the longest lengths.",
     ),
     Figure(
         rule="response_figure",
@@ -62,8 +62,8 @@ FIGURES = (
         files={"campbell": ALL_CAMPBELL, "rms": RMS, "stress": _stress},
         label="response",
         caption="Response of blade {blade} over speed in every scene. Above: root mean square of the leading edge's "
-        "displacement over the last half of the run, normal to the casing and tangential. Below: largest von Mises stress of "
-        "the last revolution; where it is above yield (tinted) it is outside the linear model. Dotted: crossings of 1B with "
+        "displacement over the last half of the run, normal to the casing and tangential. Below: von Mises stress of each "
+        "later revolution, from the median of these to the largest (thin), tinted above yield. Dotted: crossings of 1B with "
         "engine orders; red crosses: runs that diverged. Open circles: the blade has cut itself free by the end of the run; "
         "open triangles: its motion or the wear still grows there.",
         arguments=lambda sweep: {"drawn": {"scene": sweep.drawn["scene"]}},
@@ -124,8 +124,8 @@ FIGURES = (
         label="around an interaction",
         caption="All blades in scene {scene} around the same interaction: 1B with the engine order that most of them meet. "
         "Over the speed above each blade's own crossing: rms of the leading edge, normal to the casing and tangential, and "
-        "largest stress, tinted above yield. Contact stiffens a blade, so peaks lie above the crossing. Crosses at the upper "
-        "edge: runs that diverged.",
+        "stress from the median of the later revolutions to the largest (thin), tinted above yield. Contact stiffens a blade, "
+        "so peaks lie above the crossing. Crosses at the upper edge: runs that diverged.",
         arguments=_about_crossings,
     ),
     Figure(
@@ -135,9 +135,10 @@ FIGURES = (
         draw="figures.comparison.draw_ranking",
         files={"ranking": "<results>/ranking.csv"},
         label="ranking",
-        caption="Which blade? Length of the speeds above yield of every blade, scene by scene, in the order of the first "
-        "scene. Dark: in more than half of the revolutions in a run's second half; light: in more than a twentieth of them. "
-        "Lines: standard deviation by chance, on the bare casing; with members: the range that contains nine tenths of them.",
+        caption="Which blade? Length of the speeds above yield of every blade, scene by scene, by rank. Blades on one grey "
+        "ground (=) cannot be told apart. Dark: in more than half of the later revolutions; light: in more than a twentieth; "
+        "faint: in any. Lines: what the dark length is known to within; with members: the range that contains nine tenths of "
+        "them.",
         arguments=lambda sweep: {"scenes": sweep.drawn["scene"]},
     ),
 )

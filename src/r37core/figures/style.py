@@ -97,7 +97,7 @@ def mode_colour(campbell: xr.Dataset, mode: str) -> str:
 
 
 def is_linear(data: xr.Dataset) -> bool:
-    """Whether a run of a dataset has linear kinematics, by its attributes (results.datasets.write_sweep_dataset)."""
+    """True for a dataset with runs of linear kinematics, by its attributes (results.datasets.write_sweep_dataset)."""
     kinds = [part.partition(":")[0] for part in str(data.attrs.get("contact")).split("; ")]
     return any(QUADRATIC not in f"{kind} {data.attrs.get('kinematics')}" for kind in kinds)
 
@@ -114,7 +114,7 @@ def stress_band(axes: Axes, places: Any, stress: xr.Dataset, label: str, **look:
 def stress_label(stress: xr.Dataset) -> str:
     """Label of an axis of stress_band, with the region of the stress where all runs have the same."""
     regions = set(map(str, stress["stress_region"].values.flat)) - {""} if "stress_region" in stress else set()
-    return "\n".join(["von Mises (GPa)", "median to largest", *(fill(one, 30) for one in regions if len(regions) == 1)])
+    return "\n".join(["von Mises (GPa)", "median to largest", *(fill(region, 30) for region in regions if len(regions) == 1)])
 
 
 def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False, linear: bool = True) -> None:
