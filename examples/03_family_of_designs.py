@@ -7,7 +7,8 @@ blades which close their gap less are the safer ones; a share of the sweep of S1
 import r37
 
 family = {"sweep_percent": [0, 50, 100]}
-results = r37.designs("S100", "abradable", [1680, 1700], vary=family, name="Sweep", fidelity="draft", cores=2)
+blade = r37.blade("S100", kinematics="quadratic", contact="patches")
+results = r37.designs(blade, "material_abradable", [1680, 1700], vary=family, name="Sweep", fidelity="draft", cores=2)
 
 designs = results.tables["designs"].set_index("sweep_percent")
 for share, row in designs.iterrows():

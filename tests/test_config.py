@@ -11,7 +11,7 @@ from workflow_runs import overlay
 from r37core.base.yaml_file import load_yaml
 from r37core.config import ConfigError, command_line_document, read_document
 from r37core.config.document import ConfigRefusals
-from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws
+from r37core.config.remarks import remarks_of_pipeline, remarks_on_laws, remarks_on_linear_variants
 from r37core.plans.provenance import structure_hash
 from r37core.product.extensions import load_settings, read_settings
 from r37core.product.schemas import schemas
@@ -38,6 +38,20 @@ def regions(**changes):
 def test_config_refusals(config_copy, changes, message):
     with pytest.raises(ConfigError, match=message):
         load(config_copy, **changes)
+
+
+@pytest.mark.parametrize(
+    ("name", "contact"),
+    [*((name, "patches") for name in ("decide", "ranking", "search", "search_best", "tolerances")), ("rotor", "points")],
+)
+def test_decisions_have_large_displacements(config_copy, name, contact):
+    (best := config_copy / "results/runs/search/search/best").mkdir(parents=True)
+    search = (config_copy / "config/search_blades.yaml").read_text()
+    (best / "blades.yaml").write_text(f"{search}\nFree_best1: {{ base: Free, stagger_deg: 1 }}\n")
+    settings = read_settings(config_copy, read_document(config_copy, f"config/{name}.yaml"))
+    assert {settings.reduction_choice(blade).kinematics for blade in settings.blades} == {"quadratic"}
+    assert {settings.boundary_choice(blade).contact for blade in settings.blades} == {contact}
+    assert remarks_on_linear_variants(settings) == []
 
 
 def test_the_box_is_of_the_benchmark_and_its_variants(config_copy):

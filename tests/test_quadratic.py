@@ -14,6 +14,7 @@ from r37core.contact.scene import Rotor
 from r37core.rom.quadratic_terms import followed_modes
 from r37core.rom.reduced_model import contact_model
 from r37core.time_integration.initial_motion import InitialMotion, InitialMotionError
+from r37core.time_integration.rotor_blades import mistuned
 from r37core.time_integration.rotor_simulation import RotorSimulation
 from r37core.time_integration.simulate import Simulation
 from r37core.time_integration.speed_run import run_speed
@@ -260,6 +261,25 @@ def test_a_rotor_of_one_blade_is_the_blade(contact):
         one = Simulation(contact, SPEED, scene, choice).run().records[0].samples
         rotor = RotorSimulation(contact, SPEED, replace(scene, rotor=single), choice).run().records[0].samples
         np.testing.assert_allclose(rotor, one, rtol=0, atol=1e-9 * np.abs(one).max())
+
+
+def test_a_mistuned_blade_has_the_large_motion_of_a_stiffer_one(contact):
+    """All of its stiffness times four moves it twice as fast along the same path, which no linear blade has."""
+    paths = {}
+    for name, model, revolutions in (
+        ("tuned", contact, 2),
+        ("mistuned", mistuned(contact, 2.0), 1),
+        ("linear", replace(contact, quadratic=None), 2),
+    ):
+        simulation = Simulation(model, SPEED, FAR, replace(CHOICE, time_step=8e-7))
+        state = simulation.start()
+        start_at_rest(simulation, state, 5e-4 * np.eye(len(simulation.problem.blade.frequencies))[0])
+        paths[name] = simulation.advance(state, revolutions).samples
+    assert len(paths["mistuned"]) == CHOICE.samples_per_revolution
+    size = np.abs(paths["tuned"]).max()
+    twice = paths["tuned"][1::2]
+    np.testing.assert_allclose(paths["mistuned"], twice, rtol=0, atol=2e-3 * size)
+    assert np.abs(paths["linear"] - paths["tuned"]).max() > 0.05 * size
 
 
 def test_small_motions_are_linear(displaced, contact):

@@ -230,7 +230,7 @@ def test_provenance(chosen):
         ("fidelity", "fixed_interface_modes: 10", "fixed_interface_modes: 11", {"structure"}),
         ("config", "spin_softening: false", "spin_softening: true", {"structure"}),
         ("config", "tip_line: pressure_edge", "tip_line: camber", {"structure"}),
-        ("config", "maximum_x_m: 0.197", "maximum_x_m: 0.196", {"structure"}),
+        ("blades", "maximum_x_m: 0.197", "maximum_x_m: 0.196", {"structure"}),
         ("scenes", "coefficient: 0.15", "coefficient: 0.16", set()),
     ],
 )

@@ -20,7 +20,7 @@ for searched, changes in SEARCHES.items():
         snakefile:
             "../../Snakefile"
         config:
-            run(searched, "search", search=changes)
+            run(searched, "search", structure=LINEAR, search=changes)
 
     rules_of_search = f"{searched}_"
 
@@ -38,6 +38,7 @@ module checked_best:
         run(
             "search_best",
             "search_best",
+            structure=LINEAR,
             blades_file="validation/better_blades.yaml",
             blades=list(CHECKED),
             scenes=["material_abradable", "direct"],

@@ -11,7 +11,7 @@ module decide:
     snakefile:
         "../../Snakefile"
     config:
-        run("decide", "decide", blades=DECIDED)
+        run("decide", "decide", structure=LINEAR, blades=DECIDED)
 
 
 use rule * from decide as decide_*
@@ -22,7 +22,14 @@ module decide_fine:
     snakefile:
         "../../Snakefile"
     config:
-        run("decide_fine", "decide", blades=DECIDED, scenes=["Fine"], scenes_file="validation/decisions.yaml")
+        run(
+            "decide_fine",
+            "decide",
+            structure=LINEAR,
+            blades=DECIDED,
+            scenes=["Fine"],
+            scenes_file="validation/decisions.yaml",
+        )
 
 
 use rule * from decide_fine as decide_fine_*

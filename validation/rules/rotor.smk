@@ -7,7 +7,7 @@ module rotors:
         "../../Snakefile"
     config:
         # fewer speeds than the overlay
-        run("rotors", "rotor", speeds=[{"start": 1250, "stop": 1830, "step": 12}])
+        run("rotors", "rotor", structure=LINEAR, speeds=[{"start": 1250, "stop": 1830, "step": 12}])
 
 
 use rule * from rotors as rotors_*

@@ -6,6 +6,10 @@ def run(name, *changes, **keys):
     return overlay(ROOT, *changes, **keys, run={"name": name, "engine": "validation/engine_numbers.json"})
 
 
+# of runs whose overlay decides by large displacements: their pages show linear blades
+LINEAR = {"kinematics": "linear"}
+
+
 # the main job as shipped: `make all_blades` makes the same files
 module sweep:
     snakefile:

@@ -4,7 +4,7 @@ module tolerances:
         "../../Snakefile"
     config:
         # fewer members than the overlay
-        run("tolerances", "tolerances", tolerances={"members": 8})
+        run("tolerances", "tolerances", structure=LINEAR, tolerances={"members": 8})
 
 
 use rule * from tolerances as tolerances_*
@@ -18,6 +18,7 @@ module members:
         run(
             "members",
             "tolerances",
+            structure=LINEAR,
             blades=["Ref"],
             fidelity="draft",
             speeds=[{"start": 1650, "stop": 1898, "step": 8}],

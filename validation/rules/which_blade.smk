@@ -7,6 +7,7 @@ module ranking:
         run(
             "ranking",
             "ranking",
+            structure=LINEAR,
             speeds=[{"start": 750, "stop": 2000, "step": 25}],
             tolerances={"members": 4},
         )

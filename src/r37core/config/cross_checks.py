@@ -153,7 +153,9 @@ def kinematics_can_be_had(settings: Settings) -> None:
         # the entry that says so, or that leaves it out
         document, key = settings.designs.document, (quadratic[0], "kinematics")
     if structure.coriolis:
-        raise document.refusal(key, f"{value} with structure.coriolis: true", f"{LINEAR} or {ROTATING}, or coriolis: false")
+        without = "structure.coriolis: true, which motions that follow a large one at once do not have"
+        costs = "coriolis: false, which moves the benchmark's peaks by 1 rad/s (docs/coriolis.md)"
+        raise document.refusal(key, f"{value} with {without}", f"{LINEAR} or {ROTATING}, or {costs}")
     integrator = settings.fidelity.time_integration.integrator
     if integrator != EXACT_MODAL:
         level = f"the level '{settings.fidelity_name}', whose integrator {integrator} does not carry it"
