@@ -1,5 +1,5 @@
 # Requirements in operation: what lies in the operating range, further runs, and the verdict on each blade and scene.
-from r37core.requirements.plan import LOOKS, VERDICT, Judged
+from r37core.requirements.plan import ALL_LOOKS, LOOKS, VERDICT, Judged
 
 judged = Judged(sweep)
 stages |= {"looks": judged.looks(made)}
@@ -15,6 +15,20 @@ use rule step as looks with:
         "<logs>/{blade}/{scene}/looks.log",
     params:
         **stage(stages["looks"]),
+
+
+use rule step as further_runs with:
+    input:
+        looks=paths.filled({LOOKS: paths.run_keys(judged.looked)}),
+    output:
+        runs=ALL_LOOKS,
+    log:
+        "<logs>/further_runs.log",
+    params:
+        **step("requirements.steps.join_looks"),
+        pairs=sweep.runs_with("rms"),
+        looked=judged.looked,
+        fidelity=settings.fidelity_name,
 
 
 use rule step as verdict with:
@@ -47,6 +61,7 @@ use rule step as verdict with:
 use rule step as operating with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
+        **further_runs,
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
     output:

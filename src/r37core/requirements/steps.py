@@ -1,15 +1,19 @@
 """The steps of requirements: further runs, what lies in the operating range, and the verdict."""
 
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from r37core.base.dataset_file import read_dataset, write_dataset
+import xarray as xr
+
+from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
 from r37core.fem.assembly import mesh_volume
 from r37core.machine_code.kept import content_digest
 from r37core.mesh.mesh_files import read_vtu
+from r37core.results.joining import Along, join
 from r37core.results.operating_range import OperatingRange
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table, write_table
@@ -21,6 +25,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import Requirements
 from .evidence import Evidence, judged_part
+from .judging import REST
 from .looks import JudgedBlade, joined_looks, looks_in, looks_of
 from .table import operating_table, verdict_table
 
@@ -51,6 +56,19 @@ def look(input: Any, output: Any, params: Any) -> None:
     )
     looks = looks_of(blade, from_plain(Requirements, params.requirements), evidence)
     write_dataset(joined_looks(dict(looks)), output.looks, params.provenance)
+
+
+def join_looks(input: Any, output: Any, params: Any) -> None:
+    """Join the further runs from rest. Inputs: looks. Output: runs (nc).
+
+    Params: pairs, looked (those of them with looks), fidelity.
+    """
+    files = as_list(input.looks)
+    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files))}
+    runs = {tuple(pair): xr.Dataset() for pair in params.pairs}
+    for pair, file in zip(params.looked, files, strict=True):
+        runs[tuple(pair)] = looks_in(read_dataset(file)).get(REST, xr.Dataset())
+    join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", made, nullcontext)
 
 
 def judge(input: Any, output: Any, params: Any) -> None:

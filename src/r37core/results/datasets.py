@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -13,6 +14,9 @@ from r37core.time_integration.status import RunStatus
 from .joining import Along, join
 from .regions import judged, named_region
 from .variables import DATASETS, FLAGS
+
+FURTHER_RUNS: Final = "further_runs"
+"""Name of the joined dataset of a verdict's further runs from rest (requirements.looks)."""
 
 
 def write_sweep_dataset(
@@ -48,12 +52,48 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str, regi
     """One blade in one scene of the joined datasets as its response: their variables, over the speeds that it was run at.
 
     Its stress is that in a `region`, by default the one that decides. `datasets` by the keys of DATASETS, rms among them;
-    others are left aside, and those without this blade and scene.
+    others are left aside, and those without this blade and scene. FURTHER_RUNS, which have the stress in the region that
+    decides alone, stand in place of runs there.
     """
-    parts = []
-    for kind in DATASETS:
-        if kind in datasets and blade in datasets[kind]["blade"].values and scene in datasets[kind]["scene"].values:
-            part = datasets[kind].sel(blade=blade, scene=scene, drop=True)
-            part = named_region(part, region) if region and "region" in part.dims else judged(part)
-            parts.append(part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN)))
-    return xr.merge([part for part in parts if part.sizes["speed"]] or parts[:1], compat="override", join="exact")
+    parts = [_runs(datasets[kind], blade, scene, region) for kind in DATASETS if kind in datasets]
+    kept = [part for part in parts if part.sizes["speed"]] or parts[:1]
+    response = xr.merge(kept, compat="override", join="exact")
+    return response if region else with_further_runs(response, _further_runs(datasets, blade, scene))
+
+
+def response_in_operation(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
+    """The response that a verdict judges in operation: its further runs alone, where there are any."""
+    further = _further_runs(datasets, blade, scene)
+    return further if further.sizes["speed"] else response_of(datasets, blade, scene)
+
+
+def _further_runs(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
+    return _runs(datasets.get(FURTHER_RUNS, xr.Dataset()), blade, scene)
+
+
+def _runs(dataset: xr.Dataset, blade: str, scene: str, region: str = "") -> xr.Dataset:
+    """One blade and scene of a joined dataset, over the speeds that it was run at; without any where it does not have them."""
+    if "status" not in dataset or blade not in dataset["blade"].values or scene not in dataset["scene"].values:
+        return xr.Dataset(coords={"speed": []})
+    part = dataset.sel(blade=blade, scene=scene, drop=True)
+    part = named_region(part, region) if region and "region" in part.dims else judged(part)
+    return part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN))
+
+
+def with_further_runs(runs: xr.Dataset, further: xr.Dataset) -> xr.Dataset:
+    """Runs with `further` ones, as `overlaid` has them; what only `runs` have is NaN at speeds of the others alone."""
+    if not further.sizes["speed"]:
+        return runs
+    joined = overlaid(runs, further)
+    rest = runs.reset_coords(drop=True).drop_vars(joined.data_vars, errors="ignore").reindex(speed=joined["speed"])
+    return xr.merge([joined, rest])
+
+
+def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
+    """Runs `below` with those of `above` in place of them where these are, over the speeds of both and no other coordinate."""
+    below, above = (runs.reset_coords(drop=True) for runs in (below, above))
+    kept = below.isel(speed=np.flatnonzero(~np.isin(below["speed"].values, above["speed"].values)))
+    # motions of all scenes have the numbers of a lining, and a bare casing's runs have none
+    over_speeds = [str(name) for name in above.data_vars if "speed" in above[name].dims and name in below]
+    joined = xr.concat([kept[over_speeds], above[over_speeds]], "speed").sortby("speed")
+    return joined.assign(above.drop_dims("speed").data_vars)

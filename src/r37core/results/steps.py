@@ -15,12 +15,12 @@ from r37core.stress.statistic import Strengths
 from .campbell import campbell_dataset, gather_blades
 from .casing_coincidence import coincidence_table
 from .columns import IN_REGION
-from .datasets import response_of, write_sweep_dataset
+from .datasets import response_in_operation, response_of, write_sweep_dataset
 from .interactions import InteractionChoice, summarise
 from .operating_range import OperatingRange
 from .other_motions import ranking_with_motions, summary_with_motions
 from .ranges import ranged_summary, read_ranges
-from .ranking import length_most_revolutions, measures_of_members, ranking_table, robustness
+from .ranking import length_most_revolutions, measures_of_members, operating_measures, ranking_table, robustness
 from .regions import other_regions
 from .response import write_response
 from .table_file import write_table
@@ -77,7 +77,7 @@ def coincidences(input: Any, output: Any, params: Any) -> None:
 
 
 def summary(input: Any, output: Any, params: Any) -> None:
-    """List the interactions. Inputs: datasets by kind and, if there, ranges of members, and more motions. Output: table (csv).
+    """List the interactions. Inputs: datasets by kind and, if there, ranges of members, more motions. Output: table (csv).
 
     Params: choice.
     """
@@ -101,9 +101,9 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
     motions = datasets.pop("motions", None)
     operating = params.operating and from_plain(OperatingRange, params.operating)
-    measures = {
-        (blade, scene): robustness(response_of(datasets, blade, scene), operating=operating) for blade, scene in params.runs
-    }
+    measures = {(blade, scene): robustness(response_of(datasets, blade, scene)) for blade, scene in params.runs}
+    for pair in measures if operating else ():
+        measures[pair] |= operating_measures(response_in_operation(datasets, *pair), operating)
     for region in other_regions(datasets["stress"]) if "stress" in datasets else []:
         for blade, scene in params.runs:
             response = response_of(datasets, blade, scene, region)
