@@ -62,7 +62,7 @@ def _of_all_scenes(kind: str, runs: xr.Dataset, further_runs: xr.Dataset) -> xr.
     """Runs of a blade in all scenes, as responses have them."""
     datasets = {kind: runs.expand_dims("blade"), FURTHER_RUNS: further_runs.expand_dims("blade")}
     parts = [response_of(datasets, str(runs["blade"].values), scene) for scene in runs["scene"].values]
-    return xr.concat(parts, runs["scene"], data_vars="all")
+    return xr.concat(parts, runs["scene"], data_vars="all", join="outer")
 
 
 def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:

@@ -86,7 +86,7 @@ def with_further_runs(runs: xr.Dataset, further: xr.Dataset) -> xr.Dataset:
         return runs
     joined = overlaid(runs, further)
     rest = runs.reset_coords(drop=True).drop_vars(joined.data_vars, errors="ignore").reindex(speed=joined["speed"])
-    return xr.merge([joined, rest])
+    return xr.merge([joined, rest], join="outer")
 
 
 def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
@@ -95,5 +95,5 @@ def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
     kept = below.isel(speed=np.flatnonzero(~np.isin(below["speed"].values, above["speed"].values)))
     # motions of all scenes have the numbers of a lining, and a bare casing's runs have none
     over_speeds = [str(name) for name in above.data_vars if "speed" in above[name].dims and name in below]
-    joined = xr.concat([kept[over_speeds], above[over_speeds]], "speed").sortby("speed")
+    joined = xr.concat([kept[over_speeds], above[over_speeds]], "speed", join="outer").sortby("speed")
     return joined.assign(above.drop_dims("speed").data_vars)
