@@ -10,6 +10,7 @@ from box_mesh import box_mesh
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import write_json
+from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.fem.assembly import mesh_volume
 from r37core.figures.response_curves import draw_response
@@ -35,12 +36,12 @@ from r37core.requirements.looks import joined_looks
 from r37core.requirements.plan import Judged, remarks
 from r37core.requirements.steps import join_looks
 from r37core.requirements.table import closing, operating_table, overall, reason, verdict_table
-from r37core.results.datasets import FURTHER_RUNS, overlaid, response_in_operation, response_of
+from r37core.results.datasets import FURTHER_RUNS, overlaid, response_of
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.results.interactions import summarise
 from r37core.results.operating_range import OperatingDwell, OperatingRange
-from r37core.results.ranking import operating_measures
 from r37core.results.regions import judged as judged_region
+from r37core.results.steps import ranking
 from r37core.results.table_file import read_table, write_table
 from r37core.results.variables import VARIABLES
 from r37core.time_integration.settling import MotionAtEnd
@@ -510,8 +511,13 @@ def test_tables_and_figure_have_the_further_runs_that_the_verdict_has(lined, tmp
     assert response["speed"].values.tolist() == [*SPEEDS[:10:5], *SPEEDS[10:51], *SPEEDS[55::5]]
     xr.testing.assert_equal(response["rms_normal"].sel(speed=further["speed"]), further["rms_normal"])
     judgement = one(Requirements(above_yield=0.0), sweep, looks={REST: further})
-    measures = operating_measures(response_in_operation(datasets, "Ref", "looked"), FLOWN)
-    assert measures["length_most_revolutions_operating_rad_s"] == judgement["value"] > 0.0
+    for name, dataset in datasets.items():
+        write_dataset(dataset, tmp_path / f"{name}.nc")
+    files, params = {name: tmp_path / f"{name}.nc" for name in datasets}, {"runs": pairs, "contacts": {}}
+    params["operating"] = to_plain(FLOWN)
+    ranking(files, SimpleNamespace(table=tmp_path / "ranking.csv"), SimpleNamespace(**params))
+    lengths = read_table(tmp_path / "ranking.csv").set_index("scene")["length_most_revolutions_operating_rad_s"]
+    assert lengths["looked"] == judgement["value"] > 0.0 and lengths["other"] != lengths["looked"]
     with_campbell = datasets | {"campbell": campbell().expand_dims(blade=["Ref"])}
     write_table(summarise(with_campbell, InteractionChoice()), tmp_path / "summary.csv")
     interactions = read_table(tmp_path / "summary.csv")

@@ -63,6 +63,14 @@ def test_an_added_speed_runs_alone(project, speeds, added):
     assert set(jobs) == DATASETS
 
 
+def test_tables_and_figure_wait_for_the_further_runs_of_a_verdict(project):
+    overlay(project, "config.yaml", "operating: { idle_rad_s: 800, redline_rad_s: 1500 }")
+    assert "further_runs" not in planned_outputs(project)
+    overlay(project, "config.yaml", "requirements: { above_yield_at_most_rad_s: 0 }")
+    for file in ("ranking.csv", "summary.csv", "operating.csv", "figures/response_Ref.png"):
+        assert planned_outputs(project, f"results/{file}").get("further_runs"), file
+
+
 @pytest.mark.parametrize(("change", "again"), [("speeds: [750, 1150]", {"response"}), ("blades: [Ref]", OF_ALL_BLADES)])
 def test_a_removed_speed_or_blade_runs_no_simulation(project, change, again):
     overlay(project, "config.yaml", change)
