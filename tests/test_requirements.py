@@ -16,6 +16,7 @@ from r37core.fem.assembly import mesh_volume
 from r37core.figures.response_curves import draw_response
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
+from r37core.requirements import steps
 from r37core.requirements.choice import CampbellMargin, Requirements
 from r37core.requirements.evidence import Evidence, extended, worst_of
 from r37core.requirements.judging import (
@@ -34,7 +35,6 @@ from r37core.requirements.judging import (
 )
 from r37core.requirements.looks import joined_looks
 from r37core.requirements.plan import Judged, remarks
-from r37core.requirements.steps import join_looks
 from r37core.requirements.table import closing, operating_table, overall, reason, verdict_table
 from r37core.results.datasets import FURTHER_RUNS, overlaid, response_of
 from r37core.results.interaction_choice import InteractionChoice
@@ -491,17 +491,29 @@ def test_tables_and_figure_have_the_further_runs_that_the_verdict_has(lined, tmp
     scenes = ["looked", "failed", "other"]
     write_dataset(joined_looks({REST: further, UP: sweep}), tmp_path / "looked.nc")
     write_dataset(joined_looks({}), tmp_path / "failed.nc")
-    looks, looked = [tmp_path / f"{name}.nc" for name in scenes[:2]], [["Ref", name] for name in scenes[:2]]
-    pairs, file = [["Ref", name] for name in scenes], tmp_path / "further_runs.nc"
-    params = {"pairs": pairs, "looked": looked, "fidelity": "standard"}
-    join_looks(SimpleNamespace(looks=looks), SimpleNamespace(runs=file), SimpleNamespace(**params))
-
     shares = ["share_of_revolutions_above_yield", *(name for name in sweep if str(name).startswith("max_"))]
     stress = sweep[["status", "lined", "yield_stress", *shares]]
     stress = stress.assign({name: stress[name].expand_dims(region=["airfoil", "root"], axis=1) for name in shares})
     rms = sweep[["status", "lined", "rms_normal", "rms_tangential"]]
     plain = {"rms": joined(rms, scenes), "stress": joined(stress, scenes)}
-    datasets = plain | {FURTHER_RUNS: read_dataset(file)}
+    with_campbell = plain | {"campbell": campbell().expand_dims(blade=["Ref"])}
+    for name, dataset in with_campbell.items():
+        write_dataset(dataset, tmp_path / f"{name}.nc")
+    files = {name: tmp_path / f"{name}.nc" for name in [*with_campbell, FURTHER_RUNS]}
+    pairs, looked = [["Ref", name] for name in scenes], [["Ref", name] for name in scenes[:2]]
+    params = {"pairs": pairs, "looked": looked, "errors": [0.0] * 3, "point_contact": [], "operating": to_plain(FLOWN)}
+    params |= {key: {} for key in ("not_looked", "densities", "clearance", "thickness")}
+    params["requirements"] = to_plain(Requirements(above_yield=0.0))
+    inputs = {name: files[name] for name in with_campbell} | {
+        "volumes": [],
+        "looks": [tmp_path / f"{_}.nc" for _ in scenes[:2]],
+    }
+    output = SimpleNamespace(verdict=tmp_path / "verdict.csv", runs=files[FURTHER_RUNS])
+    steps.judge(inputs, output, SimpleNamespace(**params))
+    datasets = plain | {FURTHER_RUNS: read_dataset(files[FURTHER_RUNS])}
+    judgement = read_table(tmp_path / "verdict.csv").iloc[0]
+    assert judgement["value"] == one(Requirements(above_yield=0.0), sweep, looks={REST: further})["value"] > 0.0
+
     for name in ("failed", "other"):
         xr.testing.assert_identical(response_of(datasets, "Ref", name), response_of(plain, "Ref", name))
     at_root = [response_of(some, "Ref", "looked", "root") for some in (datasets, plain)]
@@ -510,15 +522,12 @@ def test_tables_and_figure_have_the_further_runs_that_the_verdict_has(lined, tmp
     response = response_of(datasets, "Ref", "looked")
     assert response["speed"].values.tolist() == [*SPEEDS[:10:5], *SPEEDS[10:51], *SPEEDS[55::5]]
     xr.testing.assert_equal(response["rms_normal"].sel(speed=further["speed"]), further["rms_normal"])
-    judgement = one(Requirements(above_yield=0.0), sweep, looks={REST: further})
-    for name, dataset in datasets.items():
-        write_dataset(dataset, tmp_path / f"{name}.nc")
-    files, params = {name: tmp_path / f"{name}.nc" for name in datasets}, {"runs": pairs, "contacts": {}}
-    params["operating"] = to_plain(FLOWN)
+    del files["campbell"]
+    params = {"runs": pairs, "contacts": {}, "operating": to_plain(FLOWN)}
     ranking(files, SimpleNamespace(table=tmp_path / "ranking.csv"), SimpleNamespace(**params))
     lengths = read_table(tmp_path / "ranking.csv").set_index("scene")["length_most_revolutions_operating_rad_s"]
-    assert lengths["looked"] == judgement["value"] > 0.0 and lengths["other"] != lengths["looked"]
-    with_campbell = datasets | {"campbell": campbell().expand_dims(blade=["Ref"])}
+    assert lengths["looked"] == judgement["value"] and lengths["other"] != lengths["looked"]
+    with_campbell |= datasets
     write_table(summarise(with_campbell, InteractionChoice()), tmp_path / "summary.csv")
     interactions = read_table(tmp_path / "summary.csv")
     (row,) = interactions[(interactions["scene"] == "looked") & (interactions["peak_speed_rad_s"] > 1050.0)].to_dict("records")

@@ -135,7 +135,7 @@ def test_another_length_of_carried_motions_is_said_before_the_run(root):
         ]
         for number, section in sections.items()
     }
-    assert said == {100: ["second_motions: carried motions have 100 revolutions, those from rest 200"], 200: []}
+    assert said == {100: ["second_motions: 100 revolutions of carried motions, 200 from rest"], 200: []}
 
 
 def test_a_lining_is_new_or_carried_on(contact, tmp_path):

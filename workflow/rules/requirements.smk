@@ -17,20 +17,6 @@ use rule step as looks with:
         **stage(stages["looks"]),
 
 
-use rule step as further_runs with:
-    input:
-        looks=paths.filled({LOOKS: paths.run_keys(judged.looked)}),
-    output:
-        runs=ALL_LOOKS,
-    log:
-        "<logs>/further_runs.log",
-    params:
-        **step("requirements.steps.join_looks"),
-        pairs=sweep.runs_with("rms"),
-        looked=judged.looked,
-        fidelity=settings.fidelity_name,
-
-
 use rule step as verdict with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue", "wear")},
@@ -42,6 +28,7 @@ use rule step as verdict with:
         looks=paths.filled({LOOKS: paths.run_keys(judged.looked)}),
     output:
         verdict=shown(VERDICT, PACKAGE / "requirements/report.rst", TOGETHER, "verdict"),
+        runs=ALL_LOOKS,
     log:
         "<logs>/verdict.log",
     params:

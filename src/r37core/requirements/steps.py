@@ -6,7 +6,7 @@ from typing import Any
 
 import xarray as xr
 
-from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, write_dataset
+from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
@@ -58,21 +58,8 @@ def look(input: Any, output: Any, params: Any) -> None:
     write_dataset(joined_looks(dict(looks)), output.looks, params.provenance)
 
 
-def join_looks(input: Any, output: Any, params: Any) -> None:
-    """Join the further runs from rest. Inputs: looks. Output: runs (nc).
-
-    Params: pairs, looked (those of them with looks), fidelity.
-    """
-    files = as_list(input.looks)
-    made = {"fidelity": params.fidelity, "input_hash": joined_hash(attributes_of(files))}
-    runs = {tuple(pair): xr.Dataset() for pair in params.pairs}
-    for pair, file in zip(params.looked, files, strict=True):
-        runs[tuple(pair)] = looks_in(read_dataset(file)).get(REST, xr.Dataset())
-    join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", made, nullcontext)
-
-
 def judge(input: Any, output: Any, params: Any) -> None:
-    """Judge each blade and scene. Output: verdict (csv).
+    """Judge each blade and scene. Outputs: verdict (csv), runs (nc): the further ones from rest.
 
     Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members,
     motions and run_ups. Params: pairs, looked (those of them with looks), not_looked (why others have none), requirements,
@@ -92,6 +79,8 @@ def judge(input: Any, output: Any, params: Any) -> None:
     errors = dict(zip(pairs, params.errors, strict=True))
     table = verdict_table(pairs, requirements, operating, datasets, numbers, errors=errors, **doubts)
     write_table(table, output.verdict, digits=6)
+    runs = {pair: looks.get(pair, {}).get(REST, xr.Dataset()) for pair in pairs}
+    join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", {}, nullcontext)
 
 
 def _volume(file: str) -> float:

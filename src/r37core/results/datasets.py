@@ -56,37 +56,29 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str, regi
     decides alone, stand in place of runs there.
     """
     parts = [_runs(datasets[kind], blade, scene, region) for kind in DATASETS if kind in datasets]
-    kept = [part for part in parts if part.sizes["speed"]] or parts[:1]
-    response = xr.merge(kept, compat="override", join="exact")
-    return response if region else with_further_runs(response, _further_runs(datasets, blade, scene))
+    response = xr.merge([part for part in parts if part.sizes["speed"]] or parts[:1], compat="override", join="exact")
+    further = _runs(datasets.get(FURTHER_RUNS), blade, scene)
+    if region or not further.sizes["speed"]:
+        return response
+    joined = overlaid(response, further)
+    # what further runs do not have is NaN at speeds of theirs
+    rest = response.reset_coords(drop=True).drop_vars(joined.data_vars, errors="ignore").reindex(speed=joined["speed"])
+    return xr.merge([joined, rest], join="outer")
 
 
 def response_in_operation(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
     """The response that a verdict judges in operation: its further runs alone, where there are any."""
-    further = _further_runs(datasets, blade, scene)
+    further = _runs(datasets.get(FURTHER_RUNS), blade, scene)
     return further if further.sizes["speed"] else response_of(datasets, blade, scene)
 
 
-def _further_runs(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
-    return _runs(datasets.get(FURTHER_RUNS, xr.Dataset()), blade, scene)
-
-
-def _runs(dataset: xr.Dataset, blade: str, scene: str, region: str = "") -> xr.Dataset:
-    """One blade and scene of a joined dataset, over the speeds that it was run at; without any where it does not have them."""
-    if "status" not in dataset or blade not in dataset["blade"].values or scene not in dataset["scene"].values:
+def _runs(dataset: xr.Dataset | None, blade: str, scene: str, region: str = "") -> xr.Dataset:
+    """One blade and scene of a joined dataset, at the speeds that it was run at: none where the dataset does not have it."""
+    if dataset is None or "status" not in dataset or not (blade in dataset["blade"] and scene in dataset["scene"]):
         return xr.Dataset(coords={"speed": []})
     part = dataset.sel(blade=blade, scene=scene, drop=True)
     part = named_region(part, region) if region and "region" in part.dims else judged(part)
     return part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN))
-
-
-def with_further_runs(runs: xr.Dataset, further: xr.Dataset) -> xr.Dataset:
-    """Runs with `further` ones, as `overlaid` has them; what only `runs` have is NaN at speeds of the others alone."""
-    if not further.sizes["speed"]:
-        return runs
-    joined = overlaid(runs, further)
-    rest = runs.reset_coords(drop=True).drop_vars(joined.data_vars, errors="ignore").reindex(speed=joined["speed"])
-    return xr.merge([joined, rest], join="outer")
 
 
 def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:

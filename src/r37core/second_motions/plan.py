@@ -96,10 +96,9 @@ def _refusals(settings: Settings, section: SecondMotionSection) -> Iterator[tupl
 def remarks(settings: Settings) -> list[str]:
     """How long carried motions are, where those from rest have another length."""
     section = settings.section(SECTION)
-    carried, pairs = section.asked and section.sweep().revolutions, pairs_of(settings)
-    others = sorted({settings.scenes[scene].revolutions for _, scene in pairs} - {carried}) if carried else []
-    lengths = ", ".join(map(str, others))
-    return [f"second_motions: carried motions have {carried} revolutions, those from rest {lengths}"] if others else []
+    carried = section.sweep().revolutions if section.asked else None
+    rest = ", ".join(map(str, {settings.scenes[scene].revolutions for _, scene in pairs_of(settings)} - {carried}))
+    return [f"second_motions: {carried} revolutions of carried motions, {rest} from rest"] if carried and rest else []
 
 
 EXTENSION = Extension(
