@@ -9,6 +9,7 @@ from typing import Any
 from r37core.base.io import temporary_folder
 from r37core.config import ConfigError
 from r37core.config.messages import single_line
+from r37core.console.failures import STOPPED
 from r37core.product.extensions import EXTENSIONS
 
 from .arguments import Speeds, plain_value, speed_keys
@@ -99,7 +100,12 @@ def run_of(call: Call, options: Mapping[str, Any], targets: str | Sequence[str] 
     temporary = temporary_folder() if options.get("folder") is None else None
     place = Path(temporary.name) if temporary else run_folder(options["folder"])
     write_run(call, place)
-    run_workflow(call.settings, place, wanted, cores)
+    try:
+        run_workflow(call.settings, place, wanted, cores)
+    except KeyboardInterrupt as interruption:
+        if temporary is None:
+            interruption.add_note(STOPPED)
+        raise
     return RunResults(place / "results", temporary)
 
 

@@ -34,6 +34,9 @@ from .progress import Progress, quieten
 SNAKEMAKE = "9.27.1"
 """The version that this package was written for."""
 
+_INTERRUPTED = "Terminating processes on user request"
+"""Beginning of Snakemake's message that it was interrupted."""
+
 _OF_A_FILE = re.compile(rf"^ *{InputFileError.__name__}: (.*)$", re.MULTILINE)
 
 
@@ -132,12 +135,20 @@ def without_files(refusal: type[Exception]) -> type[Exception]:
 
 
 class MessageAlone(logging.Filter):
-    """A filter that leaves of an error in an input function the message of the file that could not be read."""
+    """A filter that leaves of an error in an input function the message of the file that could not be read.
+
+    After an interruption STOPPED stands in place of the error that jobs are missing.
+    """
+
+    _interrupted = False
 
     def filter(self, record: logging.LogRecord) -> bool:
         """Every record passes."""
         if getattr(record, "exception", None) == "InputFunctionException" and (told := _OF_A_FILE.search(record.getMessage())):
             record.msg, record.args = told[1], ()
+        self._interrupted |= record.getMessage().startswith(_INTERRUPTED)
+        if self._interrupted and record.levelno == logging.ERROR and getattr(record, "exception", None) == "WorkflowError":
+            record.msg, record.levelno, record.levelname = failures.STOPPED, logging.INFO, "INFO"
         return True
 
 
