@@ -426,6 +426,21 @@ def test_dwells_of_real_sweeps(contact, swept):
     assert all(np.isfinite(row["level_high"]) == differ for row in rows)
 
 
+def test_a_dwell_begins_in_the_motion_that_it_is_named_after(contact, swept):
+    """The largest at that speed or the smallest, each with its level."""
+    _, states = swept
+    found, place = levels_of(states), 1
+    choice = DwellChoice(revolutions=100, range_speeds=0, starts=0, speeds=(float(found.speeds[place]),))
+    high, low = dwells_of(sweep_of(contact, UP), states, choice)
+    size = {row["start"]: found.mean[MOTIONS.index(row["motion"]), place] for row in (high, low)}
+    assert size == {HIGH: found.mean[:, place].max(), LOW: found.mean[:, place].min()} and size[HIGH] > size[LOW]
+    for row in (high, low):
+        carried = sweep_of(contact, UP)
+        simulation = Simulation(contact, row["speed"], carried.scene.grown, carried.unrecorded_choice)
+        begun = begun_as(carried, states, row["motion"], place, simulation)
+        np.testing.assert_array_equal(row["revolution_rms"], dwell(*begun, 100)["revolution_rms"])
+
+
 @pytest.mark.parametrize(
     ("section", "message"),
     [
