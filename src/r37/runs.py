@@ -9,7 +9,6 @@ from typing import Any
 from r37core.base.io import temporary_folder
 from r37core.config import ConfigError
 from r37core.config.messages import single_line
-from r37core.console.failures import STOPPED
 from r37core.product.extensions import EXTENSIONS
 
 from .arguments import Speeds, plain_value, speed_keys
@@ -104,7 +103,7 @@ def run_of(call: Call, options: Mapping[str, Any], targets: str | Sequence[str] 
         run_workflow(call.settings, place, wanted, cores)
     except KeyboardInterrupt as interruption:
         if temporary is None:
-            interruption.add_note(STOPPED)
+            interruption.add_note(f"stopped; the same call goes on with what is in {place}")
         raise
     return RunResults(place / "results", temporary)
 
