@@ -34,9 +34,6 @@ from .progress import Progress, quieten
 SNAKEMAKE = "9.27.1"
 """The version that this package was written for."""
 
-_INTERRUPTED = "Terminating processes on user request"
-"""Beginning of Snakemake's message that it was interrupted."""
-
 _OF_A_FILE = re.compile(rf"^ *{InputFileError.__name__}: (.*)$", re.MULTILINE)
 
 
@@ -135,10 +132,7 @@ def without_files(refusal: type[Exception]) -> type[Exception]:
 
 
 class MessageAlone(logging.Filter):
-    """A filter that leaves of an error in an input function the message of the file that could not be read.
-
-    After an interruption STOPPED stands in place of the error that jobs are missing.
-    """
+    """A filter that leaves of an error the message of the file that could not be read, and of an interruption STOPPED."""
 
     _interrupted = False
 
@@ -146,7 +140,7 @@ class MessageAlone(logging.Filter):
         """Every record passes."""
         if getattr(record, "exception", None) == "InputFunctionException" and (told := _OF_A_FILE.search(record.getMessage())):
             record.msg, record.args = told[1], ()
-        self._interrupted |= record.getMessage().startswith(_INTERRUPTED)
+        self._interrupted |= record.getMessage().startswith("Terminating processes on user request")
         if self._interrupted and record.levelno == logging.ERROR and getattr(record, "exception", None) == "WorkflowError":
             record.msg, record.levelno, record.levelname = failures.STOPPED, logging.INFO, "INFO"
         return True
