@@ -2,7 +2,9 @@
 
 import io
 import logging
+import os
 import re
+import signal
 import sys
 from importlib.metadata import version
 
@@ -10,7 +12,8 @@ import numpy as np
 import pytest
 from conftest import Terminal
 from stubbed_runs import copy_stubbed
-from workflow_runs import snakemake
+from warm_snakemake import started
+from workflow_runs import LONGEST, environment, snakemake, wait_until
 
 from r37core.console import failures, snakemake_run
 from r37core.console.progress import Progress, quieten
@@ -33,7 +36,7 @@ def test_an_interruption_while_the_rules_are_read_is_one_line(root, capsys, monk
     monkeypatch.setattr(sys, "excepthook", lambda *error: shown.append(error))
     failures.end_interruptions_in_one_line()
     sys.excepthook(KeyboardInterrupt, KeyboardInterrupt(), None)
-    assert (capsys.readouterr().err, shown) == ("interrupted before the first job\n", [])
+    assert (capsys.readouterr().err, shown) == (f"{failures.STOPPED}\n", [])
     sys.excepthook(ValueError, error := ValueError("x"), None)
     assert shown == [(ValueError, error, None)]
     lines = [line for line in (root / "Snakefile").read_text().splitlines() if line and not line.startswith("#")]
@@ -186,3 +189,19 @@ def test_a_run_prints_little_and_its_log_has_everything(root, tmp_path):
     assert "rule simulate:" not in printed
     logs = list(tmp_path.glob(".snakemake/log/*.log"))
     assert sum(log.read_text().count("rule simulate:") for log in logs) == 12
+
+
+@pytest.mark.slow
+def test_an_interrupted_run_says_how_to_go_on_and_no_error(root, tmp_path):
+    copy_stubbed(root, tmp_path)
+    script = tmp_path / "workflow/scripts/step.py"
+    script.write_text(f"{script.read_text()}\nimport time\nif snakemake.rule == 'simulate':\n    time.sleep(600)\n")
+    with started(tmp_path, ("all_blades", "--cores", "1"), environment(tmp_path), LONGEST) as (process, printed):
+        wait_until(lambda: list(tmp_path.glob("results/*/*/speed_*.npz")), LONGEST, "a simulation")
+        os.killpg(process.pid, signal.SIGINT)
+        process.wait()
+        text = printed()
+    assert failures.STOPPED in text.splitlines() and "WorkflowError" not in text
+    # a failure is one
+    script.write_text("raise ValueError('broken')")
+    assert "WorkflowError" in snakemake(tmp_path, "all_blades", "--cores", "1", check=False)

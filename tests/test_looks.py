@@ -27,6 +27,7 @@ KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
 LINED = replace(ABRADABLE, lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_width=1e-3))
 FLOWN = OperatingRange(1300.0, 1310.0)
 NEEDS = Requirements(used_lining=0.5)
+RESULTS = ("wear", "spectrum")
 
 
 @pytest.fixture
@@ -34,7 +35,7 @@ def lined(contact, monkeypatch, tmp_path):
     """A lined blade whose runs end after 20 revolutions at the latest."""
     monkeypatch.setattr(further_runs, "LONGEST", 20)
     monkeypatch.setattr(further_runs, "PUBLISHED_REVOLUTIONS", CHOICE.revolutions)
-    return JudgedBlade(contact, LINED, CHOICE, ("wear",), KEPT, 1e9, UNKNOWN, Parts(tmp_path / "runs", "lined"))
+    return JudgedBlade(contact, LINED, CHOICE, RESULTS, KEPT, 1e9, UNKNOWN, Parts(tmp_path / "runs", "lined"))
 
 
 def evidence(used=1e-5, speeds=(1290.0, 1305.0, 1320.0)):
@@ -73,9 +74,12 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
     }
     used = {}
     for name, (scene, choice) in expected.items():
-        row = run_row(run_speed(contact, 1305.0, scene, choice, ("wear",), **KEPT), 1e9, UNKNOWN)
+        row = run_row(run_speed(contact, 1305.0, scene, choice, RESULTS, **KEPT), 1e9, UNKNOWN)
         used[name] = float(found[name]["used_thickness"].sel(speed=1305.0))
         assert used[name] == row["used_thickness"]
+        run = found[name].sel(speed=1305.0)
+        np.testing.assert_array_equal(run["rms_normal"].sel(tip_point="leading_edge"), row["rms_normal"][0])
+        np.testing.assert_array_equal(run["amplitude"], row["amplitude"])
     assert len(set(used.values())) == 4
 
 

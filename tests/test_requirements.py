@@ -8,13 +8,17 @@ import pytest
 import xarray as xr
 from box_mesh import box_mesh
 
+from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import write_json
+from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.fem.assembly import mesh_volume
+from r37core.figures.response_curves import draw_response
 from r37core.plans.sweep_plan import Sweep
 from r37core.product.extensions import read_settings
+from r37core.requirements import steps
 from r37core.requirements.choice import CampbellMargin, Requirements
-from r37core.requirements.evidence import Evidence, extended, overlaid, worst_of
+from r37core.requirements.evidence import Evidence, extended, worst_of
 from r37core.requirements.judging import (
     DOWN,
     FAILS,
@@ -29,10 +33,17 @@ from r37core.requirements.judging import (
     judge,
     nearness,
 )
+from r37core.requirements.looks import joined_looks
 from r37core.requirements.plan import Judged, remarks
 from r37core.requirements.table import closing, operating_table, overall, reason, verdict_table
+from r37core.results.datasets import FURTHER_RUNS, overlaid, response_of
+from r37core.results.interaction_choice import InteractionChoice
+from r37core.results.interactions import summarise
 from r37core.results.operating_range import OperatingDwell, OperatingRange
-from r37core.results.table_file import write_table
+from r37core.results.regions import judged as judged_region
+from r37core.results.steps import ranking
+from r37core.results.table_file import read_table, write_table
+from r37core.results.variables import VARIABLES
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
@@ -459,6 +470,78 @@ def test_what_lies_in_the_operating_range(judged):
     assert table["kind"].tolist() == ["crossing", "interaction", "above_yield"]
     assert table["what"].tolist() == ["1B/4", "1B/4", ""]
     assert table.iloc[2][["from_rad_s", "to_rad_s", "length_rad_s", "time_share"]].tolist() == [1097.5, 1122.5, 25.0, 0.125]
+
+
+def joined(runs, scenes):
+    """Runs of Ref in some scenes, alike, over the axes of a joined dataset."""
+    return xr.concat([runs] * len(scenes), "scene").assign_coords(scene=scenes).expand_dims(blade=["Ref"])
+
+
+def moved(shares, **more):
+    """A response of runs that move and have a stress by their shares of revolutions above yield."""
+    stresses = {f"max_von_mises{name}": 2.0 * shares for name in ("", "_ever", "_median", "_high")}
+    runs = stressed(0.0, shares).assign({name: ("speed", values) for name, values in stresses.items()}).assign(more)
+    rms = 1e-3 + 1e-2 * runs["share_of_revolutions_above_yield"].expand_dims(tip_point=["leading_edge"], axis=1)
+    runs["status"] = runs["status"].astype("i1").assign_attrs(VARIABLES["status"].attributes)
+    return runs.assign(rms_normal=rms, rms_tangential=rms)
+
+
+@pytest.mark.parametrize("lined", [0.0, 1.0])
+def test_tables_and_figure_have_the_further_runs_that_the_verdict_has(lined, tmp_path):
+    """On a bare casing, too, where shares are smoothed, with those of speeds outside of operation."""
+    sweep = moved(np.where(SPEEDS <= 1050.0, 0.9, 0.0), lined=lined).sel(speed=SPEEDS[::5])
+    further = moved(above(1100.0, 1110.0) + 0.45 * above(1050.0, 1060.0), lined=lined).sel(speed=slice(1050.0, 1250.0))
+    scenes = ["looked", "failed", "other"]
+    write_dataset(joined_looks({REST: further, UP: sweep}), tmp_path / "looked.nc")
+    write_dataset(joined_looks({}), tmp_path / "failed.nc")
+    shares = ["share_of_revolutions_above_yield", *(name for name in sweep if str(name).startswith("max_"))]
+    stress = sweep[["status", "lined", "yield_stress", *shares]]
+    stress = stress.assign({name: stress[name].expand_dims(region=["airfoil", "root"], axis=1) for name in shares})
+    rms = sweep[["status", "lined", "rms_normal", "rms_tangential"]]
+    plain = {"rms": joined(rms, scenes), "stress": joined(stress, scenes)}
+    with_campbell = plain | {"campbell": campbell().expand_dims(blade=["Ref"])}
+    for name, dataset in with_campbell.items():
+        write_dataset(dataset, tmp_path / f"{name}.nc")
+    files = {name: tmp_path / f"{name}.nc" for name in [*with_campbell, FURTHER_RUNS]}
+    pairs, looked = [["Ref", name] for name in scenes], [["Ref", name] for name in scenes[:2]]
+    params = {"pairs": pairs, "looked": looked, "errors": [0.0] * 3, "point_contact": [], "operating": to_plain(FLOWN)}
+    params |= {key: {} for key in ("not_looked", "densities", "clearance", "thickness")}
+    params["requirements"] = to_plain(Requirements(above_yield=0.0))
+    inputs = {name: files[name] for name in with_campbell} | {
+        "volumes": [],
+        "looks": [tmp_path / f"{_}.nc" for _ in scenes[:2]],
+    }
+    output = SimpleNamespace(verdict=tmp_path / "verdict.csv", runs=files[FURTHER_RUNS])
+    steps.judge(inputs, output, SimpleNamespace(**params))
+    datasets = plain | {FURTHER_RUNS: read_dataset(files[FURTHER_RUNS])}
+    judgement = read_table(tmp_path / "verdict.csv").iloc[0]
+    assert judgement["value"] == one(Requirements(above_yield=0.0), sweep, looks={REST: further})["value"] > 0.0
+
+    for name in ("failed", "other"):
+        xr.testing.assert_identical(response_of(datasets, "Ref", name), response_of(plain, "Ref", name))
+    at_root = [response_of(some, "Ref", "looked", "root") for some in (datasets, plain)]
+    xr.testing.assert_identical(*at_root)
+
+    response = response_of(datasets, "Ref", "looked")
+    assert response["speed"].values.tolist() == [*SPEEDS[:10:5], *SPEEDS[10:51], *SPEEDS[55::5]]
+    xr.testing.assert_equal(response["rms_normal"].sel(speed=further["speed"]), further["rms_normal"])
+    del files["campbell"]
+    params = {"runs": pairs, "contacts": {}, "operating": to_plain(FLOWN)}
+    ranking(files, SimpleNamespace(table=tmp_path / "ranking.csv"), SimpleNamespace(**params))
+    lengths = read_table(tmp_path / "ranking.csv").set_index("scene")["length_most_revolutions_operating_rad_s"]
+    assert lengths["looked"] == judgement["value"] and lengths["other"] != lengths["looked"]
+    with_campbell |= datasets
+    write_table(summarise(with_campbell, InteractionChoice()), tmp_path / "summary.csv")
+    interactions = read_table(tmp_path / "summary.csv")
+    (row,) = interactions[(interactions["scene"] == "looked") & (interactions["peak_speed_rad_s"] > 1050.0)].to_dict("records")
+    assert row["most_revolutions_from_rad_s"] == judgement["from_rad_s"] < 1110.0
+    table = operating_table([("Ref", "looked")], FLOWN, with_campbell, interactions)
+    (above_yield,) = table[table["kind"] == "above_yield"]["length_rad_s"]
+    assert above_yield == judgement["value"]
+    one_blade = {name: judged_region(dataset.sel(blade="Ref")) for name, dataset in datasets.items()}
+    figure = draw_response("Ref", None, **one_blade)
+    drawn = [len(line.get_xdata()) for line in figure.axes[0].lines[:3]]
+    assert drawn == [response.sizes["speed"], *2 * [sweep.sizes["speed"]]]
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import os
 import pytest
 import yaml
 from stubbed_runs import BLADES, SCENES, copy_stubbed, edit, refine, runs, simulated
-from workflow_runs import copy_finished, overlay, own_package, planned_outputs, snakemake
+from workflow_runs import copy_finished, overlay, own_package, plan, planned_outputs, snakemake
 
 from r37core.base.yaml_file import load_yaml
 
@@ -61,6 +61,15 @@ def test_an_added_speed_runs_alone(project, speeds, added):
     assert jobs.pop("simulate") == runs(added)
     assert jobs.pop("response") == per_run("response.nc")
     assert set(jobs) == DATASETS
+
+
+def test_tables_and_figure_wait_for_the_further_runs_of_a_verdict(project):
+    overlay(project, "config.yaml", "operating: { idle_rad_s: 800, redline_rad_s: 1500 }")
+    assert "verdict" not in planned_outputs(project)
+    overlay(project, "config.yaml", "requirements: { above_yield_at_most_rad_s: 0 }")
+    taken_by = {file for job in plan(project) if "results/further_runs.nc" in job.inputs for file in job.outputs}
+    files = {"ranking.csv", "summary.csv", "operating.csv", "figures/response_Ref.png"}
+    assert {f"results/{file}" for file in files} <= taken_by
 
 
 @pytest.mark.parametrize(("change", "again"), [("speeds: [750, 1150]", {"response"}), ("blades: [Ref]", OF_ALL_BLADES)])

@@ -78,6 +78,7 @@ def test_a_run_that_was_ended_leaves_no_process_and_goes_on_with_the_same_bytes(
     wait_until(lambda: list((folder / "results").glob("*/abradable/speed_*.npz")), LONGEST, "a simulation")
     call.send_signal(end)
     call.wait(LONGEST)
+    assert (f"the same call goes on with what is in {folder}" in call.stderr.read().decode()) == (end == signal.SIGINT)
     # whoever is killed cannot wait for the others
     wait_until(lambda: not processes_of(folder), LONGEST, "its processes")
     reached = digests(folder)

@@ -16,15 +16,16 @@ from r37core.base.plain import to_plain
 from r37core.config import ConfigError, command_line_document
 from r37core.figures.response_curves import draw_response
 from r37core.product.extensions import read_settings
+from r37core.product.remarks import remarks
 from r37core.results.other_motions import ranking_with_motions, summary_with_motions
 from r37core.rom.contact_model import write_contact_model
 from r37core.second_motions import steps
 from r37core.second_motions.choice import DOWN, MOTIONS, REST, UP, DwellChoice, SweepChoice
-from r37core.second_motions.dataset import dwell_dataset
+from r37core.second_motions.dataset import dwell_dataset, pair_motions
 from r37core.second_motions.dwelling import begun_as, dwell, dwells_of, finish_revolution, random_states, speeds_dwelt_on
 from r37core.second_motions.figures import draw_second_motions
 from r37core.second_motions.lasting import HIGH, LOW, RANDOM, Lasting, is_high, judged
-from r37core.second_motions.states import MotionLevels, SweptStates, levels_of, motions_differ, write_states
+from r37core.second_motions.states import MotionLevels, SweptStates, levels_of, motions_differ, read_states, write_states
 from r37core.second_motions.sweeping import CarriedSweep
 from r37core.second_motions.tables import DWELL_COLUMNS, RANGE_COLUMNS, closing, dwell_table, range_table
 from r37core.time_integration.carrying import END_WEAR
@@ -98,6 +99,43 @@ def test_an_interrupted_sweep_goes_on_with_the_same_bits(contact, motion, tmp_pa
         sweep_of(contact, motion, LINED, sweep).run(tmp_path / "parts")
     files = sweep_of(contact, motion, LINED, sweep).run(tmp_path / "parts")
     np.testing.assert_equal([read_speed(file) for file in files], whole)
+
+
+@pytest.mark.parametrize(("given", "expected"), [(None, 20), (10, 10)])
+def test_carried_motions_are_as_long_as_those_from_rest(contact, given, expected, tmp_path):
+    """Or as long as the configuration says, which the dataset of all motions has."""
+    write_contact_model(contact, tmp_path / "contact.npz")
+    plain = {"scene": GROWING, "choice": CHOICE, "sweep": replace(SWEEP, revolutions=given)}
+    params = {"code": "", "results": (), "kept": KEPT, "yield_stress": 1e9, "provenance": {"revolutions": 20}}
+    params |= {name: to_plain(value) for name, value in plain.items()}
+    for motion in MOTIONS:
+        output = SimpleNamespace(response=tmp_path / f"{motion}.nc", states=tmp_path / f"{motion}.npz")
+        steps.carry(SimpleNamespace(model=tmp_path / "contact.npz"), output, SimpleNamespace(motion=motion, **params))
+    responses = [tmp_path / f"{motion}.nc" for motion in MOTIONS]
+    states = read_states([tmp_path / f"{motion}.npz" for motion in MOTIONS])
+    assert pair_motions(responses, states)["revolutions"].values.tolist() == [expected, expected, 20]
+    assert [states[motion].rms.shape for motion in MOTIONS] == [(3, expected // 2), (3, expected // 2), (3, 10)]
+
+
+def test_a_carried_motion_ends_as_it_has_settled_where_that_from_rest_does(contact):
+    settled = replace(CHOICE, until_settled=True)
+    lengths = {None: (20, True), 10: (10, False)}
+    for given, expected in lengths.items():
+        choice = sweep_of(contact, UP, sweep=replace(SWEEP, revolutions=given), choice=settled).carried_choice
+        assert (choice.revolutions, choice.until_settled) == expected
+
+
+def test_another_length_of_carried_motions_is_said_before_the_run(root):
+    sections = {number: {"from_rad_s": 1000, "to_rad_s": 1100, "revolutions": number} for number in (100, 200)}
+    said = {
+        number: [
+            line
+            for line in remarks(read_settings(root, command_line_document({"second_motions": section})))
+            if "carried" in line
+        ]
+        for number, section in sections.items()
+    }
+    assert said == {100: ["second_motions: 100 revolutions of carried motions, 200 from rest"], 200: []}
 
 
 def test_a_lining_is_new_or_carried_on(contact, tmp_path):
@@ -270,6 +308,7 @@ def motions(tmp_path):
         "status": (over, np.zeros(values.shape)),
         "differ": ("speed", [0.0, 1.0, 1.0, 1.0, 0.0]),
         "compared": ("motion", np.ones(3)),
+        "revolutions": ("motion", [100, 100, 200]),
         "yield_stress": ((), 1.38e9),
         "lined": ((), 0.0),
     }
@@ -284,6 +323,7 @@ def test_the_worst_motion_stands_in_the_ranking(motions):
     lengths = [f"length_most_revolutions_{name}_rad_s" for name in ("rest", "worst")]
     assert table.loc[0, [*lengths, "largest_rms_worst_m", "rank_worst"]].tolist() == pytest.approx([0.0, 15.0, 4e-3, 1])
     assert table.loc[1, [lengths[1], "rank_worst"]].isna().all()
+    assert table["carried_revolutions"].tolist() == pytest.approx([100.0, np.nan], nan_ok=True)
 
 
 def test_the_worst_motion_stands_with_the_interaction_that_it_belongs_to(motions):
@@ -342,6 +382,10 @@ def test_sweeps_are_drawn_with_the_speeds_at_which_they_differ(motions):
     # the stress of each motion: its median, and the band up to the largest
     highest = [line.get_ydata().max() for line in figure.axes[1].lines[:6]]
     np.testing.assert_allclose(highest[1::2], 2.0 * np.array(highest[::2]))
+    lengths = ["carried up, 100 revolutions", "carried down, 100 revolutions", "from rest, 200 revolutions"]
+    assert [line.get_label() for line in figure.axes[0].lines[:3]] == lengths
+    alike = draw_second_motions(pair.assign(revolutions=("motion", 3 * [200])), table, "", blade="Ref", scene="direct")
+    assert [line.get_label() for line in alike.axes[0].lines[:3]] == ["carried up", "carried down", "from rest"]
     rms = xr.Dataset(
         {
             **{f"rms_{name}": (("scene", "speed", "tip_point"), np.ones((1, 5, 1))) for name in ("normal", "tangential")},
@@ -384,6 +428,21 @@ def test_dwells_of_real_sweeps(contact, swept):
     # judged by the motions of a range that is near, if there is one
     differ = levels_of(states).differ.any()
     assert all(np.isfinite(row["level_high"]) == differ for row in rows)
+
+
+def test_a_dwell_begins_in_the_motion_that_it_is_named_after(contact, swept):
+    """The largest at that speed or the smallest, each with its level."""
+    _, states = swept
+    found, place = levels_of(states), 1
+    choice = DwellChoice(revolutions=100, range_speeds=0, starts=0, speeds=(float(found.speeds[place]),))
+    high, low = dwells_of(sweep_of(contact, UP), states, choice)
+    size = {row["start"]: found.mean[MOTIONS.index(row["motion"]), place] for row in (high, low)}
+    assert size == {HIGH: found.mean[:, place].max(), LOW: found.mean[:, place].min()} and size[HIGH] > size[LOW]
+    for row in (high, low):
+        carried = sweep_of(contact, UP)
+        simulation = Simulation(contact, row["speed"], carried.scene.grown, carried.unrecorded_choice)
+        begun = begun_as(carried, states, row["motion"], place, simulation)
+        np.testing.assert_array_equal(row["revolution_rms"], dwell(*begun, 100)["revolution_rms"])
 
 
 @pytest.mark.parametrize(

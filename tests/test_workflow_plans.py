@@ -52,6 +52,14 @@ def test_speeds_and_their_files(chosen):
     assert sweep.speed_files(L50) == ["<results>/L50/direct/speed_1000.25.npz"]
 
 
+def test_of_many_designs_some_are_drawn_evenly_from_the_first_to_the_last():
+    designs, rooms = [f"D{number}" for number in range(31)], [f"R{number}" for number in range(8)]
+    families = {"designs": of(family_of=dict.fromkeys(designs, "D")), "scene_designs": of(family_of=dict.fromkeys(rooms, "R"))}
+    drawn = Sweep(of(blades=["Ref", *designs], scenes=rooms, **families)).drawn
+    assert drawn["blade"] == ["Ref", "D0", "D6", "D12", "D18", "D24", "D30"]
+    assert drawn["scene"] == ["R0", "R1", "R3", "R4", "R6", "R7"]
+
+
 REFINED = {**PLACES, "speeds": [{"start": 900, "stop": 1000, "step": 50, "refine_to": 5}]}
 
 

@@ -121,8 +121,8 @@ def copy_odd_project(root, to):
 
 def run_in_odd_project(folder, *command):
     """What the command prints. It may run nothing that stands in the folder's name."""
-    environment = _environment(folder) | {"R37_FULL_LOG": ""}
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST, check=False)
+    variables = environment(folder) | {"R37_FULL_LOG": ""}
+    done = subprocess.run(command, cwd=folder, env=variables, capture_output=True, text=True, timeout=LONGEST, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert not list(folder.parent.rglob("EXECUTED"))
     return done.stdout + done.stderr
@@ -135,15 +135,15 @@ def source(folder):
 
 def snakemake(folder, *arguments, check=True, jobs=None, full_log="1"):
     """What the command prints. `jobs`: a file for the jobs that it plans: see `plan`."""
-    environment = _environment(folder) | {"R37_FULL_LOG": full_log}
-    status, text = warm_snakemake.run(folder, arguments, environment, LONGEST, jobs)
+    variables = environment(folder) | {"R37_FULL_LOG": full_log}
+    status, text = warm_snakemake.run(folder, arguments, variables, LONGEST, jobs)
     assert not check or status == 0, text
     return text
 
 
 def kill_snakemake(folder, *arguments, when):
     """Start the command and kill it with its jobs as soon as `when()` holds, if it has not ended before."""
-    command = warm_snakemake.started(folder, arguments, _environment(folder), LONGEST)
+    command = warm_snakemake.started(folder, arguments, environment(folder), LONGEST)
     with command as (process, _):
         while process.poll() is None and not when():
             time.sleep(0.01)
@@ -159,7 +159,8 @@ def wait_until(happened, seconds, what):
         time.sleep(0.02)
 
 
-def _environment(folder):
+def environment(folder):
+    """Variables of a command in a project, whose package is its own."""
     kept = {key: value for key, value in os.environ.items() if not key.startswith("SNAKEMAKE")}
     return kept | {"PYTHONPATH": str(source(folder)), "R37_FULL_LOG": "1"}
 

@@ -62,6 +62,7 @@ TESTS = {
     "search/problem.py": "test_search_proposals.py",
     "search/proposal.py": "test_search_proposals.py",
     "search/dataset.py": "test_search.py test_search_proposals.py",
+    "run_ups/revolutions.py": "test_run_ups.py",
     "stress/": "test_results.py",
 }
 """Module, or folder with the rest of its modules, -> the test files that are to notice."""

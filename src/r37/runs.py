@@ -99,7 +99,12 @@ def run_of(call: Call, options: Mapping[str, Any], targets: str | Sequence[str] 
     temporary = temporary_folder() if options.get("folder") is None else None
     place = Path(temporary.name) if temporary else run_folder(options["folder"])
     write_run(call, place)
-    run_workflow(call.settings, place, wanted, cores)
+    try:
+        run_workflow(call.settings, place, wanted, cores)
+    except KeyboardInterrupt as interruption:
+        if temporary is None:
+            interruption.add_note(f"stopped; the same call goes on with what is in {place}")
+        raise
     return RunResults(place / "results", temporary)
 
 

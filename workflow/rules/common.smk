@@ -42,7 +42,7 @@ step = engine.step
 made = Provenance(settings)
 structure = Structure(settings)
 sweep = Sweep(settings, lambda **wildcards: checkpoints.refine.get(**wildcards).output[0])
-more_motions = offered("motions", sweep)
+more_motions, further_runs = offered("motions", sweep), offered("further_runs", sweep)
 run_up_dataset, members = offered("run_ups", sweep), offered("members", sweep)
 # speeds in operation, by which results are judged as well
 operating = to_plain(operating_range(settings))

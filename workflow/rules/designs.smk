@@ -7,6 +7,7 @@ families = settings.made(designs_plan.Families)
 use rule step as design_table with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue")},
+        **further_runs,
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         geometry=expand(paths.GEOMETRY, blade=families.densities),

@@ -12,7 +12,7 @@ for figure in FIGURES:
             figure.rule
         input:
             **figure.inputs(sweep),
-            **(offered(figure.offered, sweep) if figure.offered else {}),
+            **{name: file for each in figure.offered for name, file in offered(each, sweep).items()},
         output:
             **pictures(figure.name, category, subcategory, figure.label),
         log:

@@ -1,5 +1,5 @@
 # Requirements in operation: what lies in the operating range, further runs, and the verdict on each blade and scene.
-from r37core.requirements.plan import LOOKS, VERDICT, Judged
+from r37core.requirements.plan import ALL_LOOKS, LOOKS, VERDICT, Judged
 
 judged = Judged(sweep)
 stages |= {"looks": judged.looks(made)}
@@ -28,6 +28,7 @@ use rule step as verdict with:
         looks=paths.filled({LOOKS: paths.run_keys(judged.looked)}),
     output:
         verdict=shown(VERDICT, PACKAGE / "requirements/report.rst", TOGETHER, "verdict"),
+        runs=ALL_LOOKS,
     log:
         "<logs>/verdict.log",
     params:
@@ -47,6 +48,7 @@ use rule step as verdict with:
 use rule step as operating with:
     input:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress")},
+        **further_runs,
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
     output:

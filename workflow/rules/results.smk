@@ -48,6 +48,7 @@ use rule step as summary with:
         **datasets,
         **offered("ranges", sweep),
         **more_motions,
+        **further_runs,
         campbell=rules.campbell_of_all.output[0],
     output:
         table=shown("<results>/summary.csv", TEXTS / "summary.rst", TOGETHER, "interactions"),
@@ -63,6 +64,7 @@ use rule step as ranking with:
         **{kind: datasets[kind] for kind in sweep.kinds if kind in ("rms", "stress", "fatigue")},
         **members,
         **more_motions,
+        **further_runs,
     output:
         table=shown("<results>/ranking.csv", TEXTS / "ranking.rst", TOGETHER, "ranking"),
     log:

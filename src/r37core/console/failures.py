@@ -19,6 +19,9 @@ from typing import TextIO
 from r37core.base.io import FULL_DISK, JOB_LOG, JOB_NEWS, OutputFileError
 from r37core.sweep.counts import COUNTS
 
+STOPPED = "stopped; the same command goes on with what is there"
+"""Last words of a run that was interrupted."""
+
 _NOTES = "R37_FAILURES"
 """Environment variable that names the file, one for each run: several may go on in one folder."""
 
@@ -156,7 +159,7 @@ def end_interruptions_in_one_line() -> None:
 
     def show(kind: type[BaseException], error: BaseException, traceback: TracebackType | None) -> None:
         if issubclass(kind, KeyboardInterrupt):
-            print("interrupted before the first job", file=sys.stderr)
+            print(STOPPED, file=sys.stderr)
         else:
             before(kind, error, traceback)
 

@@ -132,12 +132,17 @@ def without_files(refusal: type[Exception]) -> type[Exception]:
 
 
 class MessageAlone(logging.Filter):
-    """A filter that leaves of an error in an input function the message of the file that could not be read."""
+    """A filter that leaves of an error the message of the file that could not be read, and of an interruption STOPPED."""
+
+    _interrupted = False
 
     def filter(self, record: logging.LogRecord) -> bool:
         """Every record passes."""
         if getattr(record, "exception", None) == "InputFunctionException" and (told := _OF_A_FILE.search(record.getMessage())):
             record.msg, record.args = told[1], ()
+        self._interrupted |= record.getMessage().startswith("Terminating processes on user request")
+        if self._interrupted and record.levelno == logging.ERROR and getattr(record, "exception", None) == "WorkflowError":
+            record.msg, record.levelno, record.levelname = failures.STOPPED, logging.INFO, "INFO"
         return True
 
 

@@ -120,7 +120,7 @@ EXTENSION = Extension(
             "yield, but not in most revolutions. Lines: where a requirement begins to fail.",
             category="Families",
             arguments=lambda sweep: {"compared": sweep.settings.made(Families).compared},
-            offered="verdict",
+            offered=("verdict",),
         ),
         Figure(
             rule="design_figure",

@@ -10,9 +10,8 @@ import xarray as xr
 from r37core.base.varied_number import BLADE, SCENE, VariedNumber
 from r37core.results.closing import counted
 from r37core.results.columns import OPERATING, ROBUSTNESS, Column, names
-from r37core.results.datasets import response_of
 from r37core.results.operating_range import OperatingRange
-from r37core.results.ranking import RANKED_BY, robustness
+from r37core.results.ranking import RANKED_BY, measures_of
 from r37core.results.table_file import read_table
 from r37core.rom.naming import FIRST_BENDING, FIRST_TORSION
 
@@ -63,8 +62,7 @@ def design_table(
         own = [families[kind][design] for kind, design in ((BLADE, blade), (SCENE, scene)) if design in families[kind]]
         varied = {"family": "__".join(own), **variables["blade"].get(blade, {}), **variables["scene"].get(scene, {})}
         structure = {"mass_kg": masses.get(blade, np.nan)} | _structure(datasets["campbell"].sel(blade=blade))
-        response = response_of(datasets, blade, scene)
-        measures = robustness(response, operating=operating, error=error)
+        measures = measures_of(datasets, blade, scene, operating, error)
         rows.append({"blade": blade, "scene": scene, **varied, **structure, **measures, **_shift(blade, scene, interactions)})
     designs = [values for kind in variables.values() for values in kind.values()]
     keys = list(dict.fromkeys(key for values in designs for key in values))

@@ -67,7 +67,7 @@ FIGURES = (
         "engine orders; red crosses: runs that diverged. Open circles: the blade has cut itself free by the end of the run; "
         "open triangles: its motion or the wear still grows there.",
         arguments=lambda sweep: {"drawn": {"scene": sweep.drawn["scene"]}},
-        offered="motions",
+        offered=("motions", "further_runs"),
     ),
     Figure(
         rule="spectrum_figure",

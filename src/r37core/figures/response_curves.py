@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.results.datasets import FURTHER_RUNS, response_of
 from r37core.results.other_motions import half_step, swept
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
@@ -23,12 +24,16 @@ def draw_response(
     rms: xr.Dataset,
     stress: xr.Dataset | None = None,
     motions: xr.Dataset | None = None,
+    further_runs: xr.Dataset | None = None,
 ) -> Figure:
     """One blade: normal and tangential rms of the leading edge in every scene, and bands of the stress with the yield line.
 
     `campbell`: where 1B crosses engine orders, None to leave that out; `motions`: more than that from rest, whose largest is
-    drawn where it differs from that (results/other_motions.py), and these speeds shaded.
+    drawn where it differs from that (results/other_motions.py), and these speeds shaded; `further_runs`: of a verdict.
     """
+    if further_runs is not None:
+        rms = _of_all_scenes("rms", rms, further_runs)
+        stress = None if stress is None else _of_all_scenes("stress", stress, further_runs)
     figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, direction in zip(panels, ("normal", "tangential"), strict=False):
         _draw_scenes(axes, rms, direction)
@@ -53,6 +58,13 @@ def draw_response(
     style.rpm_axis(panels[0])
     figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     return figure
+
+
+def _of_all_scenes(kind: str, runs: xr.Dataset, further_runs: xr.Dataset) -> xr.Dataset:
+    """Runs of a blade in all scenes, as responses have them."""
+    datasets = {kind: runs.expand_dims("blade"), FURTHER_RUNS: further_runs.expand_dims("blade")}
+    parts = [response_of(datasets, str(runs["blade"].values), scene) for scene in runs["scene"].values]
+    return xr.concat(parts, runs["scene"], data_vars="all", join="outer")
 
 
 def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:

@@ -16,7 +16,7 @@ from .sweep_plan import Sweep
 Targets = Callable[[Sweep], dict[str, Wildcards]]
 """Patterns of files -> the wildcards of each that a run asks for; none where its configuration does without."""
 
-Offer = Literal["motions", "run_ups", "verdict", "ranges", "members"]
+Offer = Literal["motions", "run_ups", "verdict", "ranges", "members", "further_runs"]
 """Name of a file that other rules take; see Extension.offers."""
 
 
@@ -45,7 +45,7 @@ class Figure:
     `files`: a pattern each, or a function of the plan and the wildcards, which gives an empty list for none.
     `label`: name in the report; `caption`: what is seen, with names (blade, scene, family) in braces.
     `category`: in the report; without one its blade, or all of them.
-    `offered`: file of an extension that it takes, too (product.targets.offered).
+    `offered`: files of extensions that it takes, too (product.targets.offered).
     """
 
     rule: str
@@ -57,7 +57,7 @@ class Figure:
     caption: str
     category: str = ""
     arguments: Callable[[Sweep], Mapping[str, Any]] = lambda _: {}
-    offered: Offer | Literal[""] = ""
+    offered: tuple[Offer, ...] = ()
 
     def targets(self, sweep: Sweep) -> dict[str, Wildcards]:
         """Files of the figure, as PNG and PDF."""
@@ -87,7 +87,8 @@ class Extension:
     `offers`: files among the targets that other rules take where a run makes them. `motions`: a dataset of more motions at a
     speed than that from rest (results/other_motions.py), for summary, ranking and the figures of the response; `verdict`: a
     table of requirements and whether blades meet them, for maps of designs; `ranges`: a table as of results/ranges.py, for
-    the summary; `members`: a dataset with a dimension `member`, for ranking and verdict.
+    the summary; `members`: a dataset with a dimension `member`, for ranking and verdict; `further_runs`: a dataset of runs
+    from rest that stand in place of the sweep's (results/datasets.py), for summary, ranking and the figures of the response.
     `remarks`: what a run should say of it before it starts.
     `figures`: what is drawn of them, made with the targets.
     `panel`: what the explorer shows of it.

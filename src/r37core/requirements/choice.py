@@ -21,8 +21,8 @@ MOST_NEAR, OTHERS = 24, 3
 LONGEST = 1000
 """Most revolutions of a run that ends as it has settled."""
 
-RESULTS = ("stress", "static_stress", "fatigue", "wear")
-"""Results of a scene that requirements need."""
+RESULTS = ("spectrum", "stress", "static_stress", "fatigue", "wear")
+"""Results of a scene that further runs have: those that requirements and interactions need."""
 
 
 @dataclass(frozen=True)

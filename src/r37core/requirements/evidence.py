@@ -7,6 +7,7 @@ from typing import Self
 import numpy as np
 import xarray as xr
 
+from r37core.results.datasets import overlaid
 from r37core.results.exceedance import exceedance_of, is_lined
 from r37core.results.operating_range import OperatingRange
 from r37core.time_integration.settling import MotionAtEnd
@@ -186,16 +187,6 @@ def _spanning(evidence: Evidence) -> np.ndarray:
 def judged_part(response: xr.Dataset) -> xr.Dataset:
     """The variables of a response that requirements are judged by."""
     return response[[name for name in (*JUDGED, *OF_ALL) if name in response]].reset_coords(drop=True)
-
-
-def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
-    """Runs `below` with those of `above` in place of them where these are, over the speeds of both and no other coordinate."""
-    below, above = (runs.reset_coords(drop=True) for runs in (below, above))
-    kept = below.isel(speed=np.flatnonzero(~np.isin(below["speed"].values, above["speed"].values)))
-    # motions of all scenes have the numbers of a lining, and a bare casing's runs have none
-    over_speeds = [str(name) for name in above.data_vars if "speed" in above[name].dims and name in below]
-    joined = xr.concat([kept[over_speeds], above[over_speeds]], "speed").sortby("speed")
-    return joined.assign({name: above[name] for name in OF_ALL if name in above})
 
 
 def extended(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from r37core.results.columns import MOST_REVOLUTIONS, SOME, above_yield
+from r37core.results.datasets import overlaid
 from r37core.results.exceedance import SpeedRange, exceedance_of
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
@@ -14,7 +15,7 @@ from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import Requirements
-from .evidence import Evidence, extended, lacking, operated_alone, overlaid, scatter_of_length, worst_of
+from .evidence import Evidence, extended, lacking, operated_alone, scatter_of_length, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 

@@ -16,6 +16,7 @@ import xarray as xr
 
 from r37core.base.dataset_file import dataset_of
 from r37core.contact.scene import Scene
+from r37core.results.datasets import overlaid
 from r37core.results.response import run_row
 from r37core.results.variables import AXES, OF_ALL_SPEEDS, VARIABLES
 from r37core.rom.contact_model import ContactModel
@@ -25,12 +26,12 @@ from r37core.sweep.parts import Parts
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
 from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
-from r37core.time_integration.simulate import Simulation
+from r37core.time_integration.simulate import TIP_POINTS, Simulation
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import numbers_of_run
 
 from .choice import CARRIED_STEP, LONGEST, MOST_NEAR, STEP, Requirements
-from .evidence import JUDGED, OF_ALL, Evidence, overlaid
+from .evidence import OF_ALL, Evidence
 from .judging import DOWN, HALF_STEP, LESS_FRICTION, MORE_FRICTION, REST, UP, closeness, fails_clearly, nearness
 
 _NEAR = 0.7
@@ -108,14 +109,19 @@ class JudgedBlade:
         return row
 
     def _dataset(self, files: Mapping[float, Path]) -> xr.Dataset:
-        """Response of JUDGED, by ascending speed (rad/s)."""
+        """Response by ascending speed (rad/s), without what nodes and angles have."""
         speeds = sorted(files)
         rows = {speed: self._row(read_speed(files[speed])) for speed in speeds}
         first = rows[speeds[0]]
         # the stress is that of one region
-        described = {name: replace(VARIABLES[name], dims=()) for name in JUDGED if name in first}
-        values = {name: [np.ravel(rows[speed][name])[0] for speed in speeds] for name in described} | {"speed": speeds}
-        response = dataset_of(described, values, {"speed": AXES["speed"]}, {}, ("speed",))
+        described = {
+            name: replace(variable, dims=tuple(dim for dim in variable.dims if dim != "region"))
+            for name, variable in VARIABLES.items()
+            if name in first and set(variable.dims) <= {"region", "tip_point", "engine_order"}
+        }
+        values = first | {name: [np.squeeze(rows[speed][name]) for speed in speeds] for name in described} | {"speed": speeds}
+        axes = {name: AXES[name] for name in ("speed", "engine_order")}
+        response = dataset_of(described, values, axes, {"tip_point": list(TIP_POINTS)}, ("speed",))
         same = {name: ((), first[name], OF_ALL_SPEEDS[name].attributes) for name in OF_ALL if name in first}
         return response.assign(same).drop_vars("speed_rpm")
 

@@ -18,6 +18,7 @@ from r37core.plans.extension import Extension, Panel
 from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Sweep
+from r37core.results.datasets import FURTHER_RUNS
 from r37core.rom.naming import mode_names
 
 from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
@@ -49,6 +50,7 @@ SECTION: ExtensionSection[RequirementsSection] = ExtensionSection(
 )
 
 VERDICT, LOOKS = "<results>/verdict.csv", "<results>/{blade}/{scene}/looks.nc"
+ALL_LOOKS = f"<results>/{FURTHER_RUNS}.nc"
 
 MOST_SECONDS = 600.0
 """CPU time (s) that the runs from rest of a verdict may take, where they are as long as they may be."""
@@ -142,7 +144,8 @@ def targets(sweep: Sweep) -> dict[str, paths.Wildcards]:
     """The list of what lies in the operating range, and the verdict, where there are requirements."""
     once: paths.Wildcards = [{}] if operating_range(sweep.settings) else []
     judged = sweep.settings.section(SECTION).requirements().any
-    return {VERDICT: once if judged else [], "<results>/operating.csv": once}
+    looked: paths.Wildcards = [{}] if Judged(sweep).looked else []
+    return {VERDICT: once if judged else [], ALL_LOOKS: looked, "<results>/operating.csv": once}
 
 
 def can_be_judged(settings: Settings) -> None:
@@ -224,7 +227,7 @@ EXTENSION = Extension(
     section=SECTION,
     checks=(can_be_judged,),
     targets=targets,
-    offers={"verdict": VERDICT},
+    offers={"verdict": VERDICT, FURTHER_RUNS: ALL_LOOKS},
     remarks=remarks,
     closing="requirements.table.closing",
     panel=Panel(VERDICT, "requirements.table.contents", "requirements/panel.js"),

@@ -1,7 +1,10 @@
 """The steps of requirements: further runs, what lies in the operating range, and the verdict."""
 
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
+
+import xarray as xr
 
 from r37core.base.dataset_file import read_dataset, write_dataset
 from r37core.base.io import as_list
@@ -10,6 +13,7 @@ from r37core.contact.scene import Scene
 from r37core.fem.assembly import mesh_volume
 from r37core.machine_code.kept import content_digest
 from r37core.mesh.mesh_files import read_vtu
+from r37core.results.joining import Along, join
 from r37core.results.operating_range import OperatingRange
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table, write_table
@@ -21,6 +25,7 @@ from r37core.time_integration.integration_choice import IntegrationChoice
 
 from .choice import Requirements
 from .evidence import Evidence, judged_part
+from .judging import REST
 from .looks import JudgedBlade, joined_looks, looks_in, looks_of
 from .table import operating_table, verdict_table
 
@@ -54,7 +59,7 @@ def look(input: Any, output: Any, params: Any) -> None:
 
 
 def judge(input: Any, output: Any, params: Any) -> None:
-    """Judge each blade and scene. Output: verdict (csv).
+    """Judge each blade and scene. Outputs: verdict (csv), runs (nc): the further ones from rest.
 
     Inputs: datasets by kind, looks of `looked`, volumes (geometry or mesh of each blade with a density); if there, members,
     motions and run_ups. Params: pairs, looked (those of them with looks), not_looked (why others have none), requirements,
@@ -74,6 +79,8 @@ def judge(input: Any, output: Any, params: Any) -> None:
     errors = dict(zip(pairs, params.errors, strict=True))
     table = verdict_table(pairs, requirements, operating, datasets, numbers, errors=errors, **doubts)
     write_table(table, output.verdict, digits=6)
+    runs = {pair: looks.get(pair, {}).get(REST, xr.Dataset()) for pair in pairs}
+    join(runs, Along(), output.runs, "Further runs of a verdict from rest, over blade, scene and speed", {}, nullcontext)
 
 
 def _volume(file: str) -> float:

@@ -12,7 +12,7 @@ import xarray as xr
 from r37core.base.io import read_json
 from r37core.results.closing import counted, interaction_title
 from r37core.results.columns import MOST_REVOLUTIONS
-from r37core.results.datasets import response_of
+from r37core.results.datasets import response_in_operation, response_of
 from r37core.results.exceedance import exceedance_of
 from r37core.results.operating_range import OperatingRange
 from r37core.results.table_file import read_table
@@ -126,7 +126,7 @@ def operating_table(
             if operating.overlap(begin, end) >= 0.0:
                 title = interaction_title(row.mode, row.engine_order)
                 rows.append((blade, scene, INTERACTION, title, *_inside(begin, end, operating), np.nan))
-        response = response_of(datasets, blade, scene)
+        response = response_in_operation(datasets, blade, scene)
         if "share_of_revolutions_above_yield" not in response:
             continue
         for part in exceedance_of(response).ranges(MOST_REVOLUTIONS):

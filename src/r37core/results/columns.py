@@ -298,6 +298,7 @@ WORST_MOTION = (
         f"{_MOST}, worst motion",
     ),
     Column("largest_rms_worst_m", "largest rms of the motions up, down and from rest", "largest rms, worst motion"),
+    Column("carried_revolutions", "revolutions of the motions up and down at each speed, by default those from rest"),
     Column("rank_worst", "place by the worst motion", "rank by the worst motion"),
 )
 """Columns that second motions add to ranking.csv."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 import xarray as xr
@@ -13,6 +14,9 @@ from r37core.time_integration.status import RunStatus
 from .joining import Along, join
 from .regions import judged, named_region
 from .variables import DATASETS, FLAGS
+
+FURTHER_RUNS: Final = "further_runs"
+"""Name of the joined dataset of a verdict's further runs from rest (requirements.looks)."""
 
 
 def write_sweep_dataset(
@@ -48,12 +52,40 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str, regi
     """One blade in one scene of the joined datasets as its response: their variables, over the speeds that it was run at.
 
     Its stress is that in a `region`, by default the one that decides. `datasets` by the keys of DATASETS, rms among them;
-    others are left aside, and those without this blade and scene.
+    others are left aside, and those without this blade and scene. FURTHER_RUNS, which have the stress in the region that
+    decides alone, stand in place of runs there.
     """
-    parts = []
-    for kind in DATASETS:
-        if kind in datasets and blade in datasets[kind]["blade"].values and scene in datasets[kind]["scene"].values:
-            part = datasets[kind].sel(blade=blade, scene=scene, drop=True)
-            part = named_region(part, region) if region and "region" in part.dims else judged(part)
-            parts.append(part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN)))
-    return xr.merge([part for part in parts if part.sizes["speed"]] or parts[:1], compat="override", join="exact")
+    parts = [_runs(datasets[kind], blade, scene, region) for kind in DATASETS if kind in datasets]
+    response = xr.merge([part for part in parts if part.sizes["speed"]] or parts[:1], compat="override", join="exact")
+    further = _runs(datasets.get(FURTHER_RUNS), blade, scene)
+    if region or not further.sizes["speed"]:
+        return response
+    joined = overlaid(response, further)
+    # what further runs do not have is NaN at speeds of theirs
+    rest = response.reset_coords(drop=True).drop_vars(joined.data_vars, errors="ignore").reindex(speed=joined["speed"])
+    return xr.merge([joined, rest], join="outer")
+
+
+def response_in_operation(datasets: Mapping[str, xr.Dataset], blade: str, scene: str) -> xr.Dataset:
+    """The response that a verdict judges in operation: its further runs alone, where there are any."""
+    further = _runs(datasets.get(FURTHER_RUNS), blade, scene)
+    return further if further.sizes["speed"] else response_of(datasets, blade, scene)
+
+
+def _runs(dataset: xr.Dataset | None, blade: str, scene: str, region: str = "") -> xr.Dataset:
+    """One blade and scene of a joined dataset, at the speeds that it was run at: none where the dataset does not have it."""
+    if dataset is None or "status" not in dataset or not (blade in dataset["blade"] and scene in dataset["scene"]):
+        return xr.Dataset(coords={"speed": []})
+    part = dataset.sel(blade=blade, scene=scene, drop=True)
+    part = named_region(part, region) if region and "region" in part.dims else judged(part)
+    return part.isel(speed=np.flatnonzero(part["status"].values != RunStatus.NOT_RUN))
+
+
+def overlaid(below: xr.Dataset, above: xr.Dataset) -> xr.Dataset:
+    """Runs `below` with those of `above` in place of them where these are, over the speeds of both and no other coordinate."""
+    below, above = (runs.reset_coords(drop=True) for runs in (below, above))
+    kept = below.isel(speed=np.flatnonzero(~np.isin(below["speed"].values, above["speed"].values)))
+    # motions of all scenes have the numbers of a lining, and a bare casing's runs have none
+    over_speeds = [str(name) for name in above.data_vars if "speed" in above[name].dims and name in below]
+    joined = xr.concat([kept[over_speeds], above[over_speeds]], "speed", join="outer").sortby("speed")
+    return joined.assign(above.drop_dims("speed").data_vars)

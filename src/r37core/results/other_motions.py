@@ -44,6 +44,7 @@ def _worst(pair: xr.Dataset) -> dict[str, float]:
     if not pair.sizes["speed"]:
         return {}
     row = {"largest_rms_worst_m": float(pair["motion_mean"].max())}
+    row["carried_revolutions"] = float(pair["revolutions"].where(pair["motion"] != REST).max())
     if "share_of_revolutions_above_yield" in pair:
         row["length_most_revolutions_rest_rad_s"] = worst_exceedance(pair.sel(motion=[REST])).length(MOST_REVOLUTIONS)
         row["length_most_revolutions_worst_rad_s"] = worst_exceedance(pair).length(MOST_REVOLUTIONS)

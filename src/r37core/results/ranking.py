@@ -13,6 +13,7 @@ from r37core.time_integration.status import RunStatus
 
 from .columns import CHANCE, ENDS, MOST_REVOLUTIONS, OPERATING, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from .danger import danger_of, moved_by_error
+from .datasets import response_in_operation, response_of
 from .exceedance import SpeedRange, exceedance_of
 from .measures import drop_after, has_strengths, lasts, motion, peak_of
 from .operating_range import OperatingRange
@@ -103,6 +104,17 @@ def robustness(
         measures["length_goodman_rad_s"] = exceedance.length(MOST_REVOLUTIONS)
         measures["goodman_integral_rad_s"] = exceedance.integral
     return measures
+
+
+def measures_of(
+    datasets: Mapping[str, xr.Dataset], blade: str, scene: str, operating: OperatingRange | None, error: float
+) -> dict[str, float]:
+    """ROBUSTNESS of a blade in a scene of the datasets of a sweep and, with a range, OPERATING of what a verdict judges there.
+
+    `error`: as of `robustness`.
+    """
+    measures = robustness(response_of(datasets, blade, scene), error=error)
+    return measures | (operating_measures(response_in_operation(datasets, blade, scene), operating) if operating else {})
 
 
 def length_most_revolutions(response: xr.Dataset) -> float:

@@ -20,7 +20,7 @@ from .interactions import InteractionChoice, summarise
 from .operating_range import OperatingRange
 from .other_motions import ranking_with_motions, summary_with_motions
 from .ranges import ranged_summary, read_ranges
-from .ranking import length_most_revolutions, measures_of_members, ranking_table, robustness
+from .ranking import length_most_revolutions, measures_of, measures_of_members, ranking_table
 from .regions import other_regions
 from .response import write_response
 from .table_file import write_table
@@ -77,7 +77,7 @@ def coincidences(input: Any, output: Any, params: Any) -> None:
 
 
 def summary(input: Any, output: Any, params: Any) -> None:
-    """List the interactions. Inputs: datasets by kind and, if there, ranges of members, and more motions. Output: table (csv).
+    """List the interactions. Inputs: datasets by kind and, if there, ranges of members, more motions. Output: table (csv).
 
     Params: choice.
     """
@@ -102,10 +102,8 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
     motions = datasets.pop("motions", None)
     operating = params.operating and from_plain(OperatingRange, params.operating)
-    measures = {
-        (blade, scene): robustness(response_of(datasets, blade, scene), operating=operating, error=error)
-        for (blade, scene), error in zip(params.runs, params.errors, strict=True)
-    }
+    runs = zip(map(tuple, params.runs), params.errors, strict=True)
+    measures = {pair: measures_of(datasets, *pair, operating, error) for pair, error in runs}
     for region in other_regions(datasets["stress"]) if "stress" in datasets else []:
         for blade, scene in params.runs:
             response = response_of(datasets, blade, scene, region)

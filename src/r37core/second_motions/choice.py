@@ -31,8 +31,8 @@ class SweepChoice:
         Key("The same step in revolutions per minute", "_rpm", ge=0.01, le=1e5, optional=True),
     ]
     revolutions: Annotated[
-        int, Key("Revolutions at each speed, of which the last half counts", ge=FEWEST_REVOLUTIONS, le=20000)
-    ] = 100
+        int | None, Key("Revolutions at each speed; by default those of the runs from rest", ge=FEWEST_REVOLUTIONS, le=20000)
+    ] = None
     worn: Annotated[
         bool,
         Key("Lining at each speed: new, or worn by the speeds before", name="lining", words={"new": False, "worn": True}),

@@ -39,11 +39,12 @@ def pair_motions(responses: Sequence[Path | str], states: Mapping[str, SweptStat
     """The three sweeps of a blade and scene, over (motion, speed), by their responses, in the order of MOTIONS, and states.
 
     `motion_mean` and `motion_scatter` (m): of the rms of a revolution, normal and tangential together; `differ`, over speed: 1
-    where the motions do. Raises InputFileError.
+    where the motions do; `revolutions`: of each motion. Raises InputFileError.
     """
-    motions = []
+    motions, lengths = [], []
     for file in responses:
         response = judged(read_dataset(file, {"tip_point": "leading_edge"}))
+        lengths.append(int(response.attrs["revolutions"]))
         motions.append(response[[name for name in (*_JOINED, *_OF_ALL) if name in response]].reset_coords(drop=True))
     over_motions = [str(name) for name in motions[0].data_vars if name not in _OF_ALL]
     pair = xr.concat(motions, xr.Variable("motion", np.array(MOTIONS, dtype=object)), data_vars=over_motions)
@@ -54,6 +55,7 @@ def pair_motions(responses: Sequence[Path | str], states: Mapping[str, SweptStat
     return pair.assign(
         motion_mean=(over, mean, about("m", "mean rms of a revolution, normal and tangential together")),
         motion_scatter=(over, levels.scatter, about("m", "standard deviation of the rms of a revolution")),
+        revolutions=("motion", lengths, about("1", "revolutions at each speed, at most where runs end as they have settled")),
         compared=("motion", compared, about("1", "1 of motions that are compared, 0 of that on another lining")),
         differ=("speed", levels.differ.astype(float), differ),
     )

@@ -68,5 +68,7 @@ def _draw_motions(axes: Axes, pair: xr.Dataset) -> None:
     for motion in MOTIONS:
         mean, scatter = (1e3 * pair[name].sel(motion=motion) for name in ("motion_mean", "motion_scatter"))
         label = "from rest" if motion == REST else f"carried {motion}"
+        if pair["revolutions"].max() > pair["revolutions"].min():
+            label += f", {float(pair['revolutions'].sel(motion=motion)):g} revolutions"
         axes.plot(pair["speed"], mean, LINES[motion], color=COLOURS[motion], label=label, linewidth=1.0)
         axes.fill_between(pair["speed"], mean - scatter, mean + scatter, color=COLOURS[motion], alpha=0.15, linewidth=0)

@@ -62,7 +62,7 @@ def can_be_swept(settings: Settings) -> None:
     for key, value, allowed in _refusals(settings, section):
         raise settings.documents.config.refusal((*path, *key), value, allowed)
     sweep, scenes = section.sweep(), dict.fromkeys(scene for _, scene in pairs_of(settings))
-    longest = max(sweep.revolutions, section.dwell.revolutions)
+    longest = max(sweep.revolutions or 0, section.dwell.revolutions)
     runs = [length_of_run(settings, name, sweep.first, max(longest, settings.scenes[name].revolutions)) for name in scenes]
     if runs:
         slow_run_can_be_done(max(runs, key=lambda run: run.steps), settings, (*path, section.end_keys[0]))
@@ -93,6 +93,14 @@ def _refusals(settings: Settings, section: SecondMotionSection) -> Iterator[tupl
             yield ("dwell", "speeds_rad_s", number), f"{speed:g} rad/s", between
 
 
+def remarks(settings: Settings) -> list[str]:
+    """How long carried motions are, where those from rest have another length."""
+    section = settings.section(SECTION)
+    carried = section.sweep().revolutions if section.asked else None
+    rest = ", ".join(map(str, {settings.scenes[scene].revolutions for _, scene in pairs_of(settings)} - {carried}))
+    return [f"second_motions: {carried} revolutions of carried motions, {rest} from rest"] if carried and rest else []
+
+
 EXTENSION = Extension(
     name="second_motions",
     section=SECTION,
@@ -112,6 +120,7 @@ EXTENSION = Extension(
             "than they scatter. Then the median stress, the largest motion's share of a long time, and Lyapunov exponents.",
         ),
     ),
+    remarks=remarks,
     closing="second_motions.tables.closing",
     look_at=TABLE,
 )

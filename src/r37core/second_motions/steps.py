@@ -22,7 +22,7 @@ from r37core.rom.contact_model import ContactModel, read_contact_model
 from r37core.stress.operator import read_stress_operators
 from r37core.time_integration.integration_choice import IntegrationChoice
 
-from .choice import DOWN, MOTIONS, DwellChoice, SweepChoice
+from .choice import DOWN, MOTIONS, REST, DwellChoice, SweepChoice
 from .dataset import dwell_dataset, pair_motions
 from .dwelling import dwells_of, speeds_dwelt_on
 from .states import levels_of, read_states, write_states
@@ -41,13 +41,14 @@ def carry(input: Any, output: Any, params: Any) -> None:
     made_by = [params.motion, params.results, params.kept]
     files = run.run(parts, [made_by, _made_of(params, input.model, *([input.stress] if stress else []))])
     ascending = files[::-1] if params.motion == DOWN else files
+    carried = {} if params.motion == REST else {"revolutions": run.carried_choice.revolutions}
     write_response(
         ascending,
         speeds,
         output.response,
         stress_history_speeds=(),
         yield_stress=params.yield_stress,
-        provenance={**params.provenance, "motion": params.motion},
+        provenance={**params.provenance, "motion": params.motion, **carried},
     )
     write_states(ascending, speeds, run.scene.casing.clearance, output.states)
     shutil.rmtree(parts, ignore_errors=True)

@@ -72,10 +72,11 @@ class CarriedSweep:
 
     @cached_property
     def carried_choice(self) -> IntegrationChoice:
-        """Time integration of a speed to which the motion is carried, with its statistic over the last half."""
-        highest = self.sweep.speeds[-1]
+        """Time integration of a speed to which the motion is carried: as from rest, or of so many revolutions as are given."""
+        highest, revolutions = self.sweep.speeds[-1], self.sweep.revolutions
         step = resolved_problem(self.model, highest, self.scene, self.choice).choice.time_step
-        return replace(self.choice, time_step=step, revolutions=self.sweep.revolutions, until_settled=False).recorded
+        choice = replace(self.choice, time_step=step)
+        return (replace(choice, revolutions=revolutions, until_settled=False) if revolutions else choice).recorded
 
     @property
     def unrecorded_choice(self) -> IntegrationChoice:
