@@ -93,7 +93,7 @@ def test_the_run_has_what_pictures_were_wrong_about(dangers):
 def test_tables_verdict_and_python_have_the_danger_of_the_runs(results, datasets, tables, dangers, pair):
     danger, response = dangers[pair], response_of(datasets, *pair)
     (ranked,) = of(tables["ranking"], pair).to_dict("records")
-    assert {name: ranked[name] for name in names(DANGER)} == pytest.approx(danger, rel=1e-5, nan_ok=True)
+    assert {name: ranked[name] for name in names(DANGER)} == pytest.approx(danger, rel=1e-4, nan_ok=True)
     rows = of(tables["summary"], pair)
     for name in ("share_of_revolutions_above_yield", "largest_stress_pa"):
         if danger["share_of_revolutions_above_yield"] > 0.0:
@@ -117,7 +117,7 @@ def test_the_last_lines_have_the_words_and_the_numbers(results, tables):
         said in first and f"{worst['largest_stress_over_yield']:.3g} times yield, {worst['blade']} in {worst['scene']}" in first
     )
     assert f"up to {100 * worst['share_of_revolutions_above_yield']:.2g}% of the revolutions" in first
-    assert any("Bare: Open and Heavy cannot be ranked" in line for line in lines)
+    assert any("Bare: Open, Heavy and Fan cannot be ranked" in line for line in lines)
     assert of(tables["ranking"], ("Open", "Bare"))["rank"].item() == of(tables["ranking"], ("Heavy", "Bare"))["rank"].item()
 
 

@@ -102,8 +102,10 @@ def ranking(input: Any, output: Any, params: Any) -> None:
     members = measures_of_members(datasets.pop("members")) if "members" in datasets else None
     motions = datasets.pop("motions", None)
     operating = params.operating and from_plain(OperatingRange, params.operating)
-    runs = zip(map(tuple, params.runs), params.errors, strict=True)
-    measures = {pair: measures_of(datasets, *pair, operating, error) for pair, error in runs}
+    measures = {
+        (blade, scene): measures_of(datasets, blade, scene, operating, error)
+        for (blade, scene), error in zip(params.runs, params.errors, strict=True)
+    }
     for region in other_regions(datasets["stress"]) if "stress" in datasets else []:
         for blade, scene in params.runs:
             response = response_of(datasets, blade, scene, region)
