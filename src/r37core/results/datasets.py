@@ -61,7 +61,7 @@ def response_of(datasets: Mapping[str, xr.Dataset], blade: str, scene: str, regi
     if region or not further.sizes["speed"]:
         return response
     joined = overlaid(response, further)
-    # what further runs do not have is NaN at speeds of theirs
+    # what further runs do not have is that of the sweep, and NaN at speeds of theirs alone
     rest = response.reset_coords(drop=True).drop_vars(joined.data_vars, errors="ignore").reindex(speed=joined["speed"])
     return xr.merge([joined, rest], join="outer")
 
