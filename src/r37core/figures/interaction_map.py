@@ -98,7 +98,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
             figure.legend(handles, labels, loc="outside lower center", ncols=5, **close)
         if not by_motion.all():
             known = {above: mark for above, mark in _MARKS.items() if above or "" in set(rows["above"])}
-            look: dict[str, Any] = {"linestyle": "", "color": "0.2"}
+            look: dict[str, Any] = {"linestyle": "", "markeredgecolor": "0.2"}
             keys = [
                 Line2D([], [], marker=mark, markerfacecolor=to_rgba("0.2", share), **look)
                 for mark, _, share, _ in known.values()
@@ -171,8 +171,13 @@ def _draw_marks(axes: Axes, rows: pd.DataFrame, colours: dict[str, str]) -> None
         sizes = [_round(largest), _round(0.15 * largest)]
         key: dict[str, Any] = {"marker": "o", "linestyle": "", "color": "0.8", "markeredgecolor": "0.3"}
         handles = [Line2D([], [], markersize=_LARGEST * np.sqrt(each / scale), **key) for each in sizes]
+        # on no mark: above the strip, or else at the top
+        places = np.vstack([(0.0, 0.0), np.column_stack(_places(rows))])
+        (_, zero), *shares = axes.transAxes.inverted().transform(axes.transData.transform(places))
+        crowded = any(x > 0.5 and 0.0 < y - zero < 0.25 for x, y in shares)
+        place: dict[str, Any] = {"loc": "upper left"} if crowded else {"loc": "lower right", "bbox_to_anchor": (1.0, zero)}
         box: dict[str, Any] = {"frameon": True, "framealpha": 0.9, "edgecolor": "none", "columnspacing": 1.0, "borderpad": 0.6}
-        axes.legend(handles, [f"{each:g} {unit}" for each in sizes], loc="upper left", ncols=2, **box)
+        axes.legend(handles, [f"{each:g} {unit}" for each in sizes], ncols=2, **place, **box)
 
 
 def _places(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
