@@ -35,13 +35,14 @@ def spiked(*spikes, yield_stress=1e9, diverged=()):
         branch = (speeds >= first) & (speeds <= peak)
         rms[branch] += height * (speeds[branch] - first + 1.0) / (peak - first + 1.0)
     status = np.where(np.isin(speeds, diverged), int(RunStatus.DIVERGED), int(RunStatus.COMPLETED))
-    tips = np.stack([rms, 0.5 * rms], axis=1)
+    tips, stress = np.stack([rms, 0.5 * rms], axis=1), np.where(status == 0, 2e12 * rms, np.nan)
     return xr.Dataset(
         {
             "status": ("speed", status),
             "rms_normal": (("speed", "tip_point"), tips),
             "rms_tangential": (("speed", "tip_point"), 3.0 * tips),
-            STRESS: ("speed", np.where(status == 0, 2e12 * rms, np.nan)),
+            **{name: ("speed", stress) for name in (STRESS, *(f"max_von_mises_{kind}" for kind in ("median", "high", "ever")))},
+            "share_of_revolutions_above_yield": ("speed", np.where(status == 0, stress > yield_stress, np.nan)),
             "yield_stress": ((), yield_stress),
         },
         coords={"speed": speeds, "tip_point": ["leading_edge", "trailing_edge"]},

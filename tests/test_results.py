@@ -436,7 +436,11 @@ def test_the_ranking_has_a_length_in_each_other_region(datasets, tmp_path):
         dataset.to_netcdf(tmp_path / f"{kind}.nc")
     table, pairs = tmp_path / "ranking.csv", [("Ref", "direct"), ("Odd", "direct")]
     given = Named(**{kind: tmp_path / f"{kind}.nc" for kind in datasets})
-    ranking(given, Named(table=table), Named(runs=pairs, errors=[0.0] * len(pairs), operating=None, contacts={"Ref": "8 points", "Odd": "8 points"}))
+    ranking(
+        given,
+        Named(table=table),
+        Named(runs=pairs, errors=[0.0] * len(pairs), operating=None, contacts={"Ref": "8 points", "Odd": "8 points"}),
+    )
     table = pd.read_csv(table).set_index("blade")
     for region in ("airfoil_unfiltered", "box"):
         name = f"length_most_revolutions_{region}_rad_s"

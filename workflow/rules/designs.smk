@@ -18,7 +18,7 @@ use rule step as design_table with:
     params:
         **step("designs.steps.tabulate"),
         pairs=families.pairs,
-        errors=sweep.errors(families.pairs),
+        errors=level_errors(settings, families.pairs),
         variables=families.variables,
         families={"blade": settings.designs.family_of, "scene": settings.scene_designs.family_of},
         densities=families.densities,

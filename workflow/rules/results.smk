@@ -72,7 +72,7 @@ use rule step as ranking with:
     params:
         **step("results.steps.ranking"),
         runs=sweep.runs_with("rms"),
-        errors=sweep.errors(sweep.runs_with("rms")),
+        errors=level_errors(settings, sweep.runs_with("rms")),
         operating=operating,
         contacts=contact_of_blades(settings),
 

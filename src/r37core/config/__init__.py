@@ -4,7 +4,17 @@ from .blades import BladeSettings
 from .declaring import si_fields, si_form
 from .document import ConfigError, Document, command_line_document, read_document
 from .section import plain
-from .settings import Settings, blades_named, checked_scene, contact_of_blades, operating_range, scenes_named, varied_settings
+from .settings import (
+    Settings,
+    blades_named,
+    blades_on_points,
+    checked_scene,
+    contact_of_blades,
+    level_errors,
+    operating_range,
+    scenes_named,
+    varied_settings,
+)
 
 __all__ = [
     "BladeSettings",
@@ -12,9 +22,11 @@ __all__ = [
     "Document",
     "Settings",
     "blades_named",
+    "blades_on_points",
     "checked_scene",
     "command_line_document",
     "contact_of_blades",
+    "level_errors",
     "operating_range",
     "plain",
     "read_document",

@@ -317,6 +317,17 @@ def contact_of_blades(settings: Settings) -> dict[str, str]:
     return kinds
 
 
+def blades_on_points(settings: Settings) -> list[str]:
+    """Blades whose contact acts on points."""
+    return [name for name in settings.blades if settings.contact_of(name) == POINTS]
+
+
+def level_errors(settings: Settings, pairs: Sequence[tuple[str, str]]) -> list[float]:
+    """Relative error of the level, by mesh and step, of each of some blades and scenes; 0 where it was not measured."""
+    measured, linings, points = settings.fidelity.measured, settings.linings, blades_on_points(settings)
+    return [(measured and measured.error_of(blade in points and scene not in linings)) or 0.0 for blade, scene in pairs]
+
+
 def location_of_contact(settings: Settings, blade: str) -> str:
     """Where stands what a blade's contact acts on, as `file:line: key`."""
     if settings.structure.boundary.contact is None:

@@ -88,7 +88,7 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     first and the last are drawn; a row between them says how many are left out.
     """
     scenes = [name for name in dict.fromkeys(ranking["scene"]) if scenes is None or name in scenes]
-    tables = {scene: _of_many(ranking[ranking["scene"] == scene].set_index("blade")) for scene in scenes}
+    tables = {scene: _shown_blades(ranking[ranking["scene"] == scene].set_index("blade")) for scene in scenes}
     columns = min(len(scenes), 2)
     rows = -(-len(scenes) // columns)
     size = (style.PAGE, 0.7 + rows * (0.5 + 0.34 * max(3, *map(len, tables.values()))))
@@ -108,7 +108,7 @@ def draw_ranking(ranking: pd.DataFrame, scenes: Sequence[str] | None = None) -> 
     return figure
 
 
-def _of_many(rows: pd.DataFrame) -> pd.DataFrame:
+def _shown_blades(rows: pd.DataFrame) -> pd.DataFrame:
     """Rows of a scene by blade; of many the first and the last, with one of nothing between them."""
     if len(rows) <= _MOST_RANKED:
         return rows

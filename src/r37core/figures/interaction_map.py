@@ -73,8 +73,8 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
     highest = np.nanmin([1.3 * float(campbell["frequency"].sel(mode="2B").max()), 1.15 * rows["frequency"].max()])
     strip = -_STRIP * highest if rows["frequency"].isna().any() else 0.0
     rows = rows.assign(frequency=rows["frequency"].fillna(strip).clip(upper=highest), higher=rows["frequency"] > highest)
-    by_motion = rows["unit"] == "mm"
-    rows["above"] = rows["above"].mask(by_motion, MOST)
+    sized_by_motion = rows["unit"] == "mm"
+    rows["above"] = rows["above"].mask(sized_by_motion, MOST)
     rows["area"] = rows["above"].map({above: area for above, (_, area, *_) in _MARKS.items()}).fillna(_areas(rows))
     with plt.rc_context(_LETTERS | {"axes.titlesize": 10}):
         size = (_WIDTH, 0.9 + len(scenes) * (3.0 if len(scenes) < 3 else 2.4))
@@ -96,7 +96,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
         close: dict[str, Any] = {"handletextpad": 0.1, "columnspacing": 1.0}
         if handles:
             figure.legend(handles, labels, loc="outside lower center", ncols=5, **close)
-        if not by_motion.all():
+        if not sized_by_motion.all():
             known = {above: mark for above, mark in _MARKS.items() if above or "" in set(rows["above"])}
             look: dict[str, Any] = {"linestyle": "", "markeredgecolor": "0.2"}
             keys = [
@@ -106,7 +106,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
             figure.legend(keys, [label for *_, label in known.values()], loc="outside upper center", ncols=4, **close)
         figure.draw_without_rendering()
         for scene, axes in panels.items():
-            _label(axes, _by_danger(rows[rows["scene"] == scene]), figure.dpi / 72.0, named=len(colours) > 1)
+            _label(axes, _most_dangerous_first(rows[rows["scene"] == scene]), figure.dpi / 72.0, named=len(colours) > 1)
     return figure
 
 
@@ -136,7 +136,7 @@ def _draw_modes(axes: Axes, campbell: xr.Dataset) -> None:
             axes.annotate(mode, place, fontweight="bold", color="0.2", path_effects=_HALO, **above)
 
 
-def _by_danger(rows: pd.DataFrame) -> pd.DataFrame:
+def _most_dangerous_first(rows: pd.DataFrame) -> pd.DataFrame:
     """Rows above yield, or with a motion, the longest first and then those with the most revolutions."""
     dangerous = rows[rows["above"].isin([MOST, SOME])]
     return dangerous.sort_values(["size", "share_of_revolutions_above_yield"], ascending=False)

@@ -32,8 +32,8 @@ def draw_response(
     drawn where it differs from that (results/other_motions.py), and these speeds shaded; `further_runs`: of a verdict.
     """
     if further_runs is not None:
-        rms = _of_all_scenes("rms", rms, further_runs)
-        stress = None if stress is None else _of_all_scenes("stress", stress, further_runs)
+        rms = _scenes_with_further_runs("rms", rms, further_runs)
+        stress = None if stress is None else _scenes_with_further_runs("stress", stress, further_runs)
     figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, direction in zip(panels, ("normal", "tangential"), strict=False):
         _draw_scenes(axes, rms, direction)
@@ -60,7 +60,7 @@ def draw_response(
     return figure
 
 
-def _of_all_scenes(kind: str, runs: xr.Dataset, further_runs: xr.Dataset) -> xr.Dataset:
+def _scenes_with_further_runs(kind: str, runs: xr.Dataset, further_runs: xr.Dataset) -> xr.Dataset:
     """Runs of a blade in all scenes, as responses have them."""
     datasets = {kind: runs.expand_dims("blade"), FURTHER_RUNS: further_runs.expand_dims("blade")}
     parts = [response_of(datasets, str(runs["blade"].values), scene) for scene in runs["scene"].values]

@@ -1,7 +1,7 @@
 """The plan of the sweep: simulations, rounds of refinement, and the datasets that are joined of them."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
 from itertools import chain, count, takewhile
@@ -14,7 +14,6 @@ from r37core.base.plain import to_plain
 from r37core.base.speeds import SpeedPlan
 from r37core.config import Settings, si_form
 from r37core.contact.scene import Scene
-from r37core.rom.reduction_choice import POINTS
 from r37core.time_integration.integration_choice import IntegrationChoice
 from r37core.time_integration.speed_run import OF_RUNS
 
@@ -163,16 +162,6 @@ class Sweep:
             return {"campbell": paths.fill(paths.CAMPBELL, **where)}
         files = paths.speed_files(wildcards, self.new_speeds(wildcards, number - 1))
         return {"before": paths.fill(paths.ROUND, **where, round=number - 1), "speeds": files}
-
-    @property
-    def point_contact(self) -> list[str]:
-        """Blades whose contact acts on points."""
-        return [name for name in self.settings.blades if self.settings.contact_of(name) == POINTS]
-
-    def errors(self, pairs: Sequence[tuple[str, str]]) -> list[float]:
-        """Relative error of the level, by mesh and step, of each of some blades and scenes; 0 where it was not measured."""
-        measured, linings, points = self.settings.fidelity.measured, self.settings.linings, self.point_contact
-        return [(measured and measured.error_of(blade in points and scene not in linings)) or 0.0 for blade, scene in pairs]
 
     def refinement_choice(self, wildcards: Any) -> dict[str, Any]:
         """Criterion for halving intervals of speeds of a scene, as fields of RefinementChoice."""

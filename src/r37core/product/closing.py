@@ -141,7 +141,7 @@ def _extremes(rows: list[dict[str, str]], file: Path) -> list[str]:
 
 
 def _tied(rows: list[dict[str, str]]) -> str:
-    """That blades cannot be ranked, and the range of their lengths."""
+    """Text on blades that cannot be ranked, with the range of their lengths."""
     low, high = (end(_number(row, "length_most_revolutions_rad_s") for row in rows) for end in (min, max))
     return f"{_named(rows)} cannot be ranked (above yield over {low:.0f}{f' to {high:.0f}' if high > low else ''} rad/s)"
 

@@ -13,7 +13,7 @@ MOST_REVOLUTIONS, SOME_REVOLUTIONS = 0.5, 0.05
 """Shares of the revolutions above which a speed counts as above yield in most, and in some, revolutions."""
 
 MOST, SOME, NEVER = "most", "some", "never"
-"""Whether the stress is above yield in most of the judged revolutions, in some of them, or in none."""
+"""Words for a stress above yield in most of the judged revolutions, in some of them, or in none."""
 
 DROP_WITHIN = 24.0
 """Speeds (rad/s) above a peak over which its motion counts as dropped."""

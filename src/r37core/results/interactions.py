@@ -62,8 +62,8 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     lined = is_lined(response)
     peaks = _interactions(response, campbell if lined else None, choice)
     if lined:
-        found = [*peaks, *ranges_without_peak(response, [peak["reach"] for peak in peaks])]
-        return sorted(found, key=itemgetter("peak_speed_rad_s"))
+        ranges = ranges_without_peak(response, [peak["reach"] for peak in peaks])
+        return sorted([*peaks, *ranges], key=itemgetter("peak_speed_rad_s"))
     return rows_above_yield(response, peaks)
 
 

@@ -180,11 +180,11 @@ def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
     values = rows[list(_TOLD_APART)].to_numpy()
     within = rows[[_within(name) for name in _TOLD_APART]].fillna(0.0).to_numpy()
 
-    def is_better(one: int, other: int) -> bool:
-        apart = np.flatnonzero(np.abs(values[one] - values[other]) > within[one] + within[other])
-        return bool(len(apart)) and bool(values[one, apart[0]] < values[other, apart[0]])
+    def is_better(row: int, other: int) -> bool:
+        apart = np.flatnonzero(np.abs(values[row] - values[other]) > within[row] + within[other])
+        return bool(len(apart)) and bool(values[row, apart[0]] < values[other, apart[0]])
 
-    better = np.array([[is_better(one, other) for other in range(len(rows))] for one in range(len(rows))])
+    better = np.array([[is_better(row, other) for other in range(len(rows))] for row in range(len(rows))])
     order = np.lexsort(rows[list(RANKED_BY)].fillna(np.inf).to_numpy().T[::-1])
     shared, best = np.empty(len(rows), int), order[0]
     for place, row in enumerate(order):
