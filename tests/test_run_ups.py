@@ -419,6 +419,9 @@ def test_files_that_are_no_run_ups_are_named(contact, tmp_path):
         dataset["worn"][:] = worn
         figure = draw_run_ups(dataset, "", blade="Ref", scene="abradable")
         assert [text.get_text() for text in figure.legends[0].texts] == legend
+    stress = {"max_von_mises": xr.full_like(dataset["speed"], 1e9), "yield_stress": ("run", [1.38e9])}
+    figure = draw_run_ups(dataset.assign(stress), "", blade="Ref", scene="abradable")
+    assert "largest von Mises (GPa)" in [axes.get_ylabel() for axes in figure.axes]
 
 
 def test_figures_of_runs_that_diverged_at_once(contact, tmp_path):

@@ -114,7 +114,7 @@ def stress_band(axes: Axes, places: Any, stress: xr.Dataset, label: str, **look:
 def stress_label(stress: xr.Dataset) -> str:
     """Label of an axis of stress_band, with the region of the stress where all runs have the same."""
     regions = set(map(str, stress["stress_region"].values.flat)) - {""} if "stress_region" in stress else set()
-    return "\n".join(["von Mises (GPa)", "median to largest", *(fill(region, 36) for region in regions if len(regions) == 1)])
+    return "\n".join(["von Mises (GPa)", "median to largest", *(fill(region, 30) for region in regions if len(regions) == 1)])
 
 
 def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False, linear: bool = True) -> None:
