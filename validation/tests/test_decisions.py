@@ -101,8 +101,8 @@ def searched(tmp_path):
             folder = file.parent / "search" / name / "Free" / scene
             folder.mkdir(parents=True)
             content_of = response((841, 841 + width), lined=lined)
-            for name in ("ever", "median", "high"):
-                content_of[f"max_von_mises_{name}"] = content_of["share_of_revolutions_above_yield"]
+            for statistic in ("ever", "median", "high"):
+                content_of[f"max_von_mises_{statistic}"] = content_of["share_of_revolutions_above_yield"]
             content_of["rms_tangential"] = content_of["rms_normal"]
             content_of = content_of.assign_coords(tip_point=["leading_edge", "trailing_edge"])
             content_of.assign(yield_stress=0.5).to_netcdf(folder / "response.nc")

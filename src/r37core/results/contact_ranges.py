@@ -65,8 +65,8 @@ def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRa
     if exceedance is None:
         return []
     own = ranges_above(exceedance.speeds, exceedance.shares, SOME_REVOLUTIONS)
-    _, some, ever = ranges_of(response, exceedance).values()
-    return joined([*some, *own, *ever])
+    *_, ever = ranges_of(response, exceedance).values()
+    return joined([*own, *ever])
 
 
 def _row(

@@ -10,7 +10,7 @@ import xarray as xr
 from r37core.time_integration.status import RunStatus
 
 from .columns import DANGER, LENGTHS, MOST_REVOLUTIONS, SOME_REVOLUTIONS, names
-from .exceedance import Exceedance, SpeedRange, exceedance_of, ranges_above
+from .exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 
 STRESSES = {
     "largest_median_stress_pa": "max_von_mises_median",
@@ -30,8 +30,10 @@ def ratio_to_yield(response: xr.Dataset, stress: str = "max_von_mises_ever") -> 
 def ranges_of(response: xr.Dataset, exceedance: Exceedance) -> dict[str, list[SpeedRange]]:
     """Ranges of speeds above yield, by the name of the column that has their length: in most and some revolutions, and ever."""
     ratio = ratio_to_yield(response)
-    shares = (exceedance.ranges(share) for share in (MOST_REVOLUTIONS, SOME_REVOLUTIONS))
-    return dict(zip(names(LENGTHS), (*shares, ranges_above(ratio["speed"].values, ratio.values, 1.0)), strict=True))
+    most, some = (exceedance.ranges(share) for share in (MOST_REVOLUTIONS, SOME_REVOLUTIONS))
+    # between speeds the share's straight line is above its limit longer than the stress is above yield
+    ever = joined([*some, *ranges_above(ratio["speed"].values, ratio.values, 1.0)])
+    return dict(zip(names(LENGTHS), (most, some, ever), strict=True))
 
 
 def largest_of(response: xr.Dataset) -> dict[str, float]:
