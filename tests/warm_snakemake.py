@@ -165,6 +165,8 @@ def _become(order, streams):
         os.environ[name] = str(streams[3])
     if "--dry-run" not in order["arguments"]:
         _fork_job_servers()
+    # which tests in the background of a shell ignore
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.alarm(order["seconds"])
     if order.get("jobs"):
         _write_jobs(Path(order["jobs"]))
