@@ -133,6 +133,8 @@ def _best(rows: pd.DataFrame, length: str, flown: bool) -> str:
     if len(tied) == 1:
         return f"{names[tied.index[0]]} is above yield at the fewest speeds{inside} ({least:.0f} rad/s)"
     text = f"{len(tied)} of {len(rows)} cannot be told apart by their speeds above yield{inside}"
-    measure, words = next((name, words) for name, words in _TIE_BREAKERS.items() if name in tied and tied[name].notna().any())
-    best = tied[measure].idxmin()
-    return f"{text}; of these {names[best]} has the least {words} ({tied[measure][best]:.3g})"
+    for measure, words in _TIE_BREAKERS.items():
+        if measure in tied and tied[measure].notna().any():
+            best = tied[measure].idxmin()
+            return f"{text}; of these {names[best]} has the least {words} ({tied[measure][best]:.3g})"
+    return text
