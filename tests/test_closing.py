@@ -60,6 +60,11 @@ def test_more_columns_say_more(tmp_path):
         "the largest stress 1.00 GPa, 0.7 times yield, Ref in direct at 1344 rad/s (1T/9)"
     )
     assert closing_lines(written(tmp_path, ROWS[3]), 0.0, 1.0)[0] == "found 1 interaction"
+    # a few revolutions are said, and the worst is that of the largest share of its own yield
+    few = "Fan,bare,,2,0.0005,9e8,1.2,500"
+    said = closing_lines(written(tmp_path, few, "Ref,bare,,2,0,1e9,0.7,500"), 0.0, 1.0)[0]
+    assert "0 of them above yield in most revolutions, 1 in some; the largest stress 0.90 GPa, 1.2 times yield, Fan" in said
+    assert said.endswith("above yield in up to 1% of the revolutions")
     rows = [f"{row},{share}" for row, share in zip(ROWS, ("0.2", "0", "", ""), strict=True)]
     said = closing_lines(written(tmp_path, *rows, columns=",worn_through_share"), 0.0, 1.0)[0]
     assert " in most revolutions, 1 in some, 1 with the lining worn through to the casing; the largest" in said
@@ -74,16 +79,22 @@ def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
     rows = ("S100,lined,1,13.2,,20\n", "Ref,lined,2,70.6,,20\n", "Ref,direct,1,47.1,7.6,10\n", "S100,direct,2,854.2,21.1,10\n")
     (tmp_path / "ranking.csv").write_text(head + "".join(rows))
     lined, direct, missed = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:4]
-    assert lined.startswith("lined: S100 is above yield at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); ")
-    assert direct.startswith("direct: Ref is above yield at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); ")
+    assert lined.startswith(
+        "lined: S100 is above yield in most revolutions at the fewest speeds (13 rad/s), Ref at the most (71 rad/s); "
+    )
+    assert direct.startswith(
+        "direct: Ref is above yield in most revolutions at the fewest speeds (47 rad/s), S100 at the most (854 rad/s); "
+    )
     assert missed == "speeds lie up to 20 rad/s apart: a narrower interaction between them may be missed"
     # those that share a rank cannot be told apart, and are all named
     rows = ["A,x,1,40,6,0", "B,x,1,45,6,0", "A,y,1,0,,0", "B,y,1,0,,0", "C,y,3,9,,0", *(f"D{n},z,1,0,,0" for n in range(12))]
     (tmp_path / "ranking.csv").write_text(head + "\n".join(rows) + "\n")
     x, y, z = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
-    assert x.startswith("x: A and B cannot be ranked (above yield over 40 to 45 rad/s); ")
-    assert y.startswith("y: A and B are above yield at the fewest speeds (0 rad/s), C at the most (9 rad/s); ")
-    assert z.startswith("z: D0, D1, D2, D3 and 8 more cannot be ranked (above yield over 0 rad/s); ")
+    assert x.startswith("x: A and B cannot be ranked (above yield in most revolutions over 40 to 45 rad/s); ")
+    assert y.startswith(
+        "y: A and B are above yield in most revolutions at the fewest speeds (0 rad/s), C at the most (9 rad/s); "
+    )
+    assert z.startswith("z: D0, D1, D2, D3 and 8 more cannot be ranked (above yield in most revolutions over 0 rad/s); ")
 
 
 def test_the_ranking_over_scenes_and_of_unlike_contact(tmp_path):
@@ -235,13 +246,17 @@ def test_designs(tmp_path):
     """Those that cannot be told apart are counted, and the number that the choice among them is made by is told."""
     lengths = {"length_most_revolutions_rad_s": [40.0, 13.2, np.nan], "length_some_revolutions_rad_s": [50.0, 20.0, np.nan]}
     more = {"length_most_revolutions_within_rad_s": [10.0, 10.0, np.nan], "largest_goodman_share": [0.4, 0.55, np.nan]}
+    more["diverged_runs"] = [0, 0, 0]
     table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
-    assert designs.closing(tmp_path) == "2 designs; lined: B is above yield at the fewest speeds (13 rad/s)"
+    assert designs.closing(tmp_path) == "2 designs; lined: B is above yield in most revolutions at the fewest speeds (13 rad/s)"
     more["length_most_revolutions_within_rad_s"] = [20.0, 10.0, np.nan]
     more["largest_stress_over_yield"] = [np.nan, 3.0, np.nan]
     table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
-    tied = "2 designs; lined: 2 of 2 cannot be told apart by their speeds above yield; of these "
+    tied = "2 designs; lined: 2 of 2 cannot be told apart by their speeds above yield in most revolutions; of these "
     assert designs.closing(tmp_path) == tied + "A has the least share of the Goodman line (0.4)"
+    # one that diverged has no largest share
+    table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=3 * ["lined"], **lengths, **more | {"diverged_runs": [1, 0, 0]})
+    assert designs.closing(tmp_path).endswith("of these B has the least share of the Goodman line (0.55)")
     del more["largest_goodman_share"]
     table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
     assert designs.closing(tmp_path) == tied + "B has the least stress over yield (3)"

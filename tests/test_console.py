@@ -164,7 +164,7 @@ def test_simulations_of_a_job_of_many_are_counted(clock, tmp_path, monkeypatch):
     simulate(progress, clock, 1, "Ref")
     for status in (RunStatus.COMPLETED, RunStatus.DIVERGED, RunStatus.COMPLETED):
         counts.count_simulation(status)
-    assert "simulations 4 of at most 10 (Ref 1, members and designs 3); 1 diverged" in progress.line()
+    assert "simulations 4 of at most 10 (Ref 1, members, designs, further runs 3); 1 diverged" in progress.line()
 
 
 def test_only_the_terminal_s_handler_is_quietened():

@@ -1,7 +1,8 @@
 """The numbered examples run, at a small level in place of theirs, and what they assert holds."""
 
-from pathlib import Path
+from pathlib import shutil
 
+import Path
 import pytest
 from workflow_runs import copy_project, own_package
 
@@ -13,6 +14,7 @@ def shipped(root, tmp_path_factory):
     """A package whose shipped configuration has a small level."""
     folder = tmp_path_factory.mktemp("shipped")
     copy_project(root, folder)
+    shutil.copy(root / "config/scenes.yaml", folder / "config")
     own_package(folder)
     return folder / "src/r37"
 

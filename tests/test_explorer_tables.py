@@ -223,7 +223,7 @@ def test_the_map_of_designs_has_the_line_of_a_requirement(page, rows, tmp_path):
     places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
     designs = pd.DataFrame([("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)])
     table = designs.set_axis(["blade", "scene", "family", *keys], axis=1).assign(
-        length_most_revolutions_rad_s=[40.0, 30, 20, 0], length_ever_rad_s=[40.0, 30, 20, 9]
+        length_most_revolutions_rad_s=[40.0, 30, 20, 0], share_of_revolutions_above_yield=[0.9, 0.8, 0.7, 0.1]
     )
     verdicts = [("Ref", f"Room_{number}", verdict) for number, verdict in enumerate(("fails", "fails", "fails", "meets"))]
     contents = explorer_contents(sweep(), rows) | {"panels": {"designs": design_panel(table)} | judged(*verdicts)}

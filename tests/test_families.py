@@ -414,7 +414,7 @@ def table_of(lengths):
     places = [(clearance, thickness) for clearance in (3e-4, 6e-4) for thickness in (0.001, 0.002)]
     rows = [("Ref", f"Room_{number}", "Room", *place) for number, place in enumerate(places)]
     return pd.DataFrame(rows, columns=["blade", "scene", "family", *KEYS]).assign(
-        length_most_revolutions_rad_s=lengths, length_ever_rad_s=lengths
+        length_most_revolutions_rad_s=lengths, share_of_revolutions_above_yield=np.divide(lengths, 100.0)
     )
 
 
@@ -455,7 +455,7 @@ def test_a_map_without_a_speed_above_yield_shows_how_near_fatigue_is():
 
 def test_a_map_marks_designs_that_are_above_yield_but_not_in_most_revolutions():
     """In operation where its lengths are; in the explorer, too."""
-    table = table_of([40.0, 0.0, 0.0, 0.0]).assign(length_ever_rad_s=[50.0, 9.0, 0.0, 0.0])
+    table = table_of([40.0, 0.0, 0.0, 0.0]).assign(share_of_revolutions_above_yield=[0.9, 0.4, 0.0, 0.0])
     inside = {"length_most_revolutions_operating_rad_s": 0.0, "exceedance_integral_operating_rad_s": [0.0, 0.0, 0.0, 2.0]}
     for rows, place in ((table, ([0], [1.3])), (table.assign(**inside), ([1], [1.3]))):
         axes = map_of(rows, None).axes[0]

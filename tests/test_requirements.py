@@ -36,7 +36,7 @@ from r37core.requirements.judging import (
 from r37core.requirements.looks import joined_looks
 from r37core.requirements.plan import Judged, remarks
 from r37core.requirements.table import closing, operating_table, overall, reason, verdict_table
-from r37core.results.datasets import FURTHER_RUNS, overlaid, response_of
+from r37core.results.datasets import FURTHER_RUNS, overlaid, response_of, with_further_runs
 from r37core.results.interaction_choice import InteractionChoice
 from r37core.results.interactions import summarise
 from r37core.results.operating_range import OperatingDwell, OperatingRange
@@ -427,6 +427,7 @@ def test_certainty_by_members_and_motions():
 def judged():
     of = {"above": above(1100.0, 1120.0), "below": None}
     stress = xr.concat([response(shares) for shares in of.values()], "scene").assign_coords(scene=list(of))
+    stress = stress.assign(max_von_mises_ever=2.0 * stress["share_of_revolutions_above_yield"], yield_stress=1.0)
     datasets = {"rms": stress[["status", "lined"]].expand_dims(blade=["Ref"]), "stress": stress.expand_dims(blade=["Ref"])}
     datasets["campbell"] = campbell().expand_dims(blade=["Ref"])
     pairs = [("Ref", "above"), ("Ref", "below")]
@@ -467,8 +468,8 @@ def test_what_lies_in_the_operating_range(judged):
         columns=["blade", "scene", "mode", "engine_order", "peak_speed_rad_s"],
     )
     table = operating_table(pairs, FLOWN, datasets, interactions)
-    assert table["kind"].tolist() == ["crossing", "interaction", "above_yield"]
-    assert table["what"].tolist() == ["1B/4", "1B/4", ""]
+    assert table["kind"].tolist() == ["crossing", "interaction", "above_yield", "ever_above_yield"]
+    assert table["what"].tolist() == ["1B/4", "1B/4", "", ""]
     assert table.iloc[2][["from_rad_s", "to_rad_s", "length_rad_s", "time_share"]].tolist() == [1097.5, 1122.5, 25.0, 0.125]
 
 
@@ -479,7 +480,7 @@ def joined(runs, scenes):
 
 def moved(shares, **more):
     """A response of runs that move and have a stress by their shares of revolutions above yield."""
-    stresses = {f"max_von_mises{name}": 2.0 * shares for name in ("", "_ever", "_median", "_high")}
+    stresses = {f"max_von_mises{name}": 2.0 * shares for name in ("_ever", "_median", "_high")}
     runs = stressed(0.0, shares).assign({name: ("speed", values) for name, values in stresses.items()}).assign(more)
     rms = 1e-3 + 1e-2 * runs["share_of_revolutions_above_yield"].expand_dims(tip_point=["leading_edge"], axis=1)
     runs["status"] = runs["status"].astype("i1").assign_attrs(VARIABLES["status"].attributes)
@@ -540,8 +541,14 @@ def test_tables_and_figure_have_the_further_runs_that_the_verdict_has(lined, tmp
     assert above_yield == judgement["value"]
     one_blade = {name: judged_region(dataset.sel(blade="Ref")) for name, dataset in datasets.items()}
     figure = draw_response("Ref", None, **one_blade)
-    drawn = [len(line.get_xdata()) for line in figure.axes[0].lines[:3]]
-    assert drawn == [response.sizes["speed"], *2 * [sweep.sizes["speed"]]]
+    for axes in (figure.axes[0], figure.axes[2]):
+        drawn = [len(line.get_xdata()) for line in axes.lines[:: 1 if axes is figure.axes[0] else 2][:3]]
+        assert drawn == [response.sizes["speed"], *2 * [sweep.sizes["speed"]]]
+    # the datasets of other pictures, each blade and scene as its response
+    whole = with_further_runs("stress", judged_region(plain["stress"]), datasets[FURTHER_RUNS]).sel(blade="Ref", scene="looked")
+    ran = whole.isel(speed=np.flatnonzero(whole["status"].values != RunStatus.NOT_RUN))
+    for name in ("max_von_mises_ever", "share_of_revolutions_above_yield"):
+        np.testing.assert_array_equal(ran[name], response[name])
 
 
 @pytest.fixture

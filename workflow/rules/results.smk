@@ -97,6 +97,7 @@ use rule step as explorer with:
     input:
         **datasets,
         **{name: panel.table for name, panel in shown_panels.items()},
+        **further_runs,
         campbell=rules.campbell_of_all.output[0],
         summary=rules.summary.output[0],
         ranking=rules.ranking.output[0],

@@ -109,7 +109,7 @@ class Progress(logging.Filter):
         parts = [f"jobs {self._done} of {self._known}"] if self._known else []
         of_many = counted_simulations()
         if total := self._simulated.total() + of_many.total():
-            blades = [*self._simulated.items(), *([("members and designs", of_many.total())] if of_many else [])]
+            blades = [*self._simulated.items(), *([("members, designs, further runs", of_many.total())] if of_many else [])]
             shown = ", ".join(f"{blade} {number}" for blade, number in blades[-3:])
             more = f"{len(blades) - 3} blades more, " if len(blades) > 3 else ""
             bound = f" of at most {self.most}" if total <= self.most else ""

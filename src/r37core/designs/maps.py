@@ -60,7 +60,7 @@ def draw_design_map(
 def some_above_yield(rows: pd.DataFrame) -> pd.Series:
     """1.0 for designs whose length above yield in most revolutions is 0, but not in all their revolutions; else 0.0."""
     length = length_column(rows)
-    any_revolution = "exceedance_integral_operating_rad_s" if "operating" in length else "length_ever_rad_s"
+    any_revolution = "exceedance_integral_operating_rad_s" if "operating" in length else "share_of_revolutions_above_yield"
     return ((rows[length] == 0.0) & (rows[any_revolution] > 0.0)).astype(float)
 
 

@@ -127,14 +127,16 @@ def _best(rows: pd.DataFrame, length: str, flown: bool) -> str:
     """The designs with the shortest `length`, all that tie with it; `flown`: whether that is the length in operation."""
     names = rows["blade"].str.cat(rows["scene"], " in ") if rows["scene"].nunique() > 1 else rows["blade"]
     least = rows[length].min()
-    within = rows["length_most_revolutions_within_rad_s"]
+    within = rows[length.replace("_rad_s", "_within_rad_s")]
     tied = rows[rows[length] - least <= within + within[rows[length].idxmin()]]
     inside = " in operation" if flown else ""
     if len(tied) == 1:
-        return f"{names[tied.index[0]]} is above yield at the fewest speeds{inside} ({least:.0f} rad/s)"
-    text = f"{len(tied)} of {len(rows)} cannot be told apart by their speeds above yield{inside}"
+        return f"{names[tied.index[0]]} is above yield in most revolutions at the fewest speeds{inside} ({least:.0f} rad/s)"
+    text = f"{len(tied)} of {len(rows)} cannot be told apart by their speeds above yield in most revolutions{inside}"
+    # what diverged has no largest value
+    ended = tied[tied["diverged_runs"] == 0]
     for measure, words in _TIE_BREAKERS.items():
-        if measure in tied and tied[measure].notna().any():
-            best = tied[measure].idxmin()
-            return f"{text}; of these {names[best]} has the least {words} ({tied[measure][best]:.3g})"
+        if measure in tied and ended[measure].notna().any():
+            best = ended[measure].idxmin()
+            return f"{text}; of these {names[best]} has the least {words} ({ended[measure][best]:.3g})"
     return text

@@ -6,6 +6,7 @@ from pkgutil import resolve_name
 from typing import Any
 
 from r37core.base.plain import from_plain
+from r37core.results.datasets import FURTHER_RUNS, with_further_runs
 from r37core.results.operating_range import OperatingRange
 from r37core.results.ranking import read_ranking
 from r37core.results.regions import read_judged
@@ -16,7 +17,7 @@ from .contents import explorer_contents
 
 
 def explorer(input: Any, output: Any, params: Any) -> None:
-    """One page to look at all results. Inputs: datasets by kind, summary, ranking. Output: page (html).
+    """One page to look at all results. Inputs: datasets by kind and, if there, further runs, summary, ranking. Output: page.
 
     Params: title, figures (of extensions, linked), operating (the range, or None); panels: extension -> function that gives
     what its panels show of the tables of all, by the names of their files; programs: files that draw them.
@@ -30,6 +31,11 @@ def explorer(input: Any, output: Any, params: Any) -> None:
     }
     interactions, ranking = read_table(files.pop("summary")), read_ranking(files.pop("ranking"))
     datasets = {kind: read_judged(file) for kind, file in files.items()}
+    further = datasets.pop(FURTHER_RUNS, None)
+    # maps of wear and casing have no speeds of their own
+    datasets |= {
+        kind: with_further_runs(kind, datasets[kind], further) for kind in ("rms", "stress", "fatigue") if kind in files
+    }
     operating = params.operating and from_plain(OperatingRange, params.operating)
     contents = explorer_contents(datasets, interactions, ranking, operating) | {"panels": panels, "figures": params.figures}
     write_page(contents, params.title, output.page, page_parts(params.programs))

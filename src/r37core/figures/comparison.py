@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from r37core.results.datasets import with_further_runs
 from r37core.rom.reduction_choice import LINEAR
 from r37core.time_integration.status import RunStatus
 
@@ -37,14 +38,23 @@ def shared_order(campbell: xr.Dataset, low: float, high: float) -> int | None:
 
 
 def draw_comparison(
-    campbell: xr.Dataset, rms: xr.Dataset, stress: xr.Dataset | None = None, title: str = "", *, below: float, above: float
+    campbell: xr.Dataset,
+    rms: xr.Dataset,
+    stress: xr.Dataset | None = None,
+    title: str = "",
+    further_runs: xr.Dataset | None = None,
+    *,
+    below: float,
+    above: float,
 ) -> Figure:
     """All blades in one scene about their crossing of 1B with the engine order that most of them meet.
 
     Speeds are those above the crossing, as shares of it: the crossings of the blades lie hundreds of rad/s apart. The
     picture reaches from `below` to `above` the crossing, as shares too: where peaks are looked for. Runs that diverged are
-    crosses of the blade's colour at the upper edge.
+    crosses of the blade's colour at the upper edge. `further_runs`: of a verdict.
     """
+    rms = with_further_runs("rms", rms, further_runs)
+    stress = None if stress is None else with_further_runs("stress", stress, further_runs)
     styles = style.blade_styles(rms["blade"].values)
     order = shared_order(campbell, float(rms["speed"].min()), float(rms["speed"].max()))
     panels_of = {"rms, normal (mm)": 1e3 * rms["rms_normal"].sel(tip_point="leading_edge")}

@@ -109,6 +109,7 @@ FIGURES = (
         runs=lambda sweep: run_keys(sweep.drawn_runs("fatigue")),
         draw="figures.fatigue_map.draw_fatigue_map",
         files={"mesh": MESH, "rom": Sweep.reduced_model, "response": RESPONSE},
+        offered=("further_runs",),
         label="fatigue",
         caption="Share of the Goodman line on blade {blade} in scene {scene}, at the speed where it is largest. It is the "
         "alternating stress over the fatigue strength, plus the mean stress, with that of rotation, over the ultimate "
@@ -121,6 +122,7 @@ FIGURES = (
         runs=lambda sweep: of("scene", sweep.drawn["scene"]),
         draw="figures.comparison.draw_comparison",
         files={"campbell": ALL_CAMPBELL, "rms": RMS, "stress": _stress},
+        offered=("further_runs",),
         label="around an interaction",
         caption="All blades in scene {scene} around the same interaction: 1B with the engine order that most of them meet. "
         "Over the speed above each blade's own crossing: rms of the leading edge, normal to the casing and tangential, and "

@@ -24,10 +24,19 @@ _PIXELS, _HEIGHT = (600, 800), 3.2
 _DIRECTIONS = ((0.35, -1.0, -0.25), (0.35, 1.0, 0.25))
 
 
-def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str) -> Figure:
-    """Draw as draw_fatigue does, at the nodes of the region that decides, of the reduced model in the file `rom`."""
+def draw_fatigue_map(mesh: Path, rom: Path, response: xr.Dataset, title: str, further_runs: xr.Dataset | None = None) -> Figure:
+    """Draw as draw_fatigue does, at the nodes of the region that decides, of the reduced model in the file `rom`.
+
+    `further_runs`: of a verdict, of whose nodes nothing is known; the title says where one has a larger share.
+    """
     region = next(iter(read_reduced_model(rom).stress_regions.values()))
-    return draw_fatigue(mesh, region.nodes.nodes[region.evaluated], response, f"{title}, {region.description}")
+    figure = draw_fatigue(mesh, region.nodes.nodes[region.evaluated], response, f"{title}, {region.description}")
+    if further_runs is not None and has_strengths(further_runs) and further_runs["goodman_share"].notnull().any():
+        worst = further_runs.sel(speed=further_runs["goodman_share"].idxmax("speed"))
+        if worst["goodman_share"] > response["goodman_share"].max():
+            text = f"a further run of the verdict has {float(worst['goodman_share']):.3g}, at {float(worst['speed']):g} rad/s"
+            figure.suptitle(f"{figure.get_suptitle()}\n{text}: not drawn")
+    return figure
 
 
 def draw_fatigue(mesh: Path | str, nodes: np.ndarray, response: xr.Dataset, title: str) -> Figure:

@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from r37core.results.datasets import FURTHER_RUNS, response_of
+from r37core.results.datasets import with_further_runs
 from r37core.results.other_motions import half_step, swept
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
@@ -31,14 +31,13 @@ def draw_response(
     `campbell`: where 1B crosses engine orders, None to leave that out; `motions`: more than that from rest, whose largest is
     drawn where it differs from that (results/other_motions.py), and these speeds shaded; `further_runs`: of a verdict.
     """
-    if further_runs is not None:
-        rms = _scenes_with_further_runs("rms", rms, further_runs)
-        stress = None if stress is None else _scenes_with_further_runs("stress", stress, further_runs)
+    rms = with_further_runs("rms", rms, further_runs)
+    stress = None if stress is None else with_further_runs("stress", stress, further_runs)
     figure, panels = plt.subplots(2 if stress is None else 3, 1, figsize=(style.PAGE, 6.4), sharex=True)
     for axes, direction in zip(panels, ("normal", "tangential"), strict=False):
         _draw_scenes(axes, rms, direction)
         if motions is not None:
-            _draw_largest(axes, motions, direction)
+            _draw_largest(axes, motions, f"rms_{direction}", 1e3)
         axes.set_ylabel(f"rms, {direction} (mm)")
     if rms.sizes["speed"] > 1:
         panels[0].set_xlim(float(rms["speed"].min()), float(rms["speed"].max()))
@@ -50,6 +49,8 @@ def draw_response(
         for scene in stress["scene"].values:
             runs = stress.sel(scene=scene).dropna("speed", subset=["max_von_mises_median"])
             style.stress_band(panels[2], runs["speed"], runs, style.scene_words(scene))
+        if motions is not None and "max_von_mises_ever" in motions:
+            _draw_largest(panels[2], motions, "max_von_mises_ever", 1e-9)
         style.yield_lines(panels[2], stress["yield_stress"].to_series(), named=True, linear=style.is_linear(stress))
         panels[2].set_ylabel(style.stress_label(stress))
     for axes in panels:
@@ -58,13 +59,6 @@ def draw_response(
     style.rpm_axis(panels[0])
     figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=4)
     return figure
-
-
-def _scenes_with_further_runs(kind: str, runs: xr.Dataset, further_runs: xr.Dataset) -> xr.Dataset:
-    """Runs of a blade in all scenes, as responses have them."""
-    datasets = {kind: runs.expand_dims("blade"), FURTHER_RUNS: further_runs.expand_dims("blade")}
-    parts = [response_of(datasets, str(runs["blade"].values), scene) for scene in runs["scene"].values]
-    return xr.concat(parts, runs["scene"], data_vars="all", join="outer")
 
 
 def _draw_scenes(axes: Axes, rms: xr.Dataset, direction: str) -> None:
@@ -85,11 +79,11 @@ def _mark_motion(axes: Axes, curve: xr.DataArray, states: xr.DataArray, colour: 
             axes.plot(there["speed"], there, marker, color=colour, fillstyle="none", markersize=4, label=label)
 
 
-def _draw_largest(axes: Axes, motions: xr.Dataset, direction: str) -> None:
+def _draw_largest(axes: Axes, motions: xr.Dataset, name: str, factor: float) -> None:
     """The largest of all motions of each scene where they differ, in the colour of the scene, on shaded speeds."""
     for number, scene in enumerate(motions["scene"].values):
         pair = swept(motions.sel(scene=scene))
-        largest = 1e3 * pair[f"rms_{direction}"].max("motion").where(pair["differ"] > 0.0)
+        largest = factor * pair[name].max("motion").where(pair["differ"] > 0.0)
         label = f"{style.scene_words(scene)}, largest motion"
         axes.plot(pair["speed"], largest, "+", color=f"C{number}", markersize=5, label=label)
         shade(axes, pair, f"C{number}", f"{style.scene_words(scene)}: motions differ")

@@ -97,9 +97,9 @@ def mode_colour(campbell: xr.Dataset, mode: str) -> str:
 
 
 def is_linear(data: xr.Dataset) -> bool:
-    """True for a dataset with runs of linear kinematics, by its attributes (results.datasets.write_sweep_dataset)."""
+    """True for a dataset of runs of linear kinematics alone, by its attributes (results.datasets.write_sweep_dataset)."""
     kinds = [part.partition(":")[0] for part in str(data.attrs.get("contact")).split("; ")]
-    return any(QUADRATIC not in f"{kind} {data.attrs.get('kinematics')}" for kind in kinds)
+    return all(QUADRATIC not in f"{kind} {data.attrs.get('kinematics')}" for kind in kinds)
 
 
 def stress_band(axes: Axes, places: Any, stress: xr.Dataset, label: str, **look: Any) -> None:
@@ -117,7 +117,7 @@ def stress_label(stress: xr.Dataset) -> str:
     return "\n".join(["von Mises (GPa)", "median to largest", *(fill(region, 30) for region in regions if len(regions) == 1)])
 
 
-def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False, linear: bool = True) -> None:
+def yield_lines(axes: Axes, limits: Mapping[Any, float], named: bool = False, linear: bool = False) -> None:
     """A dashed line (GPa) at each of the yield stresses (Pa), each by its name, and a tint above the lowest.
 
     Several lines say whose they are. `named`: whether the legend says what line and tint are; `linear`: is_linear of the runs.

@@ -52,7 +52,7 @@ def _sweep_lines(results: Path, began: float, remarks: Iterable[str]) -> list[st
     places = {"explorer.html": " (any browser)", "summary.csv": "", "figures": "/"}
     there = (f"{results / name}{more}" for name, more in places.items() if (results / name).exists())
     where = f"look at {', '.join(there)}"
-    ranked = _ranked(results / "ranking.csv")
+    ranked = _ranked(results / "ranking.csv", began)
     diverged, said = _run_counts(results / "rms.nc")
     return [_found(rows) + diverged, *said, *ranked, *remarks, where]
 
@@ -81,7 +81,7 @@ def _worst(row: dict[str, str]) -> str:
     title = interaction_title(row["mode"], row["engine_order"])
     where = f"{row['blade']} in {row['scene']} at {_number(row, 'largest_stress_speed_rad_s'):.6g} rad/s ({title})"
     text = f"{_stress(row)}, {ratio:.3g} times yield, {where}"
-    return f"{text}, above yield in up to {max(100.0 * share, 0.1):.2g}% of the revolutions" if share > 0.0 else text
+    return f"{text}, above yield in up to {max(round(100.0 * share), 1)}% of the revolutions" if share > 0.0 else text
 
 
 def _number(row: dict[str, str], column: str) -> float:
@@ -100,9 +100,9 @@ def _stress(row: dict[str, str]) -> str:
     return f"{nominal} GPa ({low_text} to {high_text} in nine tenths of the members)"
 
 
-def _ranked(file: Path) -> list[str]:
+def _ranked(file: Path, began: float) -> list[str]:
     """Lines on the ranking: each scene, all scenes, contact, missed speeds; nothing where stress is in no scene."""
-    if not file.exists():
+    if not file.exists() or file.stat().st_mtime < began:
         return []
     with open(file, newline="", encoding="utf-8") as stream:
         rows = [row for row in csv.DictReader(stream) if row["length_most_revolutions_rad_s"]]
@@ -134,7 +134,7 @@ def _extremes(rows: list[dict[str, str]], file: Path) -> list[str]:
         safest, longest = ([row for row in scene_rows if row["rank"] == end["rank"]] for end in (best, worst))
         verb = "is" if len(safest) == 1 else "are"
         lines.append(
-            f"{scene}: {_named(safest)} {verb} above yield at the fewest speeds ({_length(best)}), "
+            f"{scene}: {_named(safest)} {verb} above yield in most revolutions at the fewest speeds ({_length(best)}), "
             f"{_named(longest)} at the most ({_length(worst)}); {file}"
         )
     return lines
@@ -143,7 +143,8 @@ def _extremes(rows: list[dict[str, str]], file: Path) -> list[str]:
 def _tied(rows: list[dict[str, str]]) -> str:
     """Text on blades that cannot be ranked, with the range of their lengths."""
     low, high = (end(_number(row, "length_most_revolutions_rad_s") for row in rows) for end in (min, max))
-    return f"{_named(rows)} cannot be ranked (above yield over {low:.0f}{f' to {high:.0f}' if high > low else ''} rad/s)"
+    span = f"{low:.0f} to {high:.0f}" if high > low else f"{low:.0f}"
+    return f"{_named(rows)} cannot be ranked (above yield in most revolutions over {span} rad/s)"
 
 
 def _named(rows: list[dict[str, str]]) -> str:
@@ -155,12 +156,13 @@ def _named(rows: list[dict[str, str]]) -> str:
 
 
 def _length(row: dict[str, str]) -> str:
-    """Length above yield, and the widest of its ranges where it has several."""
-    text, ranges = f"{_number(row, 'length_most_revolutions_rad_s'):.0f} rad/s", _number(row, "ranges_most_revolutions")
-    if ranges < 2:
-        return text
-    begin, width = _number(row, "widest_range_from_rad_s"), _number(row, "widest_range_rad_s")
-    return f"{text} in {ranges:.0f} ranges, the widest from {begin:.0f} to {begin + width:.0f}"
+    """Length above yield, the widest of its ranges where it has several, and the length by other motions where it is longer."""
+    length, worst = (_number(row, f"length_most_revolutions_{motion}rad_s") for motion in ("", "worst_"))
+    text, ranges = f"{length:.0f} rad/s", _number(row, "ranges_most_revolutions")
+    if ranges >= 2:
+        begin, width = _number(row, "widest_range_from_rad_s"), _number(row, "widest_range_rad_s")
+        text += f" in {ranges:.0f} ranges, the widest from {begin:.0f} to {begin + width:.0f}"
+    return f"{text} from rest, {worst:.0f} by the worst motion" if worst > length else text
 
 
 def _overall(rows: list[dict[str, str]]) -> list[str]:

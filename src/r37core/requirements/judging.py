@@ -166,7 +166,7 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     if scatter > 0.0:
         margins |= {"by chance": limit - row["value"] - np.copysign(_CHANCE * scatter, limit - row["value"])}
     row |= {"value_lowest": min(values), "value_highest": max(values)}
-    row["margin_worst_motion"] = min((margins[name] for name in motions if name in margins), default=np.nan)
+    row["margin_worst_motion"] = min((min(margins[name], row["margin"]) for name in motions if name in margins), default=np.nan)
     if row["verdict"] == FAILS:
         # another motion that keeps the limit takes nothing from one that does not
         kept = [name for name, margin in margins.items() if margin >= 0.0 and name not in motions]

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import xarray as xr
 
 from r37core.base.io import read_json
 from r37core.results.closing import counted, interaction_title
-from r37core.results.columns import MOST_REVOLUTIONS
+from r37core.results.danger import ranges_of
 from r37core.results.datasets import response_in_operation, response_of
 from r37core.results.exceedance import exceedance_of
 from r37core.results.operating_range import OperatingRange
@@ -32,7 +33,7 @@ from .judging import (
     judge,
 )
 
-CROSSING, INTERACTION, ABOVE_YIELD = "crossing", "interaction", "above_yield"
+CROSSING, INTERACTION, ABOVE_YIELD, EVER_ABOVE = "crossing", "interaction", "above_yield", "ever_above_yield"
 """Kinds of what lies in the operating range."""
 
 OPERATING_COLUMNS = (
@@ -129,9 +130,10 @@ def operating_table(
         response = response_in_operation(datasets, blade, scene)
         if "share_of_revolutions_above_yield" not in response:
             continue
-        for part in exceedance_of(response).ranges(MOST_REVOLUTIONS):
+        most, _, ever = ranges_of(response, exceedance_of(response)).values()
+        for kind, part in [*product([ABOVE_YIELD], most), *product([EVER_ABOVE], ever)]:
             if operating.overlap(part.begin, part.end) > 0.0:
-                rows.append((blade, scene, ABOVE_YIELD, "", *_inside(part.begin, part.end, operating), np.nan))
+                rows.append((blade, scene, kind, "", *_inside(part.begin, part.end, operating), np.nan))
     return pd.DataFrame(rows, columns=list(OPERATING_COLUMNS))
 
 

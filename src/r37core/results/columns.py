@@ -271,6 +271,9 @@ OPERATING = (
         minimised=True,
     ),
     Column(
+        "length_most_revolutions_operating_within_rad_s", "by how much that length may be off", "in operation, known within"
+    ),
+    Column(
         "exceedance_integral_operating_rad_s",
         "integral over the operating range of the share of later revolutions above yield, weighted by its dwells",
         "integral above yield, in operation",

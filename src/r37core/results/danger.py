@@ -39,8 +39,8 @@ def ranges_of(response: xr.Dataset, exceedance: Exceedance) -> dict[str, list[Sp
 def largest_of(response: xr.Dataset) -> dict[str, float]:
     """Columns of DANGER but for LENGTHS: the largest over all speeds; NaN of what is not computed."""
     measures = dict.fromkeys(names(DANGER), np.nan)
-    if "share_of_revolutions_above_yield" in response and response.sizes["speed"]:
-        measures["share_of_revolutions_above_yield"] = float(np.max(exceedance_of(response).shares, initial=-np.inf))
+    if "share_of_revolutions_above_yield" in response and (shares := exceedance_of(response).shares).size:
+        measures["share_of_revolutions_above_yield"] = float(shares.max())
     for column, name in STRESSES.items():
         if name in response:
             measures[column] = float(response[name].max())
@@ -53,7 +53,7 @@ def largest_of(response: xr.Dataset) -> dict[str, float]:
 def danger_of(response: xr.Dataset) -> dict[str, float]:
     """DANGER of all speeds of a response; NaN of what is not computed."""
     measures = dict.fromkeys(names(DANGER), np.nan) | largest_of(response)
-    if "share_of_revolutions_above_yield" in response:
+    if "share_of_revolutions_above_yield" in response and response.sizes["speed"]:
         ranges = ranges_of(response, exceedance_of(response))
         measures |= {name: float(sum(part.length for part in parts)) for name, parts in ranges.items()}
     return measures

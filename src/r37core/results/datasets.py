@@ -72,6 +72,23 @@ def response_in_operation(datasets: Mapping[str, xr.Dataset], blade: str, scene:
     return further if further.sizes["speed"] else response_of(datasets, blade, scene)
 
 
+def with_further_runs(kind: str, dataset: xr.Dataset, further: xr.Dataset | None) -> xr.Dataset:
+    """A joined dataset of a `kind`, or its part of a blade or scene, with a verdict's further runs in place of the sweep's."""
+    if further is None or "status" not in further:
+        return dataset
+    missing = [name for name in ("blade", "scene") if name not in dataset.dims]
+    datasets = {kind: dataset.expand_dims(missing), FURTHER_RUNS: further.expand_dims(missing)}
+    joined = dataset.expand_dims(missing)
+    responses = [
+        response_of(datasets, blade, scene).expand_dims(blade=[blade], scene=[scene])
+        for blade in joined["blade"].values
+        for scene in joined["scene"].values
+    ]
+    whole = xr.merge(responses, join="outer", compat="no_conflicts", combine_attrs="override").assign_attrs(dataset.attrs)
+    whole["status"] = whole["status"].fillna(RunStatus.NOT_RUN).astype("i1")
+    return whole.sel({name: joined[name] for name in ("blade", "scene")}).isel(dict.fromkeys(missing, 0))
+
+
 def _runs(dataset: xr.Dataset | None, blade: str, scene: str, region: str = "") -> xr.Dataset:
     """One blade and scene of a joined dataset, at the speeds that it was run at: none where the dataset does not have it."""
     if dataset is None or "status" not in dataset or not (blade in dataset["blade"] and scene in dataset["scene"]):

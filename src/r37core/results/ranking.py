@@ -36,10 +36,12 @@ _TOLD_APART = RANKED_BY[:2]
 """Columns that give another rank, where they differ by more than they are known within."""
 
 
-def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chance_scatter: bool = True) -> dict[str, float]:
+def operating_measures(
+    response: xr.Dataset, operating: OperatingRange, *, chance_scatter: bool = True, error: float = 0.0
+) -> dict[str, float]:
     """OPERATING of one blade in one scene; NaN without stress, and where the runs do not reach over the judged range.
 
-    `chance_scatter`: whether chance is drawn.
+    `chance_scatter`: whether chance is drawn; `error`: as of `robustness`.
     """
     measures = dict.fromkeys(names(OPERATING), np.nan)
     if "share_of_revolutions_above_yield" not in response:
@@ -48,6 +50,8 @@ def operating_measures(response: xr.Dataset, operating: OperatingRange, *, chanc
     if not operating.is_covered(exceedance.speeds):
         return measures
     measures["length_most_revolutions_operating_rad_s"] = operating.length(exceedance.ranges(MOST_REVOLUTIONS))
+    gap, moved = np.diff(exceedance.speeds).max(initial=0.0), moved_by_error(response, "max_von_mises_median", error)
+    measures["length_most_revolutions_operating_within_rad_s"] = float(np.hypot(gap, moved))
     measures["exceedance_integral_operating_rad_s"] = operating.integral(exceedance.speeds, exceedance.shares)
     if exceedance.chance and chance_scatter:
         drawn = [operating.integral(exceedance.speeds, shares) for shares in exceedance.drawn]
@@ -67,7 +71,7 @@ def robustness(
     range whose operating_measures are among them; `error`: relative one of the stress, by mesh and step of the level.
     """
     response = response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN))
-    inside = operating_measures(response, operating, chance_scatter=chance_scatter) if operating else {}
+    inside = operating_measures(response, operating, chance_scatter=chance_scatter, error=error) if operating else {}
     measures = dict.fromkeys(names(ROBUSTNESS), np.nan) | inside
     if not response.sizes["speed"]:
         return measures
@@ -114,7 +118,9 @@ def measures_of(
     `error`: as of `robustness`.
     """
     measures = robustness(response_of(datasets, blade, scene), error=error)
-    return measures | (operating_measures(response_in_operation(datasets, blade, scene), operating) if operating else {})
+    if operating:
+        measures |= operating_measures(response_in_operation(datasets, blade, scene), operating, error=error)
+    return measures
 
 
 def length_most_revolutions(response: xr.Dataset) -> float:
@@ -174,23 +180,26 @@ def ranking_table(
 def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
     """`rank`, `rank_lowest` and `rank_highest` of rows of one scene, by _TOLD_APART and what these are known within.
 
-    One is surely better where the first of the columns that tells them apart is less. All that are not surely worse than the
-    best of a group, by RANKED_BY, share its rank.
+    One is surely better where the first of the columns that tells them apart is less, or with fewer runs that diverged. In the
+    order of `rank_lowest`, then RANKED_BY, those than which no other of a group is surely better share its rank.
     """
-    values = rows[list(_TOLD_APART)].to_numpy()
-    within = rows[[_within(name) for name in _TOLD_APART]].fillna(0.0).to_numpy()
+    values = rows[[*_TOLD_APART, "diverged_runs"]].to_numpy(float)
+    within = np.column_stack([rows[[_within(name) for name in _TOLD_APART]].fillna(0.0), np.zeros(len(rows))])
 
     def is_better(row: int, other: int) -> bool:
         apart = np.flatnonzero(np.abs(values[row] - values[other]) > within[row] + within[other])
         return bool(len(apart)) and bool(values[row, apart[0]] < values[other, apart[0]])
 
     better = np.array([[is_better(row, other) for other in range(len(rows))] for row in range(len(rows))])
-    order = np.lexsort(rows[list(RANKED_BY)].fillna(np.inf).to_numpy().T[::-1])
-    shared, best = np.empty(len(rows), int), order[0]
+    lowest, highest = 1 + better.sum(axis=0), len(rows) - better.sum(axis=1)
+    order = np.lexsort([*rows[list(RANKED_BY)].fillna(np.inf).to_numpy().T[::-1], lowest])
+    shared, group = np.empty(len(rows), int), order[:0]
     for place, row in enumerate(order):
-        best = row if better[best, row] else best
-        shared[row] = place + 1 if best == row else shared[best]
-    columns = {"rank": shared, "rank_lowest": 1 + better.sum(axis=0), "rank_highest": len(rows) - better.sum(axis=1)}
+        begins = not len(group) or better[group, row].any()
+        group = order[place : place + 1] if begins else np.append(group, row)
+        shared[row] = place + 1 if begins else shared[group[0]]
+    # what is sure need not be in one order: of three each may be surely better than the next
+    columns = {"rank": shared.clip(lowest, highest), "rank_lowest": lowest, "rank_highest": highest}
     return pd.DataFrame(columns, rows.index, dtype="Int64")
 
 

@@ -27,9 +27,5 @@ def other_regions(dataset: xr.Dataset) -> list[str]:
     """Names of the regions that do not decide, as far as the dataset has stress there."""
     if "region" not in dataset.dims:
         return []
-    known = (
-        dataset["max_von_mises_last_revolution"]
-        .notnull()
-        .any([dim for dim in dataset["max_von_mises_last_revolution"].dims if dim != "region"])
-    )
+    known = dataset["max_von_mises_ever"].notnull().any([dim for dim in dataset["max_von_mises_ever"].dims if dim != "region"])
     return [str(name) for name in dataset["region"].values[1:][np.asarray(known)[1:]]]

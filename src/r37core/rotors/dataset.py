@@ -87,7 +87,8 @@ def _row(run: dict[str, np.ndarray], yield_stress: float) -> dict[str, np.ndarra
         row["lobes"] = np.arange(len(run["wear_harmonic"]))
     if "blade_von_mises" in run:
         row["stress_span"] = _ends(run["blade_von_mises"], run["stress_span_revolutions"], revolutions)
-        row["blade_max_von_mises_ever"] = ever = run["blade_von_mises"].max(axis=1)
+        late = row["stress_span"] > int(run["statistic_end"]) - int(run["statistic_revolutions"])
+        row["blade_max_von_mises_ever"] = ever = run["blade_von_mises"][:, late].max(axis=1)
         share = np.nan if run["status"] == RunStatus.DIVERGED else np.mean(ever > yield_stress)
         row["blades_ever_above_yield"] = np.array(share)
     return row

@@ -57,8 +57,9 @@ def import_mesh(source: MeshSource, folder: Path | str = ".") -> tuple[BladeMesh
         raise ImportRefused(f"{error.reason}{size}", error.key, fitting_entry(source, raw)) from None
     raw = placed
     height = source.height(raw.points)
-    if height is not None and height[tip].min() <= 0.0:
-        raise ImportRefused(f"{source.file}: found a tip that is not above hub_zr_m; allowed: the platform's top", "hub_zr_m")
+    if height is not None and (height[tip].min() <= 0.0 or height[root].min() > 0.01 * height[tip].max()):
+        wrong = "a tip that is not above hub_zr_m" if height[tip].min() <= 0.0 else "a root above hub_zr_m"
+        raise ImportRefused(f"{source.file}: found {wrong}; allowed: the platform's top", "hub_zr_m")
     with blamed("mesh", source.file):
         parameters, normals = blade_parameters(raw.points, root, tip, source.pressure_side_forward, height)
     sets = dict.fromkeys(NODE_SETS, np.empty(0, dtype=np.int64)) | {"root": root, "tip": tip}
