@@ -1,8 +1,8 @@
 """The numbered examples run, at a small level in place of theirs, and what they assert holds."""
 
-from pathlib import shutil
+import shutil
+from pathlib import Path
 
-import Path
 import pytest
 from workflow_runs import copy_project, own_package
 

@@ -99,7 +99,8 @@ def test_the_largest_stress_and_the_first_yield_of_a_run():
 
 def exceeding(speeds, shares, lined=1.0):
     content = {"share_of_revolutions_above_yield": ("speed", shares), "status": ("speed", np.zeros(len(speeds), int))}
-    return xr.Dataset(content | {"lined": lined}, {"speed": speeds})
+    content |= {"max_von_mises_median": ("speed", 2.0 * shares), "yield_stress": 1.0, "lined": lined}
+    return xr.Dataset(content, {"speed": speeds})
 
 
 def test_the_integral_inside_is_that_of_straight_lines():
@@ -135,6 +136,7 @@ def test_measures_inside():
     # from 1095, half of the way between two speeds
     assert inside["length_most_revolutions_operating_rad_s"] == pytest.approx(55.0)
     assert inside["exceedance_integral_operating_rad_s"] == pytest.approx(55.0)
+    assert inside["length_most_revolutions_operating_within_rad_s"] == 10.0
     assert np.isnan(inside["exceedance_integral_operating_scatter_rad_s"])
     bare = operating_measures(exceeding(speeds, 0.5 * shares + 0.1, 0.0), OperatingRange(1000.0, 1150.0))
     assert bare["exceedance_integral_operating_scatter_rad_s"] > 0.0
