@@ -87,12 +87,12 @@ def test_best_and_worst_blade_are_named_and_what_may_be_missed(tmp_path):
     )
     assert missed == "speeds lie up to 20 rad/s apart: a narrower interaction between them may be missed"
     # those that share a rank cannot be told apart, and are all named
-    rows = ["A,x,1,40,6,0", "B,x,1,45,6,0", "A,y,1,0,,0", "B,y,1,0,,0", "C,y,3,9,,0", *(f"D{n},z,1,0,,0" for n in range(12))]
+    rows = ["A,x,1,40,6,0", "B,x,1,45,6,0", "A,y,1,0,,0", "B,y,1,5,,0", "C,y,3,9,,0", *(f"D{n},z,1,0,,0" for n in range(12))]
     (tmp_path / "ranking.csv").write_text(head + "\n".join(rows) + "\n")
     x, y, z = closing_lines(written(tmp_path, *ROWS), 400.0, 500.0)[1:-2]
     assert x.startswith("x: A and B cannot be ranked (above yield in most revolutions over 40 to 45 rad/s); ")
     assert y.startswith(
-        "y: A and B are above yield in most revolutions at the fewest speeds (0 rad/s), C at the most (9 rad/s); "
+        "y: A and B are above yield in most revolutions at the fewest speeds (0 to 5 rad/s), C at the most (9 rad/s); "
     )
     assert z.startswith("z: D0, D1, D2, D3 and 8 more cannot be ranked (above yield in most revolutions over 0 rad/s); ")
 

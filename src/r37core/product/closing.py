@@ -134,17 +134,21 @@ def _extremes(rows: list[dict[str, str]], file: Path) -> list[str]:
         safest, longest = ([row for row in scene_rows if row["rank"] == end["rank"]] for end in (best, worst))
         verb = "is" if len(safest) == 1 else "are"
         lines.append(
-            f"{scene}: {_named(safest)} {verb} above yield in most revolutions at the fewest speeds ({_length(best)}), "
-            f"{_named(longest)} at the most ({_length(worst)}); {file}"
+            f"{scene}: {_named(safest)} {verb} above yield in most revolutions at the fewest speeds ({_lengths(safest)}), "
+            f"{_named(longest)} at the most ({_lengths(longest)}); {file}"
         )
     return lines
 
 
 def _tied(rows: list[dict[str, str]]) -> str:
     """Text on blades that cannot be ranked, with the range of their lengths."""
+    return f"{_named(rows)} cannot be ranked (above yield in most revolutions over {_lengths(rows)})"
+
+
+def _lengths(rows: list[dict[str, str]]) -> str:
+    """Length above yield of blades that share a rank, or the range of their lengths."""
     low, high = (end(_number(row, "length_most_revolutions_rad_s") for row in rows) for end in (min, max))
-    span = f"{low:.0f} to {high:.0f}" if high > low else f"{low:.0f}"
-    return f"{_named(rows)} cannot be ranked (above yield in most revolutions over {span} rad/s)"
+    return f"{low:.0f} to {high:.0f} rad/s" if high > low else _length(rows[-1])
 
 
 def _named(rows: list[dict[str, str]]) -> str:
