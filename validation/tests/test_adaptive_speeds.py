@@ -24,7 +24,7 @@ def test_the_tables_name_what_is_missed():
         ["every 1 rad/s", "1,251", "2 of 2", "2"],
     ]
     assert [row[-3:] for row in by_blade(outcomes)[1]] == [["2", "1", "1"], ["2", "2", "2"]]
-    assert [row[3:] for row in missed(outcomes)[1]] == [["1836", "3.1", "", ""]]
+    assert [row[3:] for row in missed(outcomes)[1]] == [["1836", "3.9", "", ""]]
 
 
 def test_errors_between_the_speeds_that_are_run():
