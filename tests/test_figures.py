@@ -320,7 +320,8 @@ def test_comparison_takes_the_order_that_most_blades_meet(datasets):
     assert comparison.shared_order(datasets["campbell"], 750.0, 1300.0) == 5
     assert comparison.shared_order(datasets["campbell"], 750.0, 800.0) is None
     # where no blade meets one there is a figure nevertheless
-    draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="direct", speed=[750.0, 775.0]), None, "direct")
+    alone = draw_comparison(datasets["campbell"], datasets["rms"].sel(scene="direct", speed=[750.0, 775.0]), None, "direct")
+    assert alone.axes[0].texts[0].get_text().startswith("no crossing of 1B was run")
 
 
 def test_comparison_is_over_each_blade_s_own_crossing(datasets):

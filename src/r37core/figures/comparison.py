@@ -83,8 +83,10 @@ def draw_comparison(
         style.yield_lines(panels[-1], stress["yield_stress"].to_series(), named=True, linear=style.is_linear(stress))
     for axes in panels:
         axes.set_ylim(bottom=0.0)
-    label = f"speed above the crossing of 1B with engine order {order} (%)" if order else "no crossing of 1B was run"
-    panels[-1].set_xlabel(label)
+    if order:
+        panels[-1].set_xlabel(f"speed above the crossing of 1B with engine order {order} (%)")
+    else:
+        style.say(panels[0], "no crossing of 1B was run: see the figures of each blade")
     panels[0].set_title(f"blades in scene {title}")
     if panels[0].lines[:-1]:
         figure.legend(*style.legend_entries(panels), loc="outside lower center", ncols=5)
