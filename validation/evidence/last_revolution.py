@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from r37core.results.danger import ratio_to_yield
-from r37core.results.exceedance import ranges_above
+from r37core.results.exceedance import length_of, ranges_above
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,7 @@ def speeds_above_yield(response: xr.Dataset) -> YieldRange:
     ranges = ranges_above(ratio["speed"].values, ratio.values, 1.0)
     if not ranges:
         return YieldRange(np.nan, np.nan, 0.0, False)
-    length = sum(part.length for part in ranges)
-    return YieldRange(ranges[0].begin, ranges[-1].end, length, ranges[0].truncated or ranges[-1].truncated)
+    return YieldRange(ranges[0].begin, ranges[-1].end, length_of(ranges), ranges[0].truncated or ranges[-1].truncated)
 
 
 def width_above_yield(response: xr.Dataset) -> float:

@@ -8,7 +8,7 @@ import xarray as xr
 
 from r37core.base.dataset_file import read_dataset
 from r37core.results.danger import ratio_to_yield
-from r37core.results.exceedance import ranges_above
+from r37core.results.exceedance import length_of, ranges_above
 from r37core.results.regions import read_judged
 from r37core.time_integration.status import RunStatus
 
@@ -42,7 +42,7 @@ def rotor_ratio(rotor: xr.Dataset) -> xr.DataArray:
 def length_about(ratio: xr.DataArray, crossing: float) -> float:
     """Length (rad/s) of the speeds about a crossing with a stress above yield."""
     near = ratio.sel(speed=slice(*(crossing * (1.0 + share) for share in WINDOW)))
-    return sum(part.length for part in ranges_above(near["speed"].values, near.values, 1.0))
+    return length_of(ranges_above(near["speed"].values, near.values, 1.0))
 
 
 def blades(input: Any, output: Any, params: Any) -> None:
@@ -90,5 +90,5 @@ def _in_window(rotor: xr.Dataset, kind: str) -> list[str]:
     if not rotor.sizes["speed"]:
         return [NOT_RUN, NOT_RUN]
     ratio = ratio_to_yield(rotor) if kind == SINGLE else rotor_ratio(rotor)
-    length = sum(part.length for part in ranges_above(ratio["speed"].values, ratio.values, 1.0))
+    length = length_of(ranges_above(ratio["speed"].values, ratio.values, 1.0))
     return [f"{length:.0f}", NOT_RUN if kind == SINGLE else _at_once(rotor)]

@@ -124,7 +124,7 @@ def closing(results: Path) -> str:
 
 
 def _best(rows: pd.DataFrame, length: str, flown: bool) -> str:
-    """The designs with the shortest `length`, all that tie with it; `flown`: whether that is the length in operation."""
+    """Text on the design with the least `length`, or on those that tie with it; `flown`: whether that is in operation."""
     names = rows["blade"].str.cat(rows["scene"], " in ") if rows["scene"].nunique() > 1 else rows["blade"]
     least = rows[length].min()
     within = rows[length.replace("_rad_s", "_within_rad_s")]

@@ -10,7 +10,7 @@ import xarray as xr
 from r37core.time_integration.status import RunStatus
 
 from .columns import DANGER, LENGTHS, MOST_REVOLUTIONS, SOME_REVOLUTIONS, names
-from .exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
+from .exceedance import Exceedance, SpeedRange, exceedance_of, joined, length_of, ranges_above
 
 STRESSES = {
     "largest_median_stress_pa": "max_von_mises_median",
@@ -38,7 +38,7 @@ def ranges_of(response: xr.Dataset, exceedance: Exceedance) -> dict[str, list[Sp
 
 def largest_of(response: xr.Dataset) -> dict[str, float]:
     """Columns of DANGER but for LENGTHS: the largest over all speeds; NaN of what is not computed."""
-    measures = dict.fromkeys(names(DANGER), np.nan)
+    measures = dict.fromkeys(names(DANGER[len(LENGTHS) :]), np.nan)
     if "share_of_revolutions_above_yield" in response and (shares := exceedance_of(response).shares).size:
         measures["share_of_revolutions_above_yield"] = float(shares.max())
     for column, name in STRESSES.items():
@@ -47,7 +47,7 @@ def largest_of(response: xr.Dataset) -> dict[str, float]:
     if "max_von_mises_ever" in response and (known := response["max_von_mises_ever"].dropna("speed")).size:
         measures["largest_stress_speed_rad_s"] = float(known["speed"][int(np.argmax(known.values))])
         measures["largest_stress_over_yield"] = float(known.max() / response["yield_stress"])
-    return {name: value for name, value in measures.items() if name not in names(LENGTHS)}
+    return measures
 
 
 def danger_of(response: xr.Dataset) -> dict[str, float]:
@@ -55,7 +55,7 @@ def danger_of(response: xr.Dataset) -> dict[str, float]:
     measures = dict.fromkeys(names(DANGER), np.nan) | largest_of(response)
     if "share_of_revolutions_above_yield" in response and response.sizes["speed"]:
         ranges = ranges_of(response, exceedance_of(response))
-        measures |= {name: float(sum(part.length for part in parts)) for name, parts in ranges.items()}
+        measures |= {name: length_of(parts) for name, parts in ranges.items()}
     return measures
 
 
@@ -64,5 +64,5 @@ def moved_by_error(response: xr.Dataset, stress: str, error: float) -> float:
     ratio = ratio_to_yield(response, stress)
     levels = (1.0, 1.0 + error, 1.0 / (1.0 + error))
     ranges = [ranges_above(ratio["speed"].values, ratio.values, level) for level in levels]
-    nominal, *others = (sum(part.length for part in parts) for parts in ranges)
-    return float(max(abs(other - nominal) for other in others))
+    nominal, *others = map(length_of, ranges)
+    return max(abs(other - nominal) for other in others)

@@ -7,7 +7,7 @@ whose shares are 0 or 1: such a share is smoothed with those alone from which ch
 repeats itself: its shares are taken as they are.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -86,7 +86,7 @@ class Exceedance:
 
     def length(self, share: float) -> float:
         """Length (rad/s) of all ranges above `share` together."""
-        return float(sum(part.length for part in self.ranges(share)))
+        return length_of(self.ranges(share))
 
     @property
     def integral(self) -> float:
@@ -120,7 +120,7 @@ class Exceedance:
         """Standard deviation of `length` (rad/s) by chance; NaN where there is none."""
         if not self.chance:
             return np.nan
-        return float(np.std([sum(part.length for part in ranges) for ranges in self.ranges_drawn[share]]))
+        return float(np.std([length_of(ranges) for ranges in self.ranges_drawn[share]]))
 
     def scatter_of_border(self, share: float, of: SpeedRange, *, begins: bool) -> float:
         """How far (rad/s) chance moves the begin, or the end, of a range, in two of three cases.
@@ -169,6 +169,11 @@ def ranges_above(speeds: np.ndarray, values: np.ndarray, level: float) -> list[S
         SpeedRange(crossing(first, first - 1), crossing(last, last + 1), bool(first == 0 or last == len(speeds) - 1))
         for first, last in zip(firsts.tolist(), lasts.tolist(), strict=True)
     ]
+
+
+def length_of(ranges: Iterable[SpeedRange]) -> float:
+    """Length (rad/s) of all ranges together, which do not overlap."""
+    return float(sum(part.length for part in ranges))
 
 
 def joined(ranges: Sequence[SpeedRange]) -> list[SpeedRange]:

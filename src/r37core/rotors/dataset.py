@@ -9,7 +9,7 @@ import xarray as xr
 
 from r37core.base.dataset_file import SPEED, Variable, dataset_of, read_dataset
 from r37core.results.closing import counted, largest_stress_text
-from r37core.results.exceedance import ranges_above
+from r37core.results.exceedance import length_of, ranges_above
 from r37core.results.joining import Along
 from r37core.results.table_file import read_table
 from r37core.results.variables import STATUS
@@ -117,7 +117,7 @@ def rotor_table(files: Mapping[tuple[str, str], Path | str]) -> pd.DataFrame:
             worst = int(np.nan_to_num(stress).argmax())
             ratio = np.where(diverged, np.inf, stress / float(dataset["yield_stress"]))
             row |= {
-                "length_with_any_blade_above_yield_rad_s": sum(part.length for part in ranges_above(speeds, ratio, 1.0)),
+                "length_with_any_blade_above_yield_rad_s": length_of(ranges_above(speeds, ratio, 1.0)),
                 "largest_stress_pa": float(stress[worst]),
                 "blades_above_yield": float(dataset["blades_ever_above_yield"].max() * dataset.sizes["blade_number"]),
             }
