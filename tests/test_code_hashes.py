@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
@@ -101,6 +102,16 @@ def test_what_is_kept_of_files_may_be_lost_or_damaged(tree, tmp_path, monkeypatc
     code_module._facts_of_files.cache_clear()
     damage(tmp_path / "code_hashes.json")
     assert hashes(tree)("one") == before
+
+
+def test_what_is_kept_makes_no_folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(kept, "_folder", lambda: tmp_path)
+    put, seen = kept._put, []
+    monkeypatch.setattr(kept, "_put", lambda made, file: (seen.extend(map(Path.is_file, tmp_path.iterdir())), put(made, file)))
+    kept.keep(b"1", "one.json")
+    assert seen and all(seen), "a walk through the package's files ends where a folder vanishes"
+    assert kept.read_kept("one.json") == b"1"
+    assert {path.name for path in tmp_path.iterdir()} == {"one.json", "one.json.sha256"}
 
 
 STEPS = """

@@ -8,6 +8,7 @@ the same one makes it and the others wait, so that a core is not busy twice with
 import fcntl
 import hashlib
 import os
+import secrets
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -69,9 +70,14 @@ def read_kept(name: str) -> bytes | None:
 
 def keep(content: bytes, name: str) -> None:
     """Keep under a name, in place of what was; processes may do so side by side."""
-    with tempfile.TemporaryDirectory(prefix=".", dir=_folder()) as partial:
-        (made := Path(partial) / name).write_bytes(content)
+    # no folder: one that vanishes ends a walk through the package's files
+    made = _folder() / f".{secrets.token_hex(8)}"
+    try:
+        made.write_bytes(content)
         _put(made, _folder() / name)
+    finally:
+        for file in (made, _digest_of(made)):
+            file.unlink(missing_ok=True)
 
 
 def content_digest(file: Path | str) -> str:
@@ -145,7 +151,7 @@ def _is_at(opened: BinaryIO, name: Path) -> bool:
 
 def _put(made: Path, file: Path) -> None:
     """Move a finished file into place, and then its digest: until both are there it counts as damaged."""
-    (digest := made.with_name("digest")).write_text(content_digest(made))
+    (digest := _digest_of(made)).write_text(content_digest(made))
     os.replace(made, file)
     os.replace(digest, _digest_of(file))
 
