@@ -1,6 +1,7 @@
 """Further runs of a verdict: which are done, where, and that each is the run it claims to be."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,7 +12,18 @@ from integration_cases import ABRADABLE, DIRECT
 from r37core.requirements import looks as further_runs
 from r37core.requirements.choice import WIDTH, Requirements
 from r37core.requirements.evidence import Evidence
-from r37core.requirements.judging import DOWN, HALF_STEP, LESS_FRICTION, LOOKS, MORE_FRICTION, REST, UP
+from r37core.requirements.judging import (
+    DOWN,
+    FAST_RISE,
+    HALF_STEP,
+    LESS_FRICTION,
+    LOOKS,
+    MORE_FRICTION,
+    REST,
+    SLIGHTLY_MORE_FRICTION,
+    SLOW_RISE,
+    UP,
+)
 from r37core.requirements.looks import JudgedBlade, joined_looks, looks_in, looks_of
 from r37core.results.operating_range import OperatingRange
 from r37core.results.response import run_row
@@ -24,7 +36,8 @@ from r37core.time_integration.status import RunStatus
 
 CHOICE = IntegrationChoice(6.4e-6, 12, 62, integrator=EXACT_MODAL)
 KEPT = {"spectrum_highest_order": 4, "wear_angles": 8}
-LINED = replace(ABRADABLE, lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_width=1e-3))
+RISING = replace(ABRADABLE.casing, rise_fraction=0.5)
+LINED = replace(ABRADABLE, casing=RISING, lining=Lining(5e-3, 20e9, 5e9, 1.5, bars=200, bar_width=1e-3))
 FLOWN = OperatingRange(1300.0, 1310.0)
 NEEDS = Requirements(used_lining=0.5)
 RESULTS = ("wear", "spectrum")
@@ -70,7 +83,10 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
         REST: (rising, long),
         MORE_FRICTION: (replace(rising, friction=replace(friction, coefficient=1.01 * friction.coefficient)), long),
         LESS_FRICTION: (replace(rising, friction=replace(friction, coefficient=0.99 * friction.coefficient)), long),
+        SLIGHTLY_MORE_FRICTION: (replace(rising, friction=replace(friction, coefficient=1.001 * friction.coefficient)), long),
         HALF_STEP: (rising, replace(long, time_step=0.5 * CHOICE.time_step)),
+        FAST_RISE: (replace(rising, casing=replace(rising.casing, rise_revolutions=0.6)), long),
+        SLOW_RISE: (replace(rising, casing=replace(rising.casing, rise_revolutions=12.0)), long),
     }
     used = {}
     for name, (scene, choice) in expected.items():
@@ -80,7 +96,7 @@ def test_each_is_the_run_that_it_claims_to_be(lined, contact):
         run = found[name].sel(speed=1305.0)
         np.testing.assert_array_equal(run["rms_normal"].sel(tip_point="leading_edge"), row["rms_normal"][0])
         np.testing.assert_array_equal(run["amplitude"], row["amplitude"])
-    assert len(set(used.values())) == 4
+    assert len(set(used.values())) == 7
 
 
 def test_runs_that_are_there_are_not_run_again(lined, tmp_path, monkeypatch):
@@ -103,7 +119,8 @@ def test_stress_before_a_run_settles_is_known(contact, model, steel, lined):
     """The largest stress of all revolutions, which a run that keeps all of them says, lies before the statistic here."""
     stress = {"box": stress_operators(model, steel)["box"]}
     choice = replace(CHOICE, snapshots_per_revolution=31)
-    blade = replace(lined, scene=LINED, choice=choice, results=("stress",), stress=stress)
+    at_once = replace(LINED, casing=ABRADABLE.casing)
+    blade = replace(lined, scene=at_once, choice=choice, results=("stress",), stress=stress)
     speed = 1340.0
     (largest,) = blade.runs_from_rest([speed])["max_von_mises_of_run"].values
     every = replace(choice, revolutions=20, until_settled=True, snapshot_revolutions=20)
@@ -149,12 +166,32 @@ def test_nothing_more_is_run_of_what_fails(lined, monkeypatch):
 def test_without_friction_only_the_step_is_changed(contact, lined):
     bare = replace(lined, scene=replace(DIRECT, friction=None), results=())
     few = replace(evidence(), operating=OperatingRange(1304.0, 1305.0))
-    assert tuple(dict(looks_of(bare, NEEDS, few))) == (REST, UP, DOWN, HALF_STEP)
+    assert tuple(dict(looks_of(bare, NEEDS, few))) == (REST, UP, DOWN, HALF_STEP, SLOW_RISE)
 
 
 def test_runs_stand_closer_about_a_peak_below_the_limit():
     speeds, near = np.array([1000.0, 1002.5, 1005.0, 1007.5]), np.array([0.1, 0.8, 0.2, 0.6])
-    assert further_runs._speeds_about_peaks(speeds, near) == [1001.25, 1003.75]
-    assert further_runs._speeds_about_peaks(speeds, np.array([0.1, 1.2, 0.2, 0.6])) == []
-    assert further_runs._speeds_about_peaks(np.array([1000.0, 1000.5]), np.array([0.9, 0.1])) == []
+    refined = partial(further_runs._speeds_about_peaks, error=0.03)
+    assert refined(speeds, near) == [1001.25, 1003.75]
+    # what fails and what lies far below are no peaks, nor is there anything between speeds that stand close
+    assert refined(speeds, np.array([0.1, 1.2, 0.2, 0.3])) == []
+    assert refined(np.array([1000.0, 1000.1]), np.array([0.9, 0.1])) == []
+    # a peak between two like speeds, and a top that is known to 3%
+    assert refined(speeds, np.array([0.2, 0.6, 0.61, 0.2])) == [1003.75, 1006.25]
+    assert refined(speeds, 0.6 - 1e-3 * (speeds - 1003.0) ** 2) == []
+    # the end of a branch
+    assert refined(speeds, np.array([0.4, 0.5, 0.6, 0.1])) == [1003.75, 1006.25]
+
+
+def test_a_resonance_is_found_to_the_error_that_is_asked_for():
+    """A peak of 1.5 rad/s at half its height, anywhere between speeds 2.5 rad/s apart: its height within the error."""
+    for place in np.linspace(1000.0, 1002.5, 11):
+        speeds = np.arange(980.0, 1021.0, 2.5)
+
+        def height(speed, place=place):
+            return 0.1 + 0.8 / (1.0 + ((speed - place) / 0.75) ** 2)
+
+        while new := further_runs._speeds_about_peaks(speeds, height(speeds), 0.033):
+            speeds = np.sort(np.append(speeds, new))
+        assert height(speeds).max() > 0.9 / 1.033 and len(speeds) < 40, place
     assert further_runs._closer([1000.0, 1006.0, 1007.0], 2.5) == [1000.0, 1002.0, 1004.0, 1006.0, 1007.0]

@@ -45,10 +45,15 @@ class Measured(Section):
     error_on_points: Annotated[float, Field(ge=0, le=1e6)] | LeftOut = left_out(
         "Mean relative error of rms with bare casing on points"
     )
+    error_of_blades: dict[str, Annotated[float, Field(ge=0, le=1e6)]] = Field(
+        default={}, description="Error of some blades by name, in place of the others, for verdicts and rankings"
+    )
     cpu_s_per_run: float = Field(ge=1e-6, le=1e9, description="CPU seconds per run")
 
-    def error_of(self, point_contact: bool) -> float | None:
-        """The error of runs with direct contact on points, or of others; None where that was not measured."""
+    def error_of(self, point_contact: bool, blade: str = "") -> float | None:
+        """The error of runs with direct contact on points, or of others, or of a blade; None where that was not measured."""
+        if blade in self.error_of_blades:
+            return self.error_of_blades[blade]
         return self.error_on_points if point_contact and self.error_on_points is not None else self.error
 
 

@@ -323,9 +323,12 @@ def blades_on_points(settings: Settings) -> list[str]:
 
 
 def level_errors(settings: Settings, pairs: Sequence[tuple[str, str]]) -> list[float]:
-    """Relative error of the level, by mesh and step, of each of some blades and scenes; 0 where it was not measured."""
+    """Relative error of the level, by mesh and step, of each of some blades and scenes; NaN where it was not measured."""
     measured, linings, points = settings.fidelity.measured, settings.linings, blades_on_points(settings)
-    return [(measured and measured.error_of(blade in points and scene not in linings)) or 0.0 for blade, scene in pairs]
+    if measured is None:
+        return [math.nan] * len(pairs)
+    errors = [measured.error_of(blade in points and scene not in linings, blade) for blade, scene in pairs]
+    return [math.nan if error is None else error for error in errors]
 
 
 def location_of_contact(settings: Settings, blade: str) -> str:

@@ -127,8 +127,9 @@ def _best(rows: pd.DataFrame, length: str, flown: bool) -> str:
     """Text on the design with the least `length`, or on those that tie with it; `flown`: whether that is in operation."""
     names = rows["blade"].str.cat(rows["scene"], " in ") if rows["scene"].nunique() > 1 else rows["blade"]
     least = rows[length].min()
-    within = rows[length.replace("_rad_s", "_within_rad_s")]
-    tied = rows[rows[length] - least <= within + within[rows[length].idxmin()]]
+    # what is not known ties with all
+    within = rows[length.replace("_rad_s", "_within_rad_s")].fillna(np.inf)
+    tied = rows[rows[length] - least <= np.hypot(within, within[rows[length].idxmin()])]
     inside = " in operation" if flown else ""
     if len(tied) == 1:
         return f"{names[tied.index[0]]} is above yield in most revolutions at the fewest speeds{inside} ({least:.0f} rad/s)"

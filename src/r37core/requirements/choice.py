@@ -12,11 +12,14 @@ WIDTH = 5.0
 STEP = 0.5 * WIDTH
 """Step (rad/s) between the further runs from rest."""
 
+LEAST_STEP = 0.2
+"""Distance (rad/s) of runs about a peak between which nothing is run."""
+
 CARRIED_STEP = WIDTH
 """Step (rad/s) between the speeds that a motion is carried through."""
 
-MOST_NEAR, OTHERS = 24, 3
-"""Speeds, those nearest to the limit, that are run in so many other ways: with more and less friction and half the step."""
+MOST_NEAR, OTHERS = 24, 6
+"""Speeds, those nearest to the limit, that are run in so many other ways: with other friction, step and rise of the lobes."""
 
 LONGEST = 1000
 """Most revolutions of a run that ends as it has settled."""

@@ -8,12 +8,11 @@ import numpy as np
 import xarray as xr
 
 from r37core.results.datasets import overlaid
-from r37core.results.exceedance import exceedance_of, is_lined
 from r37core.results.operating_range import OperatingRange
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
-from .choice import WIDTH
+from .choice import LEAST_STEP, WIDTH
 
 JUDGED = (
     "status",
@@ -22,6 +21,7 @@ JUDGED = (
     "share_of_revolutions_above_yield",
     "max_von_mises_median",
     "max_von_mises_of_run",
+    "stress_drift",
     "goodman_share",
     "used_thickness",
     "worn_through_share",
@@ -40,10 +40,11 @@ class Evidence:
     """Results of one blade in one scene. `response`: rms with stress and wear, if computed; `campbell`: of the blade.
 
     `members`, `motions`: parts of the datasets of members under tolerances and of more motions. `looks`: further runs, see
-    requirements.looks, each a response of JUDGED; none where none were done, for the reason in `not_looked`. `clearance` (m):
+    requirements.looks, each a response of JUDGED; none where none were done, for the reason in `not_looked`, which may be that
+    another requirement `fails_elsewhere`. `clearance` (m):
     of a casing whose clearance is the same at every speed; `thickness` (m) of the lining; `mass` (kg); `miner_sum` of the worst
-    run-up; NaN each where not known. `error`: relative error of stress and wear by mesh and step. `point_contact`: whether
-    contact acts on points.
+    run-up; NaN each where not known. `error`: relative error of stress and wear by mesh and step, NaN if unknown.
+    `point_contact`: whether contact acts on points.
     """
 
     response: xr.Dataset
@@ -53,6 +54,7 @@ class Evidence:
     motions: xr.Dataset | None = None
     looks: Mapping[str, xr.Dataset] = field(default_factory=dict)
     not_looked: str = ""
+    fails_elsewhere: bool = False
     clearance: float = np.nan
     thickness: float = np.nan
     mass: float = np.nan
@@ -98,6 +100,16 @@ class Evidence:
         """Why an interaction may be hidden between speeds; empty where none can."""
         narrow = self.gap <= WIDTH * (1.0 + _ROUNDING) or not self.touches
         return "" if narrow else f"speeds lie up to {self.gap:.3g} rad/s apart, and an interaction may be {WIDTH:g} wide"
+
+    def is_open(self, near: np.ndarray, error: float) -> bool:
+        """Whether a run in operation may come nearer to a limit than the nearest does, by more than an `error`.
+
+        Between speeds, or as its stress drifts on. `near`, shape (speeds,): see judging.nearness.
+        """
+        speeds, drift = self.response["speed"].values, self.response.get("stress_drift", xr.DataArray(0.0))
+        inside = np.where(self.operates & np.isfinite(near), near, 0.0)
+        highest = max(reach_of_peaks(speeds, inside).max(), (inside * (1.0 + drift.fillna(0.0).values)).max())
+        return bool(highest > (1.0 + error) * inside.max())
 
     @property
     def operates(self) -> np.ndarray:
@@ -146,8 +158,8 @@ class Evidence:
         place = int(inside.argmax())
         return float(inside[place]), float(places[place])
 
-    def scaled(self, factor: float) -> Self:
-        """The evidence with stress, share of the Goodman line and used lining times a `factor`."""
+    def scaled(self, factor: float | xr.DataArray) -> Self:
+        """The evidence with stress, share of the Goodman line and used lining times a `factor`, or one of each speed."""
         runs = self.response
         scale = ("max_von_mises_median", "goodman_share", "used_thickness")
         changed = {name: factor * runs[name] for name in scale if name in runs}
@@ -156,6 +168,26 @@ class Evidence:
             # the share itself is that of yield, so only which side of it most revolutions lie on is known
             changed["share_of_revolutions_above_yield"] = xr.where(above, np.maximum(share, 1.0), np.minimum(share, 0.0))
         return self.replaced(runs.assign(changed))
+
+
+def reach_of_peaks(speeds: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """How high each peak of positive `values` may be between ascending `speeds`, shape (speeds,); elsewhere the values.
+
+    By the parabola of 1/value^2 through three speeds, which is that of a resonance, infinite where its top is below 0. Where
+    the speeds stand closer than LEAST_STEP the lower of the two steps up to the peak goes on.
+    """
+    reach = values.astype(float)
+    peaks = 1 + np.flatnonzero((values[1:-1] >= np.maximum(values[:-2], values[2:])) & (values[1:-1] > 0.0))
+    before, after = speeds[peaks] - speeds[peaks - 1], speeds[peaks + 1] - speeds[peaks]
+    low, top, high = (np.maximum(values[peaks + at], 1e-6) ** -2.0 for at in (-1, 0, 1))
+    first, second = (top - low) / before, (high - top) / after
+    curvature = (second - first) / (before + after)
+    slope = first + curvature * before
+    least = top - np.divide(slope**2, 4.0 * curvature, out=np.zeros(len(peaks)), where=curvature > 0.0)
+    resonance = np.where(least > 0.0, np.maximum(least, 1e-12) ** -0.5, np.inf)
+    stepped = 2.0 * values[peaks] - np.maximum(values[peaks - 1], values[peaks + 1])
+    reach[peaks] = np.where(np.maximum(before, after) > LEAST_STEP, resonance, stepped)
+    return reach
 
 
 def operated_alone(evidence: Evidence) -> Evidence:
@@ -203,12 +235,3 @@ def worst_of(motions: xr.Dataset) -> xr.Dataset:
     status = kept["status"]
     diverged = (status == RunStatus.DIVERGED).any("motion")
     return kept.max("motion").assign(status=xr.where(diverged, RunStatus.DIVERGED, status.min("motion")))
-
-
-def scatter_of_length(response: xr.Dataset, operating: OperatingRange, share: float) -> float:
-    """Standard deviation by chance of the length (rad/s) above yield in operation; NaN on a lining, where there is none."""
-    if is_lined(response):
-        return np.nan
-    drawn = exceedance_of(response).ranges_drawn[share]
-    # of equal lengths what rounding leaves
-    return float(np.std([operating.length(ranges) for ranges in drawn]).round(9))

@@ -7,27 +7,41 @@ import numpy as np
 
 from r37core.results.columns import MOST_REVOLUTIONS, SOME, above_yield
 from r37core.results.datasets import overlaid
-from r37core.results.exceedance import SpeedRange, exceedance_of
+from r37core.results.exceedance import DEVIATIONS, SpeedRange, exceedance_of, is_lined, ranges_above
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
 from r37core.results.other_motions import swept
+from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
 
 from .choice import Requirements
-from .evidence import Evidence, extended, lacking, operated_alone, scatter_of_length, worst_of
+from .evidence import Evidence, extended, lacking, operated_alone, worst_of
 
 MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot tell", "does not apply")
 
 UP, DOWN, REST = "carried up", "carried down", "from rest"
-MORE_FRICTION, LESS_FRICTION, HALF_STEP = "1% more friction", "1% less friction", "half the step"
-LOOKS = (REST, UP, DOWN, MORE_FRICTION, LESS_FRICTION, HALF_STEP)
+MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION = "1% more friction", "1% less friction", "0.1% more friction"
+HALF_STEP = "half the step"
+FAST_RISE, SLOW_RISE = "lobes that rise ten times as fast", f"lobes that rise over {PUBLISHED_REVOLUTIONS} revolutions"
+REPEATED = (MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION, HALF_STEP)
+FROM_REST = (*REPEATED, FAST_RISE, SLOW_RISE)
+LOOKS = (REST, UP, DOWN, *FROM_REST)
 """Further runs of a blade in a scene; see requirements.looks."""
 
 _OTHER_MOTIONS = (UP, DOWN)
 
+NEAR = 1.0 / 3.0
+"""Share of a limit from which further runs may come to it."""
+
 GROWS = 0.5
 """Share of a limit from which a motion that still grows may come to it."""
+
+AT_LEAST = "the highest value is a lower bound"
+"""Note on a highest value that finer speeds or longer runs may exceed."""
+
+NOT_MEASURED = "the level's error was not measured: snakemake tradeoff measures it, fidelity.yaml has it as measured.error"
+"""Note on runs of a level without a measured error: they meet no limit where the tip touches."""
 
 CLEARLY = 1.15
 """Factor by which stress and wear may be smaller where a requirement fails clearly."""
@@ -43,9 +57,6 @@ ON_POINTS = "contact acts on points, whose motion changes with the mesh: structu
 
 NO_CONTACT = "the tip touches nothing, which needs no further runs"
 """Note on a requirement that is met without contact."""
-
-_CHANCE = 2.0
-"""Standard deviations by which chance may move a length."""
 
 Columns = dict[str, Any]
 """Columns of a requirement that are known."""
@@ -72,8 +83,9 @@ COLUMNS = (
 """Columns of verdict.csv after blade and scene.
 
 `value` and `limit` are in the `unit`; the value is NaN where it is not known, for the reason in `note`. `value_lowest`,
-`value_highest`: of everything that was tried. `margin`: distance from the limit, above 0 where the requirement is met.
-`from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard deviation of the value by chance; `members`,
+`value_highest`: of everything that was tried, with the error of mesh and step and two standard deviations. `margin`: distance
+from the limit, above 0 where the requirement is met. `from_rad_s`, `to_rad_s`: speeds where it is worst. `scatter`: standard
+deviation of the value by friction and step, of a length also by chance and distance of the speeds; `members`,
 `share_of_members`: number of members under tolerances, and the share of them that meets it; `margin_worst_motion`: margin of
 the worst of all motions; NaN each where not run. `further_runs`: how many there were, NaN of what is not judged by runs.
 """
@@ -158,45 +170,62 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     row = _row(requirement, unit, limit, columns) | _members(columns_of, limit, evidence) | {"further_runs": further_runs}
     if "verdict" in columns or np.isnan(row["value"]):
         return row
-    others = _tried(evidence) | motions
+    others, error = _tried(evidence) | motions, _tried_error(evidence)
     tried = {name: columns_of(other) for name, other in (others | _larger_and_smaller(evidence)).items()}
+    more = {f"{name} and {_percent(error)} more": columns_of(other.scaled(1.0 + error)) for name, other in others.items()}
     margins = {name: margin for name, each in tried.items() if not np.isnan(margin := _margin(each, limit))}
-    values = [value for each in (columns, *tried.values()) if np.isfinite(value := each.get("value", np.nan))]
-    scatter = columns.get("scatter", np.nan)
+    repeated = [row["value"], *(tried[f"with {name}"].get("value", np.nan) for name in REPEATED if f"with {name}" in tried)]
+    scatter = float(np.linalg.norm(np.nan_to_num([row["scatter"], np.nanstd(repeated)])))
+    lowest, highest = row["value"] - DEVIATIONS * scatter, row["value"] + DEVIATIONS * scatter
+    if requirement == "above_yield" and is_lined(evidence.response) and row["value"] > 0.0:
+        # wherever its borders lie, a speed above yield is one
+        lowest = max(lowest, 1e-9)
     if scatter > 0.0:
-        margins |= {"by chance": limit - row["value"] - np.copysign(_CHANCE * scatter, limit - row["value"])}
-    row |= {"value_lowest": min(values), "value_highest": max(values)}
+        margins |= {"by chance": limit - (highest if row["verdict"] == MEETS else lowest)}
+    values = [value for each in (*tried.values(), *more.values()) if np.isfinite(value := each.get("value", np.nan))]
+    row |= {"scatter": scatter, "value_lowest": max(min([lowest, *values]), 0.0), "value_highest": max([highest, *values])}
     row["margin_worst_motion"] = min((min(margins[name], row["margin"]) for name in motions if name in margins), default=np.nan)
+    near = nearness(only, evidence)
+    # a speed above yield counts in full already
+    reaching = np.where(near < 1.0, near, 0.0) if requirement == "above_yield" else near
+    notes = [row["note"], evidence.is_open(reaching, error) and AT_LEAST]
     if row["verdict"] == FAILS:
         # another motion that keeps the limit takes nothing from one that does not
         kept = [name for name, margin in margins.items() if margin >= 0.0 and name not in motions]
         doubts = [f"meets {' and '.join(kept)}"] if kept else []
+        notes.append(_how_much(only, evidence))
     else:
         growing = next(filter(None, (_growing(only, name, other) for name, other in ({"": evidence} | others).items())), "")
-        doubts = [*_failed(columns_of, limit, margins, others, unit), *filter(None, [evidence.too_coarse, growing])]
-        doubts += _left_out(evidence, row["note"])
+        combined = {
+            name: _margin(each, limit) for name, each in more.items() if margins.get(name.split(" and ")[0], 0.0) >= 0.0
+        }
+        doubts = [*_failed(margins | combined, unit), *filter(None, [evidence.too_coarse, growing])]
+        doubts += _left_out(only, evidence, row["note"])
+    row["note"] = "; ".join(dict.fromkeys([*doubts, *filter(None, notes)]))
     if doubts:
-        row |= {"verdict": UNKNOWN, "note": "; ".join(dict.fromkeys([*doubts, *filter(None, [row["note"]])]))}
+        row["verdict"] = UNKNOWN
     elif row["verdict"] == MEETS and not evidence.touches:
         row["note"] = NO_CONTACT
     return row
 
 
-def _failed(
-    columns_of: Callable[[Evidence], Columns],
-    limit: float,
-    margins: Mapping[str, float],
-    others: Mapping[str, Evidence],
-    unit: str,
-) -> list[str]:
-    """Tries that fail, and by how much: of `margins`, and of `others` that keep the limit, with the error of mesh and step."""
-    failed = {name: margin for name, margin in margins.items() if margin < 0.0}
-    for name, other in others.items():
-        if name not in failed and other.error:
-            margin = _margin(columns_of(other.scaled(1.0 + other.error)), limit)
-            failed |= {f"{name} and {_percent(other.error)} more": margin} if margin < 0.0 else {}
+def _how_much(only: Requirements, evidence: Evidence) -> str:
+    """Over how much of the operating range runs are beyond the one limit."""
+    response, operating = evidence.response, evidence.operating
+    ranges = ranges_above(response["speed"].values, nearness(only, evidence), 1.0)
+    if only.above_yield is not None:
+        ranges = exceedance_of(response).ranges(MOST_REVOLUTIONS)
+    return f"over {operating.length(ranges):.3g} of {operating.last - operating.first:.4g} rad/s"
+
+
+def _failed(margins: Mapping[str, float], unit: str) -> list[str]:
+    """Tries that fail, and by how much."""
     suffix = "" if unit == "1" else f" {unit}"
-    return [f"fails {name}" + (f" by {-margin:.3g}{suffix}" if np.isfinite(margin) else "") for name, margin in failed.items()]
+    return [
+        f"fails {name}" + (f" by {-margin:.3g}{suffix}" if np.isfinite(margin) else "")
+        for name, margin in margins.items()
+        if margin < 0.0
+    ]
 
 
 def _growing(only: Requirements, name: str, evidence: Evidence) -> str:
@@ -208,21 +237,29 @@ def _growing(only: Requirements, name: str, evidence: Evidence) -> str:
     return where and f"{where}{name and f', {name}'}"
 
 
-def _left_out(evidence: Evidence, note: str) -> list[str]:
-    """Reasons why runs cannot show that a limit is met, by what they leave out; `note`: on the value."""
+def _left_out(only: Requirements, evidence: Evidence, note: str) -> list[str]:
+    """Reasons why runs cannot show that the one limit is met, by what they leave out; `note`: on the value."""
     reasons = [bound for bound in (LOWER_BOUND, VIBRATION_ALONE) if bound in note]
-    return reasons + [text for text in (evidence.not_looked, evidence.point_contact and ON_POINTS) if text and evidence.touches]
+    # further runs do not look closer either where all stays far below a limit
+    far_below = evidence.fails_elsewhere and nearness(only, evidence).max(initial=0.0) < NEAR
+    doubts = (
+        not far_below and evidence.not_looked,
+        evidence.point_contact and ON_POINTS,
+        np.isnan(evidence.error) and NOT_MEASURED,
+    )
+    return reasons + [text for text in doubts if text and evidence.touches]
 
 
 def _tried(evidence: Evidence) -> dict[str, Evidence]:
-    """Runs with another friction or step, and speeds that are above yield before the motion settles counted as above it."""
-    chance = (MORE_FRICTION, LESS_FRICTION, HALF_STEP)
+    """Runs with another friction, step or rise of the lobes, and as they drift on; speeds above yield before they settle."""
     tried = {
         f"with {name}": evidence.replaced(overlaid(evidence.response, evidence.looks[name]))
-        for name in chance
+        for name in FROM_REST
         if name in evidence.looks
     }
     runs = evidence.response
+    if "stress_drift" in runs and (runs["stress_drift"] > 0.0).any():
+        tried["as it drifts on"] = evidence.scaled(1.0 + runs["stress_drift"].clip(min=0.0).fillna(0.0))
     if "max_von_mises_of_run" in runs:
         share = runs["share_of_revolutions_above_yield"].where(~(runs["max_von_mises_of_run"] > runs["yield_stress"]), 1.0)
         tried["before it settles"] = evidence.replaced(runs.assign(share_of_revolutions_above_yield=share))
@@ -231,10 +268,15 @@ def _tried(evidence: Evidence) -> dict[str, Evidence]:
 
 def _larger_and_smaller(evidence: Evidence) -> dict[str, Evidence]:
     """Stress and wear larger and smaller by the error of mesh and step."""
-    if not evidence.error:
+    if not (error := _tried_error(evidence)):
         return {}
-    percent, factor = _percent(evidence.error), 1.0 + evidence.error
+    percent, factor = _percent(error), 1.0 + error
     return {f"with {percent} more": evidence.scaled(factor), f"with {percent} less": evidence.scaled(1.0 / factor)}
+
+
+def _tried_error(evidence: Evidence) -> float:
+    """Relative error of stress and wear that is tried: one that was not measured may be as large as what fails clearly."""
+    return float(np.nan_to_num(evidence.error, nan=CLEARLY - 1.0))
 
 
 def _percent(share: float) -> str:
@@ -291,7 +333,7 @@ def _above_yield(evidence: Evidence) -> Columns:
         "value": operating.length(inside),
         "from_rad_s": max(widest.begin, operating.first),
         "to_rad_s": min(widest.end, operating.last),
-        "scatter": scatter_of_length(response, operating, MOST_REVOLUTIONS),
+        "scatter": exceedance.scatter_of_length(MOST_REVOLUTIONS, operating.length),
         "note": "; ".join(filter(None, notes)),
     }
 

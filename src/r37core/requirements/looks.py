@@ -1,7 +1,7 @@
 """Further runs that a verdict waits for: those that could overturn what the sweep's own runs say.
 
-From rest until the motion has settled, also between the sweep's speeds; carried up and down; with a little more and less
-friction; with half the step. A requirement that the sweep's runs fail clearly needs none.
+From rest until the motion has settled, also between the sweep's speeds; carried up and down; with other friction; with half
+the step; with lobes that rise faster and slower. A requirement that the sweep's runs fail clearly needs none.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -26,22 +26,38 @@ from r37core.sweep.parts import Parts
 from r37core.time_integration.carrying import CarriedMotion, resolved_problem
 from r37core.time_integration.finished_run import FinishedRun
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS, IntegrationChoice
+from r37core.time_integration.settling import drift_of, window_of
 from r37core.time_integration.simulate import TIP_POINTS, Simulation
 from r37core.time_integration.speed_file import read_speed
 from r37core.time_integration.speed_run import numbers_of_run
 
-from .choice import CARRIED_STEP, LONGEST, MOST_NEAR, STEP, Requirements
-from .evidence import OF_ALL, Evidence
-from .judging import DOWN, HALF_STEP, LESS_FRICTION, MORE_FRICTION, REST, UP, closeness, fails_clearly, nearness
+from .choice import CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, STEP, Requirements
+from .evidence import OF_ALL, Evidence, reach_of_peaks
+from .judging import (
+    CLEARLY,
+    DOWN,
+    FAST_RISE,
+    HALF_STEP,
+    LESS_FRICTION,
+    MORE_FRICTION,
+    NEAR,
+    REST,
+    SLIGHTLY_MORE_FRICTION,
+    SLOW_RISE,
+    UP,
+    closeness,
+    fails_clearly,
+    nearness,
+)
 
-_NEAR = 0.7
-"""Share of a limit from which a peak counts as near to it."""
+_MOST_PEAKS = 12
+"""Peaks, the highest, about which speeds refine."""
 
-_PEAK_STEP = 0.7
-"""Step (rad/s) between runs about a peak that comes near to the limit."""
+_LEAST_NEAR = 6
+"""Speeds that are run with other friction and half the step where few come near to the limit."""
 
-_FRICTION = 0.01
-"""Relative change of the friction."""
+_FRICTION = {MORE_FRICTION: 1.01, LESS_FRICTION: 0.99, SLIGHTLY_MORE_FRICTION: 1.001}
+"""Factors of the coefficient of friction."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +121,10 @@ class JudgedBlade:
         row = run_row(numbers, self.yield_stress, self.strengths)
         if "revolution_von_mises" in numbers:
             # NaN after the end of a run that settled
-            row["max_von_mises_of_run"] = np.nan_to_num(numbers["revolution_von_mises"]).max(axis=1)
+            history = np.nan_to_num(numbers["revolution_von_mises"])
+            row["max_von_mises_of_run"] = history.max(axis=1)
+            ended = np.isfinite(numbers["settled_revolution"]) or not history[:, -1].all()
+            row["stress_drift"] = np.array([0.0 if ended else drift_of(each, window_of(len(each))) for each in history])
         return row
 
     def _dataset(self, files: Mapping[float, Path]) -> xr.Dataset:
@@ -135,9 +154,10 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     if (long_enough and fails_clearly(requirements, evidence)) or not evidence.touches:
         return
     first, last = evidence.operating.first, evidence.operating.last
+    error = np.nan_to_num(evidence.error, nan=CLEARLY - 1.0)
     inside = [float(speed) for speed in evidence.speeds if first < speed < last]
     runs = blade.runs_from_rest(_closer([first, *inside, last], STEP))
-    while len(new := _speeds_about_peaks(runs["speed"].values, nearness(requirements, evidence.replaced(runs)))):
+    while len(new := _speeds_about_peaks(runs["speed"].values, nearness(requirements, evidence.replaced(runs)), error)):
         runs = overlaid(runs, blade.runs_from_rest(new))
     yield REST, runs
     rest = evidence.replaced(runs)
@@ -146,13 +166,20 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
     carried = _closer([first, last], CARRIED_STEP)
     yield UP, blade.carried(carried)
     yield DOWN, blade.carried(carried[::-1])
-    near = np.sort(runs["speed"].values[np.argsort(-closeness(requirements, rest), kind="stable")[:MOST_NEAR]]).tolist()
+    close = closeness(requirements, rest)
+    count = min(max(np.count_nonzero(close >= NEAR), _LEAST_NEAR), MOST_NEAR)
+    near = np.sort(runs["speed"].values[np.argsort(-close, kind="stable")[:count]]).tolist()
     friction = blade.scene.friction
     if friction is not None:
-        for look, factor in ((MORE_FRICTION, 1.0 + _FRICTION), (LESS_FRICTION, 1.0 - _FRICTION)):
+        for look, factor in _FRICTION.items():
             changed = replace(friction, coefficient=factor * friction.coefficient)
             yield look, blade.runs_from_rest(near, replace(blade.rising_scene, friction=changed))
     yield HALF_STEP, blade.runs_from_rest(near, step=0.5)
+    casing = blade.rising_scene.casing
+    for look, revolutions in ((FAST_RISE, 0.1 * (casing.rise_revolutions or 0.0)), (SLOW_RISE, float(PUBLISHED_REVOLUTIONS))):
+        if revolutions not in (0.0, casing.rise_revolutions):
+            rising = replace(blade.rising_scene, casing=replace(casing, rise_revolutions=revolutions))
+            yield look, blade.runs_from_rest(near, rising)
 
 
 def joined_looks(looks: Mapping[str, xr.Dataset]) -> xr.Dataset:
@@ -176,9 +203,11 @@ def _closer(speeds: Sequence[float], step: float) -> list[float]:
     return [*np.concatenate(filled).tolist(), speeds[-1]]
 
 
-def _speeds_about_peaks(speeds: np.ndarray, near: np.ndarray) -> list[float]:
-    """Middles of the intervals beside peaks that come near to the limit, where these are longer than _PEAK_STEP."""
-    higher = np.maximum(np.append(near[1:], 0.0), np.append(0.0, near[:-1]))
-    peaks = (near >= _NEAR) & (near < 1.0) & (near >= higher)
-    beside = (peaks[1:] | peaks[:-1]) & (np.diff(speeds) > _PEAK_STEP)
-    return (0.5 * (speeds[1:] + speeds[:-1]))[beside].tolist()
+def _speeds_about_peaks(speeds: np.ndarray, near: np.ndarray, error: float) -> list[float]:
+    """Middles of the intervals beside peaks from NEAR of a limit on that may be higher than known by more than an `error`."""
+    reach = reach_of_peaks(speeds, np.where(near < 1.0, near, 0.0))
+    peaks = np.flatnonzero((reach >= NEAR) & (near < 1.0) & (reach > (1.0 + error) * near))
+    highest = peaks[np.argsort(-near[peaks], kind="stable")[:_MOST_PEAKS]]
+    beside = np.unique([*(highest - 1), *highest]).astype(int)
+    wide = beside[np.diff(speeds)[beside] > LEAST_STEP]
+    return (0.5 * (speeds[wide] + speeds[wide + 1])).tolist()

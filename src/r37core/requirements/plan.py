@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import Field
 
 from r37core.base.plain import to_plain
-from r37core.config import Settings, operating_range
+from r37core.config import Settings, level_errors, operating_range
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import ExtensionSection, Section
@@ -111,6 +111,7 @@ class Judged:
             "operating": to_plain(operating and replace(operating, dwell=())),
             "clearance": lambda wildcards: self.clearance.get(wildcards.scene, nan),
             "thickness": lambda wildcards: self.thickness.get(wildcards.scene, nan),
+            "error": lambda wildcards: level_errors(settings, [(wildcards.blade, wildcards.scene)])[0],
             "provenance": made.sweep,
         }
         return Stage("requirements.steps.look", params)

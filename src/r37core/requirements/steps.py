@@ -33,7 +33,8 @@ from .table import operating_table, verdict_table
 def look(input: Any, output: Any, params: Any) -> None:
     """Run what could overturn the verdict on one blade and scene. Inputs: response, model, and stress. Output: looks (nc).
 
-    Params: scene, choice, results, kept, yield_stress, strengths, requirements, operating, clearance, thickness, provenance.
+    Params: scene, choice, results, kept, yield_stress, strengths, requirements, operating, clearance, thickness, error,
+    provenance.
     """
     files = [input.model, *([input.stress] if hasattr(input, "stress") else [])]
     made_of = [params.code, params.results, params.kept, *map(content_digest, files)]
@@ -53,6 +54,7 @@ def look(input: Any, output: Any, params: Any) -> None:
         operating=from_plain(OperatingRange, params.operating),
         clearance=params.clearance,
         thickness=params.thickness,
+        error=params.error,
     )
     looks = looks_of(blade, from_plain(Requirements, params.requirements), evidence)
     write_dataset(joined_looks(dict(looks)), output.looks, params.provenance)

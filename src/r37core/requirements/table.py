@@ -21,6 +21,7 @@ from r37core.results.table_file import read_table
 from .choice import Requirements
 from .evidence import Evidence
 from .judging import (
+    AT_LEAST,
     COLUMNS,
     FAILS,
     MEETS,
@@ -67,7 +68,7 @@ def verdict_table(
     `datasets`: campbell, rms and, if there, stress, wear, members and motions. `numbers`: clearance and thickness by scene,
     mass by blade, of Evidence, where they are known; `run_ups` among the datasets has run-ups by blade and scene. `looks`
     of each blade and scene (requirements.looks), and why scenes have none; `errors`: relative error of stress and wear by mesh
-    and step, where it is known; `point_contact`: blades whose contact acts on points.
+    and step, NaN where it is not known; `point_contact`: blades whose contact acts on points.
     """
     rows = []
     damage = _miner_sums(datasets.get("run_ups"))
@@ -76,12 +77,12 @@ def verdict_table(
         more |= {name: known.get(blade if name == "mass" else scene, np.nan) for name, known in numbers.items()}
         more["miner_sum"] = damage.get((blade, scene), np.nan)
         response, campbell = response_of(datasets, blade, scene), datasets["campbell"].sel(blade=blade)
-        more |= {"error": errors.get((blade, scene), 0.0), "point_contact": blade in point_contact}
+        more |= {"error": errors.get((blade, scene), np.nan), "point_contact": blade in point_contact}
         evidence = Evidence(response, campbell=campbell, operating=operating, looks=looks.get((blade, scene), {}), **more)
         rest = evidence.replaced(evidence.looks[REST]) if REST in evidence.looks else evidence
         failed = fails_clearly(requirements, rest)
         reason = f"no further runs, as {failed[0]} fails" if failed else not_looked.get(scene, "")
-        evidence = replace(evidence, not_looked=reason)
+        evidence = replace(evidence, not_looked=reason, fails_elsewhere=bool(failed))
         rows += [{"blade": blade, "scene": scene, **row} for row in judge(requirements, evidence)]
     return pd.DataFrame(rows, columns=["blade", "scene", *COLUMNS])
 
@@ -169,7 +170,8 @@ def certainty(row: pd.Series) -> str:
     """Certainty of a verdict by all that was tried and by tolerances, and what its number leaves out; or an empty text."""
     texts = [str(row["note"])] if pd.notna(row["note"]) and row["note"] and np.isfinite(row["margin"]) else []
     if row["value_lowest"] < row["value_highest"]:
-        texts.append(f"{row['value_lowest']:.3g} to {row['value_highest']:.3g}{_unit(row)} in all that was tried")
+        bound = "at least " if AT_LEAST in str(row["note"]) else ""
+        texts.append(f"{row['value_lowest']:.3g} to {bound}{row['value_highest']:.3g}{_unit(row)} in all that was tried")
     if row["scatter"] > 0.0:
         texts.append(f"scatter {row['scatter']:.2g}{_unit(row)}")
     if pd.notna(row["share_of_members"]):

@@ -60,7 +60,12 @@ def danger_of(response: xr.Dataset) -> dict[str, float]:
 
 
 def moved_by_error(response: xr.Dataset, stress: str, error: float) -> float:
-    """Largest change of the length (rad/s) of the speeds at which a stress is above yield, if it has a relative `error`."""
+    """Largest change of the length (rad/s) of the speeds at which a stress is above yield, if it has a relative `error`.
+
+    NaN where the error is not known.
+    """
+    if np.isnan(error):
+        return np.nan
     ratio = ratio_to_yield(response, stress)
     levels = (1.0, 1.0 + error, 1.0 / (1.0 + error))
     ranges = [ranges_above(ratio["speed"].values, ratio.values, level) for level in levels]

@@ -7,7 +7,7 @@ whose shares are 0 or 1: such a share is smoothed with those alone from which ch
 repeats itself: its shares are taken as they are.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -26,6 +26,9 @@ _INTERVALS = 1.5
 
 _BY_CHANCE = 0.2
 """Difference of two shares that chance may make: three standard deviations where half of a hundred revolutions are above."""
+
+DEVIATIONS = 2.0
+"""Standard deviations within which a number is said to lie."""
 
 _DRAWS, _SEED = 200, 0
 
@@ -116,11 +119,19 @@ class Exceedance:
             for share in (MOST_REVOLUTIONS, SOME_REVOLUTIONS)
         }
 
-    def scatter_of_length(self, share: float) -> float:
-        """Standard deviation of `length` (rad/s) by chance; NaN where there is none."""
-        if not self.chance:
-            return np.nan
-        return float(np.std([length_of(ranges) for ranges in self.ranges_drawn[share]]))
+    def scatter_of_length(
+        self, share: float, measure: Callable[[Sequence[SpeedRange]], float] | None = None, *, chance: bool = True
+    ) -> float:
+        """Standard deviation (rad/s) of `length`, or of another `measure` of the ranges, by chance and distance of the speeds.
+
+        A border may lie anywhere between the two speeds about it. `chance`: whether chance is drawn.
+        """
+        length = measure or length_of
+        drawn = [length(ranges) for ranges in self.ranges_drawn[share]] if self.chance and chance else [0.0]
+        above = self.smoothed > share
+        borders = np.flatnonzero(above[1:] != above[:-1])
+        steps = [length([SpeedRange(*self.speeds[at : at + 2].tolist(), truncated=False)]) for at in borders]
+        return float(np.sqrt(np.var(drawn) + np.sum(np.square(steps)) / 12.0))
 
     def scatter_of_border(self, share: float, of: SpeedRange, *, begins: bool) -> float:
         """How far (rad/s) chance moves the begin, or the end, of a range, in two of three cases.

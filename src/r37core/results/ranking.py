@@ -14,7 +14,7 @@ from r37core.time_integration.status import RunStatus
 from .columns import CHANCE, ENDS, MOST_REVOLUTIONS, OPERATING, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from .danger import danger_of, moved_by_error
 from .datasets import response_in_operation, response_of
-from .exceedance import SpeedRange, exceedance_of
+from .exceedance import DEVIATIONS, Exceedance, SpeedRange, exceedance_of
 from .measures import drop_after, has_strengths, lasts, motion, peak_of
 from .operating_range import OperatingRange
 from .table_file import read_table
@@ -50,8 +50,9 @@ def operating_measures(
     if not operating.is_covered(exceedance.speeds):
         return measures
     measures["length_most_revolutions_operating_rad_s"] = operating.length(exceedance.ranges(MOST_REVOLUTIONS))
-    gap, moved = np.diff(exceedance.speeds).max(initial=0.0), moved_by_error(response, "max_von_mises_median", error)
-    measures["length_most_revolutions_operating_within_rad_s"] = float(np.hypot(gap, moved))
+    scatter = exceedance.scatter_of_length(MOST_REVOLUTIONS, operating.length, chance=chance_scatter)
+    moved = moved_by_error(response, "max_von_mises_median", error)
+    measures["length_most_revolutions_operating_within_rad_s"] = _known_within(exceedance, scatter, moved)
     measures["exceedance_integral_operating_rad_s"] = operating.integral(exceedance.speeds, exceedance.shares)
     if exceedance.chance and chance_scatter:
         drawn = [operating.integral(exceedance.speeds, shares) for shares in exceedance.drawn]
@@ -87,10 +88,10 @@ def robustness(
         exceedance = exceedance_of(response)
         for name, share, stress in _SHARES:
             ranges = exceedance.ranges(share)
-            scatter = exceedance.scatter_of_length(share) if chance_scatter else np.nan
-            known = (measures["largest_gap_rad_s"], np.nan_to_num(scatter), moved_by_error(response, stress, error))
+            scatter = exceedance.scatter_of_length(share, chance=chance_scatter)
+            moved = moved_by_error(response, stress, error)
             measures[f"length_{name}_scatter_rad_s"] = scatter
-            measures[f"length_{name}_within_rad_s"] = float(np.linalg.norm(known))
+            measures[f"length_{name}_within_rad_s"] = _known_within(exceedance, scatter, moved)
             measures[f"first_{name}_rad_s"] = ranges[0].begin if ranges else np.nan
         measures["exceedance_integral_rad_s"] = exceedance.integral
         if chance_scatter:
@@ -108,6 +109,11 @@ def robustness(
         measures["length_goodman_rad_s"] = exceedance.length(MOST_REVOLUTIONS)
         measures["goodman_integral_rad_s"] = exceedance.integral
     return measures
+
+
+def _known_within(exceedance: Exceedance, scatter: float, moved: float) -> float:
+    """Two standard deviations (rad/s) of a length; a peak may be hidden between the two speeds that are farthest apart."""
+    return float(np.hypot(max(DEVIATIONS * scatter, np.diff(exceedance.speeds).max(initial=0.0)), moved))
 
 
 def measures_of(
@@ -184,10 +190,10 @@ def ranks_of(rows: pd.DataFrame) -> pd.DataFrame:
     order of `rank_lowest`, then RANKED_BY, those than which no other of a group is surely better share its rank.
     """
     values = rows[[*_TOLD_APART, "diverged_runs"]].to_numpy(float)
-    within = np.column_stack([rows[[_within(name) for name in _TOLD_APART]].fillna(0.0), np.zeros(len(rows))])
+    within = np.column_stack([rows[[_within(name) for name in _TOLD_APART]].fillna(np.inf), np.zeros(len(rows))])
 
     def is_better(row: int, other: int) -> bool:
-        apart = np.flatnonzero(np.abs(values[row] - values[other]) > within[row] + within[other])
+        apart = np.flatnonzero(np.abs(values[row] - values[other]) > np.hypot(within[row], within[other]))
         return bool(len(apart)) and bool(values[row, apart[0]] < values[other, apart[0]])
 
     better = np.array([[is_better(row, other) for other in range(len(rows))] for row in range(len(rows))])

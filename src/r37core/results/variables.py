@@ -69,6 +69,7 @@ _SPECTRUM = {
 _STRESS = {
     "max_von_mises_last_revolution": Variable(_REGION, "Pa", "largest von Mises stress in the region in the last revolution"),
     "max_von_mises_ever": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: largest"),
+    "stress_drift": Variable(_REGION, "1", "share by which the stress still drifts as the longest run ends"),
     "max_von_mises_of_run": Variable(_REGION, "Pa", "largest von Mises stress in the region in any revolution"),
     "max_von_mises_median": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: median"),
     "max_von_mises_high": Variable(_REGION, "Pa", f"{_OF_REVOLUTIONS}: {HIGH:.0%} of them have no larger one"),

@@ -3,6 +3,7 @@
 Both are read off windows of revolutions: a run's last one, and the one before it.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,9 @@ NO_WEAR = 1e-8
 
 SAME, SAME_OF_LARGEST = 0.01, 0.001
 """Difference of the rms of two windows that counts as none: a share of the larger one, or of the largest of the run."""
+
+DRIFT, WINDOWS_AHEAD = 0.02, 20
+"""Share of the last window by which its motion may still drift, and windows that a drift is followed for: the longest run."""
 
 STILL_WEARING = 0.01
 """Growth of a bar's wear in the last window, as a share of the largest wear, above which a run still changes."""
@@ -70,18 +74,34 @@ def revolution_rms(motion: np.ndarray, per_revolution: int) -> np.ndarray:
 
 
 def has_settled(rms: np.ndarray, window: int, wear_growth: float, risen: float) -> bool:
-    """True where the last window of a run brought no wear and no change of the motion.
+    """True where the last window of a run brought no wear and no change of the motion, and no slow drift goes on.
 
     That is: no bar wore by more than NO_WEAR, and the rms of the last window differs from that of the window before by less
-    than SAME of the larger one, or than SAME_OF_LARGEST of the largest of all windows. `rms` (m) of each revolution, shape
-    (revolutions,); `wear_growth` (m), see Ending; `risen`: revolutions after which the lobes have grown, before which nothing
-    has settled.
+    than SAME of the larger one, or than SAME_OF_LARGEST of the largest of all windows; and it drifts by no more than DRIFT,
+    unless it has DECAYED. `rms` (m) of each revolution, shape (revolutions,); `wear_growth` (m), see Ending; `risen`:
+    revolutions after which the lobes have grown, before which nothing has settled.
     """
     if len(rms) < 2 * window or len(rms) - 2 * window < risen or not wear_growth <= NO_WEAR:
         return False
     windows = np.sqrt(np.mean(np.reshape(rms[len(rms) % window :] ** 2, (-1, window)), axis=1))
     before, last = windows[-2:]
-    return bool(abs(last - before) <= max(SAME * max(before, last), SAME_OF_LARGEST * windows.max()))
+    alike = abs(last - before) <= max(SAME * max(before, last), SAME_OF_LARGEST * windows.max())
+    return bool(alike and (last < DECAYED * windows.max() or abs(drift_of(rms[math.ceil(risen) :], window)) <= DRIFT))
+
+
+def drift_of(values: np.ndarray, window: int) -> float:
+    """Relative change that the means of the last three windows lead to within WINDOWS_AHEAD.
+
+    `values`, positive, shape (revolutions,). Two equal steps go on as they are, smaller ones shrink by the same ratio; of two
+    windows the step between them goes on. 0 where they go up and down, or change by less than the last one's revolutions
+    scatter.
+    """
+    means = np.reshape(values[len(values) % window :], (-1, window)).mean(axis=1)[-3:]
+    *earlier, step = np.diff(means)
+    if abs(means[-1] - means[0]) <= SCATTERS * values[-window:].std() or (earlier and earlier[0] * step <= 0.0):
+        return 0.0
+    ratio = min(step / earlier[0], 1.0) if earlier else 1.0
+    return float(step * np.sum(ratio ** np.arange(1, WINDOWS_AHEAD + 1)) / means[-1])
 
 
 def motion_at_end(
