@@ -245,11 +245,11 @@ def test_rotors(tmp_path):
 def test_designs(tmp_path):
     """Those that cannot be told apart are counted, and the number that the choice among them is made by is told."""
     lengths = {"length_most_revolutions_rad_s": [40.0, 13.2, np.nan], "length_some_revolutions_rad_s": [50.0, 20.0, np.nan]}
-    more = {"length_most_revolutions_within_rad_s": [10.0, 10.0, np.nan], "largest_goodman_share": [0.4, 0.55, np.nan]}
+    more = {"length_most_revolutions_within_rad_s": [20.0, 10.0, np.nan], "largest_goodman_share": [0.4, 0.55, np.nan]}
     more["diverged_runs"] = [0, 0, 0]
     table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
     assert designs.closing(tmp_path) == "2 designs; lined: B is above yield in most revolutions at the fewest speeds (13 rad/s)"
-    more["length_most_revolutions_within_rad_s"] = [20.0, 10.0, np.nan]
+    more["length_most_revolutions_within_rad_s"] = [25.0, 10.0, np.nan]
     more["largest_stress_over_yield"] = [np.nan, 3.0, np.nan]
     table(tmp_path, "designs.csv", blade=["A", "B", "A"], scene=["lined", "lined", "quiet"], **lengths, **more)
     tied = "2 designs; lined: 2 of 2 cannot be told apart by their speeds above yield in most revolutions; of these "

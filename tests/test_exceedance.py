@@ -8,7 +8,7 @@ from test_interactions import CHOICE, campbell
 
 from r37core.results.columns import MOST_REVOLUTIONS, OVER_SCENES, ROBUSTNESS, SOME_REVOLUTIONS, names
 from r37core.results.contact_ranges import rows_above_yield
-from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined, ranges_above
+from r37core.results.exceedance import Exceedance, SpeedRange, exceedance_of, joined, length_of, ranges_above
 from r37core.results.interactions import find_interactions
 from r37core.results.ranking import chance_to_be_better, ranking_table, ranks_of, robustness
 from r37core.time_integration.settling import MotionAtEnd
@@ -86,14 +86,17 @@ def test_a_share_of_none_or_all_revolutions_is_smoothed_with_what_chance_may_giv
     assert found.length(MOST_REVOLUTIONS) == pytest.approx(85.0)
     # a line between the speeds of a border is above a twentieth for 0.45 of 5 rad/s more
     assert found.length(SOME_REVOLUTIONS) == pytest.approx(85.0 + 4.0 * 0.45 * 5.0)
-    assert found.scatter_of_length(MOST_REVOLUTIONS) == found.scatter_of_length(SOME_REVOLUTIONS) == 0.0
+    # without chance, and with four borders of which each lies anywhere between two speeds
+    for share in (MOST_REVOLUTIONS, SOME_REVOLUTIONS):
+        assert np.std([length_of(ranges) for ranges in found.ranges_drawn[share]]) == 0.0
+        assert found.scatter_of_length(share) == pytest.approx(np.sqrt(4.0 * 5.0**2 / 12.0))
 
 
 def test_a_lined_blade_s_shares_are_taken_as_they_are():
     speeds = np.array([900.0, 901.0, 902.0, 903.0])
     found = Exceedance(speeds, np.array([0.0, 1.0, 1.0, 0.0]), chance=False)
     assert found.ranges(MOST_REVOLUTIONS) == [SpeedRange(900.5, 902.5, truncated=False)]
-    assert np.isnan(found.scatter_of_length(MOST_REVOLUTIONS))
+    assert found.scatter_of_length(MOST_REVOLUTIONS) == pytest.approx(np.sqrt(2.0 / 12.0))
     assert np.isnan(found.scatter_of_border(MOST_REVOLUTIONS, found.ranges(MOST_REVOLUTIONS)[0], begins=True))
 
 
@@ -263,7 +266,8 @@ def test_robustness_counts_diverged_runs_as_above_yield():
 def of(certain, possible=0.0, stress=1e9):
     values = {"length_most_revolutions_rad_s": certain, "length_some_revolutions_rad_s": possible, "diverged_runs": 0.0}
     values["largest_median_stress_pa"] = stress
-    return dict.fromkeys(names(ROBUSTNESS), np.nan) | values
+    within = {"length_most_revolutions_within_rad_s": 0.0, "length_some_revolutions_within_rad_s": 0.0}
+    return dict.fromkeys(names(ROBUSTNESS), np.nan) | within | values
 
 
 def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
@@ -276,13 +280,21 @@ def test_the_ranking_goes_scene_by_scene_with_ties_by_what_is_possible():
 
 
 def test_blades_that_cannot_be_told_apart_share_a_rank():
-    """10 and 14, and 11 and 16 rad/s, on a grid of 10; a length in some revolutions that is surely another one."""
+    """Lengths within 14.1 of each other, each known within 10; a length in some revolutions that is surely another one.
+
+    Where the error of a level is not known, nor what a length is known within, nothing is told apart.
+    """
     step = {"length_most_revolutions_within_rad_s": 10.0, "length_some_revolutions_within_rad_s": 10.0}
-    lengths = {"S100": 10.0, "S50": 14.0, "CS100": 11.0, "Ref": 16.0, "L50": 31.0, "L100": 55.0}
+    lengths = {"S100": 10.0, "S50": 14.0, "CS100": 11.0, "Ref": 16.0, "L50": 24.5, "L100": 55.0}
     table = ranking_table({(blade, "x"): of(length) | step for blade, length in lengths.items()}).set_index("blade")
     ranks = table[["rank", "rank_lowest", "rank_highest"]]
     assert ranks.loc[["S100", "CS100", "S50", "Ref"]].values.tolist() == [[1, 1, 4], [1, 1, 5], [1, 1, 5], [1, 1, 5]]
     assert ranks.loc[["L50", "L100"]].values.tolist() == [[5, 2, 5], [6, 6, 6]]
+    speeds = np.arange(900.0, 1001.0, 10.0)
+    bare = response(speeds, (speeds > 945.0).astype(float), np.ones(11), lined=1)
+    bare["max_von_mises_median"][:] = bare["max_von_mises_high"][:] = 1.0
+    unknown = robustness(bare, error=np.nan) | {"diverged_runs": 0.0}
+    assert ranking_table({("A", "x"): unknown, ("B", "x"): of(900.0)})["rank"].tolist() == [1, 1]
     none = ranking_table({(name, "x"): of(0.0, some) | step for name, some in (("A", 45.0), ("B", 0.0), ("C", 5.0))})
     assert none[["blade", "rank", "rank_highest"]].values.tolist() == [["B", 1, 2], ["C", 1, 2], ["A", 3, 3]]
     assert ranks_of(pd.DataFrame([of(0.0, stress=9e8), of(0.0, stress=1e8)]))["rank"].tolist() == [1, 1]
