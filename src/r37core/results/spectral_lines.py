@@ -1,0 +1,96 @@
+"""Interactions of a bare casing, named by lines of the spectrum: a mode at a whole order, or a combination of two modes."""
+
+import re
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy.ndimage import median_filter
+from scipy.signal import find_peaks
+
+from .campbell import crossing_speed
+from .interaction_choice import InteractionChoice
+
+STRONGEST, STRONG = 0.25, 0.1
+"""Shares of the largest amplitude from which a line at a mode gives a name, and from which a second one joins it."""
+
+CLEAR = 10.0
+"""Amplitude of a line over the median within half an order about it: a broadband spectrum reaches 4."""
+
+
+def modes_of(name: str) -> tuple[str, ...]:
+    """Modes of a name: one, or two of a combination. 7-5 is the difference of the frequencies, 5+7 their sum."""
+    return tuple(re.split("[+-]", name))
+
+
+def frequency_named(campbell: xr.Dataset, name: str) -> xr.DataArray:
+    """Frequency (Hz) over speed of a mode or combination (modes_of) in a Campbell diagram."""
+    first, *second = (campbell["frequency"].sel(mode=mode, drop=True) for mode in modes_of(name))
+    if second:
+        return first + second[0] if "+" in name else abs(first - second[0])
+    return first
+
+
+def crossing_of(campbell: xr.Dataset, name: str, order: int) -> float:
+    """Speed (rad/s) at which a blade's mode or combination (modes_of) crosses an engine order; NaN where none is known."""
+    frequency = frequency_named(campbell, name)
+    return crossing_speed(frequency["speed"].values, frequency.values, order)
+
+
+def named_by_lines(response: xr.Dataset, campbell: xr.Dataset, choice: InteractionChoice) -> dict[str, Any]:
+    """Columns `mode`, `engine_order` and `campbell_speed_rad_s` of a `response` at one speed; empty where nothing has a name.
+
+    The strongest line at a mode decides. At a whole order its mode is the name. Else it is a combination with the strongest
+    line of another mode whose order differs from it by a multiple of the lobes, or adds up to one: a casing of so many lobes
+    couples these frequencies (Floquet). The speed lies about the crossing of what is named, of a combination within `above`.
+    """
+    lobes = int(response.get("casing_lobes", 0))
+    if not lobes or "amplitude" not in response:
+        return {}
+    per_order = round(1.0 / float(np.diff(response["engine_order"].values[:2])[0]))
+    (share, index, mode), *others = [*_lines_at_modes(response, campbell, per_order, lobes, choice), (0.0, 0, "")]
+    if share < STRONGEST:
+        return {}
+    names = [(mode, index, per_order)] if _is_multiple(index, per_order) else []
+    for _, other, second in others if not names else ():
+        (low, lower), (high, higher) = sorted([(index, mode), (other, second)])
+        pair = [(f"{lower}+{higher}", low + high), (f"{higher}-{lower}", high - low)]
+        names += [(name, total, lobes * per_order) for name, total in pair if second not in ("", mode)]
+    for name, total, multiple in names:
+        speed, order = float(response["speed"]), round(total / per_order)
+        if order and _is_multiple(total, multiple):
+            crossing = crossing_of(campbell, name, order)
+            below = choice.below if name == mode else choice.above
+            if -below * crossing <= speed - crossing <= choice.above * crossing:
+                return {"mode": name, "engine_order": order, "campbell_speed_rad_s": crossing}
+    return {}
+
+
+def _is_multiple(index: int, of: int) -> bool:
+    """True within 1 of a multiple: each of two lines is known to half a step of the spectrum."""
+    return (index + 1) % of <= 2
+
+
+def _lines_at_modes(
+    response: xr.Dataset, campbell: xr.Dataset, per_order: int, lobes: int, choice: InteractionChoice
+) -> list[tuple[float, int, str]]:
+    """Lines of a spectrum that modes amplify, the strongest first: share of the largest amplitude, index, and mode.
+
+    The mode is the nearest within the limits of the `choice`, here of the frequency. A line that a mode amplifies is at least
+    as strong as those one number of lobes below and above it. `per_order`: steps of the spectrum in an engine order.
+    """
+    order, speed = response["engine_order"].values, float(response["speed"])
+    amplitude = np.nan_to_num(np.hypot(response["amplitude"].values, response["amplitude_tangential"].values))
+    amplitude[order < 0.5] = 0.0
+    padded = np.pad(amplitude, lobes * per_order)
+    neighbours = np.maximum(padded[: len(amplitude)], padded[-len(amplitude) :])
+    strong = amplitude >= np.maximum(STRONG * amplitude.max(), CLEAR * median_filter(amplitude, per_order))
+    frequency = campbell["frequency"].interp(speed=speed)
+    lines = []
+    for index in find_peaks(np.where(strong & (amplitude >= neighbours), amplitude, 0.0))[0].tolist():
+        off = order[index] * speed / (2.0 * np.pi * frequency.values) - 1.0
+        off = np.where((off >= -choice.below) & (off <= choice.above), np.abs(off), np.inf)
+        if np.isfinite(off.min()):
+            share = float(amplitude[index] / amplitude.max())
+            lines.append((share, index, str(frequency["mode"].values[off.argmin()])))
+    return sorted(lines, reverse=True)
