@@ -134,10 +134,7 @@ INTERACTIONS = (
     Column("blade", "name of the blade", place=10),
     Column("scene", "name of the scene", place=20),
     Column("mode", "mode of the crossing that explains the peak, 1B, or combination of two, 7-5 or 5+7; empty without one"),
-    Column(
-        "engine_order",
-        "engine order that the frequency, difference or sum crosses, or else the strongest order of the spectrum",
-    ),
+    Column("engine_order", "engine order that the mode, difference or sum crosses, or else the strongest one"),
     Column("direction", "direction of the peak: normal to the casing, tangential or both", place=30),
     Column("campbell_speed_rad_s", "speed of that crossing in the Campbell diagram", "Campbell speed", place=40),
     Column("peak_speed_rad_s", "speed at which the leading edge moves most", place=50),

@@ -26,9 +26,7 @@ def modes_of(name: str) -> tuple[str, ...]:
 def frequency_named(campbell: xr.Dataset, name: str) -> xr.DataArray:
     """Frequency (Hz) over speed of a mode or combination (modes_of) in a Campbell diagram."""
     first, *second = (campbell["frequency"].sel(mode=mode, drop=True) for mode in modes_of(name))
-    if second:
-        return first + second[0] if "+" in name else abs(first - second[0])
-    return first
+    return (first + second[0] if "+" in name else abs(first - second[0])) if second else first
 
 
 def crossing_of(campbell: xr.Dataset, name: str, order: int) -> float:
@@ -48,22 +46,35 @@ def named_by_lines(response: xr.Dataset, campbell: xr.Dataset, choice: Interacti
     if not lobes or "amplitude" not in response:
         return {}
     per_order = round(1.0 / float(np.diff(response["engine_order"].values[:2])[0]))
-    (share, index, mode), *others = [*_lines_at_modes(response, campbell, per_order, lobes, choice), (0.0, 0, "")]
-    if share < STRONGEST:
+    lines = _lines_at_modes(response, campbell, per_order, lobes, choice)
+    if not lines or lines[0][0] < STRONGEST:
         return {}
-    names = [(mode, index, per_order)] if _is_multiple(index, per_order) else []
-    for _, other, second in others if not names else ():
-        (low, lower), (high, higher) = sorted([(index, mode), (other, second)])
-        pair = [(f"{lower}+{higher}", low + high), (f"{higher}-{lower}", high - low)]
-        names += [(name, total, lobes * per_order) for name, total in pair if second not in ("", mode)]
-    for name, total, multiple in names:
-        speed, order = float(response["speed"]), round(total / per_order)
-        if order and _is_multiple(total, multiple):
-            crossing = crossing_of(campbell, name, order)
-            below = choice.below if name == mode else choice.above
-            if -below * crossing <= speed - crossing <= choice.above * crossing:
-                return {"mode": name, "engine_order": order, "campbell_speed_rad_s": crossing}
+    (_, index, mode), *others = lines
+    whole = _is_multiple(index, per_order)
+    names = [(1.0, mode, index)] if whole else _combinations(index, mode, others, lobes * per_order)
+    for _, name, place in sorted(names, reverse=True):
+        speed, order = float(response["speed"]), round(place / per_order)
+        crossing = crossing_of(campbell, name, order)
+        below = choice.below if whole else choice.above
+        if -below * crossing <= speed - crossing <= choice.above * crossing:
+            return {"mode": name, "engine_order": order, "campbell_speed_rad_s": crossing}
     return {}
+
+
+def _combinations(index: int, mode: str, others: list[tuple[float, int, str]], period: int) -> list[tuple[float, str, int]]:
+    """Combinations of a line with other modes' lines: strength, name, and difference or sum of the indices, in whole `period`s.
+
+    None of a line that repeats after three or four lobes, as a motion of one mode alone can. A sum goes before a difference
+    that is not twice as strong: symmetric coupling makes sums alone unstable (Nayfeh and Mook, Nonlinear Oscillations).
+    """
+    if any(_is_multiple(lobes * index, period) for lobes in (3, 4)):
+        return []
+    found = []
+    for share, other, second in others:
+        (low, lower), (high, higher) = sorted([(index, mode), (other, second)])
+        pair = [(2.0 * share, f"{lower}+{higher}", low + high), (share, f"{higher}-{lower}", high - low)]
+        found += [each for each in pair if second != mode and _is_multiple(each[2], period)]
+    return found
 
 
 def _is_multiple(index: int, of: int) -> bool:
@@ -91,6 +102,5 @@ def _lines_at_modes(
         off = order[index] * speed / (2.0 * np.pi * frequency.values) - 1.0
         off = np.where((off >= -choice.below) & (off <= choice.above), np.abs(off), np.inf)
         if np.isfinite(off.min()):
-            share = float(amplitude[index] / amplitude.max())
-            lines.append((share, index, str(frequency["mode"].values[off.argmin()])))
+            lines.append((float(amplitude[index] / amplitude.max()), index, str(frequency["mode"].values[off.argmin()])))
     return sorted(lines, reverse=True)
