@@ -69,17 +69,17 @@ def _combinations(index: int, mode: str, others: list[tuple[float, int, str]], p
     """
     if any(_is_multiple(lobes * index, period) for lobes in (3, 4)):
         return []
-    found = []
+    combinations = []
     for share, other, second in others:
         (low, lower), (high, higher) = sorted([(index, mode), (other, second)])
         pair = [(2.0 * share, f"{lower}+{higher}", low + high), (share, f"{higher}-{lower}", high - low)]
-        found += [each for each in pair if second != mode and _is_multiple(each[2], period)]
-    return found
+        combinations += [each for each in pair if second != mode and _is_multiple(each[2], period)]
+    return combinations
 
 
-def _is_multiple(index: int, of: int) -> bool:
+def _is_multiple(index: int, base: int) -> bool:
     """True within 1 of a multiple: each of two lines is known to half a step of the spectrum."""
-    return (index + 1) % of <= 2
+    return (index + 1) % base <= 2
 
 
 def _lines_at_modes(
@@ -99,8 +99,8 @@ def _lines_at_modes(
     frequency = campbell["frequency"].interp(speed=speed)
     lines = []
     for index in find_peaks(np.where(strong & (amplitude >= neighbours), amplitude, 0.0))[0].tolist():
-        off = order[index] * speed / (2.0 * np.pi * frequency.values) - 1.0
-        off = np.where((off >= -choice.below) & (off <= choice.above), np.abs(off), np.inf)
-        if np.isfinite(off.min()):
-            lines.append((float(amplitude[index] / amplitude.max()), index, str(frequency["mode"].values[off.argmin()])))
+        distance = order[index] * speed / (2.0 * np.pi * frequency.values) - 1.0
+        distance = np.where((distance >= -choice.below) & (distance <= choice.above), np.abs(distance), np.inf)
+        if np.isfinite(distance.min()):
+            lines.append((float(amplitude[index] / amplitude.max()), index, str(frequency["mode"].values[distance.argmin()])))
     return sorted(lines, reverse=True)
