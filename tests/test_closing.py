@@ -50,6 +50,10 @@ def test_found_where_and_how_long(tmp_path):
     for seconds, text in {59.4: "59 s", 12_345.0: "3 h 25 min"}.items():
         assert closing_lines(written(tmp_path), 0.0, seconds)[2] == f"took {text}"
     assert "(1B/7)" in closing_lines(written(tmp_path, ROWS[0]), 400.0, 500.0)[0]
+    # a combination, at a peak that two speeds show
+    rows = [f"Fan,bare,7-5,6,0.7,1e+09,1.1,470,{note}" for note in ("not resolved: one or two speeds", "")]
+    said = closing_lines(written(tmp_path, *rows, columns=",note"), 400.0, 500.0)[0]
+    assert "2 of them above yield in most revolutions, 0 in some, 1 not resolved, as one" in said and "(7-5/6)" in said
 
 
 def test_more_columns_say_more(tmp_path):

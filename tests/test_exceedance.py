@@ -1,5 +1,7 @@
 """Where a blade exceeds yield: smoothed shares, ranges, their scatter, rows of direct contact, and the ranking."""
 
+from functools import partial
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -13,6 +15,8 @@ from r37core.results.interactions import find_interactions
 from r37core.results.ranking import chance_to_be_better, ranking_table, ranks_of, robustness
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
+
+rows_of = partial(rows_above_yield, name=lambda _: {})
 
 
 def drawn(chance, speeds, revolutions=100, seed=0):
@@ -138,7 +142,7 @@ def test_a_row_of_direct_contact_is_a_range_and_has_no_mode():
     motion = 1e-3 * (1.0 + rising(speeds))
     found = find_interactions(response(speeds, drawn(rising(speeds), speeds), motion), None, CHOICE)
     (row,) = [one for one in found if one["length_most_revolutions_rad_s"] > 0.0]
-    assert row["mode"] == "" and "direct contact" in row["note"]
+    assert row["mode"] == "" and "not named" in row["note"]
     # the motion is halved, and no less, where the range ends
     nothing = ("campbell_speed_rad_s", "fall_speed_rad_s")
     assert np.isnan([row[name] for name in nothing]).all()
@@ -156,7 +160,7 @@ def test_no_speed_above_yield_is_outside_of_a_row():
     shares = drawn(rising(speeds), speeds)
     shares[20], ever = 0.09, 1e9 * (0.5 + shares)
     ever[40] = 1.1e9
-    rows = rows_above_yield(response(speeds, shares, np.ones(len(speeds)), ever=ever), [])
+    rows = rows_of(response(speeds, shares, np.ones(len(speeds)), ever=ever), [])
     for speed in speeds[(shares > SOME_REVOLUTIONS) | (ever > 1e9)]:
         assert any(every["some_revolutions_from_rad_s"] <= speed <= every["some_revolutions_to_rad_s"] for every in rows), speed
     assert [every["length_most_revolutions_rad_s"] > 0.0 for every in rows] == [False, False, True]
@@ -168,7 +172,7 @@ def test_the_motion_falls_where_it_stays_down():
     speeds = np.arange(1000.0, 1101.0, 2.0)
     down, shares = np.where(speeds <= 1050.0, 1.0 + 1e-3 * speeds, 0.3), np.where(speeds < 1060.0, 1.0, 0.0)
     for loud, fall in ((), (1051.0, 1.0)), ((1054.0,), (1053.0, 3.0)), ((1076.0,), (1064.0, 14.0)), ((1078.0,), (1051.0, 1.0)):
-        (row,) = rows_above_yield(response(speeds, shares, np.where(np.isin(speeds, loud), 1.5, down)), [])
+        (row,) = rows_of(response(speeds, shares, np.where(np.isin(speeds, loud), 1.5, down)), [])
         assert (row["fall_speed_rad_s"], row["fall_speed_scatter_rad_s"]) == fall
 
 
@@ -180,17 +184,17 @@ def test_the_scatter_of_a_peak_is_of_the_five_nearest_speeds_or_of_those_within_
         speeds, level = 1000.0 + scale * np.cumsum(steps), random.uniform(1.0, 2.0, 16)
         level[8] = 3.0
         one = response(speeds, np.arange(16) == 8, level / np.sqrt(2.0), lined=1)
-        (row,) = rows_above_yield(one, [])
+        (row,) = rows_of(one, [])
         off = [abs(level[i] - np.interp(speeds[i], speeds[[i - 1, i + 1]], level[[i - 1, i + 1]])) for i in range(1, 15)]
         away = np.abs(speeds[1:-1] - speeds[8])
         nearest = np.argsort(away)[: within or np.count_nonzero(away <= 10.0)]
         assert len(nearest) >= 5
         expected = 1.4826 * np.median(np.array(off)[nearest]) / np.sqrt(1.5)
         assert row["peak_motion_scatter_m"] == pytest.approx(expected)
-    (few,) = rows_above_yield(response(speeds[:3], np.ones(3), np.array([1.0, 2.0, 4.0]) / np.sqrt(2.0)), [])
+    (few,) = rows_of(response(speeds[:3], np.ones(3), np.array([1.0, 2.0, 4.0]) / np.sqrt(2.0)), [])
     share = (speeds[1] - speeds[0]) / (speeds[2] - speeds[0])
     assert few["peak_motion_scatter_m"] == pytest.approx(1.4826 / np.sqrt(1.5) * abs(1.0 - 3.0 * share))
-    (two,) = rows_above_yield(response(speeds[:2], np.ones(2), np.ones(2)), [])
+    (two,) = rows_of(response(speeds[:2], np.ones(2), np.ones(2)), [])
     assert np.isnan(two["peak_motion_scatter_m"])
 
 
@@ -201,14 +205,14 @@ def test_the_row_of_a_range_is_of_its_own_speeds_and_has_the_direction_of_its_pe
     shares = np.where(np.abs(speeds - 1020.0) <= 6.0, 1.0, np.where(np.abs(speeds - 1080.0) <= 6.0, 1.0, 0.0))
     aside = np.roll(normal, 1)
     for tangential, direction in ((normal, "both"), (0.1 * aside, "normal")):
-        rows = rows_above_yield(response(speeds, shares, normal, tangential=tangential), [])
+        rows = rows_of(response(speeds, shares, normal, tangential=tangential), [])
         assert [row["peak_speed_rad_s"] for row in rows] == [1020.0, 1080.0]
         assert [row["direction"] for row in rows] == [direction, direction]
-    (row, _) = rows_above_yield(response(speeds, shares, 0.1 * aside, tangential=normal), [])
+    (row, _) = rows_of(response(speeds, shares, 0.1 * aside, tangential=normal), [])
     assert row["direction"] == "tangential"
     # neither direction has its own peak where both together have theirs
     to_and_fro = [1e-3 * np.exp(-(((speeds - peak) / 4.0) ** 2)) for peak in (1018.0, 1022.0)]
-    (row,) = rows_above_yield(response(speeds, np.abs(speeds - 1020.0) <= 6.0, to_and_fro[0], tangential=to_and_fro[1]), [])
+    (row,) = rows_of(response(speeds, np.abs(speeds - 1020.0) <= 6.0, to_and_fro[0], tangential=to_and_fro[1]), [])
     assert (row["peak_speed_rad_s"], row["direction"]) == (1020.0, "both")
     below = find_interactions(response(speeds, np.zeros(len(speeds)), normal), None, CHOICE)
     assert [row["peak_speed_rad_s"] for row in below] == [1020.0, 1080.0]

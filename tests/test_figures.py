@@ -413,6 +413,16 @@ def test_labels_of_interactions_do_not_lie_on_each_other_and_say_where_the_speed
     assert not any(box.count_overlaps(boxes[:number]) for number, box in enumerate(boxes))
 
 
+def test_a_combination_has_its_own_line_through_its_mark(datasets):
+    """Dashed, the difference of the frequencies over speed; a panel without one has none."""
+    figure = draw_interactions(datasets, {}, {"mode": "1T-1B", "engine_order": 6}, {"scene": "direct", "blade": "L50"})
+    dashed, none = ([line for line in axes.lines if line.get_linestyle() == "--"] for axes in figure.axes[:2])
+    frequency = datasets["campbell"]["frequency"]
+    difference = frequency.sel(mode="1T") - frequency.sel(mode="1B")
+    np.testing.assert_allclose([line.get_ydata() for line in dashed], [difference.min("blade"), difference.max("blade")])
+    assert not none and {"1T-1B"} < {text.get_text() for text in figure.axes[0].texts}
+
+
 def test_interactions_without_stress_are_as_large_as_their_motion(datasets):
     unknown = {"length_most_revolutions_rad_s": np.nan, "share_of_revolutions_above_yield": np.nan}
     figure = draw_interactions(datasets, unknown, unknown | {"peak_motion_m": 0.0025, "peak_speed_rad_s": 1200.0})

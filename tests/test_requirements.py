@@ -96,8 +96,11 @@ def diverged_at(runs, *speeds):
 
 
 def campbell(crossing=1200.0):
+    """Frequencies that are the same at every speed: 1B crosses order 4, and 1T minus 1B order 6 at 1300 rad/s."""
+    hertz = np.cumsum([4.0 * crossing, 6.0 * 1300.0])[:, None] / (2.0 * np.pi) + np.zeros(9)
+    frequency = xr.DataArray(hertz, {"mode": ["1B", "1T"], "speed": np.linspace(0.0, 2000.0, 9)})
     crossings = xr.DataArray([[crossing, np.nan]], {"mode": ["1B"], "engine_order": [4, 5]}, ("mode", "engine_order"))
-    return xr.Dataset({"crossing_speed": crossings})
+    return xr.Dataset({"crossing_speed": crossings.reindex(mode=["1B", "1T"]), "frequency": frequency})
 
 
 def one(requirements, runs=None, **evidence):
@@ -402,7 +405,10 @@ def test_margins_of_crossings():
     dwell = OperatingRange(1050.0, 1250.0, dwell=(OperatingDwell(1100.0, 1110.0, 0.5),))
     assert one(needs, operating=dwell)["value"] == pytest.approx(100.0 * 90.0 / 1200.0)
     # a mode that never crosses the order
-    assert one(Requirements(campbell_margins=(CampbellMargin("1B", (5,), 0.05),)))["value"] == 100.0
+    assert one(Requirements(campbell_margins=(CampbellMargin("1B", (2,), 0.05),)))["value"] == 100.0
+    combination = one(Requirements(campbell_margins=(CampbellMargin("1T-1B", (6,), 0.05),)))
+    assert combination["requirement"] == "campbell_margin 1T-1B/6"
+    assert (combination["value"], combination["from_rad_s"]) == pytest.approx((100.0 * 50.0 / 1300.0, 1300.0))
 
 
 def over_members(name, shares, **more):
@@ -581,6 +587,8 @@ def margin(mode, orders, percent=5, operating=RANGE):
     [
         ({"requirements": {"mass_at_most_kg": 1.0}}, "requirements without operating"),
         (margin("3B", [4]), "'3B'; allowed: 1B, 1T, 2B, 4"),
+        (margin("1T-1T", [4]), r"'1T-1T'; allowed: .*, or two of them as 7-5 or 5\+7"),
+        (margin("1B+1T+2B", [4]), "found '1B"),
         (margin("1B", [99]), "99; allowed: at most campbell.highest_engine_order"),
         ({"operating": RANGE, "requirements": {"mass_at_most_kg": -1.0}}, "-1"),
         (margin("1B", []), "found none"),

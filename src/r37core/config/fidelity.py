@@ -84,7 +84,7 @@ class TimeIntegration(Section):
     samples_per_stress_instant: int = Field(
         default=8, ge=1, le=10000, description="Samples of the tip motion per stress evaluation"
     )
-    spectrum_highest_order: int = Field(default=20, ge=1, le=10000, description="Highest engine order of the kept spectrum")
+    spectrum_highest_order: int = Field(default=30, ge=1, le=10000, description="Highest engine order of the kept spectrum")
     wear_angles: int = Field(default=1000, ge=8, le=1_000_000, description="Angles of the kept wear profile")
 
     def _check(self) -> None:

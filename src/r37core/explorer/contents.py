@@ -180,7 +180,7 @@ def order_bins(orders: np.ndarray) -> np.ndarray:
 
 INTERACTION = Column(
     "interaction",
-    "mode and engine order that meet there, 1B/4: first bending with order 4; without a crossing the strongest order",
+    "mode or two modes, and engine order, that meet there: 1B/4, 7-5/6, 5+7/26; without a crossing the strongest order",
 )
 
 COLUMNS = [

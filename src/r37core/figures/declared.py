@@ -48,7 +48,8 @@ FIGURES = (
         files={"campbell": ALL_CAMPBELL, "rms": RMS, "interactions": "<results>/summary.csv"},
         label="interactions",
         caption="Which interactions are dangerous? A Campbell diagram of each scene: engine orders (grey, with their numbers), "
-        "and 1B, 1T and 2B, bands over several blades. A circle is an interaction above yield in most of the later "
+        "and 1B, 1T and 2B, bands over several blades; dashed: other modes, and combinations of two, that interactions on a "
+        "bare casing are named by. A circle is an interaction above yield in most of the later "
         "revolutions, at its peak speed and engine order; its area is the length of these speeds, or the rms of the motion "
         "without stress. Diamonds are above yield in some of the later revolutions, open rings in none. Lines along a mark: "
         "its speeds above yield. Ranges without an engine order lie on a strip below 0. '>': the range goes on to an end of "

@@ -1,5 +1,6 @@
 """Campbell diagrams with the interactions of a run, each a mark by the revolutions above yield, of the area of its length."""
 
+from collections.abc import Iterable
 from itertools import product
 from typing import Any
 
@@ -17,6 +18,7 @@ from matplotlib.transforms import Bbox
 from r37core.results.closing import interaction_title
 from r37core.results.columns import MOST, NEVER, SOME
 from r37core.results.interactions import sized
+from r37core.results.spectral_lines import frequency_named
 from r37core.rom.naming import NAMED_MODES
 from r37core.time_integration.status import RunStatus
 
@@ -86,7 +88,7 @@ def draw_interactions(campbell: xr.Dataset, rms: xr.Dataset, interactions: pd.Da
         for scene, axes in panels.items():
             axes.set(title=style.scene_words(scene), ylabel="frequency (Hz)")
             axes.grid(visible=False)
-            _draw_modes(axes, campbell)
+            _draw_modes(axes, campbell, dict.fromkeys([*NAMED_MODES, *rows["mode"][rows["scene"] == scene].dropna()]))
             if strip:
                 axes.axhline(0.0, color="0.3", linewidth=0.8)
                 ticks = [tick for tick in axes.get_yticks() if 0.0 <= tick <= highest]
@@ -119,17 +121,17 @@ def _colours(blades: list[str], rows: pd.DataFrame) -> dict[str, str]:
     return {blade: look["color"] if owner[look["color"]] == blade else _OTHERS for blade, look in looks.items()}
 
 
-def _draw_modes(axes: Axes, campbell: xr.Dataset) -> None:
-    """Engine orders, and the named modes: a line, or a band from the lowest to the highest blade."""
+def _draw_modes(axes: Axes, campbell: xr.Dataset, names: Iterable[str]) -> None:
+    """Engine orders, and modes and combinations by name: a line, or a band from the lowest to the highest blade."""
     (left, right), highest = axes.get_xlim(), axes.get_ylim()[1]
     orders = campbell["engine_order"].values
     draw_engine_orders(axes, orders[orders * left < 2.0 * np.pi * highest], np.array([left, right]), highest, letters=8)
-    for mode in NAMED_MODES:
-        frequency = campbell["frequency"].sel(mode=mode)
-        low, high = frequency.min("blade"), frequency.max("blade")
+    for mode in filter(None, names):
+        frequency = frequency_named(campbell, mode)
+        low, high, look = frequency.min("blade"), frequency.max("blade"), "-" if mode in NAMED_MODES else "--"
         axes.fill_between(campbell["speed"], low, high, color="0.5", alpha=0.25, linewidth=0.0, zorder=1.0)
         for edge in (low, high):
-            axes.plot(campbell["speed"], edge, color="0.35", linewidth=0.9, zorder=1.1)
+            axes.plot(campbell["speed"], edge, look, color="0.35", linewidth=0.9, zorder=1.1)
         place = (left, float(np.interp(left, campbell["speed"], high)))
         if place[1] < highest:
             above: dict[str, Any] = {"textcoords": "offset points", "xytext": (3, 2), "va": "bottom"}

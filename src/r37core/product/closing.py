@@ -16,7 +16,7 @@ from r37core.results.closing import (
     remarks_on_diverged,
     remarks_on_far_motions,
 )
-from r37core.results.columns import MOST, SOME, above_yield
+from r37core.results.columns import MOST, NOT_RESOLVED, SOME, above_yield
 from r37core.rom.reduction_choice import QUADRATIC
 from r37core.time_integration.lining_at_tip import LINING_AT_TIP
 from r37core.time_integration.status import RunStatus
@@ -70,6 +70,8 @@ def _found(rows: list[dict[str, str]]) -> str:
         text += ", none of them above yield in any later revolution"
     if worn_through:
         text += f", {worn_through} with the lining worn through to the casing"
+    if unresolved := sum(NOT_RESOLVED in row.get("note", "") for row in rows):
+        text += f", {unresolved} not resolved, as one or two speeds show the peak"
     if ended := [row for row in known if row["largest_stress_pa"]]:
         text += f"; the largest stress {_worst(max(ended, key=lambda row: _number(row, 'largest_stress_over_yield')))}"
     return text

@@ -32,7 +32,7 @@ RESULTS = ("spectrum", "stress", "static_stress", "fatigue", "wear")
 class CampbellMargin:
     """Least distance of crossings of a `mode` with engine orders from speeds in operation: dwells, else all of the range."""
 
-    mode: Annotated[str, Key("Mode, as the Campbell diagram names it: 1B, 1T, 2B, 4, ...")]
+    mode: Annotated[str, Key("Mode of the Campbell diagram: 1B, 1T, 2B, 4, ..., or combination of two: 7-5, 5+7")]
     engine_orders: Annotated[tuple[int, ...], Key("Engine orders of the crossings", ge=1, le=1000)]
     least: Annotated[
         float,

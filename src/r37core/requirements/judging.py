@@ -11,6 +11,7 @@ from r37core.results.exceedance import DEVIATIONS, SpeedRange, exceedance_of, is
 from r37core.results.measures import has_strengths
 from r37core.results.operating_range import OperatingRange
 from r37core.results.other_motions import swept
+from r37core.results.spectral_lines import crossing_of
 from r37core.time_integration.integration_choice import PUBLISHED_REVOLUTIONS
 from r37core.time_integration.settling import MotionAtEnd
 from r37core.time_integration.status import RunStatus
@@ -101,9 +102,8 @@ def judge(requirements: Requirements, evidence: Evidence) -> Iterator[dict[str, 
         if limit is not None:
             yield _row(name, unit, factor * limit, columns_of(evidence), is_lower_limit=name == "clearance")
     for margin in requirements.campbell_margins:
-        crossings = evidence.campbell["crossing_speed"].sel(mode=margin.mode)
         for order in margin.engine_orders:
-            crossing = float(crossings.sel(engine_order=order))
+            crossing = crossing_of(evidence.campbell, margin.mode, order)
             value = 100.0 * distance_from_operation(crossing, evidence.operating)
             name = f"campbell_margin {margin.mode}/{order}"
             yield _row(name, "%", 100.0 * margin.least, _worst_at(value, crossing), is_lower_limit=True)

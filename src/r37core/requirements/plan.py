@@ -19,6 +19,7 @@ from r37core.plans.provenance import Provenance
 from r37core.plans.stages import Stage
 from r37core.plans.sweep_plan import Sweep
 from r37core.results.datasets import FURTHER_RUNS
+from r37core.results.spectral_lines import modes_of
 from r37core.rom.naming import mode_names
 
 from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
@@ -163,8 +164,9 @@ def can_be_judged(settings: Settings) -> None:
     asked: set[tuple[str, int]] = set()
     for number, margin in enumerate(requirements.campbell_margins):
         place = ("requirements", "campbell_margins", number)
-        if margin.mode not in modes:
-            raise document.refusal((*place, "mode"), f"'{margin.mode}'", ", ".join(modes))
+        parts = modes_of(margin.mode)
+        if not set(parts) <= set(modes) or len(parts) > len(set(parts)) or len(parts) > 2:
+            raise document.refusal((*place, "mode"), f"'{margin.mode}'", f"{', '.join(modes)}, or two of them as 7-5 or 5+7")
         if not margin.engine_orders:
             raise document.refusal((*place, "engine_orders"), "none", "one or more engine orders")
         engine_order_is_known(settings, (*place, "engine_orders"), max(margin.engine_orders))

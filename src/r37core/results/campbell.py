@@ -35,22 +35,26 @@ class Campbell:
     continuity: np.ndarray
 
     def crossing_speeds(self, engine_orders: np.ndarray) -> np.ndarray:
-        """Speeds (rad/s), shape (modes, orders), where a mode's frequency is an engine order of the speed.
+        """Speeds (rad/s), shape (modes, orders), of the crossings of each mode: see crossing_speed."""
+        return np.array(
+            [[crossing_speed(self.speeds, frequency, order) for order in engine_orders] for frequency in self.frequencies]
+        )
 
-        The first such speed within the diagram, NaN where there is none. The squared frequency, almost linear in the
-        squared speed, is interpolated by a cubic spline.
-        """
-        squared_speeds = self.speeds**2
-        crossings = np.full((len(self.mode_names), len(engine_orders)), np.nan)
-        for i, frequency in enumerate(self.frequencies):
-            spline = CubicSpline(squared_speeds, (2.0 * np.pi * frequency) ** 2)
-            for j, order in enumerate(engine_orders):
-                above = spline(squared_speeds) - order**2 * squared_speeds
-                change = np.flatnonzero((above[:-1] > 0.0) & (above[1:] <= 0.0))
-                if len(change):
-                    bracket = squared_speeds[change[0]], squared_speeds[change[0] + 1]
-                    crossings[i, j] = np.sqrt(brentq(lambda s, f=spline, n=order: float(f(s)) - n**2 * s, *bracket, xtol=1e-9))
-        return crossings
+
+def crossing_speed(speeds: np.ndarray, frequency: np.ndarray, order: int) -> float:
+    """Speed (rad/s) where a frequency (Hz) at ascending `speeds` is an engine order of the speed.
+
+    The first such speed within the diagram, NaN where there is none. The squared frequency, almost linear in the squared
+    speed, is interpolated by a cubic spline.
+    """
+    squared_speeds = speeds**2
+    spline = CubicSpline(squared_speeds, (2.0 * np.pi * frequency) ** 2)
+    above = spline(squared_speeds) - order**2 * squared_speeds
+    change = np.flatnonzero((above[:-1] > 0.0) & (above[1:] <= 0.0))
+    if not len(change):
+        return np.nan
+    bracket = squared_speeds[change[0]], squared_speeds[change[0] + 1]
+    return float(np.sqrt(brentq(lambda s: float(spline(s)) - order**2 * s, *bracket, xtol=1e-9)))
 
 
 def modal_assurance(first: np.ndarray, second: np.ndarray, mass: np.ndarray) -> np.ndarray:

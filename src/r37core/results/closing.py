@@ -50,7 +50,7 @@ def largest_stress_text(table: pd.DataFrame, speed: str) -> str:
 
 
 def interaction_title(mode: object, engine_order: Any) -> str:
-    """Title of an interaction: 1B/4, the engine order alone without a mode, or neither; what a table leaves out may be NaN."""
+    """Title: 1B/4, of a combination 7-5/6 or 5+7/26; without a mode the engine order, or neither. A cell can be NaN."""
     order = "" if str(engine_order) in ("", "None", "nan") else f"{float(engine_order):.0f}"
     if isinstance(mode, str) and mode:
         return f"{mode}/{order}"

@@ -15,6 +15,9 @@ MOST_REVOLUTIONS, SOME_REVOLUTIONS = 0.5, 0.05
 MOST, SOME, NEVER = "most", "some", "never"
 """Words for a stress above yield in most of the judged revolutions, in some of them, or in none."""
 
+NOT_RESOLVED = "not resolved"
+"""Begin of the note on a length that counts a peak of which one or two speeds are above half of its height."""
+
 DROP_WITHIN = 24.0
 """Speeds (rad/s) above a peak over which its motion counts as dropped."""
 
@@ -130,8 +133,8 @@ DANGER = (
 INTERACTIONS = (
     Column("blade", "name of the blade", place=10),
     Column("scene", "name of the scene", place=20),
-    Column("mode", "mode of the crossing that explains the peak: 1B, 1T, 2B or empty, as without spectrum"),
-    Column("engine_order", "engine order of that crossing, or else the strongest order of the spectrum"),
+    Column("mode", "mode of the crossing that explains the peak, 1B, or combination of two, 7-5 or 5+7; empty without one"),
+    Column("engine_order", "engine order that the mode, difference or sum crosses, or else the strongest one"),
     Column("direction", "direction of the peak: normal to the casing, tangential or both", place=30),
     Column("campbell_speed_rad_s", "speed of that crossing in the Campbell diagram", "Campbell speed", place=40),
     Column("peak_speed_rad_s", "speed at which the leading edge moves most", place=50),

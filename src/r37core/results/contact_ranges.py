@@ -1,38 +1,43 @@
 """Rows of direct contact: ranges of speed that may be above yield, and what else is loud."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from operator import itemgetter
 from typing import Any
 
 import numpy as np
 import xarray as xr
+from scipy.signal import find_peaks, peak_widths
 
-from .columns import DROP_WITHIN, SOME_REVOLUTIONS
+from .columns import DROP_WITHIN, NOT_RESOLVED, SOME_REVOLUTIONS
 from .danger import ranges_of, ratio_to_yield
 from .exceedance import HALF_WIDTH, Exceedance, SpeedRange, exceedance_of, joined, ranges_above
 from .interaction import Interaction, interaction_row, range_columns
 from .measures import motion, strongest_order
 
-NOTE = "direct contact: matches with modes are chance"
+NO_NAME = "not named: no clear line of a spectrum lies at a mode"
 NO_PEAK = "above yield without a peak of the motion: nothing to match with a mode"
 
 _OF_NORMAL = 1.4826 / np.sqrt(1.5)
 """Standard deviation per median distance of a value from the line between its neighbours, of normal scatter."""
 
 
-def rows_above_yield(response: xr.Dataset, peaks: Sequence[Interaction]) -> list[Interaction]:
+def rows_above_yield(
+    response: xr.Dataset, peaks: Sequence[Interaction], name: Callable[[xr.Dataset], Mapping[str, Any]]
+) -> list[Interaction]:
     """Rows by ascending speed: every range that may be above yield, and of the `peaks` those that lie in none of them.
+
+    `name`: columns that name the response at one speed, see spectral_lines.named_by_lines.
 
     A range is where the smoothed share of the revolutions above yield is above SOME_REVOLUTIONS, where a speed's own share is,
     or where any judged revolution is above yield; so no such speed is in no row. `response`: of the leading edge.
     """
     exceedance = exceedance_of(response) if "share_of_revolutions_above_yield" in response else None
     ranges = _ranges(response, exceedance)
-    rows = [_row(response, exceedance, within) for within in ranges]
+    rows = [_row(response, exceedance, within, name) for within in ranges]
     for peak in peaks:
         at = peak["peak_speed_rad_s"]
         if not any(within.begin <= at <= within.end for within in ranges):
-            row = _row(response, exceedance, SpeedRange(at, at, truncated=False), peak_alone=True)
+            row = _row(response, exceedance, SpeedRange(at, at, truncated=False), name, peak_alone=True)
             rows.append(row | {"direction": peak["direction"]})
     return sorted(rows, key=itemgetter("peak_speed_rad_s"))
 
@@ -70,7 +75,13 @@ def _ranges(response: xr.Dataset, exceedance: Exceedance | None) -> list[SpeedRa
 
 
 def _row(
-    response: xr.Dataset, exceedance: Exceedance | None, within: SpeedRange, *, peak_alone: bool = False, note: str = NOTE
+    response: xr.Dataset,
+    exceedance: Exceedance | None,
+    within: SpeedRange,
+    name: Callable[[xr.Dataset], Mapping[str, Any]] = lambda _: {},
+    *,
+    peak_alone: bool = False,
+    note: str = NO_NAME,
 ) -> Interaction:
     """The row of a range, or of a peak that lies in none: then the range is its speed."""
     speeds, level = response["speed"].values, motion(response)
@@ -82,15 +93,28 @@ def _row(
     ended = bool(np.isfinite(peak["rms_normal"]))
     order = round(strongest_order(peak["amplitude"])) if ended and "amplitude" in peak else None
     columns: dict[str, Any] = {"mode": "", "engine_order": order, "direction": largest[0] if len(largest) == 1 else "both"}
+    columns |= name(peak) if ended else {}
+    notes = [] if columns["mode"] else [note]
     if exceedance:
         columns |= range_columns(response, exceedance, within)
     if exceedance and not peak_alone:
         # ends of the row itself, which may be single speeds
         columns |= {"some_revolutions_from_rad_s": within.begin, "some_revolutions_to_rad_s": within.end}
+        if len(inside) <= 2 and 0 < _width(level, index) <= 2:
+            gap = np.diff(speeds[index - 1 : index + 2]).max()
+            notes.append(f"{NOT_RESOLVED}: one or two speeds show the peak, {gap:.3g} rad/s apart")
     if ended:
         columns["peak_motion_scatter_m"] = _scatter(speeds, level, index)
         columns["fall_speed_rad_s"], columns["fall_speed_scatter_rad_s"] = _fall(speeds, level, index)
-    return interaction_row(response, index, response.isel(speed=inside), columns, note)
+    return interaction_row(response, index, response.isel(speed=inside), columns, "; ".join(notes))
+
+
+def _width(level: np.ndarray, index: int) -> int:
+    """Number of speeds about a peak above half of its height over its surroundings; 0 of what is not a peak."""
+    if index not in find_peaks(level)[0]:
+        return 0
+    _, _, left, right = peak_widths(level, [index])
+    return int(np.floor(right[0]) - np.ceil(left[0])) + 1
 
 
 def _scatter(speeds: np.ndarray, level: np.ndarray, index: int) -> float:

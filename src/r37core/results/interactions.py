@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from operator import itemgetter
 from typing import Any
@@ -22,6 +23,7 @@ from .exceedance import SpeedRange, exceedance_of, is_lined
 from .interaction import Interaction, interaction_row, range_columns
 from .interaction_choice import InteractionChoice
 from .measures import leading_edge, motion, strongest_order
+from .spectral_lines import named_by_lines
 
 QUIET = 0.1
 """Share of an interaction's peak below which the motion counts as outside, if it stays there."""
@@ -51,10 +53,10 @@ class _Peak:
 def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: InteractionChoice) -> list[Interaction]:
     """Interactions of one blade in one scene, by ascending speed, from its response and its Campbell diagram.
 
-    Only the named modes 1B, 1T and 2B are matched, and only in a lined scene. Peaks of both directions are one interaction
-    where they have the same crossing, are neighbours, or lie on each other's tops; peaks that no crossing explains, where they
-    have the same engine order and one crossing could hold them. In direct contact peaks within a range of speeds that may be
-    above yield are one row with it.
+    In a lined scene peaks are matched with 1B, 1T and 2B; in direct contact lines of the spectrum name them (named_by_lines).
+    Peaks of both directions are one interaction where they have the same crossing, are neighbours, or lie on each other's tops;
+    peaks that no crossing explains, where they have the same engine order and one crossing could hold them. In direct contact
+    peaks within a range of speeds that may be above yield are one row with it.
     """
     response = leading_edge(response.isel(speed=np.flatnonzero(response["status"].values != RunStatus.NOT_RUN)))
     if not response.sizes["speed"]:
@@ -64,7 +66,7 @@ def find_interactions(response: xr.Dataset, campbell: xr.Dataset, choice: Intera
     if lined:
         ranges = ranges_without_peak(response, [peak["reach"] for peak in peaks])
         return sorted([*peaks, *ranges], key=itemgetter("peak_speed_rad_s"))
-    return rows_above_yield(response, peaks)
+    return rows_above_yield(response, peaks, partial(named_by_lines, campbell=campbell, choice=choice))
 
 
 def _interactions(response: xr.Dataset, campbell: xr.Dataset | None, choice: InteractionChoice) -> list[Interaction]:

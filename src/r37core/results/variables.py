@@ -154,6 +154,7 @@ OF_FATIGUE = {
 OF_ALL_SPEEDS = {
     "casing_cone_angle": Variable((), "rad", "half angle of the casing's cone, negative where it narrows downstream"),
     "lined": Variable((), "1", "1 where a lining is worn, 0: the tip meets the casing itself", "f4"),
+    "casing_lobes": Variable((), "1", "number of the casing's lobes", "f4"),
     **OF_LINING,
     **OF_CASING,
     **OF_STRESS,
@@ -186,7 +187,7 @@ AXES = {
 """Numeric axes, of which a dataset has what its responses have together."""
 
 DATASETS = {
-    "rms": ("lined", *OF_LINING, "casing_cone_angle", *_MOTION, *OF_KIND),
+    "rms": ("lined", "casing_lobes", *OF_LINING, "casing_cone_angle", *_MOTION, *OF_KIND),
     "spectrum": tuple(_SPECTRUM),
     "stress": ("lined", *_STRESS, *OF_STRESS, *HISTORIES),
     "fatigue": ("lined", *_GOODMAN, *OF_FATIGUE),

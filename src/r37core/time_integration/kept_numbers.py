@@ -58,6 +58,7 @@ def status_numbers(problem: Problem, reached: float | None) -> dict[str, np.ndar
         "time_step": np.array(problem.grid.time_step),
         "cone_angle": np.array(problem.casing.cone_angle),
         "lined": np.array(int(problem.scene.lined)),
+        "casing_lobes": np.array(problem.scene.casing.lobes),
     }
 
 
