@@ -8,6 +8,7 @@ stages |= {"looks": judged.looks(made)}
 use rule step as looks with:
     input:
         unpack(sweep.run_inputs),
+        unpack(judged.coarser_model),
         response=paths.RESPONSE,
     output:
         looks=LOOKS,

@@ -1,7 +1,7 @@
 # Single runs next to the sweep, and their tables. Not part of all_blades: snakemake tradeoff, stability or estimate
 from r37core.product.extensions import simulations_of_members
-from r37core.trials.case import MODEL_NAME
-from r37core.trials.plan import MODEL_FILES, PRESETS, RESPONSE, Trials
+from r37core.trials.case import MODEL_FILES, MODEL_NAME
+from r37core.trials.plan import PRESETS, RESPONSE, Trials
 
 trials = Trials(settings)
 

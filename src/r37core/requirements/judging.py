@@ -1,6 +1,7 @@
 """Requirements judged: the value of each, its margin, where it is worst, and how certain that is."""
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -23,9 +24,9 @@ MEETS, FAILS, UNKNOWN, NOT_APPLICABLE = VERDICTS = ("meets", "fails", "cannot te
 
 UP, DOWN, REST = "carried up", "carried down", "from rest"
 MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION = "1% more friction", "1% less friction", "0.1% more friction"
-HALF_STEP = "half the step"
+HALF_STEP, COARSER_MESH = "half the step", "a mesh of half the nodes"
 FAST_RISE, SLOW_RISE = "lobes that rise ten times as fast", f"lobes that rise over {PUBLISHED_REVOLUTIONS} revolutions"
-REPEATED = (MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION, HALF_STEP)
+REPEATED = (MORE_FRICTION, LESS_FRICTION, SLIGHTLY_MORE_FRICTION, HALF_STEP, COARSER_MESH)
 FROM_REST = (*REPEATED, FAST_RISE, SLOW_RISE)
 LOOKS = (REST, UP, DOWN, *FROM_REST)
 """Further runs of a blade in a scene; see requirements.looks."""
@@ -166,6 +167,7 @@ def _judged_by_runs(requirement: str, requirements: Requirements, evidence: Evid
     further_runs = float(sum(runs.sizes["speed"] for runs in evidence.looks.values()))
     if REST in evidence.looks:
         evidence = evidence.replaced(evidence.looks[REST])
+        evidence = replace(evidence, error=_measured_error(only, evidence))
     columns, motions = columns_of(evidence), _motions(evidence)
     row = _row(requirement, unit, limit, columns) | _members(columns_of, limit, evidence) | {"further_runs": further_runs}
     if "verdict" in columns or np.isnan(row["value"]):
@@ -272,6 +274,23 @@ def _larger_and_smaller(evidence: Evidence) -> dict[str, Evidence]:
         return {}
     percent, factor = _percent(error), 1.0 + error
     return {f"with {percent} more": evidence.scaled(factor), f"with {percent} less": evidence.scaled(1.0 / factor)}
+
+
+def _measured_error(only: Requirements, evidence: Evidence) -> float:
+    """Relative error of mesh and step of this blade and one limit, or that of its level where no coarser mesh was run.
+
+    By the largest values at the speeds that were run both ways: a coarser mesh differs from the own one at least as much as
+    that from an exact one, and so does half the step.
+    """
+    if COARSER_MESH not in evidence.looks:
+        return evidence.error
+    changes = []
+    for look in (HALF_STEP, COARSER_MESH):
+        other = evidence.looks[look]
+        own = evidence.response.sel(speed=other["speed"])
+        largest = [float(nearness(only, evidence.replaced(runs)).max(initial=0.0)) for runs in (own, other)]
+        changes.append(abs(largest[1] / largest[0] - 1.0) if 0.0 < largest[0] < np.inf else 0.0)
+    return float(np.linalg.norm(changes))
 
 
 def _tried_error(evidence: Evidence) -> float:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import xarray as xr
@@ -35,6 +35,7 @@ from .choice import CARRIED_STEP, LEAST_STEP, LONGEST, MOST_NEAR, STEP, Requirem
 from .evidence import OF_ALL, Evidence, reach_of_peaks
 from .judging import (
     CLEARLY,
+    COARSER_MESH,
     DOWN,
     FAST_RISE,
     HALF_STEP,
@@ -65,7 +66,7 @@ class JudgedBlade:
     """A blade's `model` in a `scene`: time integration, `results` and `kept` as run_speed takes them, and its material.
 
     `yield_stress` (Pa); `stress`: operator of the region that decides, by its name, where stress is among the results.
-    `parts`: files of the runs.
+    `parts`: files of the runs. `coarser`: the blade on a coarser mesh, where there is one.
     """
 
     model: ContactModel
@@ -77,6 +78,7 @@ class JudgedBlade:
     strengths: Strengths
     parts: Parts
     stress: StressOperators | None = None
+    coarser: Self | None = None
 
     @cached_property
     def long_choice(self) -> IntegrationChoice:
@@ -175,6 +177,8 @@ def looks_of(blade: JudgedBlade, requirements: Requirements, evidence: Evidence)
             changed = replace(friction, coefficient=factor * friction.coefficient)
             yield look, blade.runs_from_rest(near, replace(blade.rising_scene, friction=changed))
     yield HALF_STEP, blade.runs_from_rest(near, step=0.5)
+    if blade.coarser:
+        yield COARSER_MESH, blade.coarser.runs_from_rest(near)
     casing = blade.rising_scene.casing
     for look, revolutions in ((FAST_RISE, 0.1 * (casing.rise_revolutions or 0.0)), (SLOW_RISE, float(PUBLISHED_REVOLUTIONS))):
         if revolutions not in (0.0, casing.rise_revolutions):

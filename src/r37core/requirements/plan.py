@@ -12,7 +12,7 @@ from r37core.config import Settings, level_errors, operating_range
 from r37core.config.cross_checks import engine_order_is_known, pairs_not_covered
 from r37core.config.declaring import declared_by, si_form
 from r37core.config.section import ExtensionSection, Section
-from r37core.config.settings import length_of_run
+from r37core.config.settings import contact_nodes, length_of_run
 from r37core.plans import paths
 from r37core.plans.extension import Extension, Panel
 from r37core.plans.provenance import Provenance
@@ -21,6 +21,7 @@ from r37core.plans.sweep_plan import Sweep
 from r37core.results.datasets import FURTHER_RUNS
 from r37core.results.spectral_lines import modes_of
 from r37core.rom.naming import mode_names
+from r37core.trials.case import MODEL_FILES, ModelChoice
 
 from .choice import LONGEST, RESULTS, STEP, CampbellMargin, Requirements, most_further_runs
 
@@ -95,6 +96,19 @@ class Judged:
         pairs = self.sweep.runs_with("rms")
         return [pair for pair in pairs if pair not in short and pair[1] not in self.not_looked]
 
+    def coarser_model(self, wildcards: Any) -> dict[str, str]:
+        """Files of the model of a blade and scene on a mesh of half the nodes; none of a mesh that is given, or of a line else.
+
+        A model of the trials, which `snakemake tradeoff` has, too.
+        """
+        settings, blade = self.sweep.settings, wildcards.blade
+        own_line = settings.scenes[wildcards.scene].tip_line == settings.structure.boundary.tip_line
+        if not settings.blades[blade].has_profiles or not own_line:
+            return {}
+        mesh, modes = settings.fidelity.mesh, settings.fidelity.reduction.fixed_interface_modes
+        model = ModelChoice(mesh.nodes // 2, contact_nodes(settings, blade, mesh.tip_elements), modes, "submesh")
+        return {f"coarser_{kind}": paths.fill(MODEL_FILES[kind], blade=blade, model=model.name) for kind in ("contact", "rom")}
+
     def looks(self, made: Provenance) -> Stage:
         """The stage of the further runs of a blade and scene."""
         settings = self.sweep.settings
@@ -105,6 +119,7 @@ class Judged:
             "choice": lambda wildcards: to_plain(settings.integration_choice(wildcards.blade, wildcards.scene, 0.0)),
             "results": lambda wildcards: [each for each in self.sweep.results(wildcards) if each in RESULTS],
             "kept": settings.fidelity.time_integration.kept,
+            "material": lambda wildcards: to_plain(settings.blades[wildcards.blade].material),
             "yield_stress": self.sweep.yield_stress,
             "strengths": self.sweep.strengths,
             # nothing else moves a run

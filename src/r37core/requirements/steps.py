@@ -1,6 +1,8 @@
 """The steps of requirements: further runs, what lies in the operating range, and the verdict."""
 
+import os
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,7 @@ from r37core.base.io import as_list
 from r37core.base.plain import from_plain
 from r37core.contact.scene import Scene
 from r37core.fem.assembly import mesh_volume
+from r37core.fem.material import Material
 from r37core.machine_code.kept import content_digest
 from r37core.mesh.mesh_files import read_vtu
 from r37core.results.joining import Along, join
@@ -18,7 +21,9 @@ from r37core.results.operating_range import OperatingRange
 from r37core.results.regions import read_judged
 from r37core.results.table_file import read_table, write_table
 from r37core.rom.contact_model import read_contact_model
+from r37core.rom.rom_file import read_reduced_model
 from r37core.stress.operator import read_stress_operators
+from r37core.stress.recovery import stress_operators
 from r37core.stress.statistic import Strengths
 from r37core.sweep.parts import Parts
 from r37core.time_integration.integration_choice import IntegrationChoice
@@ -33,8 +38,9 @@ from .table import operating_table, verdict_table
 def look(input: Any, output: Any, params: Any) -> None:
     """Run what could overturn the verdict on one blade and scene. Inputs: response, model, and stress. Output: looks (nc).
 
-    Params: scene, choice, results, kept, yield_stress, strengths, requirements, operating, clearance, thickness, error,
-    provenance.
+    Inputs, of the model on a coarser mesh: coarser_contact and coarser_rom, empty where it cannot have the contact nodes.
+    Params: material, scene, choice, results, kept, yield_stress, strengths, requirements, operating, clearance, thickness,
+    error, provenance.
     """
     files = [input.model, *([input.stress] if hasattr(input, "stress") else [])]
     made_of = [params.code, params.results, params.kept, *map(content_digest, files)]
@@ -49,6 +55,17 @@ def look(input: Any, output: Any, params: Any) -> None:
         Parts(Path(output.looks).with_suffix(""), made_of),
         dict([next(iter(read_stress_operators(input.stress).items()))]) if hasattr(input, "stress") else None,
     )
+    if Path(getattr(input, "coarser_contact", os.devnull)).stat().st_size:
+        material = from_plain(Material, params.material)
+        operators = blade.stress and stress_operators(read_reduced_model(input.coarser_rom), material)
+        digests = [content_digest(file) for file in (input.coarser_contact, input.coarser_rom)]
+        coarser = replace(
+            blade,
+            model=read_contact_model(input.coarser_contact),
+            stress=operators and {name: operators[name] for name in blade.stress or {}},
+            parts=Parts(blade.parts.folder / "coarser", [*made_of, *digests]),
+        )
+        blade = replace(blade, coarser=coarser)
     evidence = Evidence(
         judged_part(read_judged(input.response)),
         operating=from_plain(OperatingRange, params.operating),

@@ -130,7 +130,7 @@ class Exceedance:
         drawn = [length(ranges) for ranges in self.ranges_drawn[share]] if self.chance and chance else [0.0]
         above = self.smoothed > share
         borders = np.flatnonzero(above[1:] != above[:-1])
-        steps = [length([SpeedRange(*self.speeds[at : at + 2].tolist(), truncated=False)]) for at in borders]
+        steps = [length([SpeedRange(self.speeds[at], self.speeds[at + 1], truncated=False)]) for at in borders]
         return float(np.sqrt(np.var(drawn) + np.sum(np.square(steps)) / 12.0))
 
     def scatter_of_border(self, share: float, of: SpeedRange, *, begins: bool) -> float:

@@ -47,6 +47,14 @@ MODEL_NAME = r"\d+_\d+_\d+_(submesh|whole)"
 """Pattern of ModelChoice.name."""
 
 
+MODEL_FILES = {
+    "rom": "<results>/cases/{blade}/{model}/rom.nc",
+    "contact": "<results>/cases/{blade}/{model}/contact.npz",
+    "cost": "<results>/cases/{blade}/{model}/cost.json",
+}
+"""Files of a model by kind."""
+
+
 @dataclass(frozen=True)
 class Case:
     """A blade's model in one scene at some speeds, and what is kept of them.

@@ -9,7 +9,7 @@ from r37core.plans import paths
 from r37core.rom.region_choice import EVERYWHERE
 
 from . import estimate, stability, tradeoff
-from .case import OWN_MESH, Case, ModelChoice
+from .case import MODEL_FILES, OWN_MESH, Case, ModelChoice
 
 PRESETS = {each.EXTENSION.name: each for each in (estimate, tradeoff, stability)}
 """Command -> its module, in the order of their sections in docs/configuration.md.
@@ -20,12 +20,6 @@ of the settings and of the largest number of simulations of members by blade and
 """
 
 EXTENSIONS = tuple(preset.EXTENSION for preset in PRESETS.values())
-
-MODEL_FILES = {
-    "rom": "<results>/cases/{blade}/{model}/rom.nc",
-    "contact": "<results>/cases/{blade}/{model}/contact.npz",
-    "cost": "<results>/cases/{blade}/{model}/cost.json",
-}
 
 RESPONSE = "<results>/{preset}/{case}.nc"
 
