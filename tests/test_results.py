@@ -160,7 +160,7 @@ def test_stress_at_integration_points():
     box = box_model(lambda p: np.stack([1e-2 * p[:, 0] * p[:, 2], 0 * p[:, 0], -0.5e-2 * p[:, 0] ** 2], axis=1))
     region = box.stress_regions["box"]
     count = 9 * len(region.elements["wedge15"])
-    region = replace(region, evaluated=np.arange(count), at_integration_points=True)
+    region = replace(region, evaluated=np.arange(count), integration_points=True)
     operator = stress_operator(
         SimpleNamespace(**vars(box) | {"stress_regions": {"box": region}}), replace(MATERIAL, poissons_ratio=0.0)
     )
@@ -171,7 +171,7 @@ def test_stress_at_integration_points():
 
 def test_a_region_at_integration_points(model, mesh, steel, reduced, tmp_path, monkeypatch):
     """Its candidates have the stress, computed element by element, and the largest of the first mode in the benchmark's box."""
-    choice = RegionChoice(maximum_x=0.197, minimum_z=0.0165, maximum_z=0.0265, at_integration_points=True)
+    choice = RegionChoice(maximum_x=0.197, minimum_z=0.0165, maximum_z=0.0265, integration_points=True)
     monkeypatch.setattr(stress_region, "_MOST_POINTS", 20)
     made = reduced(regions={"box": choice}, recover_whole_blade=True)
     write_reduced_model(made, tmp_path / "rom.nc")

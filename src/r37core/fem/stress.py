@@ -22,38 +22,38 @@ def stress_at(gradients: np.ndarray, displacement: np.ndarray, material: Materia
     return material.stress(linear_strain(displacement_gradient(gradients, displacement)))
 
 
-def stress_numbers(blocks: Blocks, at_integration_points: bool) -> Blocks:
+def stress_numbers(blocks: Blocks, integration_points: bool) -> Blocks:
     """Number of each point of each element at which stress is evaluated, shape (elements, points of the type) by type.
 
     At nodes it is the node; the integration points of the stiffness are numbered through, type by type.
     """
-    if not at_integration_points:
+    if not integration_points:
         return blocks
     numbers, first = {}, 0
     for name, nodes in blocks.items():
-        size = len(nodes) * len(_points_of(ELEMENTS[name], True))
+        size = len(nodes) * len(_stress_points(ELEMENTS[name], True))
         numbers[name] = np.arange(first, first + size).reshape(len(nodes), -1)
         first += size
     return numbers
 
 
-def at_stress_numbers(blocks: Blocks, values: np.ndarray, at_integration_points: bool) -> np.ndarray:
+def interpolated(blocks: Blocks, values: np.ndarray, integration_points: bool) -> np.ndarray:
     """Values of the nodes, shape (nodes, n), at the points that stress_numbers numbers, by the shape functions."""
-    if not at_integration_points:
+    if not integration_points:
         return values
     parts = [
-        (element.shape_functions(_points_of(element, True)) @ of_nodes).reshape(-1, values.shape[1])
+        (element.shape_functions(_stress_points(element, True)) @ of_nodes).reshape(-1, values.shape[1])
         for _, element, of_nodes in typed_blocks(blocks, values)
     ]
     return np.concatenate([np.empty((0, values.shape[1])), *parts])
 
 
-def _points_of(element: Element, at_integration_points: bool) -> np.ndarray:
-    return element.stiffness_rule[0] if at_integration_points else element.nodes
+def _stress_points(element: Element, integration_points: bool) -> np.ndarray:
+    return element.stiffness_rule[0] if integration_points else element.nodes
 
 
 def recovered_stress(
-    blocks: Blocks, points: np.ndarray, displacement: np.ndarray, material: Material, at_integration_points: bool = False
+    blocks: Blocks, points: np.ndarray, displacement: np.ndarray, material: Material, integration_points: bool = False
 ) -> np.ndarray:
     """Linear stress (Pa), shape (6, numbers, fields), components as in COMPONENTS, by stress_numbers; 0 at nodes of no element.
 
@@ -64,7 +64,7 @@ def recovered_stress(
     def stress(name: str, gradients: np.ndarray, field: int) -> np.ndarray:
         return stress_at(gradients, displacement[blocks[name], :, field], material)
 
-    return _averaged(blocks, points, displacement.shape[2], stress, at_integration_points)
+    return _averaged(blocks, points, displacement.shape[2], stress, integration_points)
 
 
 def second_order_stress(
@@ -73,7 +73,7 @@ def second_order_stress(
     first: np.ndarray,
     second: np.ndarray,
     material: Material,
-    at_integration_points: bool = False,
+    integration_points: bool = False,
 ) -> np.ndarray:
     """Stress by the strain of second order of two displacements, field by field, as recovered_stress has it: see strain.py."""
 
@@ -81,7 +81,7 @@ def second_order_stress(
         pair = (displacement_gradient(gradients, each[blocks[name], :, field]) for each in (first, second))
         return material.stress(second_order_strain(*pair))
 
-    return _averaged(blocks, points, first.shape[2], stress, at_integration_points)
+    return _averaged(blocks, points, first.shape[2], stress, integration_points)
 
 
 def _averaged(
@@ -89,17 +89,17 @@ def _averaged(
     points: np.ndarray,
     fields: int,
     stress_of: Callable[[str, np.ndarray, int], np.ndarray],
-    at_integration_points: bool,
+    integration_points: bool,
 ) -> np.ndarray:
     """Mean at each number of what its elements have there: tensors by the name of a type, its gradients and a field."""
-    numbers = stress_numbers(blocks, at_integration_points)
-    length = sum(of_type.size for of_type in numbers.values()) if at_integration_points else len(points)
+    numbers = stress_numbers(blocks, integration_points)
+    length = sum(of_type.size for of_type in numbers.values()) if integration_points else len(points)
     stress = np.zeros((len(COMPONENTS), length, fields))
     count = np.zeros(length)
     for name, element, coordinates in typed_blocks(blocks, points):
         members = numbers[name].ravel()
         count += np.bincount(members, minlength=length)
-        gradients, _ = element.physical_gradients(coordinates, _points_of(element, at_integration_points))
+        gradients, _ = element.physical_gradients(coordinates, _stress_points(element, integration_points))
         for j in range(fields):
             field_stress = stress_of(name, gradients, j)
             for component, (a, b) in enumerate(COMPONENTS):

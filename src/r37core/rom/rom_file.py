@@ -126,7 +126,7 @@ def _quadratic_terms(dataset: xr.Dataset) -> QuadraticTerms:
 def _region_variables(group: str, region: StressRegion) -> dict[str, tuple[Any, ...]]:
     """Variables of a region beside its nodes."""
     texts = {"description": region.description, "highest_frequency": region.highest_frequency}
-    texts |= {"at_integration_points": int(region.at_integration_points)}
+    texts |= {"integration_points": int(region.integration_points)}
     evaluated = about("1", "places of the evaluated nodes, or integration points, among those of the elements") | texts
     variables: dict[str, tuple[Any, ...]] = {f"{group}_evaluated": (f"{group}_evaluated_node", region.evaluated, evaluated)}
     places = about("1", "chord, span and thickness of the evaluated nodes or integration points")
@@ -146,7 +146,7 @@ def _region(dataset: xr.Dataset, group: str) -> StressRegion:
         elements={name.removeprefix(elements): dataset[name].values for name in map(str, dataset) if name.startswith(elements)},
         evaluated=evaluated.values,
         places=dataset[f"{group}_places"].values,
-        at_integration_points=bool(evaluated.attrs["at_integration_points"]),
+        integration_points=bool(evaluated.attrs["integration_points"]),
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from r37core.fem.material import Material
-from r37core.fem.stress import at_stress_numbers, recovered_stress, stress_numbers
+from r37core.fem.stress import interpolated, recovered_stress, stress_numbers
 from r37core.mesh.blade_mesh import BladeMesh
 
 from .deviatoric import deviatoric
@@ -25,7 +25,7 @@ class StressRegion:
 
     `evaluated`: where stress is recovered, as stress_numbers numbers the elements' nodes or integration points; `places`, shape
     (evaluated, 3): chord, span and thickness there, as BladeMesh has them. `description`, `highest_frequency` (Hz),
-    `at_integration_points`: see RegionChoice.
+    `integration_points`: see RegionChoice.
     """
 
     description: str
@@ -34,12 +34,12 @@ class StressRegion:
     elements: dict[str, np.ndarray]
     evaluated: np.ndarray
     places: np.ndarray
-    at_integration_points: bool = False
+    integration_points: bool = False
 
     @property
     def points(self) -> np.ndarray:
         """Coordinates (m) of the evaluated points, shape (evaluated, 3)."""
-        return at_stress_numbers(self.elements, self.nodes.points, self.at_integration_points)[self.evaluated]
+        return interpolated(self.elements, self.nodes.points, self.integration_points)[self.evaluated]
 
 
 @dataclass(frozen=True)
@@ -63,22 +63,22 @@ class RegionMaker:
         made = {}
         for name, choice in choices.items():
             elements = choice.elements(self.mesh, self.contact_nodes)
-            evaluated = _occurring(stress_numbers(elements, choice.at_integration_points))
+            evaluated = _occurring(stress_numbers(elements, choice.integration_points))
             if len(evaluated) > _MOST_POINTS:
                 where = replace(choice, highest_frequency=np.inf)
                 if where not in every_mode:
-                    every_mode[where] = self._stress_of_modes(elements, choice.at_integration_points)
+                    every_mode[where] = self._stress_of_modes(elements, choice.integration_points)
                 evaluated = evaluated[self._candidates(every_mode[where], choice.highest_frequency)]
             made[name] = self._region(choice, elements, evaluated)
         return made
 
     def _region(self, choice: RegionChoice, elements: dict[str, np.ndarray], evaluated: np.ndarray) -> StressRegion:
         """The region with the elements that hold an evaluated point alone: others have no part in its mean."""
-        at = choice.at_integration_points
+        at = choice.integration_points
         numbers = stress_numbers(elements, at)
         touching = {name: np.isin(numbers[name], evaluated).any(axis=1) for name in elements}
         kept = {name: elements[name][touched] for name, touched in touching.items() if touched.any()}
-        nodes, places = _occurring(kept), at_stress_numbers(elements, self.mesh.parameters, at)
+        nodes, places = _occurring(kept), interpolated(elements, self.mesh.parameters, at)
         return StressRegion(
             description=choice.description(),
             highest_frequency=choice.highest_frequency,
@@ -86,16 +86,16 @@ class RegionMaker:
             elements={name: np.searchsorted(nodes, block) for name, block in kept.items()},
             evaluated=np.searchsorted(_occurring({name: numbers[name][touching[name]] for name in kept}), evaluated),
             places=places[evaluated],
-            at_integration_points=at,
+            integration_points=at,
         )
 
-    def _stress_of_modes(self, elements: dict[str, np.ndarray], at_integration_points: bool) -> np.ndarray:
+    def _stress_of_modes(self, elements: dict[str, np.ndarray], integration_points: bool) -> np.ndarray:
         """Deviatoric stress of the lowest modes, then of rotation's shapes, shape (5, points, fields), float32."""
         nodes = _occurring(elements)
         moved = self.recovery(nodes)
         fields = np.concatenate([moved.basis @ self.modes[:, :_MOST_MODES], moved.rotation_shapes], axis=2)
         local = {name: np.searchsorted(nodes, block) for name, block in elements.items()}
-        return deviatoric(recovered_stress(local, moved.points, fields, self.material, at_integration_points))
+        return deviatoric(recovered_stress(local, moved.points, fields, self.material, integration_points))
 
     def _candidates(self, stress: np.ndarray, highest_frequency: float) -> np.ndarray:
         """Places of the points that have the largest stress in some of many motions; stress as above.

@@ -40,7 +40,7 @@ def stress_operator(model: ReducedModel, material: Material) -> StressOperator:
 def _operator(model: ReducedModel, region: StressRegion, material: Material) -> StressOperator:
     nodes, band = region.nodes, _band(model, region)
     basis = nodes.basis if band is None else nodes.basis @ band[1]
-    evaluated, at = region.evaluated, region.at_integration_points
+    evaluated, at = region.evaluated, region.integration_points
 
     def stress(fields: np.ndarray) -> np.ndarray:
         return recovered_stress(region.elements, nodes.points, fields, material, at)[:, evaluated]
