@@ -128,7 +128,7 @@ def box_model(*fields):
     basis = np.stack([field(mesh.points) for field in fields], axis=2)
     nodes = RecoveryNodes(np.arange(len(mesh.points)), mesh.points, basis, np.zeros((len(mesh.points), 3, 1)))
     every = np.arange(len(mesh.points))
-    region = StressRegion("box", np.inf, nodes, dict(mesh.blocks), every, mesh.parameters)
+    region = StressRegion("box", np.inf, nodes, dict(mesh.blocks), every, mesh.parameters, False)
     return SimpleNamespace(stress_regions={"box": region}, size=len(fields), logarithmic_stiffness=None)
 
 

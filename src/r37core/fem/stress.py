@@ -53,7 +53,7 @@ def _stress_points(element: Element, integration_points: bool) -> np.ndarray:
 
 
 def recovered_stress(
-    blocks: Blocks, points: np.ndarray, displacement: np.ndarray, material: Material, integration_points: bool = False
+    blocks: Blocks, points: np.ndarray, displacement: np.ndarray, material: Material, integration_points: bool
 ) -> np.ndarray:
     """Linear stress (Pa), shape (6, numbers, fields), components as in COMPONENTS, by stress_numbers; 0 at nodes of no element.
 
@@ -73,7 +73,7 @@ def second_order_stress(
     first: np.ndarray,
     second: np.ndarray,
     material: Material,
-    integration_points: bool = False,
+    integration_points: bool,
 ) -> np.ndarray:
     """Stress by the strain of second order of two displacements, field by field, as recovered_stress has it: see strain.py."""
 

@@ -34,7 +34,7 @@ class StressRegion:
     elements: dict[str, np.ndarray]
     evaluated: np.ndarray
     places: np.ndarray
-    integration_points: bool = False
+    integration_points: bool
 
     @property
     def points(self) -> np.ndarray:
