@@ -16,7 +16,7 @@ from r37core.base.dataset_file import attributes_of, joined_hash, read_dataset, 
 from r37core.base.io import InputFileError, Named
 from r37core.fem.elements import ELEMENTS
 from r37core.fem.material import Material
-from r37core.fem.stress import COMPONENTS, stress_at
+from r37core.fem.stress import COMPONENTS, interpolated, recovered_stress, stress_at
 from r37core.results.columns import RANKING, column_named
 from r37core.results.datasets import response_of, write_sweep_dataset
 from r37core.results.interaction_choice import InteractionChoice
@@ -167,6 +167,19 @@ def test_stress_at_integration_points():
     np.testing.assert_allclose(operator.operator[0, :, 0], 180e7 * region.points[:, 2], rtol=1e-9)
     assert region.points[:, 2].max() == pytest.approx(0.1 * (1.0 + np.sqrt(0.6)))
     assert len(np.unique(region.points.round(9), axis=0)) == count
+
+
+def test_the_order_of_the_types_counts_for_nothing():
+    """A file may have an imported mesh's types in another order than the mesh."""
+    mesh = box_mesh(1.0, 0.5, 0.2, (2, 1, 1), element=lambda i, j, k: ("wedge15", "hexahedron20")[i])
+    turned = dict(reversed(mesh.blocks.items()))
+    assert list(turned) != list(mesh.blocks)
+    fields = mesh.points[:, [1, 2, 0], None] ** 2
+    for of in (
+        lambda b: interpolated(b, mesh.points, True),
+        lambda b: recovered_stress(b, mesh.points, fields, MATERIAL, True),
+    ):
+        np.testing.assert_array_equal(of(turned), of(mesh.blocks))
 
 
 def test_a_region_at_integration_points(model, mesh, steel, reduced, tmp_path, monkeypatch):

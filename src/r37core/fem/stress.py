@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .assembly import Blocks, typed_blocks
-from .elements import ELEMENTS, Element
+from .elements import ELEMENTS
 from .material import Material
 from .strain import displacement_gradient, linear_strain, second_order_strain
 
@@ -25,15 +25,15 @@ def stress_at(gradients: np.ndarray, displacement: np.ndarray, material: Materia
 def stress_numbers(blocks: Blocks, integration_points: bool) -> Blocks:
     """Number of each point of each element at which stress is evaluated, shape (elements, points of the type) by type.
 
-    At nodes it is the node; the integration points of the stiffness are numbered through, type by type.
+    At nodes it is the node; the integration points of the stiffness are numbered through, types in alphabetical order.
     """
     if not integration_points:
         return blocks
     numbers, first = {}, 0
-    for name, nodes in blocks.items():
-        size = len(nodes) * len(_stress_points(ELEMENTS[name], True))
-        numbers[name] = np.arange(first, first + size).reshape(len(nodes), -1)
-        first += size
+    for name in sorted(blocks):
+        shape = len(blocks[name]), len(ELEMENTS[name].stiffness_rule[0])
+        numbers[name] = first + np.arange(shape[0] * shape[1]).reshape(shape)
+        first += numbers[name].size
     return numbers
 
 
@@ -41,15 +41,11 @@ def interpolated(blocks: Blocks, values: np.ndarray, integration_points: bool) -
     """Values of the nodes, shape (nodes, n), at the points that stress_numbers numbers, by the shape functions."""
     if not integration_points:
         return values
-    parts = [
-        (element.shape_functions(_stress_points(element, True)) @ of_nodes).reshape(-1, values.shape[1])
-        for _, element, of_nodes in typed_blocks(blocks, values)
-    ]
-    return np.concatenate([np.empty((0, values.shape[1])), *parts])
-
-
-def _stress_points(element: Element, integration_points: bool) -> np.ndarray:
-    return element.stiffness_rule[0] if integration_points else element.nodes
+    numbers = stress_numbers(blocks, True)
+    found = np.empty((sum(of_type.size for of_type in numbers.values()), values.shape[1]))
+    for name, element, of_nodes in typed_blocks(blocks, values):
+        found[numbers[name]] = element.shape_functions(element.stiffness_rule[0]) @ of_nodes
+    return found
 
 
 def recovered_stress(
@@ -99,7 +95,8 @@ def _averaged(
     for name, element, coordinates in typed_blocks(blocks, points):
         members = numbers[name].ravel()
         count += np.bincount(members, minlength=length)
-        gradients, _ = element.physical_gradients(coordinates, _stress_points(element, integration_points))
+        at = element.stiffness_rule[0] if integration_points else element.nodes
+        gradients, _ = element.physical_gradients(coordinates, at)
         for j in range(fields):
             field_stress = stress_of(name, gradients, j)
             for component, (a, b) in enumerate(COMPONENTS):
